@@ -26,9 +26,11 @@ from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.model.leg import Leg
 from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, RECORDED
+from geocontact.below_knee_prosthesis.model.stance_model import FLOOR
 from geocontact.below_knee_prosthesis.simulate import Push, Stance, simulate_stance
 from geocontact.below_knee_prosthesis.synthetic.course import GaitCourse, course
 from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, STANCE, true_leg
+from geocontact.geometry.shapes import HalfSpace
 
 SOLES = {24: (1, 2), 48: (2, 2), 96: (2, 4), 192: (4, 4)}
 """Factor on the rows of each zone and spheres in a row, by how many spheres that makes; the last is the reference."""
@@ -109,7 +111,7 @@ def standing_motion(leg: Leg, below: float, lasting: float) -> LegMotion:
 
 
 def static_share(
-    person: int, setting: str, *, lasting: float = STANDING, machine_code: bool
+    person: int, setting: str, *, lasting: float = STANDING, machine_code: bool, ground: HalfSpace = FLOOR
 ) -> tuple[float, float, int]:
     """Load that is missing at the end over body weight, how far the foot has slid [m], and steps."""
     below = sole_numbers()["below"].value
@@ -119,7 +121,7 @@ def static_share(
     push = Push(motion.time, np.repeat([[0.0, LOADED * weight, 0.0]], len(motion.time), axis=0))
     fulcrum = fulcrum_of(setting, "pinned")
     stance = simulate_stance(
-        motion, vsf_foot(), fulcrum, push, (0.0, lasting), tolerance=TOLERANCE, machine_code=machine_code
+        motion, vsf_foot(), fulcrum, push, (0.0, lasting), ground=ground, tolerance=TOLERANCE, machine_code=machine_code
     )
     slid = float(np.linalg.norm((stance.poses.translation[-1] - stance.poses.translation[0])[::2]))
     return float(stance.force[-1, 1] / weight - (1.0 - LOADED)), slid, stance.found.steps

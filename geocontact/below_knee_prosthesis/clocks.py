@@ -7,15 +7,20 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.stance_errors import longest_stance
+from geocontact.geometry.shapes import HalfSpace
+from geocontact.loads.ground import Ground
 from geocontact.loads.sphere_set import SphereSet
 
+FLOOR = HalfSpace()
 
-def lowest_sphere(poses: RigidTransform, spheres: SphereSet) -> Float[np.ndarray, " t"]:
+
+def lowest_sphere(poses: RigidTransform, spheres: SphereSet, ground: Ground = FLOOR) -> Float[np.ndarray, " t"]:
     """Height of the lowest point of a sole that does not bend [m]; negative where markers say that it is pressed.
 
-    `poses` are X_GK of the spheres' frame, y up from the floor.
+    `poses` are X_GK of the spheres' frame in the ground's.
     """
-    low = [poses.apply(centre)[:, 1] - radius for centre, radius in zip(spheres.centre, spheres.radius, strict=True)]
+    pairs = zip(spheres.centre, spheres.radius, strict=True)
+    low = [ground.proximity(poses.apply(centre)).distance - radius for centre, radius in pairs]
     return np.asarray(np.min(low, axis=0))
 
 

@@ -9,14 +9,23 @@ from jaxtyping import Bool, Float
 from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from geocontact.below_knee_prosthesis.keel.on_ground import loads_at
+from geocontact.below_knee_prosthesis.keel.on_tree import rubbing_numbers
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion, driving_inputs
-from geocontact.below_knee_prosthesis.model.stance_model import OUTPUTS, StanceModel, stance_model, stance_numbers
+from geocontact.below_knee_prosthesis.model.stance_model import (
+    FLOOR,
+    OUTPUTS,
+    StanceModel,
+    stance_model,
+    stance_numbers,
+)
 from geocontact.contact.bushing import PISTONING, SOCKET, Bushing
 from geocontact.dynamics.recorded_inputs import SMOOTH
 from geocontact.dynamics.simulate import SimulatedMotion
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.centre_of_pressure import centre_of_pressure
+from geocontact.loads.ground import Stairs
 from geocontact.loads.sphere_loads import SphereLoads
 
 TOLERANCE, FIRST = 3e-5, 1e-4
@@ -25,7 +34,6 @@ SAMPLING = 500.0
 """Hz; at which the stance is told."""
 GATE = 20.0
 """N; below it there is no centre of pressure and no stance."""
-FLOOR = HalfSpace()
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +68,8 @@ class Stance:
         Of the ground on each sphere.
     socket
         Load of the residual limb on the socket along the bushing's directions [N m, N].
+    ground
+        That it stood on.
     """
 
     motion: LegMotion
@@ -72,6 +82,7 @@ class Stance:
     poses: RigidTransform
     loads: SphereLoads
     socket: Float[np.ndarray, "t 6"]
+    ground: HalfSpace | Stairs = FLOOR
 
     @property
     def force(self) -> Float[np.ndarray, "t 3"]:
@@ -103,8 +114,11 @@ class Stance:
 
     @property
     def lost(self) -> Float[np.ndarray, " t"]:
-        """Energy that the keel's dampers have taken since the start [J]."""
+        """Energy that the keel's dampers and friction have taken since the start [J]."""
         power = self.found.u[:, 8:] ** 2 @ self.foot.keel.damping(self.fulcrum)
+        if self.found.z.shape[1]:
+            rubbing, _ = rubbing_numbers(self.foot.keel, self.fulcrum)
+            power = power + (np.abs(self.keel_angles) * self.found.z * self.found.u[:, 8:]) @ rubbing
         return np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(self.time))])
 
     @property
@@ -149,6 +163,7 @@ def simulate_stance(
     span: tuple[float, float],
     *,
     bushing: Bushing = SOCKET,
+    ground: HalfSpace | Stairs = FLOOR,
     tolerance: float = TOLERANCE,
     steps: int | None = None,
     machine_code: bool = True,
@@ -159,14 +174,16 @@ def simulate_stance(
     ----------
     push
         What stands for the other leg: the ground's force on it, as it was measured or is known.
+    ground
+        In the laboratory, y up: a plane, or stairs along x.
     tolerance, steps, machine_code
         As those of `Stepper`.
 
     The study starts without speed; a body that stands still at touch-down does not walk, so it starts as recorded here.
     ValueError for a fulcrum out of range; ArithmeticError where the motion cannot go on.
     """
-    model = stance_model(foot, machine_code=machine_code)
-    p = stance_numbers(motion.leg, foot, fulcrum, bushing)
+    model = stance_model(foot, ground, machine_code=machine_code)
+    p = stance_numbers(motion.leg, foot, fulcrum, bushing, ground)
     inputs = driving_inputs(motion, push.at(motion.time))
     count = round((span[1] - span[0]) * SAMPLING)
     time = span[0] + np.arange(count + 1) / SAMPLING
@@ -174,7 +191,7 @@ def simulate_stance(
     still = np.zeros(len(model.equations.names) - 2)
     state = tuple(np.concatenate([[first[k] for first in start], still]) for k in (0, 1))
     found = model.stepper.simulate(
-        (state[0], state[1], np.zeros(0)),
+        (state[0], state[1], np.zeros(model.equations.z.shape[0])),
         time,
         inputs=inputs,
         parameters=p,
@@ -184,8 +201,8 @@ def simulate_stance(
     )
     told = _told(model, found, inputs.at(time), p)
     poses = RigidTransform.from_components(told["place"], Rotation.from_matrix(told["rotation"].reshape(-1, 3, 3)))
-    moved = foot.at(fulcrum).at(found.q[:, 8:], found.u[:, 8:], poses, FLOOR, _rate(told))
-    return Stance(motion, foot, fulcrum, bushing, push, time, found, poses, moved.loads, told["socket"])
+    loads = loads_at(foot.at(fulcrum), found.q[:, 8:], found.u[:, 8:], poses, _rate(told), ground)
+    return Stance(motion, foot, fulcrum, bushing, push, time, found, poses, loads, told["socket"], ground)
 
 
 def recorded_speed(motion: LegMotion) -> Float[np.ndarray, "t 3"]:

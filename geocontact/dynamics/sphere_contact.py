@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Protocol, cast, runtime_checkable
 import numpy as np
 
 from geocontact.contact.sphere_foot import friction_coefficient, normal_force
+from geocontact.dynamics.symbolic_ground import SymbolicGround
 from geocontact.dynamics.symbols import constant
 from geocontact.dynamics.tree import Moving
 from geocontact.geometry.shapes import HalfSpace
@@ -88,11 +89,13 @@ def laws_of(law: SoleLaw) -> list[SphereLaw]:
     ]
 
 
-def sole_wrench(body: Moving, spheres: SphereSet, laws: Sequence[ContactLaw], ground: HalfSpace) -> tuple[SX, SX]:
+def sole_wrench(
+    body: Moving, spheres: SphereSet, laws: Sequence[ContactLaw], ground: HalfSpace | SymbolicGround
+) -> tuple[SX, SX]:
     """Force of the ground on the body [N] and its moment about the origin of the ground's frame [N m].
 
-    Each force acts at the point of the ground below the sphere's centre; friction against the velocity along the ground
-    of that material point of the body which is the sphere's lowest, as in `loads.sphere_loads`.
+    Each force acts at the point of the ground nearest to the sphere's centre; friction against the velocity along the
+    ground of that material point of the body which is the sphere's lowest, as in `loads.sphere_loads`.
 
     Parameters
     ----------
@@ -101,19 +104,33 @@ def sole_wrench(body: Moving, spheres: SphereSet, laws: Sequence[ContactLaw], gr
     """
     from casadi import SX, cross, dot, mtimes, sqrt, sumsqr
 
-    upwards = np.asarray(ground.normal, float)
-    upwards = upwards / np.linalg.norm(upwards)
-    up, level = constant(upwards), float(upwards @ np.asarray(ground.point, float))
-    turning = cross(body.spin, up)
-    force, moment = SX(3, 1), SX(3, 1)
+    force, moment, turning, before = SX(3, 1), SX(3, 1), SX(3, 1), None
+    near = ground.near if isinstance(ground, SymbolicGround) else _Level(ground).near
     for centre, radius, law in zip(spheres.centre, spheres.radius, laws, strict=True):
         arm = mtimes(body.rotation, constant(centre))
         place, carried = body.place + arm, body.speed + cross(body.spin, arm)
-        height, rising = dot(place, up), dot(carried, up)
-        pressing = law.pressing(radius + level - height, -rising)
+        distance, up = near(place)
+        turning = turning if up is before else cross(body.spin, up)
+        before, rising = up, dot(carried, up)
+        pressing = law.pressing(radius - distance, -rising)
         sliding = carried - rising * up - radius * turning
         fast = sqrt(sumsqr(sliding) + STILL**2)
         acting = pressing * (up - law.friction(fast) / fast * sliding)
         force += acting
-        moment += cross(place - height * up + level * up, acting)  # of level ground the upward part falls out
+        moment += cross(place - distance * up, acting)  # of level ground the upward part falls out
     return force, moment
+
+
+class _Level:
+    """A plane whose numbers are known: what is 0 in its normal is left out."""
+
+    def __init__(self, ground: HalfSpace) -> None:
+        upwards = np.asarray(ground.normal, float)
+        upwards = upwards / np.linalg.norm(upwards)
+        self.up, self.level = constant(upwards), float(upwards @ np.asarray(ground.point, float))
+
+    def near(self, place: SX) -> tuple[SX, SX]:
+        """Height and normal."""
+        from casadi import dot
+
+        return dot(place, self.up) - self.level, self.up

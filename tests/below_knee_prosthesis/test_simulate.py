@@ -14,6 +14,7 @@ from geocontact.below_knee_prosthesis.simulate import Stance, share_of_foot, sim
 from geocontact.below_knee_prosthesis.synthetic.course import course
 from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, true_leg
 from geocontact.dynamics.recorded_inputs import recorded_inputs
+from geocontact.geometry.shapes import HalfSpace
 
 FULCRUM, BELOW = 0.1174, 0.03
 
@@ -60,6 +61,14 @@ def test_a_person_who_stands_is_carried() -> None:
     off, slid, _ = static_share(1, "low", lasting=6.0, machine_code=False)
     assert abs(off) < 1e-3  # the study's, of body weight
     assert slid < 2e-3
+
+
+def test_a_person_who_stands_on_a_slope_is_carried_uphill_of_it() -> None:
+    """The ground's force stays upright, half of the weight; the foot keeps to the slope and creeps down it."""
+    slope = HalfSpace(normal=(-np.sin(0.06), np.cos(0.06), 0.0))
+    off, slid, _ = static_share(1, "low", lasting=3.0, machine_code=False, ground=slope)
+    assert abs(off) < 5e-3
+    assert 1e-3 < slid < 10e-3
 
 
 def test_share_of_foot_turns_with_the_foot() -> None:

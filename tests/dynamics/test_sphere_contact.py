@@ -14,8 +14,10 @@ from geocontact.chain.contact_law import CONTACT_LAW
 from geocontact.data.multibody.joint_kinds import free
 from geocontact.data.multibody.model import GROUND, Body, Multibody
 from geocontact.dynamics.sphere_contact import STILL, ContactLaw, SphereLaw, laws_by_zone, laws_of, sole_wrench
+from geocontact.dynamics.symbolic_ground import SymbolicPlane, SymbolicStairs, plane_numbers, stairs_numbers
 from geocontact.dynamics.tree import tree_of
 from geocontact.geometry.shapes import HalfSpace
+from geocontact.loads.ground import Stairs
 from geocontact.loads.sphere_loads import SphereLoads, sphere_loads
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
 from geocontact.systems.foot.spheres import approach, rub, stand
@@ -72,6 +74,38 @@ def test_symbols_give_the_loads_of_numbers(seed: int, ground: HalfSpace) -> None
     np.testing.assert_allclose(
         moment, np.cross(arms, loads.force[0]).sum(axis=0), atol=1e-6 * np.linalg.norm(wanted) * 0.3
     )
+
+
+FLIGHT = Stairs((-0.05, 0.03), (-0.01, 0.004, 0.012))
+
+
+@pytest.mark.parametrize("ground", [TILTED, FLIGHT], ids=["plane", "stairs"])
+def test_grounds_in_symbols_are_those_of_numbers(ground: HalfSpace | Stairs) -> None:
+    """Slope and stairs as parameters: the wrench of spheres on treads, risers and edges."""
+    told = stairs_numbers(ground) if isinstance(ground, Stairs) else plane_numbers(ground)
+    numbers, spheres = SX.sym("ground", len(told)), scattered(3, 24)
+    symbols = SymbolicStairs(numbers) if isinstance(ground, Stairs) else SymbolicPlane(numbers)
+    tree = tree_of(
+        Multibody(
+            "foot", (Body("foot", 1.0, np.zeros(3), np.eye(3)),), (free("root", GROUND, "foot"),), (), np.zeros(3)
+        )
+    )
+    body, ours = tree.bodies["foot"], law(24, k=5e4, b=300.0, mu=0.8, v_th=0.25)
+    wrench = sole_wrench(body, spheres, laws_of(ours), symbols)
+    pose = [body.rotation, body.place, body.spin, body.speed]
+    at = Function("wrench", [tree.q, tree.u, numbers], [*wrench, *pose])
+    rng, slanting = np.random.default_rng(7), 0
+    for _ in range(8):
+        q = np.concatenate([0.02 * rng.normal(size=3), 0.01 * rng.normal(size=3)])
+        force, moment, turn, place, spin, speed = (np.array(each) for each in at(q, 0.3 * rng.normal(size=6), told))
+        where = RigidTransform.from_components(place.ravel(), Rotation.from_matrix(turn))
+        loads = sphere_loads(spheres, ours, *twist(where, speed.ravel(), spin.ravel()), ground)
+        wanted, arms = loads.force[0].sum(axis=0), np.nan_to_num(loads.point[0])
+        slanting += int((np.abs(loads.normal[0, :, 0]) > 0.01).sum())
+        np.testing.assert_allclose(force.ravel(), wanted, atol=1e-6 * np.linalg.norm(wanted))
+        turned = np.cross(arms, loads.force[0]).sum(axis=0)
+        np.testing.assert_allclose(moment.ravel(), turned, atol=1e-6 * np.linalg.norm(wanted) * 0.3)
+    assert slanting > 5
 
 
 class Coulomb(SphereLaw):

@@ -2,32 +2,29 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 
 import numpy as np
 
 from geocontact.analyses.cop.options import CopOptions
-from geocontact.analyses.quantities import number
+from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.geometry.shapes import HalfSpace
 from geocontact.geometry.surface import Surface
 from geocontact.io.mesh.meshes import read_mesh
-from geocontact.loads.ground import Ground, Sheet, Stairs
+from geocontact.loads.ground import Ground, Sheet
 
-LEVEL = "plane:0,1,0,0"
 SIZES = (50e-3, 100.0)  # m; diagonals of a ground's mesh that are plausible, from a plate to a walkway
 
 
 def ground_of(record: Record, o: CopOptions) -> Ground:
     """The plane, stairs or mesh that the option names."""
     text = LEVEL if o.ground is None else o.ground
-    kind, colon, rest = text.partition(":")
-    if colon and kind in ("plane", "stairs"):
+    written = plane_or_stairs(text)
+    if written is not None:
         if o.unit is not None:
             raise InputError("", "`unit`", "has no effect here: only a mesh needs a unit", "leave it out")
-        return _plane(text, rest) if kind == "plane" else _stairs(text, rest)
+        return written
     path = Path(text)
     if not path.suffix:
         what = f"{text!r} is neither a file nor of a known form"
@@ -35,34 +32,6 @@ def ground_of(record: Record, o: CopOptions) -> Ground:
     if o.unit is None:
         raise InputError("", "`unit`", "is missing: mesh files carry no unit", "pass `unit` mm, cm, m or in")
     return _mesh(record, path, o.unit)
-
-
-def _plane(text: str, rest: str) -> HalfSpace:
-    parts = rest.split(",")
-    if len(parts) != 4:
-        raise InputError(
-            "", "`ground`", f"{text!r} has {len(parts)} numbers", f"write plane:nx,ny,nz,offset as {LEVEL}"
-        )
-    x, y, z, offset = (number(part, "`ground`", LEVEL) for part in parts)
-    size = math.hypot(x, y, z)
-    if not 0.0 < size < math.inf:
-        raise InputError("", "`ground`", f"the normal in {text!r} has no length", f"write for example {LEVEL}")
-    normal = (x / size, y / size, z / size)
-    return HalfSpace((normal[0] * offset, normal[1] * offset, normal[2] * offset), normal)
-
-
-def _stairs(text: str, rest: str) -> Stairs:
-    example = "stairs:0,0.3:0.15,0.6:0.3"
-    first, *others = rest.split(",")
-    pairs = [part.partition(":") for part in others]
-    if not all(colon for _, colon, _ in pairs):
-        raise InputError("", "`ground`", f"{text!r} is not a flight of stairs", f"write heights [m] as {example}")
-    edges = tuple(number(edge, "`ground`", example) for edge, _, _ in pairs)
-    heights = (number(first, "`ground`", example), *(number(height, "`ground`", example) for _, _, height in pairs))
-    try:
-        return Stairs(edges, heights)
-    except ValueError as error:
-        raise InputError("", "`ground`", f"{text!r}: {error}", f"write for example {example}") from error
 
 
 def _mesh(record: Record, path: Path, unit: str) -> Ground:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from geocontact.data.plausible import KG, Plausible
-from geocontact.data.units import m, mm, percent
+from geocontact.data.units import deg, m, mm, percent
 
 FULCRUM = Plausible("a fulcrum of the variable-stiffness foot", mm, (66.0, 151.0))
 PERSON = Plausible("the mass of a walking person", KG, (20.0, 300.0), (35.0, 200.0))
 RESIDUAL = Plausible("the share of the shank that is left", percent, (1.0, 99.0), (25.0, 80.0))
 PROSTHESIS = Plausible("the mass of a below-knee prosthesis", KG, (0.3, 10.0), (0.8, 4.0))
 STATURE = Plausible("the height of a person", m, (0.8, 2.6), (1.3, 2.2))
+SLOPE = Plausible("the slope of a walkway", deg, (-25.0, 25.0), (-12.0, 12.0))
+EDGE = Plausible("the edge of a step under a foot", mm, (0.0, 150.0))

@@ -14,15 +14,16 @@ from jaxtyping import Float
 from scipy.interpolate import RegularGridInterpolator
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from geocontact.below_knee_prosthesis.design.terrain import LEVEL, Terrain
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
-from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.centre_of_pressure import GROUND_POINT, centre_of_pressure
 
-FLOOR = HalfSpace()
 PITCHES, LOADS, DEPTHS = np.radians(2.0), 21, 16
 """Step of pitch [rad], rows of load, and depths that each pitch is pressed to."""
 SHALLOW, DEEPER, DEEPEST, ROUNDS, PROBES = 12e-3, 1.4, 0.12, 14, 5
 """m; first depth that is tried, factor to the next, most of all, how often, and steps from the air to it."""
+NEAR, LOWERED = 1e-6, 100
+"""m; to which the height of touching is found, and how often the foot is lowered at most."""
 MARGIN = 1.05
 """Of the loads of a stance, over them."""
 PLACES = 3
@@ -59,12 +60,14 @@ class FootMap:
         return np.asarray(0.5 * channels[..., PLACES:] ** 2 @ self.keel.keel.stiffness(self.keel.fulcrum))
 
 
-def foot_map(keel: QuasiStaticKeel, pitch: Float[np.ndarray, " p"], most: Float[np.ndarray, " p"]) -> FootMap:
-    """At increasing pitches [rad], each up to a load [N]; above it the table stays at what it is there.
+def foot_map(
+    keel: QuasiStaticKeel, pitch: Float[np.ndarray, " p"], most: Float[np.ndarray, " p"], terrain: Terrain = LEVEL
+) -> FootMap:
+    """At increasing pitches [rad] against the ground, each up to a load [N]; above it the table stays at what it is.
 
     ArithmeticError where the foot does not reach a load, or the keel has no equilibrium on the way.
     """
-    motion, poses, shape = _pressed(keel, pitch, _deep_enough(keel, pitch, most), DEPTHS)
+    motion, poses, shape = _pressed(keel, pitch, _deep_enough(keel, pitch, most, terrain), DEPTHS, terrain)
     centre = poses.inv().apply(centre_of_pressure(motion.loads, GROUND_POINT).centre)
     channels = np.column_stack([poses.translation[:, 1], centre[:, :2], motion.angles]).reshape(*shape, -1)
     force = motion.force[:, 1].reshape(shape)
@@ -89,12 +92,12 @@ def needed(
 
 
 def _deep_enough(
-    keel: QuasiStaticKeel, pitch: Float[np.ndarray, " p"], most: Float[np.ndarray, " p"]
+    keel: QuasiStaticKeel, pitch: Float[np.ndarray, " p"], most: Float[np.ndarray, " p"], terrain: Terrain
 ) -> Float[np.ndarray, " p"]:
     """Depth of each row at which it carries its load [m]."""
     depth = np.full(len(pitch), SHALLOW)
     for _ in range(ROUNDS):
-        motion, _, shape = _pressed(keel, pitch, depth, PROBES)
+        motion, _, shape = _pressed(keel, pitch, depth, PROBES, terrain)
         force = motion.force[:, 1].reshape(shape).max(axis=1)
         if (force >= most).all():
             return depth
@@ -104,19 +107,38 @@ def _deep_enough(
 
 
 def _pressed(
-    keel: QuasiStaticKeel, pitch: Float[np.ndarray, " p"], deepest: Float[np.ndarray, " p"], count: int
+    keel: QuasiStaticKeel,
+    pitch: Float[np.ndarray, " p"],
+    deepest: Float[np.ndarray, " p"],
+    count: int,
+    terrain: Terrain,
 ) -> tuple[KeelMotion, RigidTransform, tuple[int, int]]:
     """Upright feet from the air to their depths below where each straight foot just touches.
 
     In that order, and from the air again at each pitch, so that of several equilibria the one is found that a foot
-    comes to which is put down.
+    comes to which is put down. The foremost spheres keep their place along the ground.
     """
     share = np.concatenate([[-0.1], np.linspace(0.0, 1.0, count + 1)[1:]])
     depth = (deepest[:, None] * share).ravel()
     turn = Rotation.from_euler("z", np.repeat(pitch, len(share))[:, None])
-    spheres = keel.sole.spheres
-    centres = np.einsum("tij,nj->tni", turn.as_matrix(), spheres.centre)
-    lowest = (centres[..., 1] - spheres.radius).min(axis=1)
-    place = np.stack([0.0 * depth, -lowest - depth, 0.0 * depth], axis=1)
+    spheres, still = keel.sole.spheres, np.zeros((len(depth), 3))
+    held = spheres.centre[int(np.argmax(spheres.centre[:, 0]))]
+    poses = terrain.standing(RigidTransform.from_components(still, turn), held)
+    place = poses.translation.copy()
+    place[:, 1] = _touching(keel, poses, terrain) - depth
     poses = RigidTransform.from_components(place, turn)
-    return keel.solve(poses, FLOOR), poses, (len(pitch), len(share))
+    return keel.solve(poses, terrain.ground), poses, (len(pitch), len(share))
+
+
+def _touching(keel: QuasiStaticKeel, poses: RigidTransform, terrain: Terrain) -> Float[np.ndarray, " t"]:
+    """Height at which a straight foot just touches [m]: lowered by what it is clear of the ground, until it is not."""
+    spheres, ground, up = keel.sole.spheres, terrain.ground, np.array([0.0, 1.0, 0.0])
+    centres, height = np.stack([poses.apply(each) for each in spheres.centre], axis=1), np.ones(len(poses))
+    for _ in range(LOWERED):
+        moved = centres + height[:, None, None] * up
+        distance = ground.proximity(moved.reshape(-1, 3)).distance.reshape(centres.shape[:2])
+        clear = (distance - spheres.radius).min(axis=1)
+        height -= clear
+        if float(np.abs(clear).max()) < NEAR:
+            break
+    return height

@@ -18,6 +18,8 @@ from geocontact.below_knee_prosthesis.design.carried_load import (
 from geocontact.below_knee_prosthesis.design.foot_map import FootMap, foot_map, needed
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, outcomes
+from geocontact.below_knee_prosthesis.design.terrain import LEVEL, Terrain
+from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
 
 Vary = Literal["fulcrum", "alignment", "stiffness"]
@@ -38,11 +40,14 @@ class Knob:
         Its values, increasing.
     fulcrum
         That the stance was recorded on [m], which stays where something else is varied.
+    terrain
+        That the values are judged on; the stance was recorded on level ground.
     """
 
     vary: Vary
     settings: Float[np.ndarray, " n"]
     fulcrum: float
+    terrain: Terrain = LEVEL
 
     @property
     def present(self) -> float:
@@ -50,24 +55,30 @@ class Knob:
         return {"fulcrum": self.fulcrum, "alignment": 0.0, "stiffness": 1.0}[self.vary]
 
     def maps(self, foot: VariableStiffnessFoot, task: FootTask) -> tuple[FootMap, ...]:
-        """Of each value, the present one last, for stances not much beyond this one; ArithmeticError as `foot_map`."""
+        """Of each value on the terrain, the present one on level ground last, for stances not much beyond this one.
+
+        ArithmeticError as `foot_map`.
+        """
         reach = REACH + (float(np.abs(self.settings).max()) if self.vary == "alignment" else 0.0)
-        rows = needed(task.pitch, task.load, reach)
+        met = self.terrain.met(task)
+        rows, level = needed(met.pitch, met.load, reach), needed(task.pitch, task.load, REACH)
         if self.vary == "alignment":
-            return (foot_map(foot.at(self.fulcrum), *rows),) * (len(self.settings) + 1)
-        found = []
-        for value in (*self.settings, self.present):
-            keel, fulcrum = foot.keel, value
-            if self.vary == "stiffness":
-                keel, fulcrum = replace(keel, bending=value * keel.bending), self.fulcrum
-            changed = VariableStiffnessFoot(keel, foot.sole, foot.law)
-            found.append(foot_map(changed.at(float(fulcrum)), *rows))
-        return tuple(found)
+            one = foot_map(foot.at(self.fulcrum), *rows, self.terrain)
+            found = [one] * len(self.settings)
+            return (*found, one if self.terrain == LEVEL else foot_map(foot.at(self.fulcrum), *level))
+        found = [foot_map(self._changed(foot, float(value)), *rows, self.terrain) for value in self.settings]
+        return (*found, foot_map(self._changed(foot, self.present), *level))
+
+    def _changed(self, foot: VariableStiffnessFoot, value: float) -> QuasiStaticKeel:
+        keel, fulcrum = foot.keel, value
+        if self.vary == "stiffness":
+            keel, fulcrum = replace(keel, bending=value * keel.bending), self.fulcrum
+        return VariableStiffnessFoot(keel, foot.sole, foot.law).at(fulcrum)
 
     def carried(self, maps: Sequence[FootMap], task: FootTask) -> Mapping[Response, tuple[CarriedLoad, ...]]:
         """The foot along the stance at each value, for both responses of the person."""
-        moment = with_angles_kept(maps[-1], task).ankle_moment
-        tasks = [task.aligned(value) if self.vary == "alignment" else task for value in self.settings]
+        moment, met = with_angles_kept(maps[-1], task).ankle_moment, self.terrain.met(task)
+        tasks = [met.aligned(value) if self.vary == "alignment" else met for value in self.settings]
         pairs = list(zip(maps[:-1], tasks, strict=True))
         return {
             "angles kept": tuple(with_angles_kept(*each) for each in pairs),

@@ -1,4 +1,4 @@
-"""Torques about the hinges of a chain whose spheres press on a plane, their exact derivatives.
+"""Torques about the hinges of a chain whose spheres press each on a plane, their exact derivatives.
 
 Everything is in the frame K that carries the chain. A joint j stands at P and turns about A; what moves with it goes by
 J(p) = A × (p - P) per rate. For a point that joint k carries as well, dJ_j/dy_k is A_k × J_j for k <= j and A_j × J_k
@@ -167,11 +167,20 @@ def add_weight(
 
 
 @kernel
+def rubbed(turned: float, before: float, reach: float) -> tuple[float, float]:
+    """Friction over its limit after a further turn, z' = (1 - z sign) / reach along it, and its derivative (Dahl)."""
+    way = 1.0 if turned >= 0.0 else -1.0
+    z = way + (before - way) * np.exp(-way * turned / reach)
+    return z, (1.0 - way * z) / reach
+
+
+@kernel
 def balance(
     y: Float[np.ndarray, " m"],
     before: Float[np.ndarray, " m"],
     per_time: float,
-    springs: Float[np.ndarray, "two m"],
+    springs: Float[np.ndarray, "four m"],
+    memory: Float[np.ndarray, "two m"],
     rest: Float[np.ndarray, "m 3"],
     axes: Float[np.ndarray, "m 3"],
     points: Float[np.ndarray, "n 3"],
@@ -181,14 +190,24 @@ def balance(
     weights: Float[np.ndarray, " w"],
     centres: Float[np.ndarray, "w 3"],
     bearer: Int[np.ndarray, " w"],
-    plane: Float[np.ndarray, " four"],
+    planes: Float[np.ndarray, "n four"],
     twist: Float[np.ndarray, " six"],
     gravity: Float[np.ndarray, " 3"],
     torque: Float[np.ndarray, " m"],
     slope: Float[np.ndarray, "m m"],
     told: Float[np.ndarray, "n told"],
 ) -> None:
-    """Torques about the joints and their derivatives, and what the spheres do."""
+    """Torques about the joints and their derivatives, and what the spheres do.
+
+    Parameters
+    ----------
+    springs
+        Stiffness, damping, friction over the angle's size, and the turn over which it builds up.
+    memory
+        Angles and friction over its limit in the frame before.
+    planes
+        Under each sphere: normal, and height of K's origin.
+    """
     speeds = np.empty(y.size)
     place, axis, turned = chain(y, rest, axes)
     goes = np.empty((y.size, 3))
@@ -198,6 +217,10 @@ def balance(
             slope[j, k] = 0.0
         torque[j] = -springs[0, j] * y[j] - springs[1, j] * speeds[j]
         slope[j, j] = -springs[0, j] - springs[1, j] * per_time
+        if springs[2, j] > 0.0:
+            z, by_turn = rubbed(y[j] - memory[0, j], memory[1, j], springs[3, j])
+            torque[j] -= springs[2, j] * abs(y[j]) * z
+            slope[j, j] -= springs[2, j] * ((z if y[j] >= 0.0 else -z) + abs(y[j]) * by_turn)
     for i in range(weights.size):
         heavy = (weights[i] * gravity[0], weights[i] * gravity[1], weights[i] * gravity[2])
         add_weight(torque, slope, centres[i], bearer[i], heavy, rest, place, axis, turned)
@@ -210,7 +233,7 @@ def balance(
             last[i],
             numbers[i],
             law,
-            plane,
+            planes[i],
             twist,
             speeds,
             per_time,

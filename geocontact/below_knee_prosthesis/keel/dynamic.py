@@ -18,6 +18,8 @@ from geocontact.below_knee_prosthesis.keel.on_tree import (
     coordinates,
     joint_numbers,
     keel_bodies,
+    keel_memory,
+    rubbing_numbers,
     sole_wrenches,
 )
 from geocontact.below_knee_prosthesis.keel.quasi_static import DOWNWARDS
@@ -41,7 +43,8 @@ class DynamicKeel:
     Parameters
     ----------
     equations
-        Coordinates of the keel; inputs are the foot's six with their derivatives; parameters stiffness, then damping.
+        Coordinates of the keel; inputs are the foot's six with their derivatives; parameters stiffness, damping, and
+        with hysteresis both of `rubbing_numbers`.
     stepper
         For motion.
     """
@@ -63,9 +66,14 @@ class DynamicKeel:
         """Along poses `X_GK` at some times [s], by splines of degree 5, from angles at rest."""
         turns = np.unwrap(poses.rotation.as_euler("XYZ"), axis=0)
         inputs = recorded_inputs(time, np.hstack([turns, poses.translation]), derivatives=2)
-        numbers = np.concatenate(joint_numbers(self.keel, fulcrum, torsion=self.torsion))
-        at_rest = (np.asarray(start, float), np.zeros(len(start)), np.zeros(0))
-        return self.stepper.simulate(at_rest, time, inputs=inputs, parameters=numbers, tolerance=tolerance)
+        numbers = [*joint_numbers(self.keel, fulcrum, torsion=self.torsion)]
+        if self.keel.hysteresis:
+            numbers += rubbing_numbers(self.keel, fulcrum, torsion=self.torsion)
+        memory = np.zeros(self.equations.z.shape[0])
+        at_rest = (np.asarray(start, float), np.zeros(len(start)), memory)
+        return self.stepper.simulate(
+            at_rest, time, inputs=inputs, parameters=np.concatenate(numbers), tolerance=tolerance
+        )
 
 
 def dynamic_keel(
@@ -88,11 +96,15 @@ def dynamic_keel(
     tree = tree_of(model)
     names = coordinates(keel, torsion=torsion)
     stiffness, damping = SX.sym("stiffness", len(names)), SX.sym("damping", len(names))
+    size, reach = SX.sym("size", len(names)), SX.sym("reach", len(names))
+    memory = keel_memory(tree, names, reach) if keel.hysteresis else []
+    rubbing = [size[k] * each.symbol for k, each in enumerate(memory)]
     equations = equations_of_motion(
         tree,
         loads=sole_wrenches(tree, FOOT, still, keel, sole, law, ground),
-        along=along_keel(tree, names, stiffness, damping),
+        along=along_keel(tree, names, stiffness, damping, rubbing),
+        memory=memory,
         prescribed=[name for name in tree.names if name not in names],
-        parameters=[stiffness, damping],
+        parameters=[stiffness, damping, *([size, reach] if memory else [])],
     )
     return DynamicKeel(keel, torsion, equations, Stepper(equations, machine_code=machine_code))

@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.below_knee_prosthesis.keel.balance_kernel import balance
+from geocontact.below_knee_prosthesis.keel.balance_kernel import balance, rubbed
 from geocontact.geometry.kernels.compile import kernel
 
 MOST, HALVINGS = 2000, 4
@@ -176,7 +176,7 @@ def advanced(
 def solve_frames(
     start: Float[np.ndarray, " m"],
     per_time: Float[np.ndarray, " t"],
-    springs: Float[np.ndarray, "two m"],
+    springs: Float[np.ndarray, "four m"],
     rest: Float[np.ndarray, "m 3"],
     axes: Float[np.ndarray, "m 3"],
     points: Float[np.ndarray, "n 3"],
@@ -186,7 +186,7 @@ def solve_frames(
     weights: Float[np.ndarray, " w"],
     centres: Float[np.ndarray, "w 3"],
     bearer: Int[np.ndarray, " w"],
-    planes: Float[np.ndarray, "t four"],
+    planes: Float[np.ndarray, "t n four"],
     twists: Float[np.ndarray, "t six"],
     gravities: Float[np.ndarray, "t 3"],
     tolerance: float,
@@ -199,6 +199,8 @@ def solve_frames(
     m = start.size
     y, older, before, reached, step = start.copy(), start.copy(), np.empty(m), np.empty(m), np.empty(m)
     first, torque, slope, state = np.empty(m), np.empty(m), np.empty((m, m)), np.empty(6)
+    memory = np.zeros((2, m))
+    memory[0] = start
     for i in range(planes.shape[0]):
         ratio = per_time[i - 1] / per_time[i] if i > 1 and per_time[i] > 0.0 else 0.0
         per_step = begin(y, older, before, reached, state, per_time[i], ratio)
@@ -209,6 +211,7 @@ def solve_frames(
                 before,
                 per_step,
                 springs,
+                memory,
                 rest,
                 axes,
                 points,
@@ -230,6 +233,9 @@ def solve_frames(
                 break
         for j in range(m):
             angles[i, j] = y[j]
+            if springs[2, j] > 0.0:
+                memory[1, j] = rubbed(y[j] - memory[0, j], memory[1, j], springs[3, j])[0]
+                memory[0, j] = y[j]
         if not left[i] <= tolerance:
             return False
     return True

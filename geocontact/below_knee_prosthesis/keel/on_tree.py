@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,7 @@ from geocontact.data.multibody.joint import JointModel
 from geocontact.data.multibody.joint_kinds import revolute
 from geocontact.data.multibody.model import Body
 from geocontact.dynamics.body_contact import together
+from geocontact.dynamics.equations import LawState
 from geocontact.dynamics.inverse_dynamics import Wrenches
 from geocontact.dynamics.sphere_contact import laws_of, sole_wrench
 from geocontact.dynamics.tree import Tree
@@ -85,16 +87,38 @@ def joint_numbers(keel: Keel, fulcrum: float, *, torsion: bool = False) -> tuple
     return stiffness, damping
 
 
-def along_keel(tree: Tree, names: list[str], stiffness: SX, damping: SX) -> dict[str, SX]:
-    """Torques of springs and dampers along the keel's coordinates, for `equations_of_motion(along=...)`.
+def rubbing_numbers(keel: Keel, fulcrum: float, *, torsion: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    """Friction over the angle's size [N m/rad], and the turn over which it builds up [rad]; none in torsion."""
+    size, reach = keel.hysteresis * keel.stiffness(fulcrum), keel.reach(fulcrum)
+    return (np.append(0.0, size), np.append(1.0, reach)) if torsion else (size, reach)
+
+
+def along_keel(tree: Tree, names: list[str], stiffness: SX, damping: SX, rubbing: Sequence[SX] = ()) -> dict[str, SX]:
+    """Torques of springs, dampers and friction along the keel's coordinates, for `equations_of_motion(along=...)`.
 
     `stiffness` and `damping` are columns of symbols or numbers, in the order of the names: as parameters of the
-    equations they let the fulcrum move without new equations.
+    equations they let the fulcrum move without new equations. `rubbing` is the friction over the angle's size times
+    the state of `keel_memory`.
     """
+    from casadi import fabs
+
     found = {}
     for k, name in enumerate(names):
         place = tree.names.index(name)
         found[name] = -stiffness[k] * tree.q[place] - damping[k] * tree.u[place]
+        if rubbing:
+            found[name] -= rubbing[k] * fabs(tree.q[place])
+    return found
+
+
+def keel_memory(tree: Tree, names: list[str], reach: SX) -> list[LawState]:
+    """Friction of each joint over its limit, z' = (u - |u| z) / reach (Dahl): the same loop at any rate."""
+    from casadi import SX, fabs
+
+    found = []
+    for k, name in enumerate(names):
+        z, u = SX.sym(f"rubbed_{name}"), tree.u[tree.names.index(name)]
+        found.append(LawState(z, (u - fabs(u) * z) / reach[k]))
     return found
 
 

@@ -1,8 +1,9 @@
 """The keel without inertia: its joints are in equilibrium with the ground in every frame of a given motion of the foot.
 
-Springs and dampers of the joints, weight of the segments, spheres by `contact.sphere_foot` with damping and friction.
-Without rates of the pose the frames do not know each other: elastic, without friction. With them each frame is a step
-of a formula of second order for the joints, from the two before (`newton_kernel`); the first has joints at rest.
+Springs, dampers and friction of the joints, weight of the segments, spheres by `contact.sphere_foot` with damping and
+friction. Without rates of the pose the frames do not know each other: elastic, without friction. With them each frame
+is a step of a formula of second order for the joints, from the two before (`newton_kernel`); the first has joints at
+rest.
 
 Deviation from the law: the kinetic coefficient of friction holds at all speeds beyond the threshold. Where friction
 falls with speed, from the static to the kinetic coefficient, a keel without inertia has several equilibria or jumps.
@@ -18,15 +19,19 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.keel import newton_kernel
 from geocontact.below_knee_prosthesis.keel.balance_kernel import balance
+from geocontact.below_knee_prosthesis.keel.in_keel import InKeel, Planes, planes_under, seen_by_keel
 from geocontact.below_knee_prosthesis.keel.keel import Keel
-from geocontact.below_knee_prosthesis.keel.on_tree import joint_numbers
+from geocontact.below_knee_prosthesis.keel.on_tree import joint_numbers, rubbing_numbers
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
 from geocontact.geometry.shapes import HalfSpace
+from geocontact.loads.ground import Ground
 from geocontact.loads.sphere_loads import SphereLoads
 from geocontact.loads.sphere_set import SoleLaw
 
 TOLERANCE = 1e-8
 """N m; torque about a joint that is left."""
+SETTLED, ROUNDS = 1e-6, 30
+"""m; by which a height above uneven ground may differ from that above the plane that is used; turns of both at most."""
 TOLD = 12
 """Numbers of a sphere: depth, its rate, pressing, force, centre, sliding."""
 Array = np.ndarray
@@ -85,7 +90,7 @@ class QuasiStaticKeel:
     def solve(
         self,
         poses: RigidTransform,
-        ground: HalfSpace,
+        ground: Ground,
         *,
         rate: Float[np.ndarray, "t 4 4"] | None = None,
         time: Float[np.ndarray, " t"] | None = None,
@@ -96,6 +101,8 @@ class QuasiStaticKeel:
 
         Parameters
         ----------
+        ground
+            On uneven ground each sphere is on the plane that touches it where the sphere is nearest, found in turns.
         rate, time
             Time derivative of the poses (`loads.pose_rate`) and their times [s], both or neither.
         gravity
@@ -103,11 +110,35 @@ class QuasiStaticKeel:
         start
             Angles from which the first frame is sought; straight unless given.
 
-        ArithmeticError where a frame has no equilibrium that Newton's steps find.
+        ArithmeticError where a frame has no equilibrium that Newton's steps find, or a sphere no place on the ground.
         """
         if (rate is None) != (time is None):
             raise ValueError("rates of the poses and times are given both or neither")
-        seen = _seen(poses, ground, gravity, rate)
+        spheres = self.sole.spheres
+        centre = np.stack([poses.apply(each).reshape(-1, 3) for each in spheres.centre], axis=1)
+        under = planes_under(ground, centre)
+        for _ in range(ROUNDS):
+            found = self._on_planes(poses, under, rate, time, gravity, start)
+            if isinstance(ground, HalfSpace):
+                return found
+            under = planes_under(ground, found.loads.centre)
+            height = np.einsum("tni,tni->tn", found.loads.centre, under.normal) - under.level
+            off = np.abs(spheres.radius - found.loads.depth - height)
+            near = np.minimum(height, spheres.radius - found.loads.depth) < spheres.radius
+            if not (off[near] > SETTLED).any():
+                return found
+        raise ArithmeticError("a sphere finds no place on the ground")
+
+    def _on_planes(
+        self,
+        poses: RigidTransform,
+        under: Planes,
+        rate: Float[np.ndarray, "t 4 4"] | None,
+        time: Float[np.ndarray, " t"] | None,
+        gravity: tuple[float, float, float],
+        start: Float[np.ndarray, " m"] | None,
+    ) -> KeelMotion:
+        seen = seen_by_keel(poses, under, gravity, rate)
         frames, count = len(seen.planes), len(self.sole.spheres)
         per_time = np.zeros(frames) if time is None else np.concatenate([[0.0], 1.0 / np.diff(time)])
         joints = self.keel.joints + int(self.torsion)
@@ -143,11 +174,14 @@ class QuasiStaticKeel:
 
         Friction with both coefficients of the law.
         """
-        seen, joints = _seen(poses, ground, DOWNWARDS, rate), angles.shape[1]
+        under = planes_under(ground, poses.as_matrix().reshape(-1, 4, 4)[:, None, :3, 3])
+        seen, joints = seen_by_keel(poses, under.for_each(self.sole.spheres), DOWNWARDS, rate), angles.shape[1]
         told = np.empty((len(angles), len(self.sole.spheres), TOLD))
-        torque, slope, arrays = np.empty(joints), np.empty((joints, joints)), self.arrays(static=False, falling=True)
+        torque, slope, memory = np.empty(joints), np.empty((joints, joints)), np.zeros((2, joints))
+        arrays = self.arrays(static=False, falling=True)
         for i, (y, u) in enumerate(zip(angles, speeds, strict=True)):
-            balance(y, y - u, 1.0, *arrays, seen.planes[i], seen.twists[i], seen.gravities[i], torque, slope, told[i])
+            at = seen.planes[i], seen.twists[i], seen.gravities[i]
+            balance(y, y - u, 1.0, arrays[0], memory, *arrays[1:], *at, torque, slope, told[i])
         return _told(angles, told, np.zeros(len(angles), np.int64), seen, moving=True)
 
     def arrays(self, *, static: bool, falling: bool = False) -> ChainArrays:
@@ -181,51 +215,20 @@ class QuasiStaticKeel:
         weights = np.full(keel.joints, keel.segment_mass)
         middles = (keel.places + 0.5 * keel.pitch)[:, None] * forward
         bearer = np.arange(keel.joints, dtype=np.int64) + more
-        springs = np.array(joint_numbers(keel, self.fulcrum, torsion=self.torsion))
+        pairs = (joint_numbers, rubbing_numbers)
+        springs = np.array([each for pair in pairs for each in pair(keel, self.fulcrum, torsion=self.torsion)])
+        springs[2] *= moving
         return (
             springs, places[:, None] * forward, axes, spheres.centre.astype(float), last, numbers, shared,
             weights, middles, bearer,
         )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class _InKeel:
-    """Plane, motion and gravity as the keel's frame sees them, and the frame itself in the ground's."""
-
-    planes: Float[np.ndarray, "t four"]
-    twists: Float[np.ndarray, "t six"]
-    gravities: Float[np.ndarray, "t 3"]
-    rotation: Float[np.ndarray, "t 3 3"]
-    origin: Float[np.ndarray, "t 3"]
-    upwards: Float[np.ndarray, " 3"]
-
-
-def _seen(
-    poses: RigidTransform,
-    ground: HalfSpace,
-    gravity: tuple[float, float, float],
-    rate: Float[np.ndarray, "t 4 4"] | None,
-) -> _InKeel:
-    matrices = poses.as_matrix().reshape(-1, 4, 4)
-    R, origin = matrices[:, :3, :3], matrices[:, :3, 3]
-    upwards = np.asarray(ground.normal, float) / np.linalg.norm(ground.normal)
-    heights = (origin - np.asarray(ground.point, float)) @ upwards
-    twists = np.zeros((len(R), 6))
-    if rate is not None:
-        turning = np.einsum("tji,tjk->tik", R, rate[:, :3, :3])
-        turning = 0.5 * (turning - turning.swapaxes(1, 2))
-        twists[:, :3] = turning[:, (2, 0, 1), (1, 2, 0)]
-        twists[:, 3:] = np.einsum("tji,tj->ti", R, rate[:, :3, 3])
-    planes = np.column_stack([np.einsum("tij,i->tj", R, upwards), heights])
-    gravities = np.ascontiguousarray(np.einsum("tij,i->tj", R, np.asarray(gravity, float)))
-    return _InKeel(planes, twists, gravities, R, origin, upwards)
-
-
 def _told(
     angles: Float[np.ndarray, "t m"],
     told: Float[np.ndarray, "t n told"],
     steps: Int[np.ndarray, " t"],
-    seen: _InKeel,
+    seen: InKeel,
     *,
     moving: bool,
 ) -> KeelMotion:
@@ -234,10 +237,10 @@ def _told(
     own = told[..., 3:].reshape(*depth.shape, 3, 3)
     force, arm, sliding = np.moveaxis(np.einsum("tij,tnkj->tnki", seen.rotation, own), 2, 0)
     centre = arm + seen.origin[:, None]
-    height = np.einsum("tnj,tj->tn", told[..., 6:9], seen.planes[:, :3]) + seen.planes[:, None, 3]
+    height = np.einsum("tnj,tnj->tn", told[..., 6:9], seen.planes[..., :3]) + seen.planes[..., 3]
     touching = (depth > 0.0)[..., None]
     point = np.where(touching, centre - height[..., None] * seen.upwards, np.nan)
-    normal = np.where(touching, np.broadcast_to(seen.upwards, centre.shape), np.nan)
+    normal = np.where(touching, seen.upwards, np.nan)
     loads = SphereLoads(pressing, force, point, centre, normal, depth)
     moved = float(moving)
     return KeelMotion(angles, loads, moved * rate, moved * sliding, steps)

@@ -20,7 +20,9 @@ from geocontact.below_knee_prosthesis.keel.on_tree import (
     coordinates,
     joint_numbers,
     keel_bodies,
+    keel_memory,
     posterior_part,
+    rubbing_numbers,
 )
 from geocontact.below_knee_prosthesis.keel.sole import ZONES
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
@@ -35,13 +37,22 @@ from geocontact.dynamics.equations import Equations, equations_of_motion
 from geocontact.dynamics.inverse_dynamics import Wrenches
 from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.sphere_contact import SphereLaw, sole_wrench
+from geocontact.dynamics.symbolic_ground import (
+    SymbolicGround,
+    SymbolicPlane,
+    SymbolicStairs,
+    plane_numbers,
+    stairs_numbers,
+)
 from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.geometry.shapes import HalfSpace
+from geocontact.loads.ground import Stairs
 from geocontact.loads.sphere_set import SphereSet
 
 if TYPE_CHECKING:
     from casadi import SX, Function
 
+FLOOR = HalfSpace()
 COLUMN = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 BEARING = tuple(f"bearing_{kind}{axis}" for kind in "rt" for axis in "xyz")
 """Coordinates of the bushing's frame that are given."""
@@ -71,21 +82,37 @@ class StanceModel:
     stepper: Stepper
 
 
-def stance_model(foot: VariableStiffnessFoot, *, machine_code: bool = True) -> StanceModel:
-    """The model of a foot at any fulcrum under any person; numbers of the sole's law are parameters by zone."""
+def stance_model(
+    foot: VariableStiffnessFoot, ground: HalfSpace | Stairs = FLOOR, *, machine_code: bool = True
+) -> StanceModel:
+    """The model of a foot at any fulcrum under any person; numbers of the sole's law are parameters by zone.
+
+    So are those of a slope and of stairs with that many edges; the floor y = 0 has none.
+    """
     spheres = foot.sole.spheres
     sole = (tuple(map(tuple, spheres.centre.tolist())), tuple(spheres.radius.tolist()), spheres.zone, foot.sole.segment)
     shared = (foot.law.exponent, foot.law.full_depth, foot.law.threshold_speed)
-    return _made(foot.keel, sole, shared, machine_code)
+    edges = len(ground.edges) if isinstance(ground, Stairs) else None
+    return _made(foot.keel, sole, shared, edges, len(_ground_numbers(ground)), machine_code)
 
 
-def stance_numbers(leg: Leg, foot: VariableStiffnessFoot, fulcrum: float, bushing: Bushing) -> Float[np.ndarray, " p"]:
-    """Parameters of the equations, in the order of `_sizes`. ValueError for a fulcrum out of range."""
+def stance_numbers(
+    leg: Leg,
+    foot: VariableStiffnessFoot,
+    fulcrum: float,
+    bushing: Bushing,
+    ground: HalfSpace | Stairs = FLOOR,
+) -> Float[np.ndarray, " p"]:
+    """Parameters of the equations, in the order of `_sizes`.
+
+    ValueError for a fulcrum out of range, or stairs that do not go along x.
+    """
     keel = foot.keel
     mass, centre, inertia = leg.prosthesis_body()
     zones = [int(np.flatnonzero(of)[0]) for of in foot.sole.spheres.zones.values()]
     law = foot.law
     own = keel.posterior_mass + keel.joints * keel.segment_mass
+    under = _ground_numbers(ground)
     parts = {
         "carried": [carried_mass(leg, own)],
         "mass": [mass],
@@ -93,10 +120,19 @@ def stance_numbers(leg: Leg, foot: VariableStiffnessFoot, fulcrum: float, bushin
         "inertia": [inertia[at] for at in COLUMN],
         "keel_place": leg.keel_place,
         "joints": joint_numbers(keel, fulcrum),
+        "rubbing": rubbing_numbers(keel, fulcrum) if keel.hysteresis else [],
         "bushing": [bushing.stiffness, bushing.damping],
         "sole": [np.broadcast_to(each, len(law.stiffness))[zones] for each in _by_sphere(foot)],
+        "ground": under,
     }
-    return np.concatenate([np.ravel(np.asarray(parts[name], float)) for name in _sizes(keel.joints)])
+    sizes = _sizes(keel, len(under))
+    return np.concatenate([np.ravel(np.asarray(parts[name], float)) for name in sizes])
+
+
+def _ground_numbers(ground: HalfSpace | Stairs) -> list[float]:
+    if isinstance(ground, Stairs):
+        return stairs_numbers(ground)
+    return [] if ground == FLOOR else plane_numbers(ground)
 
 
 def _by_sphere(foot: VariableStiffnessFoot) -> tuple[Float[np.ndarray, ...], ...]:
@@ -104,16 +140,18 @@ def _by_sphere(foot: VariableStiffnessFoot) -> tuple[Float[np.ndarray, ...], ...
     return law.stiffness, law.damping, np.asarray(law.static), np.asarray(law.kinetic)
 
 
-def _sizes(joints: int) -> dict[str, int]:
+def _sizes(keel: Keel, ground: int) -> dict[str, int]:
     return {
         "carried": 1,
         "mass": 1,
         "centre": 3,
         "inertia": 6,
         "keel_place": 3,
-        "joints": 2 * joints,
+        "joints": 2 * keel.joints,
+        "rubbing": 2 * keel.joints if keel.hysteresis else 0,
         "bushing": 12,
         "sole": 4 * len(ZONES),
+        "ground": ground,
     }
 
 
@@ -122,25 +160,31 @@ def _made(
     keel: Keel,
     sole: tuple[tuple[tuple[float, ...], ...], tuple[float, ...], tuple[str, ...], tuple[int, ...]],
     shared: tuple[float, float, float],
+    edges: int | None,
+    ground: int,
     machine_code: bool,
 ) -> StanceModel:
     from casadi import SX, Function, densify, vertcat
 
-    sizes = _sizes(keel.joints)
+    sizes = _sizes(keel, ground)
     p, pushing = SX.sym("numbers", sum(sizes.values())), SX.sym("pushing", 2)
     ends = np.cumsum([0, *sizes.values()])
     of = {name: p[int(ends[k]) : int(ends[k + 1]), :] for k, name in enumerate(sizes)}
     tree = _tree(keel, of)
+    under = FLOOR if not ground else SymbolicPlane(of["ground"]) if edges is None else SymbolicStairs(of["ground"])
     names, n = coordinates(keel), keel.joints
-    along = along_keel(tree, names, of["joints"][:n, :], of["joints"][n:, :])
+    memory = keel_memory(tree, names, of["rubbing"][n:, :]) if keel.hysteresis else []
+    rubbing = [of["rubbing"][k] * each.symbol for k, each in enumerate(memory)]
+    along = along_keel(tree, names, of["joints"][:n, :], of["joints"][n:, :], rubbing)
     along |= dict(zip(PLACE, (pushing[0], pushing[1]), strict=True))
     at = [tree.names.index(name) for name in SOCKET]
     held = [bushing_force(tree.q[i], tree.u[i], of["bushing"][k], of["bushing"][6 + k]) for k, i in enumerate(at)]
     along |= {name: -force for name, force in zip(SOCKET, held, strict=True)}
     equations = equations_of_motion(
         tree,
-        loads=_on_ground(tree, keel, sole, of["sole"], shared),
+        loads=_on_ground(tree, keel, sole, of["sole"], shared, under),
         along=along,
+        memory=memory,
         prescribed=BEARING,
         inputs=[pushing],
         parameters=[p],
@@ -191,6 +235,7 @@ def _on_ground(
     sole: tuple[tuple[tuple[float, ...], ...], tuple[float, ...], tuple[str, ...], tuple[int, ...]],
     numbers: SX,
     shared: tuple[float, float, float],
+    ground: HalfSpace | SymbolicGround,
 ) -> Wrenches:
     centres, radii, zones, segments = np.array(sole[0]), np.array(sole[1]), sole[2], np.array(sole[3])
     order, count = list(dict.fromkeys(zones)), len(ZONES)
@@ -205,5 +250,5 @@ def _on_ground(
             k, b, static, kinetic = (numbers[i * count + order.index(zone)] for i in range(4))
             laws.append(SphereLaw(k, n, b, deep, v_th, static, kinetic))
         body = f"keel_{segment}" if segment else "foot"
-        loads.append({body: sole_wrench(tree.bodies[body], own, laws, HalfSpace(normal=(0.0, 1.0, 0.0)))})
+        loads.append({body: sole_wrench(tree.bodies[body], own, laws, ground)})
     return together(*loads)

@@ -18,10 +18,13 @@
     plate = "own_force"
     other_plate = "other_force"
     calibrated = true
+    law = "P1/law_medium.toml"
+    ground = "plane:-0.05,1,0,0"
 
 Files are looked for beside the description. `fulcrum = { value = 100, unit = "mm" }` stands in place of a `setting`.
-`calibrated` marks a trial that the person's `law` was fitted to. What may be left out: `side`, `sex`, `residual`,
-`functional`, `law`, `name`, `calibrated`.
+`calibrated` marks a trial that its `law` was fitted to: that of the trial, such as one for each setting, else the
+person's. `ground` is a plane or stairs as in `prosthesis simulate`. What may be left out: `side`, `sex`, `residual`,
+`functional`, `law`, `name`, `calibrated`, `ground`.
 """
 
 from __future__ import annotations
@@ -45,7 +48,19 @@ Setting = Literal["low", "medium", "high"]
 SETTINGS: tuple[Setting, ...] = ("low", "medium", "high")
 KEYS = {
     "persons": ("mass", "static", "side", "sex", "residual", "functional", "law"),
-    "trials": ("person", "markers", "plates", "plate", "other_plate", "setting", "fulcrum", "name", "calibrated"),
+    "trials": (
+        "person",
+        "markers",
+        "plates",
+        "plate",
+        "other_plate",
+        "setting",
+        "fulcrum",
+        "name",
+        "calibrated",
+        "law",
+        "ground",
+    ),
 }
 
 
@@ -73,7 +88,11 @@ class GaitStance:
     setting, fulcrum
         Of the foot, one of both; the fulcrum in m.
     calibrated
-        Whether the person's law was fitted to it.
+        Whether the law was fitted to it.
+    law
+        In place of the person's.
+    ground
+        As it is written; None for the floor.
     """
 
     name: str
@@ -85,6 +104,8 @@ class GaitStance:
     setting: Setting | None
     fulcrum: float | None
     calibrated: bool
+    law: Path | None
+    ground: str | None
 
     @property
     def foot(self) -> str:
@@ -175,6 +196,8 @@ def _trial(path: Path, number: int, told: Any, persons: Mapping[str, GaitPerson]
         setting,
         fulcrum,
         calibrated,
+        _file(path, f"{place} law", str(told["law"])) if "law" in told else None,
+        str(told["ground"]) if "ground" in told else None,
     )
 
 

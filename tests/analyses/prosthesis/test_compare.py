@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import geocontact as gc
@@ -41,6 +42,8 @@ def written(folder: Path, *settings: str, changed: tuple[str, str] = ("", "")) -
         ('plate = "own_force"', "", "no plate"),
         ('name = "P1_low_1"', 'called = "P1"', "'called' is not known here"),
         ("walking.trc", "running.trc", "there is no file"),
+        ('setting = "low"', 'setting = "low"\nlaw = "low.toml"', "there is no file low.toml"),
+        ('setting = "low"', 'setting = "low"\nground = "slope:3"', "neither a plane nor stairs"),
     ],
 )
 def test_refused(tmp_path: Path, old: str, new: str, words: str) -> None:
@@ -73,5 +76,14 @@ def test_shipped_stances_from_markers_to_files(tmp_path: Path) -> None:
     assert bool(errors.loc[("P1_low_1", "resultant"), "better"])
     seen = found.table("trials").set_index("trial")["what is seen"]
     assert "leaves the floor again" in seen["P1_high_1"] and "leaves" not in seen["P1_low_1"]
+    summary = found.table("summary").set_index(["setting", "quantity"])
+    assert np.isfinite(
+        summary.loc[("low", "resultant"), ["another r2 [-]", "mean of the others r2 [-]"]].astype(float)
+    ).all()
+    (said,) = [each for each in found.sentences if each.startswith("low: ")]
+    assert said.count("without a model") == 3
+    ensembles = found.table("ensembles").set_index("setting")
+    high = found.stances[1].measured("resultant")
+    np.testing.assert_allclose(ensembles.loc["low", "resultant another setting [-]"], high, rtol=1e-12)
     found.write(tmp_path / "out")
     assert (tmp_path / "out" / "trials" / "P1_high_1" / "ground_reaction.xml").is_file()

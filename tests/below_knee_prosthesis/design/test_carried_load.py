@@ -9,9 +9,10 @@ import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.design.carried_load import REACH, with_angles_kept, with_torque_kept
-from geocontact.below_knee_prosthesis.design.foot_map import FLOOR, PLACES, FootMap, foot_map, needed
+from geocontact.below_knee_prosthesis.design.foot_map import PLACES, FootMap, foot_map, needed
 from geocontact.below_knee_prosthesis.design.outcomes import loading_rate, returned, roll_over_radius
 from geocontact.below_knee_prosthesis.design.roll_over import arc_through
+from geocontact.below_knee_prosthesis.design.terrain import FLAT
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from tests.below_knee_prosthesis.design.tasks import a_task
 
@@ -30,7 +31,7 @@ def test_at_the_tables_height_the_keel_carries_the_load(maps: dict[float, FootMa
     turn = Rotation.from_euler("z", task.pitch[:, None])
     place = np.stack([0.0 * found.height, found.height, 0.0 * found.height], axis=1)
     poses = RigidTransform.from_components(place, turn)
-    motion = foot.keel.solve(poses, FLOOR)
+    motion = foot.keel.solve(poses, FLAT)
     np.testing.assert_allclose(motion.force[:, 1], task.load, rtol=0.06)
     pressing, point = motion.loads.pressing, np.nan_to_num(motion.loads.point)
     centre = np.einsum("tn,tni->ti", pressing, point) / pressing.sum(axis=1)[:, None]

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geocontact.analyses.prosthesis.compare.tables import by_setting
+from geocontact.analyses.prosthesis.compare.tables import by_setting, curves_of, plain_curves
 from geocontact.below_knee_prosthesis.evaluation.judged_stance import JudgedStance
+from geocontact.below_knee_prosthesis.evaluation.trivial_predictors import ANOTHER, MEAN
 from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
 
 if TYPE_CHECKING:
@@ -30,13 +31,18 @@ MOST = 5
 
 @in_style
 def ensemble_figure(stances: Sequence[JudgedStance]) -> Figure:
-    """Grey the plates, coloured the model: mean, and a band of one standard deviation."""
+    """Grey the plates, coloured the model: mean, a band of one standard deviation; dashed the means without a model."""
     settings = dict(list(by_setting(stances).items())[:MOST])
     figure, axes = panels(len(ROWS), len(settings), DOUBLE, HEIGHT * len(ROWS))
     for row, (name, (label, factor)) in enumerate(ROWS.items()):
+        plain = plain_curves(stances, name)
         for column, (setting, own) in enumerate(settings.items()):
             panel = axes[row * len(settings) + column]
             _bands(panel, own, name, factor)
+            for colour, predictor in zip(PALETTE[1:], (MEAN, ANOTHER), strict=False):
+                if curves := curves_of(plain, own, predictor):
+                    mean = factor * np.mean(curves, axis=0)
+                    panel.plot(100.0 * own[0].errors.share, mean, color=colour, lw=0.9, ls="--", label=predictor)
             if row == 0:
                 panel.set_title(f"{setting}, {len(own)} stances")
             if column == 0:

@@ -22,7 +22,10 @@ from geocontact.view.page.write import write_page
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-FIGURE = "Grey the plates, coloured the model: mean over a setting's stances, a band of one standard deviation."
+FIGURE = (
+    "Grey the plates, coloured the model: mean over a setting's stances, a band of one standard deviation. Dashed the "
+    "two predictors without a model."
+)
 SHOWN = {
     "vertical": "Vertical force over body weight",
     "fore_aft": "Fore-aft force over body weight, forward positive",

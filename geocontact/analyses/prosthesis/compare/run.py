@@ -18,8 +18,11 @@ from geocontact.below_knee_prosthesis.evaluation.outliers import FEWEST, oddness
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.errors import InputError
 
-SAID = ("resultant", "cop_ground", "ankle_moment")
+WORDS = {"resultant": "resultant force", "cop_ground": "centre of pressure", "ankle_moment": "ankle moment"}
+SAID = tuple(WORDS)
 """Quantities that are told in a sentence."""
+PLAIN = ("mean of the others rmse", "another rmse")
+"""Columns of both predictors without a model."""
 
 
 def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions, record: Record) -> ProsthesisCompareResult:
@@ -78,6 +81,10 @@ def _say(r: ProsthesisCompareResult) -> None:
     for name in SAID:
         if name in rows.index:
             record.say(_told(name, rows.loc[[name]].iloc[0]))
+    told = list(dict.fromkeys(one.setting for one in stances if not one.calibrated))
+    for setting in told if len(told) > 1 else ():
+        own = summary[summary["setting"] == setting].set_index("quantity")
+        record.say(f"{setting}: {'; '.join(_of_setting(name, own.loc[[name]].iloc[0]) for name in SAID)}")
     late = [one.errors.stance[0] - one.errors.stance[1] for one in stances if not one.calibrated]
     if late:
         record.say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms)")
@@ -90,21 +97,26 @@ def _say(r: ProsthesisCompareResult) -> None:
     record.results["compare"] = plain({one.name: _numbers(one) for one in stances})
 
 
-def _told(name: str, row: pd.Series) -> str:
-    percent = row["unit"] == "-"
+def _of_setting(name: str, row: pd.Series) -> str:
+    """Errors of the model and of both predictors."""
+    plain_ones = [_size(name, row[column]) for column in PLAIN if np.isfinite(row[column])]
+    beside = f" (without a model {' and '.join(plain_ones)})" if plain_ones else ""
+    return f"{WORDS[name]} {_size(name, row['rmse'])}{beside}"
+
+
+def _size(name: str, value: float) -> str:
     what = {"resultant": "BW", "cop_ground": "of the foot"}.get(name, "N m/kg")
+    return f"{value:.2f} {what}" if name == "ankle_moment" else f"{value:.1%} {what}"
 
-    def size(value: float) -> str:
-        return f"{value:.1%} {what}" if percent else f"{value:.2f} {what}"
 
+def _told(name: str, row: pd.Series) -> str:
     plain_words = ", ".join(
-        f"{label} {size(row[column])}"
-        for label, column in (("mean of the others", "mean of the others rmse"), ("another setting", "another rmse"))
+        f"{label} {_size(name, row[column])}"
+        for label, column in zip(("mean of the others", "another setting"), PLAIN, strict=True)
         if np.isfinite(row[column])
     )
-    words = {"resultant": "resultant force", "cop_ground": "centre of pressure", "ankle_moment": "ankle moment"}[name]
     beside = f"; without a model {plain_words}; better than both on {row['better']:.0f} of {row['trials']:.0f}"
-    return f"{words}: R² {row['r2 [-]']:.2f}, {size(row['rmse'])}{beside if plain_words else ''}"
+    return f"{WORDS[name]}: R² {row['r2 [-]']:.2f}, {_size(name, row['rmse'])}{beside if plain_words else ''}"
 
 
 def _numbers(one: JudgedStance) -> dict[str, object]:

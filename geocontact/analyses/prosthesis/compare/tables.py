@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.below_knee_prosthesis.evaluation.judged_stance import ANKLE, QUANTITIES, JudgedStance
 from geocontact.below_knee_prosthesis.evaluation.outliers import Oddness, reasons
@@ -17,16 +18,18 @@ UNITS = {"impulse": "s", ANKLE: "N m/kg"}
 """Of quantities that are no shares: forces are over body weight, centres over the foot's length."""
 
 
+def plain_curves(stances: Sequence[JudgedStance], name: str) -> dict[str, dict[str, Float[np.ndarray, " s"]]]:
+    """What both predictors without a model say of a quantity, by stance."""
+    plates = [MeasuredCurve(each.name, each.person, each.setting, each.measured(name)) for each in stances]
+    return {one.name: trivial_curves(plates, one) for one in plates}
+
+
 def errors_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
     """One row for each stance and quantity: the model's R² and error, and those of both trivial predictors."""
     rows = []
-    plates = {
-        name: {each.name: MeasuredCurve(each.name, each.person, each.setting, each.measured(name)) for each in stances}
-        for name in QUANTITIES
-    }
+    plain = {name: plain_curves(stances, name) for name in QUANTITIES}
     for one in stances:
         for name in QUANTITIES:
-            own_plate = plates[name][one.name]
             r2, off = one.errors.table[name]
             row: dict[str, object] = {
                 "trial": one.name,
@@ -39,8 +42,7 @@ def errors_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
                 "rmse": off,
             }
             told = {
-                label: agreement(curve, own_plate.values, 1.0, 0.0)
-                for label, curve in trivial_curves(list(plates[name].values()), own_plate).items()
+                label: agreement(curve, one.measured(name), 1.0, 0.0) for label, curve in plain[name][one.name].items()
             }
             for label, column in ((MEAN, MEAN), (ANOTHER, "another")):
                 own = told.get(label)
@@ -54,7 +56,7 @@ def errors_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
 def summary_table(errors: pd.DataFrame) -> pd.DataFrame:
     """Means and standard deviations by setting and over all, as the study's table 3; calibrated stances apart."""
     rows = []
-    names = ("r2 [-]", "rmse", f"{MEAN} rmse", "another rmse")
+    names = ("r2 [-]", "rmse", *(f"{label} {kind}" for label in (MEAN, "another") for kind in ("rmse", "r2 [-]")))
     for calibrated, part in errors.groupby("calibrated", sort=False):
         settings = list(dict.fromkeys(part["setting"]))
         for setting in [*settings, ALL] if not calibrated else ["calibrated"]:
@@ -102,8 +104,12 @@ def trials_table(stances: Sequence[JudgedStance], odd: Mapping[str, Oddness]) ->
 
 
 def ensembles_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
-    """Mean and standard deviation over the stances of each setting, simulated and measured, at 101 points."""
+    """Mean and standard deviation over the stances of each setting at 101 points: simulated, measured, without a model.
+
+    The predictors without a model are those of `plain_curves`, meant over the same stances.
+    """
     frames = []
+    plain = {name: plain_curves(stances, name) for name in QUANTITIES}
     for setting, own in by_setting(stances).items():
         columns: dict[str, object] = {"setting": setting, "stance [-]": own[0].errors.share}
         for name in QUANTITIES:
@@ -111,11 +117,22 @@ def ensembles_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
             for label, curves in (
                 (name, [one.simulated(name) for one in own]),
                 (f"{name} measured", [one.measured(name) for one in own]),
+                *((f"{name} {label}", curves_of(plain[name], own, label)) for label in (MEAN, ANOTHER)),
             ):
+                if not curves:
+                    continue
                 columns[f"{label} [{unit}]"] = np.mean(curves, axis=0)
                 columns[f"{label} sd [{unit}]"] = np.std(curves, axis=0)
         frames.append(pd.DataFrame(columns))
     return pd.concat(frames, ignore_index=True)
+
+
+def curves_of(
+    plain: Mapping[str, Mapping[str, Float[np.ndarray, " s"]]], own: Sequence[JudgedStance], label: str
+) -> list[Float[np.ndarray, " s"]]:
+    """Of one predictor for some stances; nothing where it has none of one of them."""
+    found = [plain[one.name].get(label) for one in own]
+    return [] if any(each is None for each in found) else [each for each in found if each is not None]
 
 
 def by_setting(stances: Sequence[JudgedStance]) -> dict[str, list[JudgedStance]]:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 from geocontact.analyses.options import BodyMass, Degrees, Expression, Fraction, Length, Options, PartLength, Spelled
-from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON
+from geocontact.analyses.prosthesis.ranges import EDGE, FULCRUM, PERSON, SLOPE
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import CUTOFF, GAP, NOISE, SHIFT, TILT
 
@@ -52,6 +52,13 @@ class ProsthesisDesignOptions(Options):
         Ground reactions in the markers' axes (.mot, .sto, .c3d).
     plate
         Name or number of the plate under the prosthetic foot.
+
+    The ground
+    ----------
+    slope
+        Angle by which the ground rises forwards that the foot is judged on, negative downhill; the trial is on a floor.
+    edge
+        Of a step that the foot is judged on, from the keel's posterior end: what is behind hangs in the air.
 
     What is best
     ------------
@@ -104,6 +111,8 @@ class ProsthesisDesignOptions(Options):
     law: Path | None = None
     numbers: Path | None = None
     plate: str | None = None
+    slope: Annotated[Degrees, SLOPE] = 0.0
+    edge: Annotated[PartLength | None, EDGE] = None
     vary: Literal["fulcrum", "alignment", "stiffness"] = "fulcrum"
     aim: Literal["ankle_moment", "socket_moment", "energy", "radius", "loading_rate"] = "radius"
     target: float | None = None

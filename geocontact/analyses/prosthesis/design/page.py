@@ -15,6 +15,7 @@ from geocontact.analyses.prosthesis.design.sweep import UNITS, Sweep
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES
+from geocontact.below_knee_prosthesis.design.terrain import words
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
 from geocontact.view.page.tables import frame_table, inputs_table
 from geocontact.view.page.write import write_page
@@ -66,10 +67,11 @@ def write_design_page(
         options_table(record),
         Words("What the numbers do and do not contain", [*LIMITS, NOT_A_DEVICE]),
     ]
-    vary = sweep.knob.vary
+    vary, where = sweep.knob.vary, words(sweep.knob.terrain)
+    place = f"; {where}" if where else ""
     page = Page(
         title=f"Which {vary} of the foot suits this person",
-        subtitle=f"Recorded at the fulcrum of {1e3 * sweep.knob.fulcrum:.0f} mm; {len(sweep.drawn)} draws",
+        subtitle=f"Recorded at the fulcrum of {1e3 * sweep.knob.fulcrum:.0f} mm; {len(sweep.drawn)} draws{place}",
         time=sweep.shown,
         time_label=f"{vary} [{UNITS[vary]}]",
         headline=headline(record.sentences, most=2),

@@ -17,6 +17,7 @@ from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob, Vary
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES
 from geocontact.below_knee_prosthesis.design.stance_again import TrialErrors, task_again
+from geocontact.below_knee_prosthesis.design.terrain import LEVEL, Terrain, words
 from geocontact.data.errors import InputError
 
 VALUES: dict[Vary, Float[np.ndarray, " n"]] = {
@@ -28,7 +29,8 @@ VALUES: dict[Vary, Float[np.ndarray, " n"]] = {
 
 def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> ProsthesisDesignResult:
     """Bands of every outcome over the values, the best value for every aim."""
-    trial, knob = given.trial, Knob(o.vary, VALUES[o.vary], given.trial.fulcrum)
+    trial, terrain = given.trial, Terrain(o.slope, o.edge)
+    knob = Knob(o.vary, VALUES[o.vary], trial.fulcrum, terrain)
     errors = TrialErrors(marker=o.marker_error, pitch=o.pitch_error, force=o.force_noise)
     try:
         task = trial.task()
@@ -58,13 +60,15 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
         record.warn(f"{found.lost} of {o.feet} drawn feet found no equilibrium and are left out")
     record.warn("torque kept means the ankle's, without inertia: torques kept in all joints are not simulated")
     record.warn("bands are of one trial: how a person differs from step to step is not in them")
+    if terrain != LEVEL:
+        record.warn(f"judged {words(terrain)}: the stance was recorded on a floor, its load and its turns are kept")
     _say(result)
     return result
 
 
 def _ends(knob: Knob) -> Knob:
     """The first value, the present one and the last, in order."""
-    return Knob(knob.vary, np.unique([knob.settings[0], knob.present, knob.settings[-1]]), knob.fulcrum)
+    return Knob(knob.vary, np.unique([knob.settings[0], knob.present, knob.settings[-1]]), knob.fulcrum, knob.terrain)
 
 
 def _answer(sweep: Sweep, task: FootTask, o: ProsthesisDesignOptions, k: int) -> AimAnswer:
@@ -84,7 +88,8 @@ def _say(r: ProsthesisDesignResult) -> None:
 
     chosen = next(each for each in r.answers if each.aim == r.options.aim)
     measure, choice = MEASURES[chosen.aim], chosen.choice
-    what = f"{measure.words}, {chosen.wanted}"
+    place = words(knob.terrain)
+    what = f"{f'{place}, ' if place else ''}{measure.words}, {chosen.wanted}"
     if not choice.told:
         record.say(f"{what}: cannot tell which {knob.vary} is best: {choice.why}")
     else:

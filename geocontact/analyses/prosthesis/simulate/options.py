@@ -47,6 +47,12 @@ class ProsthesisSimulateOptions(Options):
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
 
+    The ground
+    ----------
+    ground
+        plane:nx,ny,nz,offset (all x with n.x = offset [m]), or stairs:h0,x1:h1,x2:h2 (height h1 [m] from x1 on, y up),
+        in the markers' axes; the floor y = 0 unless given.
+
     Force plates
     ----------
     plates
@@ -87,6 +93,7 @@ class ProsthesisSimulateOptions(Options):
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
     law: Path | None = None
     socket: Literal["as_meant", "as_printed"] = "as_meant"
+    ground: Expression | None = None
     plates: Path | None = None
     other_plate: str | None = None
     plate: str | None = None

@@ -17,6 +17,7 @@ from geocontact.below_knee_prosthesis.from_markers.sides import of_side
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, RECORDED, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times
+from geocontact.loads.ground import Stairs
 from geocontact.view.page.content import Curve, Curves, Page, Section, Words
 from geocontact.view.page.linkage import Linkage
 from geocontact.view.page.scene import Scene
@@ -101,8 +102,9 @@ def _lines(s: Stance, o: ProsthesisSimulateOptions, shown: Int[np.ndarray, " k"]
     force = np.stack([centre, centre + METRES_PER_NEWTON * s.force[shown]], axis=1)
     thin = s.centre("ground")[:: max(1, len(s.time) // 60)]
     path = np.broadcast_to(thin, (len(shown), *thin.shape))
-    edge = np.array([[x, 0.0, z] for x in (-0.5, 0.7) for z in (-0.15, 0.25)])[[0, 1, 3, 2]]
-    floor = np.broadcast_to(edge, (len(shown), 4, 3))
+    border = _floor(s)
+    floor = np.broadcast_to(border, (len(shown), *border.shape))
+    around = np.append(_chain(len(border)), [(len(border) - 1, 0)], axis=0)
     return [
         Linkage("pelvis, thigh, residual limb", place(limb), _chain(3), "bone", JOINT, LIMB),
         Linkage("socket and pylon", place(below), _chain(2), "model", JOINT, LIMB),
@@ -110,8 +112,28 @@ def _lines(s: Stance, o: ProsthesisSimulateOptions, shown: Int[np.ndarray, " k"]
         Linkage("spheres", place(s.loads.centre[shown]), np.zeros((0, 2), np.int64), "seen", SPHERE, 0.0),
         Linkage("path of the centre of pressure", place(path), _chain(path.shape[1]), "force", 0.0, 0.5 * ARROW),
         Linkage("force of the ground, 0.6 m for 1 kN", place(force), _chain(2), "force", 0.0, ARROW),
-        Linkage("floor", place(floor), np.array([(0, 1), (1, 2), (2, 3), (3, 0)]), "floor", 0.0, 0.5 * ARROW),
+        Linkage("floor", place(floor), around, "floor", 0.0, 0.5 * ARROW),
     ]
+
+
+def _floor(s: Stance) -> Float[np.ndarray, "n 3"]:
+    """Border of the ground around the stance, from the one end to the other and back [m]."""
+    ground, x = s.ground, np.array([-0.5, 0.7])
+    if isinstance(ground, Stairs):
+        edges = np.array(ground.edges)
+        inner = edges[(edges > x[0]) & (edges < x[1])]
+        x = np.concatenate([x[:1], np.repeat(inner, 2), x[1:]])
+        steps = np.searchsorted(edges, x, side="right")
+        steps[1:-1:2] -= 1
+        line = np.column_stack([x, np.array(ground.heights)[steps]])
+        sides = [np.column_stack([line, np.full(len(line), z)]) for z in (-0.15, 0.25)]
+    else:
+        normal, point = np.asarray(ground.normal, float), np.asarray(ground.point, float)
+        sides = []
+        for z in (-0.15, 0.25):
+            y = (normal @ point - normal[0] * x - normal[2] * z) / normal[1]
+            sides.append(np.column_stack([x, y, np.full(2, z)]))
+    return np.concatenate([sides[0], sides[1][::-1]])
 
 
 def _keel(s: Stance) -> Float[np.ndarray, "t n 3"]:

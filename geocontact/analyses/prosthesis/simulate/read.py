@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_errors import FAR, MOVING
 from geocontact.analyses.prosthesis.foot_law import foot_with_law
 from geocontact.analyses.prosthesis.plausible_plate import require_one_clock, require_weight
@@ -31,7 +32,9 @@ from geocontact.below_knee_prosthesis.simulate import GATE, Push
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times, longest_stance
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.geometry.shapes import HalfSpace
 from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
+from geocontact.loads.ground import Stairs
 
 FARTHEST = 0.4
 """m; of the centre of pressure from the heel, seen from above."""
@@ -57,6 +60,8 @@ class Walk:
     ----------
     walked
         Recorded motion.
+    ground
+        That both feet walk on.
     push
         Of the other leg.
     plate
@@ -67,6 +72,7 @@ class Walk:
 
     leg: Leg
     walked: Walked
+    ground: HalfSpace | Stairs
     foot: VariableStiffnessFoot
     fulcrum: float
     push: Push
@@ -90,9 +96,10 @@ def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
     require_weight(cast(Path, o.plates), "`other_plate`", other.name, other.wrench.force[:, 1], person.mass * GRAVITY)
     push = Push(other.time, of_side(np.nan_to_num(other.wrench.force), o.side))
     _require_clock(o, found.motion.time, other)
-    own = _own(o, plates, found, foot)
+    ground = _ground(o)
+    own = _own(o, plates, found, foot, ground)
     poses = keel_poses(seen, leg, seen.time, FOOT_CUTOFF, o.gap_limit)
-    return Walk(leg, found, foot, fulcrum, push, own, SeenFoot(seen.time, poses))
+    return Walk(leg, found, ground, foot, fulcrum, push, own, SeenFoot(seen.time, poses))
 
 
 def _hip(o: ProsthesisSimulateOptions, standing: MarkerTrajectories, record: Record) -> Float[np.ndarray, " 3"] | None:
@@ -116,8 +123,24 @@ def _require_fit(seen: MarkerTrajectories, found: Walked, record: Record) -> Non
         record.warn(f"{seen.source}: markers are {1e3 * off:.0f} mm from the standing leg in the median")
 
 
+def _ground(o: ProsthesisSimulateOptions) -> HalfSpace | Stairs:
+    """In the frame of a right leg; InputError for a mesh, which equations cannot hold."""
+    ground = plane_or_stairs(LEVEL if o.ground is None else o.ground)
+    if ground is None:
+        what, remedy = f"{o.ground!r} is neither a plane nor stairs", "write plane:nx,ny,nz,offset or stairs:h0,x1:h1"
+        raise InputError("", "`ground`", what, remedy)
+    if isinstance(ground, Stairs) or o.side == "right":
+        return ground
+    point, normal = of_side(np.array([ground.point, ground.normal]), o.side)
+    return HalfSpace((point[0], point[1], point[2]), (normal[0], normal[1], normal[2]))
+
+
 def _own(
-    o: ProsthesisSimulateOptions, plates: tuple[ForcePlate, ...], found: Walked, foot: VariableStiffnessFoot
+    o: ProsthesisSimulateOptions,
+    plates: tuple[ForcePlate, ...],
+    found: Walked,
+    foot: VariableStiffnessFoot,
+    ground: HalfSpace | Stairs,
 ) -> PlateStance | None:
     """Force and centre of pressure under the prosthetic foot; InputError where it is not the foot that stands there."""
     if o.plate is None:
@@ -141,7 +164,7 @@ def _own(
     stance = PlateStance(plate.time, force, centre)
     motion, leg = found.motion, found.motion.leg
     keel = recorded_tree(leg).poses(motion.values)["shank"] * RigidTransform.from_components(leg.keel, leg.turn)
-    height = lowest_sphere(keel, foot.sole.spheres)
+    height = lowest_sphere(keel, foot.sole.spheres, ground)
     require_one_clock(file, "`plate`", plate.name, clock_offset(motion.time, height, stance.time, force[:, 1]))
     _require_under_the_foot(file, plate.name, stance, keel, motion.time)
     return stance

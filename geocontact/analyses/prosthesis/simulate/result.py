@@ -19,6 +19,7 @@ from geocontact.analyses.prosthesis.simulate.read import Walk
 from geocontact.analyses.prosthesis.simulate.tables import curves_table, errors_table, numbers_table, stance_table
 from geocontact.analyses.result import Result
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.model.stance_model import FLOOR
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.below_knee_prosthesis.stance_errors import StanceErrors, at_times
 from geocontact.data.sourced_number import Number
@@ -64,13 +65,14 @@ class ProsthesisSimulateResult(Result):
         return curves_figure(s.time, panels)
 
     def write_files(self, folder: Path) -> None:
-        """Tables, coordinates and external loads for OpenSim, spheres for ParaView, trial of a gap case, page."""
+        """Tables, coordinates and external loads for OpenSim, spheres for ParaView, page; a gap case if on a floor."""
         for name, table in self.tables().items():
             write_table(table, folder, name)
         write_coordinates(folder, self.stance, self.options.side)
         write_loads(folder, self.stance, self.options.side)
         write_spheres(folder / "paraview", self.stance, self.options.side)
-        write_plane(folder / "plane", self.walk, self.stance)
+        if self.stance.ground == FLOOR:
+            write_plane(folder / "plane", self.walk, self.stance)
         save_both(self.figure(), folder, "stance")
         self.write_page(folder / "report.html")
 

@@ -32,7 +32,9 @@ def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisS
     record.warn("the socket's own turn is in the recorded knee angle as well, by up to what its bushing turns")
     found = simulated(walk, o)
     if not found.on.any():
-        raise InputError(o.markers, "", "the foot never touches the floor", "is y = 0 the floor, and `mass` right?")
+        raise InputError(
+            o.markers, "", "the foot never touches the floor", "is `ground` right, y = 0 without it, and `mass`?"
+        )
     errors = _compared(walk, found)
     doubt(found, record)
     told = summary(found)
@@ -57,11 +59,10 @@ def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> Stance:
         if seen is not None:
             span = max(span[0], seen[0] - BEFORE), min(span[1], seen[1] + AFTER)
     bushing = SOCKET if o.socket == "as_meant" else PRINTED
+    given = walk.walked.motion, walk.foot, walk.fulcrum, walk.push, span
     try:
-        return simulate_stance(
-            walk.walked.motion, walk.foot, walk.fulcrum, walk.push, span, bushing=bushing, machine_code=o.machine_code
-        )
-    except ArithmeticError as error:
+        return simulate_stance(*given, bushing=bushing, ground=walk.ground, machine_code=o.machine_code)
+    except (ArithmeticError, ValueError) as error:
         remedy = "check `mass`, `side`, `axes` and the names of the markers; as_printed no gait can be walked"
         raise InputError(o.markers, "", str(error), remedy) from error
 
