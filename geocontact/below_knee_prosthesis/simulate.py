@@ -117,8 +117,9 @@ class Stance:
         """Energy that the keel's dampers and friction have taken since the start [J]."""
         power = self.found.u[:, 8:] ** 2 @ self.foot.keel.damping(self.fulcrum)
         if self.found.z.shape[1]:
-            rubbing, _ = rubbing_numbers(self.foot.keel, self.fulcrum)
-            power = power + (np.abs(self.keel_angles) * self.found.z * self.found.u[:, 8:]) @ rubbing
+            size, held, _ = rubbing_numbers(self.foot.keel, self.fulcrum)
+            limit = np.abs(self.keel_angles) * size + held
+            power = power + (limit * self.found.z * self.found.u[:, 8:]).sum(axis=1)
         return np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(self.time))])
 
     @property

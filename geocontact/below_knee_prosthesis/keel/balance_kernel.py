@@ -179,7 +179,7 @@ def balance(
     y: Float[np.ndarray, " m"],
     before: Float[np.ndarray, " m"],
     per_time: float,
-    springs: Float[np.ndarray, "four m"],
+    springs: Float[np.ndarray, "five m"],
     memory: Float[np.ndarray, "two m"],
     rest: Float[np.ndarray, "m 3"],
     axes: Float[np.ndarray, "m 3"],
@@ -202,7 +202,7 @@ def balance(
     Parameters
     ----------
     springs
-        Stiffness, damping, friction over the angle's size, and the turn over which it builds up.
+        Stiffness, damping, friction over the angle's size, friction at any angle, and the turn over which both build up.
     memory
         Angles and friction over its limit in the frame before.
     planes
@@ -217,10 +217,11 @@ def balance(
             slope[j, k] = 0.0
         torque[j] = -springs[0, j] * y[j] - springs[1, j] * speeds[j]
         slope[j, j] = -springs[0, j] - springs[1, j] * per_time
-        if springs[2, j] > 0.0:
-            z, by_turn = rubbed(y[j] - memory[0, j], memory[1, j], springs[3, j])
-            torque[j] -= springs[2, j] * abs(y[j]) * z
-            slope[j, j] -= springs[2, j] * ((z if y[j] >= 0.0 else -z) + abs(y[j]) * by_turn)
+        if springs[2, j] + springs[3, j] > 0.0:
+            z, by_turn = rubbed(y[j] - memory[0, j], memory[1, j], springs[4, j])
+            limit = springs[2, j] * abs(y[j]) + springs[3, j]
+            torque[j] -= limit * z
+            slope[j, j] -= springs[2, j] * (z if y[j] >= 0.0 else -z) + limit * by_turn
     for i in range(weights.size):
         heavy = (weights[i] * gravity[0], weights[i] * gravity[1], weights[i] * gravity[2])
         add_weight(torque, slope, centres[i], bearer[i], heavy, rest, place, axis, turned)

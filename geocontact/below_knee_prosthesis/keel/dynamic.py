@@ -18,7 +18,7 @@ from geocontact.below_knee_prosthesis.keel.on_tree import (
     coordinates,
     joint_numbers,
     keel_bodies,
-    keel_memory,
+    keel_friction,
     rubbing_numbers,
     sole_wrenches,
 )
@@ -44,7 +44,7 @@ class DynamicKeel:
     ----------
     equations
         Coordinates of the keel; inputs are the foot's six with their derivatives; parameters stiffness, damping, and
-        with hysteresis both of `rubbing_numbers`.
+        with friction those of `rubbing_numbers`.
     stepper
         For motion.
     """
@@ -67,7 +67,7 @@ class DynamicKeel:
         turns = np.unwrap(poses.rotation.as_euler("XYZ"), axis=0)
         inputs = recorded_inputs(time, np.hstack([turns, poses.translation]), derivatives=2)
         numbers = [*joint_numbers(self.keel, fulcrum, torsion=self.torsion)]
-        if self.keel.hysteresis:
+        if self.keel.rubs:
             numbers += rubbing_numbers(self.keel, fulcrum, torsion=self.torsion)
         memory = np.zeros(self.equations.z.shape[0])
         at_rest = (np.asarray(start, float), np.zeros(len(start)), memory)
@@ -96,15 +96,14 @@ def dynamic_keel(
     tree = tree_of(model)
     names = coordinates(keel, torsion=torsion)
     stiffness, damping = SX.sym("stiffness", len(names)), SX.sym("damping", len(names))
-    size, reach = SX.sym("size", len(names)), SX.sym("reach", len(names))
-    memory = keel_memory(tree, names, reach) if keel.hysteresis else []
-    rubbing = [size[k] * each.symbol for k, each in enumerate(memory)]
+    more = SX.sym("rubbing", 3 * len(names) if keel.rubs else 0)
+    rubbing, memory = keel_friction(tree, names, more) if keel.rubs else ([], [])
     equations = equations_of_motion(
         tree,
         loads=sole_wrenches(tree, FOOT, still, keel, sole, law, ground),
         along=along_keel(tree, names, stiffness, damping, rubbing),
         memory=memory,
         prescribed=[name for name in tree.names if name not in names],
-        parameters=[stiffness, damping, *([size, reach] if memory else [])],
+        parameters=[stiffness, damping, more],
     )
     return DynamicKeel(keel, torsion, equations, Stepper(equations, machine_code=machine_code))

@@ -51,9 +51,11 @@ class Keel:
     range
         Lowest and highest fulcrum [m].
     hysteresis
-        Friction at whatever rate, a share of the elastic moment [-]: a loop takes 4/pi of it, over 2, as loss factor.
+        Friction at any rate, a share of the elastic moment [-]; the loss factor is 2/pi of it.
+    friction
+        Friction at any rate and any bend: the curvature that it holds [1/m].
     presliding
-        Curvature over which that friction turns [1/m].
+        Curvature over which both turn [1/m].
 
     ValueError for a length, stiffness or mass that is not positive, or a range that is not on the keel.
     """
@@ -70,14 +72,17 @@ class Keel:
     support: Support
     range: tuple[float, float]
     hysteresis: float = 0.0
+    friction: float = 0.0
     presliding: float = 0.05
 
     def __post_init__(self) -> None:
         positive = (self.posterior, self.bending, self.torsional, self.width, self.thickness, self.density, self.joints)
         if not (np.isfinite(positive).all() and min(positive) > 0.0 and 0.0 <= self.retardation < np.inf):
             raise ValueError("a keel needs positive lengths, stiffnesses and density, and no negative damping")
-        if not (0.0 <= self.hysteresis < 1.0 and 0.0 < self.presliding < np.inf):
-            raise ValueError("a keel's hysteresis is a share from 0 to below 1, and builds up over some curvature")
+        if not (0.0 <= self.hysteresis < 1.0 and 0.0 <= self.friction < np.inf and 0.0 < self.presliding < np.inf):
+            raise ValueError(
+                "a keel's hysteresis is a share from 0 to below 1, and friction builds up over a curvature"
+            )
         if not self.posterior < self.length or not 0.0 < self.range[0] < self.range[1] < self.length:
             raise ValueError(f"first joint and fulcrums must be on the keel of {self.length:g} m")
 
@@ -124,6 +129,11 @@ class Keel:
     def damping(self, fulcrum: float) -> Float[np.ndarray, " n"]:
         """Of each joint [N m s/rad]."""
         return self.retardation * self.stiffness(fulcrum)
+
+    @property
+    def rubs(self) -> bool:
+        """Whether it has friction of either kind."""
+        return self.hysteresis > 0.0 or self.friction > 0.0
 
     def reach(self, fulcrum: float) -> Float[np.ndarray, " n"]:
         """Turn of each joint over which its friction builds up [rad]."""

@@ -176,7 +176,7 @@ def advanced(
 def solve_frames(
     start: Float[np.ndarray, " m"],
     per_time: Float[np.ndarray, " t"],
-    springs: Float[np.ndarray, "four m"],
+    springs: Float[np.ndarray, "five m"],
     rest: Float[np.ndarray, "m 3"],
     axes: Float[np.ndarray, "m 3"],
     points: Float[np.ndarray, "n 3"],
@@ -233,8 +233,8 @@ def solve_frames(
                 break
         for j in range(m):
             angles[i, j] = y[j]
-            if springs[2, j] > 0.0:
-                memory[1, j] = rubbed(y[j] - memory[0, j], memory[1, j], springs[3, j])[0]
+            if springs[2, j] + springs[3, j] > 0.0:
+                memory[1, j] = rubbed(y[j] - memory[0, j], memory[1, j], springs[4, j])[0]
                 memory[0, j] = y[j]
         if not left[i] <= tolerance:
             return False

@@ -87,39 +87,46 @@ def joint_numbers(keel: Keel, fulcrum: float, *, torsion: bool = False) -> tuple
     return stiffness, damping
 
 
-def rubbing_numbers(keel: Keel, fulcrum: float, *, torsion: bool = False) -> tuple[np.ndarray, np.ndarray]:
-    """Friction over the angle's size [N m/rad], and the turn over which it builds up [rad]; none in torsion."""
-    size, reach = keel.hysteresis * keel.stiffness(fulcrum), keel.reach(fulcrum)
-    return (np.append(0.0, size), np.append(1.0, reach)) if torsion else (size, reach)
+def rubbing_numbers(keel: Keel, fulcrum: float, *, torsion: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Friction over the angle's size [N m/rad] and at any angle [N m], and the turn over which both build up [rad].
+
+    None in torsion.
+    """
+    size, held = keel.hysteresis * keel.stiffness(fulcrum), np.full(keel.joints, keel.bending * keel.friction)
+    first = (np.zeros(1), np.zeros(1), np.ones(1)) if torsion else (np.zeros(0),) * 3
+    size, held, reach = (np.append(*pair) for pair in zip(first, (size, held, keel.reach(fulcrum)), strict=True))
+    return size, held, reach
 
 
 def along_keel(tree: Tree, names: list[str], stiffness: SX, damping: SX, rubbing: Sequence[SX] = ()) -> dict[str, SX]:
     """Torques of springs, dampers and friction along the keel's coordinates, for `equations_of_motion(along=...)`.
 
     `stiffness` and `damping` are columns of symbols or numbers, in the order of the names: as parameters of the
-    equations they let the fulcrum move without new equations. `rubbing` is the friction over the angle's size times
-    the state of `keel_memory`.
+    equations they let the fulcrum move without new equations. `rubbing` is `keel_friction`.
     """
-    from casadi import fabs
-
     found = {}
     for k, name in enumerate(names):
         place = tree.names.index(name)
         found[name] = -stiffness[k] * tree.q[place] - damping[k] * tree.u[place]
         if rubbing:
-            found[name] -= rubbing[k] * fabs(tree.q[place])
+            found[name] -= rubbing[k]
     return found
 
 
-def keel_memory(tree: Tree, names: list[str], reach: SX) -> list[LawState]:
-    """Friction of each joint over its limit, z' = (u - |u| z) / reach (Dahl): the same loop at any rate."""
+def keel_friction(tree: Tree, names: list[str], numbers: SX) -> tuple[list[SX], list[LawState]]:
+    """Torque of friction of each joint, and its state z over its limit, z' = (u - |u| z) / reach (Dahl).
+
+    The same loop at any rate. `numbers` are those of `rubbing_numbers` one after the other.
+    """
     from casadi import SX, fabs
 
-    found = []
+    count, torques, states = len(names), [], []
     for k, name in enumerate(names):
-        z, u = SX.sym(f"rubbed_{name}"), tree.u[tree.names.index(name)]
-        found.append(LawState(z, (u - fabs(u) * z) / reach[k]))
-    return found
+        z, place = SX.sym(f"rubbed_{name}"), tree.names.index(name)
+        q, u = tree.q[place], tree.u[place]
+        states.append(LawState(z, (u - fabs(u) * z) / numbers[2 * count + k]))
+        torques.append((numbers[k] * fabs(q) + numbers[count + k]) * z)
+    return torques, states
 
 
 def sole_wrenches(

@@ -217,7 +217,7 @@ class QuasiStaticKeel:
         bearer = np.arange(keel.joints, dtype=np.int64) + more
         pairs = (joint_numbers, rubbing_numbers)
         springs = np.array([each for pair in pairs for each in pair(keel, self.fulcrum, torsion=self.torsion)])
-        springs[2] *= moving
+        springs[2:4] *= moving
         return (
             springs, places[:, None] * forward, axes, spheres.centre.astype(float), last, numbers, shared,
             weights, middles, bearer,

@@ -20,7 +20,7 @@ from geocontact.below_knee_prosthesis.keel.on_tree import (
     coordinates,
     joint_numbers,
     keel_bodies,
-    keel_memory,
+    keel_friction,
     posterior_part,
     rubbing_numbers,
 )
@@ -120,7 +120,7 @@ def stance_numbers(
         "inertia": [inertia[at] for at in COLUMN],
         "keel_place": leg.keel_place,
         "joints": joint_numbers(keel, fulcrum),
-        "rubbing": rubbing_numbers(keel, fulcrum) if keel.hysteresis else [],
+        "rubbing": rubbing_numbers(keel, fulcrum) if keel.rubs else [],
         "bushing": [bushing.stiffness, bushing.damping],
         "sole": [np.broadcast_to(each, len(law.stiffness))[zones] for each in _by_sphere(foot)],
         "ground": under,
@@ -148,7 +148,7 @@ def _sizes(keel: Keel, ground: int) -> dict[str, int]:
         "inertia": 6,
         "keel_place": 3,
         "joints": 2 * keel.joints,
-        "rubbing": 2 * keel.joints if keel.hysteresis else 0,
+        "rubbing": 3 * keel.joints if keel.rubs else 0,
         "bushing": 12,
         "sole": 4 * len(ZONES),
         "ground": ground,
@@ -173,8 +173,7 @@ def _made(
     tree = _tree(keel, of)
     under = FLOOR if not ground else SymbolicPlane(of["ground"]) if edges is None else SymbolicStairs(of["ground"])
     names, n = coordinates(keel), keel.joints
-    memory = keel_memory(tree, names, of["rubbing"][n:, :]) if keel.hysteresis else []
-    rubbing = [of["rubbing"][k] * each.symbol for k, each in enumerate(memory)]
+    rubbing, memory = keel_friction(tree, names, of["rubbing"]) if keel.rubs else ([], [])
     along = along_keel(tree, names, of["joints"][:n, :], of["joints"][n:, :], rubbing)
     along |= dict(zip(PLACE, (pushing[0], pushing[1]), strict=True))
     at = [tree.names.index(name) for name in SOCKET]

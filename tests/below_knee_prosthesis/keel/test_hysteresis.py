@@ -16,11 +16,11 @@ from geocontact.loads.pose_rate import pose_rate
 FULCRUM, SHARE = 0.1, 0.15
 
 
-def foot(hysteresis: float, joints: int = 8) -> VariableStiffnessFoot:
+def foot(hysteresis: float, joints: int = 8, friction: float = 0.0) -> VariableStiffnessFoot:
     """Without friction on the floor, damping of sole and keel: what is lost is lost in the keel's friction."""
     usual = vsf_foot(joints=joints)
     law, none = usual.law, np.zeros(len(usual.law.stiffness))
-    keel = replace(usual.keel, hysteresis=hysteresis, presliding=0.02, retardation=0.0)
+    keel = replace(usual.keel, hysteresis=hysteresis, friction=friction, presliding=0.02, retardation=0.0)
     return VariableStiffnessFoot(keel, usual.sole, replace(law, damping=none, static=none, kinetic=none))
 
 
@@ -50,9 +50,20 @@ def test_the_loop_is_the_same_at_any_rate_and_its_work_that_of_the_share() -> No
     assert 0.5 * 2.0 * SHARE * stored < loop < 2.0 * SHARE * stored
 
 
+def test_friction_at_any_bend_widens_the_loop_evenly() -> None:
+    """Twice the friction, twice the loop's width in the middle of the way, whatever the load there."""
+    _, poses = pressed(1.0, 201)
+    widths = []
+    for curvature in (0.1, 0.2):
+        loop = force(foot(0.0, friction=curvature), 1.0)
+        widths.append(loop[40:90] - loop[160:110:-1])
+    assert widths[0].min() > 3.0
+    np.testing.assert_allclose(widths[1][5:-5], 2.0 * widths[0][5:-5], rtol=0.1)
+
+
 @pytest.mark.slow
 def test_the_tree_has_the_same_loop_as_the_frames() -> None:
-    one = foot(SHARE, joints=3)
+    one = foot(SHARE, joints=3, friction=0.05)
     one = replace(one, keel=replace(one.keel, retardation=1e-3))
     time, poses = pressed(0.4, 41)
     model = dynamic_keel(one.keel, one.sole, one.law, HalfSpace(), machine_code=False)
