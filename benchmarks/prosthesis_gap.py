@@ -4,7 +4,7 @@ A foot is driven along four synthetic stances of one participant. Finer code, a 
 what markers and plate show, with one effect withheld or none; `gap gather` makes a case of the base model `foot` from
 files as `prosthesis simulate` writes them; it is diagnosed. Then what was withheld is added to the package's keel of 8
 hinges and 24 spheres, fitted to the calibration trials beside the numbers of the sole, and judged on the held-out ones.
-Answers go to benchmarks/results/prosthesis_gap.json.
+Answers go to benchmarks/results/prosthesis_gap.json; a case run by itself (`--only`) takes the place of its own.
 
 What the base model cannot have is kept out of the truth, else all cases are one gap: there is no friction along the
 floor, the foot moves in its plane, and it pitches less. `left_out` tells how far the base model is from stances as they
@@ -31,7 +31,7 @@ from scipy.spatial.transform import Rotation
 
 import geocontact as gc
 from benchmarks.keel_stance import heights
-from benchmarks.machine import machine, versions
+from benchmarks.machine import commit, machine, versions
 from benchmarks.prosthesis_refit import (
     LACKING,
     SETTING,
@@ -84,7 +84,7 @@ class Planted:
 
 PLANTED = {
     "nothing": Planted(Withheld()),
-    "keel hysteresis": Planted(Withheld(hysteresis=0.15), "retardation", ("asymmetry", "damping", "relaxation")),
+    "keel hysteresis": Planted(Withheld(hysteresis=0.15), "hysteresis", ("asymmetry", "damping", "relaxation")),
     "pistoning": Planted(Withheld(pistoning=True), "socket", ("series_compliance", "relaxation")),
     "missing heel spheres": Planted(Withheld(), "heel"),
     "wrong fulcrum": Planted(Withheld(fulcrum=0.02), "fulcrum"),
@@ -288,12 +288,16 @@ def main() -> None:
             f"{kind}: {each['verdict']} {', '.join(each['named'])} ({each['seconds']:.0f} s); keel, held out: "
             f"{full['before']['force_N']:.1f} -> {full['after']['force_N']:.1f} N"
         )
-    if not asked.only:
-        file = ROOT / "benchmarks" / "results" / "prosthesis_gap.json"
+    file = ROOT / "benchmarks" / "results" / "prosthesis_gap.json"
+    if asked.only:
+        told = json.loads(file.read_text(encoding="utf-8"))
+        told["answers"] |= found
+        told.setdefault("run_again", {})[asked.only] = {"commit": commit(), **machine()}
+    else:
         told = {"machine": machine(), "versions": versions({"scipy", "numba"}), "seeds": seeds()}
         told["withheld"] = {kind: asdict(planted.withheld) for kind, planted in PLANTED.items()}
         told |= {"left_out": left_out(asked.out / "left_out", paths), "answers": found}
-        file.write_text(json.dumps(told, indent=1, default=str) + "\n", encoding="utf-8")
+    file.write_text(json.dumps(told, indent=1, default=str) + "\n", encoding="utf-8")
 
 
 def seeds() -> dict[str, list[int]]:

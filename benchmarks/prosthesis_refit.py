@@ -1,6 +1,6 @@
 """The package's keel of 8 hinges and 24 spheres without friction, with what a diagnosis named, fitted to trials.
 
-Stiffness and damping of the five zones are fitted beside the numbers of a field of the foot: the keel's retardation, a
+Stiffness and damping of the five zones are fitted beside the numbers of a field of the foot: the keel's hysteresis, a
 fulcrum, a socket between the markers and the foot, or spheres that were missing. The keel has no inertia and moves in
 the plane along what the markers show.
 """
@@ -32,11 +32,11 @@ LACKING = ("heel_back", "heel_front")
 FIELDS: dict[str, tuple[tuple[float, float, float], ...]] = {
     "": (),
     "heel": (),
-    "retardation": ((2e-3, 1e-4, 0.5),),
+    "hysteresis": ((0.05, 1e-3, 0.9),),
     "fulcrum": ((0.075, 0.066, 0.151),),
     "socket": ((60e3, 2e3, 2e6), (10e3, 10.0, 1e5)),
 }
-"""Start and bounds of the numbers of each: s; m; N/m and N s/m."""
+"""Start and bounds of the numbers of each: share; m; N/m and N s/m."""
 BELIEVED = np.log([3.0] * 5 + [10.0] * 5)
 """Standard deviation of the logarithm of stiffness and damping by zone, as in a calibration."""
 UNCERTAIN = (10.0, 2e-3)
@@ -95,8 +95,8 @@ class FullModel:
     def along(self, path: FootPath, factors: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Upward force and centre of pressure; `factors` on stiffness and damping of each zone."""
         foot, at = self._with(factors), fulcrum()
-        if self.field == "retardation":
-            foot = replace(foot, keel=replace(foot.keel, retardation=float(values[0])))
+        if self.field == "hysteresis":
+            foot = replace(foot, keel=replace(foot.keel, hysteresis=float(values[0])))
         if self.field == "fulcrum":
             at = float(values[0])
         if self.field != "socket":

@@ -94,6 +94,37 @@ def test_the_prosthetic_foot_s_planted_effects() -> None:
         assert all(near(cell, each) for cell, each in zip(row(page, kind), off.values(), strict=True))
 
 
+def test_the_prosthetic_foot_s_steps_and_soles() -> None:
+    page, told = "theory/prosthesis_stance.md", results("prosthesis_stance")["figures"]
+    for label in ("1e-3", "3e-4", "1e-4", "1e-5"):
+        own = [one for one in told if one["tolerance"] == float(label)]
+        assert len(own) == 6
+        steps, seconds, rms, most = row(page, label)
+        for cell, name in ((steps, "steps"), (seconds, "per_second")):
+            ends = [pick(one[name] for one in own) for pick in (min, max)]
+            assert all(near(part, end) for part, end in zip(cell.split(" … "), ends, strict=True)), cell
+        assert near(rms, max(one["rms"] for one in own), 100.0) and near(most, max(one["most"] for one in own), 100.0)
+    for one in results("prosthesis_soles")["figures"]["soles"][:3]:
+        _, centre, resultant, first, rise, steps, _ = row(page, str(one["spheres"]))
+        assert near(centre.split()[0], one["centre"], 100.0) and near(resultant.split()[0], one["resultant"], 100.0)
+        assert near(first.removesuffix("BW"), one["first"], 100.0) and near(rise.removesuffix("BW"), one["rise"])
+        assert int(steps) == one["steps"]
+
+
+def test_the_real_ankle_s_loops_and_the_intact_foot() -> None:
+    for kind in ("none", "viscous", "hysteresis", "friction"):
+        one, cells = results("desr_hysteresis")["figures"][f"pinned; {kind}"], row("theory/prosthesis_keel.md", kind)
+        for cell, name in zip(cells, ("fitted_N_m", "predicted_N_m", "work_off_J"), strict=True):
+            assert near(cell.split()[0], one[name]), cell
+    names = ("vertical rmse", "vertical plain rmse", "centre rmse", "centre r2", "centre plain rmse")
+    for recording, steps in results("prosthesis_intact")["figures"].items():
+        for step, one in steps.items():
+            if not one["calibrated"]:
+                cells = row("theory/prosthesis_both_sides.md", recording, step)
+                for cell, name in zip(cells, names, strict=True):
+                    assert near(cell, one[name], 1.0 if name == "centre r2" else 100.0), (recording, step, name)
+
+
 def test_the_shoulder_s_cuff() -> None:
     page, told = "theory/shoulder_exoskeleton.md", results("shoulder_cuff")
     for one in told["trial"]:
