@@ -125,6 +125,22 @@ def test_the_real_ankle_s_loops_and_the_intact_foot() -> None:
                     assert near(cell, one[name], 1.0 if name == "centre r2" else 100.0), (recording, step, name)
 
 
+def test_effects_refitted_over_the_whole_stance() -> None:
+    for kind, one in results("prosthesis_whole_refit")["figures"].items():
+        *_, force, centre = row("theory/prosthesis_gap.md", kind, *row_of_planted(one))
+        for cell, name in ((force, "resultant"), (centre, "cop_ground")):
+            told, found, exact = cell.replace("→", " ").replace("(", " ").replace(")", "").split()
+            for part, which in ((told, "told"), (found, "found"), (exact, "planted")):
+                assert near(part, one["held_out"][which][name], 100.0), (kind, cell)
+
+
+def row_of_planted(one: dict[str, Any]) -> tuple[str, str, str]:
+    """Planted, told and found as the page has them: mm of a length, shares with two digits."""
+    length = one["planted"] < 0.1
+    values = [one[name] for name in ("planted", "told", "found")]
+    return tuple(f"{1e3 * value:.0f} mm" if length else f"{value:.2f}" for value in values)  # type: ignore[return-value]
+
+
 def test_the_shoulder_s_cuff() -> None:
     page, told = "theory/shoulder_exoskeleton.md", results("shoulder_cuff")
     for one in told["trial"]:

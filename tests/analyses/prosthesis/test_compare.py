@@ -43,6 +43,7 @@ def written(folder: Path, *settings: str, changed: tuple[str, str] = ("", "")) -
         ('name = "P1_low_1"', 'called = "P1"', "'called' is not known here"),
         ("walking.trc", "running.trc", "there is no file"),
         ('setting = "low"', 'setting = "low"\nlaw = "low.toml"', "there is no file low.toml"),
+        ('setting = "low"', 'setting = "low"\nlaw = "study.toml"', "study.toml.*not known here"),
         ('setting = "low"', 'setting = "low"\nground = "slope:3"', "neither a plane nor stairs"),
     ],
 )

@@ -52,7 +52,7 @@ def test_the_loop_is_the_same_at_any_rate_and_its_work_that_of_the_share() -> No
 
 def test_friction_at_any_bend_widens_the_loop_evenly() -> None:
     """Twice the friction, twice the loop's width in the middle of the way, whatever the load there."""
-    _, poses = pressed(1.0, 201)
+    _, _poses = pressed(1.0, 201)
     widths = []
     for curvature in (0.1, 0.2):
         loop = force(foot(0.0, friction=curvature), 1.0)
