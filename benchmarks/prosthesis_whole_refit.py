@@ -67,16 +67,9 @@ def softer(walked: Walked, value: float) -> Walked:
     )
 
 
-def rubbing(walked: Walked, value: float) -> Walked:
-    """With friction in the keel, that share of its elastic moment; 0 is next to nothing, so that one model serves."""
-    keel = replace(walked.foot.keel, hysteresis=max(value, 1e-6))
-    return replace(walked, foot=VariableStiffnessFoot(keel, walked.foot.sole, walked.foot.law))
-
-
 KINDS: dict[str, tuple[Callable[[Walked, float], Walked], float, float, tuple[float, float]]] = {
     "wrong fulcrum": (further, 0.020, 0.0, (0.0, 0.06)),
     "pistoning": (softer, 0.4, 1.0, (0.1, 2.0)),
-    "keel hysteresis": (rubbing, 0.15, 0.0, (0.0, 0.6)),
 }
 """What changes, planted value, the one that the model is told, and bounds."""
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import cumulative_trapezoid
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from benchmarks.prosthesis_soles import static_share
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, whole_tree
 from geocontact.below_knee_prosthesis.simulate import Stance, share_of_foot, simulate_stance
 from geocontact.below_knee_prosthesis.synthetic.course import course
@@ -54,6 +56,19 @@ def test_force_is_within_a_hundredth_of_body_weight_of_a_finer_tolerance(landing
     )
     off = np.linalg.norm(fine.force - s.force, axis=1) / (77.3 * GRAVITY)
     assert off.max() < 0.01
+
+
+@pytest.mark.slow
+def test_friction_in_the_keel_takes_its_share_of_what_is_stored(landing: Stance) -> None:
+    """While the heel is loaded only: 0.15 of the energy of the springs, and no damper beside it."""
+    usual, s = vsf_foot(), landing
+    keel = replace(usual.keel, hysteresis=0.15, retardation=0.0)
+    foot = VariableStiffnessFoot(keel, usual.sole, usual.law)
+    given = s.motion, foot, s.fulcrum, s.push, (s.time[0], s.time[-1])
+    rubs = simulate_stance(*given, tolerance=3e-4, machine_code=False)
+    assert np.abs(rubs.found.z).max() <= 1.0 + 1e-6
+    assert np.diff(rubs.lost).min() > -1e-4
+    assert rubs.lost[-1] == pytest.approx(0.15 * rubs.stored.max(), rel=0.1)
 
 
 def test_a_person_who_stands_is_carried() -> None:
