@@ -127,7 +127,7 @@ def test_the_real_ankle_s_loops_and_the_intact_foot() -> None:
 
 def test_effects_refitted_over_the_whole_stance() -> None:
     for kind, one in results("prosthesis_whole_refit")["figures"].items():
-        *_, force, centre = row("theory/prosthesis_gap.md", kind, *row_of_planted(one))
+        *_, force, centre = row("theory/prosthesis_gap.md", f"whole: {kind}", *row_of_planted(one))
         for cell, name in ((force, "resultant"), (centre, "cop_ground")):
             told, found, exact = cell.replace("→", " ").replace("(", " ").replace(")", "").split()
             for part, which in ((told, "told"), (found, "found"), (exact, "planted")):

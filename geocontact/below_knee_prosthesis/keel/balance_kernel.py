@@ -202,7 +202,7 @@ def balance(
     Parameters
     ----------
     springs
-        Stiffness, damping, friction over the angle's size, friction at any angle, and the turn over which both build up.
+        Stiffness, damping, friction over the angle's size and at any angle, and the turn over which both build up.
     memory
         Angles and friction over its limit in the frame before.
     planes
