@@ -125,6 +125,22 @@ def test_the_real_ankle_s_loops_and_the_intact_foot() -> None:
                     assert near(cell, one[name], 1.0 if name == "centre r2" else 100.0), (recording, step, name)
 
 
+def test_one_trial_or_one_of_each_setting() -> None:
+    page, told = "theory/prosthesis_calibration.md", results("prosthesis_calibration")["figures"]["P1"]
+    rows_of = {
+        "nothing": ("usual", ""),
+        "medium_1": ("medium_1", ""),
+        "one of each setting": ("one of each setting", ""),
+    }
+    rows_of |= {"no model: mean of the others": ("usual", "mean_"), "no model: another setting": ("usual", "another_")}
+    for label, (key, kind) in rows_of.items():
+        for setting, cell in zip(("low", "medium", "high"), row(page, label), strict=True):
+            own = [one for name, one in told[key]["trials"].items() if name.startswith(setting)]
+            means = [np.mean([one[curve][f"{kind}rmse"] for one in own]) for curve in ("resultant", "cop_ground")]
+            assert all(near(part, float(mean), 100.0) for part, mean in zip(cell.split(", "), means, strict=True)), cell
+    assert f"took {told['seconds']:.1f}" in (ROOT / "docs" / page).read_text(encoding="utf-8")
+
+
 def test_effects_refitted_over_the_whole_stance() -> None:
     for kind, one in results("prosthesis_whole_refit")["figures"].items():
         *_, force, centre = row("theory/prosthesis_gap.md", f"whole: {kind}", *row_of_planted(one))
