@@ -78,6 +78,7 @@ def test_a_person_who_stands_is_carried() -> None:
     assert slid < 2e-3
 
 
+@pytest.mark.slow
 def test_a_person_who_stands_on_a_slope_is_carried_uphill_of_it() -> None:
     """The ground's force stays upright, half of the weight; the foot keeps to the slope and creeps down it."""
     slope = HalfSpace(normal=(-np.sin(0.06), np.cos(0.06), 0.0))
