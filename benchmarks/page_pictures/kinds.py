@@ -37,6 +37,7 @@ KINDS = {
     "prosthesis_calibrate": "prosthesis_calibrate",
     "prosthesis_compare": "prosthesis_compare",
     "prosthesis_design": "prosthesis_design",
+    "shoulder_simulate": "shoulder_simulate",
     "gather": "gap_gather_knee",
     "gap": "gap_diagnose",
     "confuse": "gap_confuse",

@@ -201,7 +201,7 @@ def at_rest(model: ArmModel, device: Device, p: Float[np.ndarray, " p"], inputs:
             raise
         ends = f"{low:.0f} to {high:.0f} deg"
         raise ArithmeticError(
-            f"at the start the arm is at {wanted:.0f}, beyond the stops of elevation ({ends})"
+            f"at the start the arm is at {wanted:.0f} deg, beyond the stops of elevation ({ends})"
         ) from error
     beyond = np.maximum(q - upper, lower - q)
     if np.all(beyond > 0.0):

@@ -63,6 +63,16 @@ def test_elevation_is_that_of_the_laboratory_but_for_the_trunk(walk: MarkerTraje
         assert np.all(np.abs(arm.elevation - np.arccos(-along[:, 1])) <= inclined + 1e-9)
 
 
+def test_a_marker_on_the_biceps_says_where_the_cuff_is(walk: MarkerTrajectories, motions: ArmMotions) -> None:
+    """Beside the arm's axis; along it at 73 and 66 % of the way to the elbow, where 60 % are guessed."""
+    found = arm_motions(walk.renamed({"R.Biceps": "humerus_rdn", "L.Biceps": "humerus_ldn"}))
+    for one, guessed, share in zip(found.arms, motions.arms, (0.73, 0.66), strict=True):
+        np.testing.assert_allclose(one.elevation, guessed.elevation, atol=1e-12)
+        lengths = [np.linalg.norm(arm.interface - arm.shoulder, axis=1) for arm in (one, guessed)]
+        assert 0.6 * lengths[0] / lengths[1] == pytest.approx(np.full(len(one.time), share), abs=0.03)
+    assert "the cuff is taken where humerus_rdn lies along the line from RSHO to RELB" in found.notes[1]
+
+
 def test_a_device_that_nobody_wore_is_simulated_and_doubted(data_dir: Path) -> None:
     """The swinging arms of a walk in a virtual device: no truth, but bounds; exchanged sides are refused."""
     markers = data_dir / "opensim_walk" / "markers_walk.trc"

@@ -89,6 +89,23 @@ def test_a_device_that_was_not_worn_is_attached_to_the_trunk(trial: OverheadTria
     )
 
 
+def test_a_marker_on_the_skin_says_where_along_the_arm_the_cuff_is(trial: OverheadTrial) -> None:
+    """50 mm beside the axis or on it: the cuff is the device's own, 60 % of the way, whatever is guessed."""
+    person, own = worn_by_a_person(trial.markers), arm_motions(trial.markers)
+    axis = person.of(("RELB",))[:, 0] - person.of(("RSHO",))[:, 0]
+    beside = np.cross(axis, [0.3, 0.5, 0.8])
+    beside *= 0.05 / np.linalg.norm(beside, axis=1, keepdims=True)
+    for off in (0.0, beside):
+        skin = trial.markers.of(("humerus_rdn",))[:, 0] + off
+        marked = replace(
+            person, positions=np.append(person.positions, skin[:, None], axis=1), names=(*person.names, "humerus_rdn")
+        )
+        found = arm_motions(marked, MarkerSettings(attachment=Attachment(cuff=0.4)))
+        np.testing.assert_allclose(found.of("right").interface, own.of("right").interface, atol=1e-12)
+        assert "right arm: the cuff is taken where humerus_rdn lies" in found.notes[1]
+        assert "left arm: the cuff is taken 40% of the way" in found.notes[2]
+
+
 def test_sides_that_contradict_the_pelvis_are_refused() -> None:
     """Attached by acromia and pelvis: a person whose shoulders look backwards."""
     names = ("RSHO", "LSHO", "RASI", "LASI", "RPSI", "LPSI")
@@ -174,6 +191,7 @@ def spoilt(markers: MarkerTrajectories, how: str) -> MarkerTrajectories:
         "z up": lambda: markers.turned(Rotation.from_euler("x", 90.0, degrees=True)),
         "gap": lambda: moved(markers, "humerus_ldn", lost),
         "never": lambda: moved(markers, "T10", np.full_like(t10, np.nan)),
+        "no lower seen": lambda: moved(markers, "humerus_rdn", np.full_like(t10, np.nan)),
     }[how]()
 
 
@@ -198,6 +216,7 @@ def spoilt(markers: MarkerTrajectories, how: str) -> MarkerTrajectories:
         ("z up", "the device is inclined 90 degrees from upright; is y up in the file? turn it with `axes`"),
         ("gap", "humerus_ldn is not seen from 1.99 to 2.40 s, 0.41 s; the limit is 0.2 s; fill the gap"),
         ("never", "Lucy_MC, Lucy_Mleft and T10 are never seen together; fill their gaps"),
+        ("no lower seen", "no frame shows both markers of the right upper arm; fill their gaps"),
     ],
 )
 def test_what_cannot_be_right_is_refused_in_one_line(trial: OverheadTrial, how: str, what: str) -> None:

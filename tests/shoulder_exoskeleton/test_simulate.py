@@ -187,7 +187,7 @@ def test_no_rest_is_told() -> None:
 def test_an_arm_beyond_the_stops_is_told() -> None:
     """No equilibrium is found there; what is wrong is the range."""
     narrow = LUCY.having(elevation_lower=np.radians(100.0), elevation_upper=np.radians(120.0))
-    with pytest.raises(ArithmeticError, match=r"the arm is at \d+, beyond the stops of elevation \(100 to 120 deg\)"):
+    with pytest.raises(ArithmeticError, match=r"the arm is at \d+ deg, beyond the stops .* \(100 to 120 deg\)"):
         simulate_arm(lifted(), narrow, WEARER, 0.0)
 
 

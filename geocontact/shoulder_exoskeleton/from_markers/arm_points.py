@@ -29,6 +29,9 @@ class ArmPoints:
 def arm_points(markers: MarkerTrajectories, side: Side, cuff: float) -> ArmPoints | None:
     """Points of one arm; None where the recording has no marker of it, InputError where it has one of two.
 
+    Of a person without the device the lower marker, on the skin beside the arm's axis, says where along the axis the
+    cuff is; without one it is taken at a share.
+
     Parameters
     ----------
     cuff
@@ -38,19 +41,30 @@ def arm_points(markers: MarkerTrajectories, side: Side, cuff: float) -> ArmPoint
     if set(own) <= set(markers.names):
         return ArmPoints(*np.moveaxis(markers.of(own), 1, 0))
     half = [name for name in own if name in markers.names]
-    if half:
+    by_person = set(person) <= set(markers.names)
+    if half and not (by_person and half == [LOWER[side]]):
         missing = next(name for name in own if name not in markers.names)
         raise InputError(markers.source, "", f"no marker {missing}, only {half[0]}", MAP)
-    if not set(person) <= set(markers.names):
+    if not by_person:
         return None
     shoulder, elbow = np.moveaxis(markers.of(person), 1, 0)
+    if half:
+        along = elbow - shoulder
+        share = np.sum((markers.of((half[0],))[:, 0] - shoulder) * along, axis=1) / np.sum(along * along, axis=1)
+        note = f"{side} arm: the cuff is taken where {half[0]} lies along the line from {person[0]} to {person[1]}"
+        return ArmPoints(shoulder, shoulder + share[:, None] * along, note)
     note = f"{side} arm: the cuff is taken {cuff:.0%} of the way from {person[0]} to {person[1]} (invented)"
     return ArmPoints(shoulder, shoulder + cuff * (elbow - shoulder), note)
 
 
 def require_arm_length(source: str, side: Side, points: ArmPoints) -> None:
-    """InputError where the points are farther apart than in any arm, or nearly one point."""
-    apart = float(np.nanmedian(np.linalg.norm(points.interface - points.shoulder, axis=1)))
+    """InputError where the points are farther apart than in any arm, nearly one point, or never seen together."""
+    lengths = np.linalg.norm(points.interface - points.shoulder, axis=1)
+    seen = lengths[np.isfinite(lengths)]
+    if not len(seen):
+        what = f"no frame shows both markers of the {side} upper arm"
+        raise InputError(source, "", what, "fill their gaps, or leave this arm's markers out")
+    apart = float(np.median(seen))
     if not SHORTEST <= apart <= LONGEST:
         what = f"the markers of the {side} upper arm are {apart:.3g} m apart, not {SHORTEST:g} to {LONGEST:g} m"
         raise InputError(source, "", what, "is the unit in the file right? are the markers named right?")
