@@ -9,6 +9,7 @@ measured.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -135,14 +136,14 @@ class Truth:
         for i in range(3):
             if i:
                 arm = places[i] - places[i - 1]
-                acceleration = acceleration + np.cross(spin_rate, arm) + np.cross(spin, np.cross(spin, arm))
-            spin_rate = spin_rate + np.cross(spin, axes[i] * u[i])
+                acceleration = acceleration + _cross(spin_rate, arm) + _cross(spin, _cross(spin, arm))
+            spin_rate = spin_rate + _cross(spin, axes[i] * u[i])
             spin = spin + axes[i] * u[i]
             out = turns[i] @ self.centres[i]
-            linear = np.array([np.cross(axes[j], places[i] + out - places[j]) for j in range(i + 1)])
+            linear = np.array([_cross(axes[j], places[i] + out - places[j]) for j in range(i + 1)])
             inertia = turns[i] @ self.inertias[i] @ turns[i].T
-            at_centre = acceleration + np.cross(spin_rate, out) + np.cross(spin, np.cross(spin, out))
-            moment = inertia @ spin_rate + np.cross(spin, inertia @ spin)
+            at_centre = acceleration + _cross(spin_rate, out) + _cross(spin, _cross(spin, out))
+            moment = inertia @ spin_rate + _cross(spin, inertia @ spin)
             k = slice(0, i + 1)
             mass[k, k] += self.masses[i] * linear @ linear.T + axes[k] @ inertia @ axes[k].T
             bias[k] += self.masses[i] * linear @ at_centre + axes[k] @ moment
@@ -171,7 +172,7 @@ class Truth:
         depth = depth + w["pressed"] * np.maximum(-self.around[:, 1], 0.0)
         at = line[:, None] + d["cuff_radius"] * outwards
         spin = axes.T @ u
-        turning = np.cross(w["along"], w["along_rate"])
+        turning = _cross(w["along"], w["along_rate"])
         arm = w["rate"] + np.cross(turning, self.s[:, None] * w["along"])
         velocity = arm[:, None] + np.cross(turning, d["cuff_radius"] * outwards)
         velocity = velocity - np.cross(spin, at - origin) - self._origin_speed(places, axes, u)
@@ -188,7 +189,7 @@ class Truth:
 
     def _origin_speed(self, places: np.ndarray, axes: np.ndarray, u: np.ndarray) -> np.ndarray:
         """Velocity of the active joint."""
-        return np.cross(axes[0], places[2] - places[0]) * u[0] + np.cross(axes[1], places[2] - places[1]) * u[1]
+        return _cross(axes[0], places[2] - places[0]) * u[0] + _cross(axes[1], places[2] - places[1]) * u[1]
 
     def _lever(self, angle: float) -> float:
         a, b, turned = self.device["lever_a"], self.device["lever_b"], self.device["lever_phase"] + angle
@@ -222,6 +223,7 @@ def measure(
     factors = np.ones(len(time)) if factor is None else factor
     speed, turn = place.derivative(), line.derivative()
 
+    @lru_cache(maxsize=1)  # the columns of a Jacobian are all of one time
     def inputs(t: float) -> dict[str, np.ndarray]:
         d = line(t)
         return {
@@ -280,6 +282,12 @@ def _logged(time: np.ndarray, angle: np.ndarray) -> np.ndarray:
 
 def _cell_area(truth: Truth) -> float:
     return float(truth.device["cuff_length"] / ALONG * 2.0 * np.pi * truth.device["cuff_radius"] / AROUND)
+
+
+def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """a x b of two single vectors; NumPy's, which takes any shape, costs ten times as much."""
+    (x, y, z), (u, v, w) = a.tolist(), b.tolist()
+    return np.array([y * w - z * v, z * u - x * w, x * v - y * u])
 
 
 def _turned(axis: np.ndarray, angle: float) -> np.ndarray:
