@@ -127,15 +127,15 @@ def checks(trials: list[OverheadTrial], sensing: Sensing, onset: float = ONSET) 
 
 
 def test_noise_and_delay_cost_one_per_cent_and_no_chatter(trials: list[OverheadTrial]) -> None:
-    """72 detections: 0.7 % of the time beside perfect sensors, 1.8 % beside truth, most as a lowering begins."""
+    """72 detections: 0.8 % of the time beside perfect sensors, 1.6 % beside truth, most as a lowering begins."""
     found, changed = checks(trials, Sensing())
     assert not any(each.chatter for each in found)
     assert changed < 0.01
-    assert np.mean([each.wrong for each in found]) < 0.02
+    assert np.mean([each.wrong for each in found]) < 0.018
     latencies = np.median([each.latencies for each in found], axis=0)
     assert latencies.argmax() == 3 and latencies[3] < 0.12, "that a lowering has begun is hardest to tell from tremor"
     earlier, _ = checks(trials, Sensing(), onset=0.05)
-    assert 0.02 < np.mean([each.wrong for each in earlier]) < 0.028
+    assert 0.02 < np.mean([each.wrong for each in earlier]) < 0.025
 
 
 def test_delay_costs_what_it_lasts(trials: list[OverheadTrial]) -> None:

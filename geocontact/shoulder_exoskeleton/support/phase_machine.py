@@ -48,7 +48,7 @@ class Thresholds:
     low: float = 0.40
     high: float = 0.87
     up: float = 0.12
-    down: float = 0.28
+    down: float = 0.23
     still: float = 0.30
     on: float = 2.5
     off: float = 1.5
