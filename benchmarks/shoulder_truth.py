@@ -1,9 +1,9 @@
 """Synthetic measurements of a shoulder exoskeleton, by code of its own and a cuff of many cells.
 
 The package's model has one sphere in the cuff; here the arm is a cylinder that presses cell by cell (8 along, 22
-around) against a padded tube, so that it also tilts and turns in it. The equations come from Jacobians in numbers, the
-steps from SciPy's BDF. What is withheld from the model is planted one by one: see `Withheld`. Nothing here was
-measured.
+around) against a padded tube, so that it also tilts and turns in it. The equations come from Jacobians in numbers
+(`benchmarks.shoulder_cells`), the steps from SciPy's BDF. What is withheld from the model is planted one by one: see
+`Withheld`. Nothing here was measured.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
+from benchmarks.shoulder_cells import Bodies, equations, frames_of, pressed_cells, stops_of
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.device import JOINTS, Device, Wearer
 
@@ -97,6 +98,7 @@ class Truth:
         self.cuff = np.array([d["cuff_x"], 0.0, -d["armrest_share"] * wearer.upper_arm])
         self.push = level * 0.25 * np.pi * d["bore"] ** 2 * d["supply"]
         self.range = np.array([[d[f"{joint}_{end}"] for joint in JOINTS] for end in ("lower", "upper")])
+        self.stops = np.array([d[f"stop_{name}"] for name in ("stiffness", "width", "damping")])
         self.damping = np.array([d[f"{joint}_damping"] for joint in JOINTS])
         arm, cylinder = d["arm_mass"], d["cylinder_mass"]
         centre = -(arm * d["arm_centre"] + cylinder * d["cylinder_centre"]) / (arm + cylinder)
@@ -104,106 +106,42 @@ class Truth:
         self.centres = np.array([self.links[0] / 2, self.links[1] / 2, [0.0, 0.0, centre]])
         spread = arm * (d["arm_gyration"] ** 2 + (d["arm_centre"] + centre) ** 2)
         spread += cylinder * (d["cylinder_centre"] + centre) ** 2
-        self.inertias = [
+        inertias = [
             *(m / 12.0 * (v @ v * np.eye(3) - np.outer(v, v)) for m, v in zip(self.masses, self.links, strict=False)),
             np.diag([spread, spread, arm * THIN**2]),
         ]
+        self.inertias = np.array(inertias)
         self.mu = np.array([d["mu_s"], d["mu_k"]])
         self.s = (np.arange(ALONG) + 0.5) / ALONG * d["cuff_length"] - 0.5 * d["cuff_length"]
         angle = 2.0 * np.pi * (np.arange(AROUND) + 0.5) / AROUND
         self.around = np.column_stack([np.cos(angle), np.sin(angle)])  # medial, raising
         self.k, self.b = (4.0 * d[name] / (ALONG * AROUND) for name in ("k", "b"))
 
-    def frames(self, q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def frames(self, q: np.ndarray) -> Bodies:
         """Rotations (3, 3, 3), joints' places (3, 3) and axes (3, 3) in the device's frame."""
-        turn, place = np.eye(3), self.base
-        turns, places, axes = [], [], []
-        for i in range(3):
-            if i:
-                place = place + turn @ self.links[i - 1]
-            axes.append(turn @ self.axes[i])
-            turn = turn @ _turned(self.axes[i], q[i])
-            turns.append(turn)
-            places.append(place)
-        return np.array(turns), np.array(places), np.array(axes)
+        return frames_of(q, self.axes, self.base, self.links)
 
     def rates(self, state: np.ndarray, w: dict[str, np.ndarray]) -> np.ndarray:
         """Derivative of (q, u, force of the cylinder)."""
         q, u, force = state[:3], state[3:6], state[6]
-        turns, places, axes = self.frames(q)
-        mass, bias = np.zeros((3, 3)), np.zeros(3)
-        spin, spin_rate, acceleration = np.zeros(3), np.zeros(3), -w["gravity"]
-        for i in range(3):
-            if i:
-                arm = places[i] - places[i - 1]
-                acceleration = acceleration + _cross(spin_rate, arm) + _cross(spin, _cross(spin, arm))
-            spin_rate = spin_rate + _cross(spin, axes[i] * u[i])
-            spin = spin + axes[i] * u[i]
-            out = turns[i] @ self.centres[i]
-            linear = np.array([_cross(axes[j], places[i] + out - places[j]) for j in range(i + 1)])
-            inertia = turns[i] @ self.inertias[i] @ turns[i].T
-            at_centre = acceleration + _cross(spin_rate, out) + _cross(spin, _cross(spin, out))
-            moment = inertia @ spin_rate + _cross(spin, inertia @ spin)
-            k = slice(0, i + 1)
-            mass[k, k] += self.masses[i] * linear @ linear.T + axes[k] @ inertia @ axes[k].T
-            bias[k] += self.masses[i] * linear @ at_centre + axes[k] @ moment
-        joint = -self.damping * u + self._stops(q, u)
+        frames = self.frames(q)
+        mass, bias = equations(frames, u, w["gravity"], self.centres, self.masses, self.inertias)
+        joint = -self.damping * u + stops_of(q, u, self.range, self.stops) + self.contact(frames, u, w)[0]
         joint[2] += force * self._lever(q[2]) - self.withheld.seal * np.tanh(u[2] / SLOW)
-        on_arm, at, _ = self.contact(turns, places, axes, u, w)
-        per_joint = np.cross(axes[:, None, None], at - places[:, None, None])  # what each joint moves each cell by
-        joint -= np.einsum("jabx,abx->j", per_joint, on_arm)
         lag = (self.push * w["factor"] - force) / self.device["lag"]
         return np.concatenate([u, np.linalg.solve(mass, joint - bias), [lag]])
 
-    def contact(
-        self, turns: np.ndarray, places: np.ndarray, axes: np.ndarray, u: np.ndarray, w: dict[str, np.ndarray]
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Force on the human arm at each cell (a, b, 3) [N], where it acts [m], and the cells' normal forces [N]."""
-        d = self.device
-        turn, origin = turns[2], places[2]
-        distal, medial, raising = -turn[:, 2], turn[:, 0], -turn[:, 1]
-        middle = origin + turn @ self.cuff
-        outwards = self.around[:, :1] * medial + self.around[:, 1:] * raising  # (b, 3)
-        line = w["place"] + self.s[:, None] * w["along"]  # the arm's axis under each ring (a, 3)
-        offset = line - middle
-        radial = offset @ outwards.T  # (a, b)
-        inside = np.abs(offset @ distal) < 0.5 * d["cuff_length"]
-        depth = radial - self.withheld.gap + self.withheld.strap
-        depth = depth + w["pressed"] * np.maximum(-self.around[:, 1], 0.0)
-        at = line[:, None] + d["cuff_radius"] * outwards
-        spin = axes.T @ u
-        turning = _cross(w["along"], w["along_rate"])
-        arm = w["rate"] + np.cross(turning, self.s[:, None] * w["along"])
-        velocity = arm[:, None] + np.cross(turning, d["cuff_radius"] * outwards)
-        velocity = velocity - np.cross(spin, at - origin) - self._origin_speed(places, axes, u)
-        closing = np.einsum("abx,bx->ab", velocity, outwards)
-        soft = np.clip(depth / d["delta_full"], 0.0, 1.0)
-        damping = self.b * np.maximum(closing, 0.0) * soft * soft * (3.0 - 2.0 * soft)
-        pressing = np.where(inside[:, None], self.k * np.maximum(depth, 0.0) + damping, 0.0)
-        sliding = velocity - closing[..., None] * outwards
-        speed = np.sqrt(np.einsum("abx,abx->ab", sliding, sliding)) + 1e-12
-        node = speed / d["v_th"]
-        mu = np.interp(node, [0.0, 1.0, 1.5, 3.0], [0.0, self.mu[0], self.mu[0], self.mu[1]])
-        force = -pressing[..., None] * (outwards + (mu / speed)[..., None] * sliding)
-        return force, at, pressing
-
-    def _origin_speed(self, places: np.ndarray, axes: np.ndarray, u: np.ndarray) -> np.ndarray:
-        """Velocity of the active joint."""
-        return _cross(axes[0], places[2] - places[0]) * u[0] + _cross(axes[1], places[2] - places[1]) * u[1]
+    def contact(self, frames: Bodies, u: np.ndarray, w: dict[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+        """Torque of the arm on each joint [N m], and the normal force at each cell (a, b) [N]."""
+        d, more = self.device, self.withheld
+        law = (0.5 * d["cuff_length"], d["cuff_radius"], more.strap - more.gap, d["delta_full"], self.k, self.b)
+        arm = (w["place"], w["rate"], w["along"], w["along_rate"])
+        cuff = (self.cuff, self.s, self.around)
+        return pressed_cells(frames, u, arm, cuff, np.array([*law, *self.mu, d["v_th"]]), float(w["pressed"]))
 
     def _lever(self, angle: float) -> float:
         a, b, turned = self.device["lever_a"], self.device["lever_b"], self.device["lever_phase"] + angle
         return float(a * b * np.sin(turned) / np.sqrt(a * a + b * b - 2.0 * a * b * np.cos(turned)))
-
-    def _stops(self, q: np.ndarray, u: np.ndarray) -> np.ndarray:
-        d = self.device
-        torque = np.zeros(3)
-        for end, sign in ((0, 1.0), (1, -1.0)):
-            beyond = np.maximum(sign * (self.range[end] - q), 0.0)
-            soft = np.minimum(beyond, d["stop_width"])
-            ramp = soft * soft / (2.0 * d["stop_width"]) + beyond - soft
-            torque += sign * d["stop_stiffness"] * ramp * np.maximum(1.0 - sign * d["stop_damping"] * u, 0.0)
-        return torque
 
 
 def measure(
@@ -247,7 +185,7 @@ def measure(
     cells = np.empty((len(time), ALONG, int(under.sum())))
     force = np.empty(len(time))
     for k, t in enumerate(time):
-        pressing = truth.contact(*truth.frames(angles[k]), found.y[3:6, k], inputs(t))[2]
+        pressing = truth.contact(truth.frames(angles[k]), found.y[3:6, k].copy(), inputs(t))[1]
         cells[k] = pressing[:, under] / _cell_area(truth)
         force[k] = float((pressing[:, under] * -truth.around[under, 1]).sum())
     mat = np.round((force + rng.normal(0.0, MAT[0], len(time))) / MAT[1]) * MAT[1]
@@ -282,16 +220,3 @@ def _logged(time: np.ndarray, angle: np.ndarray) -> np.ndarray:
 
 def _cell_area(truth: Truth) -> float:
     return float(truth.device["cuff_length"] / ALONG * 2.0 * np.pi * truth.device["cuff_radius"] / AROUND)
-
-
-def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """a x b of two single vectors; NumPy's, which takes any shape, costs ten times as much."""
-    (x, y, z), (u, v, w) = a.tolist(), b.tolist()
-    return np.array([y * w - z * v, z * u - x * w, x * v - y * u])
-
-
-def _turned(axis: np.ndarray, angle: float) -> np.ndarray:
-    """cos a 1 + sin a [n]x + (1 - cos a) n n'."""
-    x, y, z = axis
-    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.cos(angle) * np.eye(3) + np.sin(angle) * skew + (1.0 - np.cos(angle)) * np.outer(axis, axis)
