@@ -2,8 +2,8 @@
 
 Synthetic: finer 3-D code makes logger and mat of four trials of one participant. Two devices: `held`, whose passive
 joints are locked and whose arms are raised in a plane, which is what a base model can be asked about; and `free`, the
-whole device along the whole motion, cuff of eight rings, the paper's friction. Recordings are kept in OUT; a quarter
-of an hour of processor time for all.
+whole device along the whole motion, cuff of eight rings, the paper's friction. Recordings are kept in OUT; some
+minutes of processor time for all.
 
 What the base model cannot have is kept out of `held`, else all cases are one gap: the passive joints are locked, the
 arms are raised in the plane of the active joint about a shoulder that stays, gravity lies in it. Cells lie on one ring,

@@ -148,6 +148,24 @@ def fitted(trials: list[Seen], device: Device, what: tuple[Added, ...]) -> np.nd
     return np.asarray(found.x)
 
 
+def as_a_surface(device: Device) -> Device:
+    """Without interference, and layers of which half of the wall gives way as the point does: pi r L K / 2 = k."""
+    pad, tissue = (device[f"{name}_thickness"] / device[f"{name}_modulus"] for name in ("pad", "tissue"))
+    share = 2.0 * device["k"] * (pad + tissue) / (np.pi * device["cuff_radius"] * device["cuff_length"])
+    moduli = {f"{name}_modulus": share * device[f"{name}_modulus"] for name in ("pad", "tissue")}
+    return device.having(interference=0.0, **moduli)
+
+
+def of_a_surface(kept: Path, way: Way, kind: str) -> dict[str, float]:
+    """Errors of a cuff that holds by its surface on the held-out trial, nothing fitted."""
+    name = EVALUATION[0]
+    trial, found = trial_of(name), recorded(kept, kind, name, way)
+    wearer, level = wearer_of(trial.participant), float(trial.condition.level or 0.0)
+    s = simulate_arm(motion_of(trial, way), as_a_surface(DEVICES[way]), wearer, level, cuff="surface")
+    exo, force = s.elevation - found.logger, np.maximum(s.told["normal"][:, 2], 0.0) - found.mat
+    return {"exo_deg": float(np.degrees(rms(exo))), "force_N": rms(force)}
+
+
 def judged(kept: Path, way: Way, kind: str, named: list[str], most: int = 2) -> dict[str, Any]:
     """Each effect by itself, and those that were named together: sizes, errors on the held-out trials.
 
@@ -194,6 +212,7 @@ def main() -> None:
     parser.add_argument("--way", choices=list(DEVICES), action="append", help="free unless given")
     parser.add_argument("--short", action="store_true", help="one trial to fit to and one held out instead of two")
     parser.add_argument("--only", choices=list(PLANTED), action="append", help="what was planted; all unless given")
+    parser.add_argument("--cuff", choices=("point", "surface"), default="point", help="surface: errors, nothing fitted")
     asked = parser.parse_args()
     answers = json.loads((RESULTS / "shoulder_gap.json").read_text(encoding="utf-8"))["answers"]
     file = RESULTS / "shoulder_refit.json"
@@ -202,6 +221,11 @@ def main() -> None:
     for way in asked.way or ["free"]:
         found.setdefault(way, {})
         for kind in asked.only or PLANTED:
+            if asked.cuff == "surface":
+                found[way][kind]["before, cuff as a surface"] = of_a_surface(asked.out, way, kind)
+                file.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+                print(f"{way} {kind}, cuff as a surface: {found[way][kind]['before, cuff as a surface']}", flush=True)
+                continue
             one = found[way][kind] = judged(asked.out, way, kind, answers[kind]["named"], 1 if asked.short else 2)
             shown = ", ".join(
                 f"{name} {np.round(each['size'], 3)}: {each['exo_deg']:.2f} deg {each['force_N']:.2f} N"

@@ -3,7 +3,7 @@
 Three synthetic participants, two tasks, two support levels; motion with the device and without it; loggers of both
 arms and the mat on the dominant one by the finer truth of `benchmarks.shoulder_truth`; what the mat's cells read goes
 through `geocontact mat`, whose resultant is the recorded force. OUT/study.toml is what `geocontact shoulder study`
-takes. Half a minute of processor time for each of the twelve trials.
+takes. Some seconds of processor time for each of the twelve trials.
 """
 
 from __future__ import annotations
