@@ -16,6 +16,7 @@ import numpy as np
 from geocontact.dynamics.body_contact import together
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton import (
+    DAMPING,
     LEGS,
     SHIFT,
     STRAP_PARAMETERS,
@@ -40,35 +41,90 @@ STIFFENS = 0.010
 """Where a pad is twice as stiff [m]."""
 SLIPS = 30.0
 """Largest force along the thigh, all pads [N]."""
-DAMPING = 40.0
+PADS_DAMPING = 40.0
 """All pads [N s/m]."""
 PLANTED = np.r_[EVERY_PLANTED, STRAP_PLANTED]
 
 
-def padded_strap(tree: Any, p: Any) -> Strap:
-    """`p` means what it does for the strap that is calibrated: stiffnesses of all pads, and the place of the middle."""
-    from casadi import SX, cross, exp, mtimes, tanh, vertcat
+class Pad:
+    """Place of a strap between both thighs: how far the exoskeleton's is off, and how fast, seen by the person's.
 
-    person, device = tree.bodies["thigh"], tree.bodies["exo_thigh"]
-    normal, tangential, _ = (STRAP_PARAMETERS[k].usual * exp(p[k]) for k in range(3))
-    loads, across, along, energy, normal_energy = [], SX(0), SX(0), SX(0), SX(0)
-    for at in np.linspace(-0.5, 0.5, PADS) * LENGTH:
-        own = mtimes(person.rotation, vertcat(0.0, p[3] + at, 0.0))
-        other = mtimes(device.rotation, vertcat(0.0, p[3] + at - SHIFT, 0.0))
-        gap = device.place + other - person.place - own
-        speed = device.speed + cross(device.spin, other) - person.speed - cross(person.spin, own)
-        off = mtimes(person.rotation.T, gap)
-        rate = mtimes(person.rotation.T, speed - cross(person.spin, gap))
-        pressed = (normal * off[0] * (1.0 + (off[0] / STIFFENS) ** 2) + DAMPING * rate[0]) / PADS
-        sheared = SLIPS * tanh(tangential * off[1] / SLIPS) / PADS + DAMPING * rate[1] / PADS
-        force = LEGS * mtimes(person.rotation, vertcat(pressed, sheared, 0.0))
-        about = cross(device.place + other, force)
-        loads.append({"thigh": (force, about), "exo_thigh": (-force, -about)})
-        across, along = across + pressed, along + sheared
-        energy = energy + 0.5 * LEGS * tangential * off[1] ** 2 / PADS
-        stored = 0.5 * off[0] ** 2 + 0.25 * off[0] ** 4 / STIFFENS**2
-        normal_energy = normal_energy + LEGS * normal * stored / PADS
-    return Strap(together(*loads), across, along, energy, normal_energy)
+    Parameters
+    ----------
+    height
+        Over the person's knee [m].
+    """
+
+    def __init__(self, tree: Any, height: Any) -> None:
+        from casadi import cross, mtimes, vertcat
+
+        self.person, device = tree.bodies["thigh"], tree.bodies["exo_thigh"]
+        own = mtimes(self.person.rotation, vertcat(0.0, height, 0.0))
+        other = mtimes(device.rotation, vertcat(0.0, height - SHIFT, 0.0))
+        gap = device.place + other - self.person.place - own
+        speed = device.speed + cross(device.spin, other) - self.person.speed - cross(self.person.spin, own)
+        self.at = device.place + other
+        self.off = mtimes(self.person.rotation.T, gap)
+        self.rate = mtimes(self.person.rotation.T, speed - cross(self.person.spin, gap))
+
+    def loads(self, across: Any, along: Any) -> dict[str, tuple[Any, Any]]:
+        """Of both legs, where one leg's pad has these forces on the person [N]."""
+        from casadi import cross, mtimes, vertcat
+
+        force = LEGS * mtimes(self.person.rotation, vertcat(across, along, 0.0))
+        about = cross(self.at, force)
+        return {"thigh": (force, about), "exo_thigh": (-force, -about)}
+
+
+@dataclass(frozen=True)
+class PaddedStrap:
+    """Numbers mean what they do for the strap that is calibrated: stiffnesses of all pads, and the place of the middle.
+
+    Parameters
+    ----------
+    stiffens
+        Where a pad is twice as stiff [m].
+    slips
+        Largest force along the thigh, all pads [N].
+    damping
+        Of all pads [N s/m].
+    preload
+        Normal force without displacement, all pads [N].
+    tilt
+        How far the mat is turned against the thigh, so that it sees a part of the force along it [rad].
+    """
+
+    stiffens: float = np.inf
+    slips: float = np.inf
+    damping: float = DAMPING
+    preload: float = 0.0
+    tilt: float = 0.0
+
+    def __call__(self, tree: Any, p: Any) -> Strap:
+        """As `StrapLaw` wants it."""
+        from casadi import SX, exp, tanh
+
+        normal, tangential, _ = (STRAP_PARAMETERS[k].usual * exp(p[k]) for k in range(3))
+        loads, across, along, energy, normal_energy = [], SX(0), SX(0), SX(0), SX(0)
+        for at in np.linspace(-0.5, 0.5, PADS) * LENGTH:
+            pad = Pad(tree, p[3] + at)
+            off, rate = pad.off, pad.rate
+            stiffer = normal * off[0] * (1.0 + (off[0] / self.stiffens) ** 2)
+            pressed = (stiffer + self.damping * rate[0] + self.preload) / PADS
+            spring = tangential * off[1]
+            held = spring if np.isinf(self.slips) else self.slips * tanh(spring / self.slips)
+            sheared = (held + self.damping * rate[1]) / PADS
+            loads.append(pad.loads(pressed, sheared))
+            across, along = across + pressed, along + sheared
+            energy = energy + 0.5 * LEGS * tangential * off[1] ** 2 / PADS
+            stored = 0.5 * off[0] ** 2 + 0.25 * off[0] ** 4 / self.stiffens**2
+            normal_energy = normal_energy + LEGS * normal * stored / PADS
+        seen = across * np.cos(self.tilt) + along * np.sin(self.tilt)
+        return Strap(together(*loads), seen, along, energy, normal_energy)
+
+
+padded_strap = PaddedStrap(STIFFENS, SLIPS, PADS_DAMPING)
+"""The one that is finer than what is calibrated."""
 
 
 @dataclass(frozen=True, eq=False)

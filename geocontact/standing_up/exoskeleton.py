@@ -79,7 +79,7 @@ class Strap:
 
 
 StrapLaw = Callable[[Tree, "SX"], Strap]
-"""Of what is searched of `STRAP_PARAMETERS`."""
+"""Of what is searched of `STRAP_PARAMETERS` and of what stands behind them."""
 
 
 def two_chains(subject: Subject) -> Multibody:
@@ -103,17 +103,24 @@ def _heavier(body: Body, more: float) -> Body:
     return Body(body.name, body.mass + more, body.centre, body.inertia)
 
 
-def with_exoskeleton(subject: Subject, strap: StrapLaw | None = None, *, seated: bool = False) -> StandingModel:
+def with_exoskeleton(
+    subject: Subject,
+    strap: StrapLaw | None = None,
+    further: tuple[ContactParameter, ...] = (),
+    *,
+    seated: bool = False,
+) -> StandingModel:
     """Nine coordinates: the person's six, then the exoskeleton's; torques of both. The strap is `thigh_strap` unless
-    given; `seated` with the force of a chair among the inputs.
+    given, with `further` parameters behind its usual ones; `seated` with the force of a chair among the inputs.
     """
     from casadi import SX
 
     tree = tree_of(two_chains(subject))
-    p, torque = SX.sym("p", len(WORN_PARAMETERS)), SX.sym("torque", len(tree.names) - 3)
+    parameters = (*WORN_PARAMETERS, *further)
+    p, torque = SX.sym("p", len(parameters)), SX.sym("torque", len(tree.names) - 3)
     along = {name: torque[k] for k, name in enumerate(tree.names[3:])}
     chair = SX.sym("chair", COMPONENTS) if seated else None
-    return worn_model(tree, p, along, torque, WORN_PARAMETERS, strap, chair)
+    return worn_model(tree, p, along, torque, parameters, strap, chair)
 
 
 def worn_model(
@@ -139,7 +146,7 @@ def worn_model(
         Force and moment of a chair, given over time behind the other inputs.
     """
     feet = len(FOOT_PARAMETERS)
-    ground, strap = ground_on_feet(tree, p[:feet, :]), (law or thigh_strap)(tree, p[feet : len(WORN_PARAMETERS), :])
+    ground, strap = ground_on_feet(tree, p[:feet, :]), (law or thigh_strap)(tree, p[feet:, :])
     sat_on = [] if chair is None else [chair]
     loads = together(ground, strap.loads, *(chair_on_person(each) for each in sat_on))
     equations = equations_of_motion(tree, loads=loads, along=along, inputs=[inputs, *sat_on], parameters=[p])

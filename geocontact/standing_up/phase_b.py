@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.contact_parameter import usual
-from geocontact.standing_up.exoskeleton import STRAP, STRAP_PARAMETERS
+from geocontact.standing_up.exoskeleton import STRAP
 from geocontact.standing_up.phase import PhaseProblem, standing_phase
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
@@ -43,7 +43,7 @@ def phase_b(
     start
         Where the search of the strap's parameters starts, unless at what is believed.
     """
-    held = np.r_[feet, usual(STRAP_PARAMETERS)]
+    held = np.r_[feet, usual(model.parameters[len(feet) :])]
     begin = held if start is None else np.r_[feet, start]
     small = {"energy": LITTLE_ENERGY * model.energy**2}
     return standing_phase(model, subject, trials, noise, free=free, tracks=tracks, small=small, held=held, start=begin)

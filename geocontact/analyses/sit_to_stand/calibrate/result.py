@@ -18,6 +18,7 @@ from geocontact.analyses.sit_to_stand.calibrate.tables import (
     parameters_table,
     profile_table,
 )
+from geocontact.analyses.sit_to_stand.gap_files import write_strap_case
 from geocontact.analyses.sit_to_stand.model_file import write_standing_model
 from geocontact.analyses.sit_to_stand.solution_file import write_solution
 from geocontact.analyses.sit_to_stand.standing_figure import standing_figure
@@ -90,6 +91,8 @@ class StandingCalibrateResult(Result):
             write_solution(folder / f"solution_{trial.recorded.name}.sto", trial, self.found.solved)
         values = {n.name: n.value for n in self.phases[-1].numbers.numbers}
         write_standing_model(folder / "model.osim", self.given.subject, values, worn=self.given.exoskeleton)
+        if self.given.exoskeleton:
+            write_strap_case(folder / "gap", self.given.subject, self.given.trials, values, self.given.noise.strap)
         save_both(self.figure(), folder, "standing_up")
         self.write_page(folder / "report.html")
 
