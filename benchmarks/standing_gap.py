@@ -103,7 +103,7 @@ def _kept(file: Path, kind: str, k: int, seed: int) -> StandingTrial:
 
 def gathered(folder: Path, made: Made, held_out: int = HELD_OUT) -> Path:
     """A case by `gap gather`, of the files that `sit-to-stand calibrate` writes."""
-    write_strap_case(folder / "gap", Subject(), made, VALUES, ENCODERS.strap, held_out)
+    write_strap_case(folder / "gap", Subject(), made, VALUES, held_out)
     gc.gather(folder / "gap" / "gather.toml").write(folder / "case")
     return folder / "case"
 

@@ -18,9 +18,9 @@ from geocontact.analyses.sit_to_stand.calibrate.tables import (
     parameters_table,
     profile_table,
 )
+from geocontact.analyses.sit_to_stand.exports import write_motion
 from geocontact.analyses.sit_to_stand.gap_files import write_strap_case
 from geocontact.analyses.sit_to_stand.model_file import write_standing_model
-from geocontact.analyses.sit_to_stand.solution_file import write_solution
 from geocontact.analyses.sit_to_stand.standing_figure import standing_figure
 from geocontact.analyses.sit_to_stand.standing_tables import errors_table, trial_table
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
@@ -87,12 +87,12 @@ class StandingCalibrateResult(Result):
         """Tables, trajectories, model, figure, page."""
         for name, rows in self.tables().items():
             write_table(rows, folder, name)
-        for trial in self.trials:
-            write_solution(folder / f"solution_{trial.recorded.name}.sto", trial, self.found.solved)
         values = {n.name: n.value for n in self.phases[-1].numbers.numbers}
+        for trial in self.trials:
+            write_motion(folder, self.given.subject, trial, values, self.found.solved)
         write_standing_model(folder / "model.osim", self.given.subject, values, worn=self.given.exoskeleton)
         if self.given.exoskeleton:
-            write_strap_case(folder / "gap", self.given.subject, self.given.trials, values, self.given.noise.strap)
+            write_strap_case(folder / "gap", self.given.subject, self.given.trials, values)
         save_both(self.figure(), folder, "standing_up")
         self.write_page(folder / "report.html")
 

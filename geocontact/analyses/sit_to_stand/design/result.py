@@ -22,8 +22,8 @@ from geocontact.analyses.sit_to_stand.design.tables import (
     draws_table,
     sensitivity_table,
 )
+from geocontact.analyses.sit_to_stand.exports import write_motion
 from geocontact.analyses.sit_to_stand.model_file import write_standing_model
-from geocontact.analyses.sit_to_stand.solution_file import write_solution
 from geocontact.io.text.results import write_table
 from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS
 from geocontact.standing_up.assistance.peaks import MEASURES
@@ -97,10 +97,10 @@ class StandingDesignResult(Result):
         """Tables, trajectories, model, figure, page."""
         for name, rows in self.tables().items():
             write_table(rows, folder, name)
-        for trial in self.best.trials:
-            write_solution(folder / f"solution_{trial.recorded.name}.sto", trial, self.best.movement.found.solved)
         p = self.best.movement.found.p
         values = {of.name: of.value(float(value)) for of, value in zip(ASSISTED_PARAMETERS, p, strict=True)}
+        for trial in self.best.trials:
+            write_motion(folder, self.given.trials.subject, trial, values, self.best.movement.found.solved)
         write_standing_model(folder / "model.osim", self.given.trials.subject, values, worn=True)
         save_both(self.figure(), folder, "design")
         self.write_page(folder / "report.html")

@@ -12,16 +12,16 @@ import pandas as pd
 
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.result import Result
+from geocontact.analyses.sit_to_stand.exports import write_motion
 from geocontact.analyses.sit_to_stand.predict.figure import strap_figure
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.predict.page import write_prediction_page
 from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
-from geocontact.analyses.sit_to_stand.solution_file import write_solution
 from geocontact.analyses.sit_to_stand.standing_tables import certificate_rows, errors_table, trial_table
 from geocontact.analyses.sit_to_stand.trial_result import DEGREE, TrialResult
 from geocontact.io.text.results import write_table
 from geocontact.standing_up.chain import COORDINATES
-from geocontact.standing_up.exoskeleton import EXO_JOINTS
+from geocontact.standing_up.exoskeleton import EXO_JOINTS, WORN_PARAMETERS
 from geocontact.standing_up.trials import StandingTrial
 
 if TYPE_CHECKING:
@@ -132,9 +132,10 @@ class StandingPredictResult(Result):
         """Tables, trajectories, figure, page."""
         for name, rows in self.tables().items():
             write_table(rows, folder, name)
+        values = {of.name: of.value(float(p)) for of, p in zip(WORN_PARAMETERS, self.given.p, strict=True)}
         for one in self.predictions:
             if one.name == ALL:
-                write_solution(folder / f"solution_{one.trial.recorded.name}.sto", one.trial, one.solved)
+                write_motion(folder, self.given.trials.subject, one.trial, values, one.solved)
         save_both(self.figure(), folder, "strap")
         self.write_page(folder / "report.html")
 

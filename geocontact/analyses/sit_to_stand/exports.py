@@ -1,0 +1,97 @@
+"""A motion that stands up for other programs: coordinates and external loads for OpenSim, lines for ParaView."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.analyses.sit_to_stand.solution_file import write_solution
+from geocontact.analyses.sit_to_stand.trial_result import TrialResult
+from geocontact.io.opensim.external_loads_writer import write_external_loads
+from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.standing_up.chain import COORDINATES, TRUNK, TURNING, Subject, leg_chain
+from geocontact.standing_up.exoskeleton import EXO_JOINTS, HEIGHT, LEGS, two_chains
+from geocontact.standing_up.strap_force import StrapForce, strap_force
+from geocontact.view.surfaces.line_series import LineSeries, write_line_series
+
+FRAMES = 101
+"""Of what ParaView gets, evenly over the movement."""
+GROUND, STRAP, DEVICE = "ground_force", "strap_force", "strap_back_force"
+PERSON = ("shank", "thigh", "trunk")
+EXOSKELETON = ("exo_shank", "exo_thigh", "exo_module")
+Vectors = Float[np.ndarray, "t 3"]
+
+
+def write_motion(folder: Path, subject: Subject, trial: TrialResult, values: Mapping[str, float], solved: bool) -> None:
+    """solution_NAME.sto, coordinates_NAME.mot, loads_NAME.mot and .xml, forces_NAME.pvd; the model's, not recorded.
+
+    Parameters
+    ----------
+    values
+        Of the parameters, in SI.
+    """
+    name, q, time = trial.recorded.name, trial.model.q, trial.recorded.time
+    write_solution(folder / f"solution_{name}.sto", trial, solved)
+    turning = np.r_[np.array(TURNING), np.ones(q.shape[1] - len(TURNING), bool)]
+    names = (*COORDINATES, *EXO_JOINTS)[: q.shape[1]]
+    title = "Coordinates while standing up"
+    degrees = np.where(turning, np.degrees(q), q)
+    write_storage(folder / f"coordinates_{name}.mot", time, names, degrees, title=title, degrees=True)
+    worn = q.shape[1] > len(COORDINATES)
+    strap = strap_force(subject, q, trial.model.u, values) if worn else None
+    _write_loads(folder, trial, strap)
+    _write_lines(folder, subject, trial, strap)
+
+
+def _write_loads(folder: Path, trial: TrialResult, strap: StrapForce | None) -> None:
+    """Of both feet at their centre of pressure, and of both straps on the person and back on the exoskeleton."""
+    name, none = trial.recorded.name, np.zeros((len(trial.recorded.time), 3))
+    loads: dict[str, tuple[str, Vectors, Vectors, Vectors]] = {
+        GROUND: ("foot", _ground(trial), _centre(trial), none),
+    }
+    if strap is not None:
+        force, moment = LEGS * strap.force, LEGS * strap.moment
+        loads[STRAP] = ("thigh", force, strap.place, moment)
+        loads[DEVICE] = ("exo_thigh", -force, strap.place, -moment)
+    names, columns = [], []
+    for stem, (_, force, place, moment) in loads.items():
+        names += [f"{stem}_{kind}{axis}" for kind in "vp" for axis in "xyz"]
+        names += [f"{stem.replace('force', 'torque')}_{axis}" for axis in "xyz"]
+        columns += [force, place, moment]
+    file, title = f"loads_{name}.mot", "Forces while standing up, both legs"
+    write_storage(folder / file, trial.recorded.time, names, np.hstack(columns), title=title, degrees=False)
+    bodies = {stem: body for stem, (body, *_) in loads.items()}
+    write_external_loads(folder / f"loads_{name}.xml", file, bodies, torques=True)
+
+
+def _write_lines(folder: Path, subject: Subject, trial: TrialResult, strap: StrapForce | None) -> None:
+    """Chains, the ground's force on both feet, and that of one leg's strap on the person."""
+    time = trial.recorded.time
+    kept = np.unique(np.linspace(0, len(time) - 1, FRAMES).round().astype(int))
+    poses = (leg_chain(subject) if strap is None else two_chains(subject)).poses(trial.model.q)
+    tops = [(PERSON, "trunk", TRUNK.length * subject.height)]
+    tops += [] if strap is None else [(EXOSKELETON, "exo_module", HEIGHT)]
+    points, lines, force = [_centre(trial)], [(0,)], [_ground(trial)]
+    for bodies, last, above in tops:
+        lines.append(tuple(range(len(points), len(points) + len(bodies) + 1)))
+        points += [poses[body].translation for body in bodies] + [poses[last].apply(np.array([0.0, above, 0.0]))]
+    if strap is not None:
+        lines.append((len(points), len(points) + 1))
+        points += [strap.own, strap.place]
+        force.append(strap.force)
+    on = np.zeros((len(time), len(points), 3))
+    on[:, 0] = force[0]
+    on[:, -1] = force[-1] if strap is not None else on[:, -1]
+    series = LineSeries(time[kept], np.stack(points, axis=1)[kept], lines)
+    write_line_series(folder, f"forces_{trial.recorded.name}", series, {"force [N]": on[kept]})
+
+
+def _ground(trial: TrialResult) -> Vectors:
+    return np.column_stack([trial.model.force, np.zeros(len(trial.recorded.time))])
+
+
+def _centre(trial: TrialResult) -> Vectors:
+    return np.column_stack([trial.model.centre, np.zeros((len(trial.recorded.time), 2))])

@@ -1,0 +1,128 @@
+"""What is written for other programs: `geocontact id` finds the torques again; OpenSim and ParaView can read it."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.sit_to_stand.exports import write_motion
+from geocontact.analyses.sit_to_stand.model_file import write_standing_model
+from geocontact.analyses.sit_to_stand.trial_result import TrialResult
+from geocontact.io.opensim.external_loads import read_external_loads
+from geocontact.io.text.tables import read_table
+from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.exoskeleton import LEGS, STRAP_PLANTED, WORN_PARAMETERS, with_exoskeleton
+from geocontact.standing_up.feet import EVERY_PLANTED
+from geocontact.standing_up.judged import JudgedMotion
+from geocontact.standing_up.strap_force import strap_force
+from geocontact.standing_up.trials import StandingTrial
+from tests import opensim_oracle
+from tests.elsewhere import Elsewhere
+
+SUBJECT = Subject()
+P = np.r_[EVERY_PLANTED, STRAP_PLANTED]
+VALUES = {each.name: each.value(float(p)) for each, p in zip(WORN_PARAMETERS, P, strict=True)}
+TIME = np.linspace(0.0, 1.0, 101)
+SEATED = np.array([0.0, 0.083, 0.0, -0.4, 1.6, -2.0, -0.42, 1.66, -1.9])
+UP = np.array([0.0, 0.083, 0.0, -0.07, 0.14, -0.14, -0.06, 0.13, -0.1])
+
+
+def moved() -> tuple[TrialResult, np.ndarray, np.ndarray]:
+    """Both chains rise on their own path; torques of the joints, what is left over at the foot, force along the strap.
+
+    Nobody's motion: the foot stands still, whatever the balance asks of the ground.
+    """
+    from casadi import Function
+
+    turn = np.pi * TIME[:, None]
+    q = SEATED + (UP - SEATED) * np.sin(0.5 * turn) ** 2
+    u = (UP - SEATED) * 0.5 * np.pi * np.sin(turn)
+    a = (UP - SEATED) * 0.5 * np.pi**2 * np.cos(turn)
+    model = with_exoskeleton(SUBJECT)
+    e = model.equations
+    outputs = [e.balance, model.force, model.centre, model.strap, model.shear]
+    seen = Function("seen", [e.q, e.u, e.a, e.w, e.p], outputs).map(len(TIME))
+    many = seen(q.T, u.T, a.T, np.zeros((6, len(TIME))), np.tile(P[:, None], (1, len(TIME))))
+    balance, force, centre, strap, shear = (each.full().T for each in many)
+    trial = StandingTrial(TIME, q, u, force, centre[:, 0], "T1", -balance[:, 3:], strap[:, 0])
+    none = np.zeros(len(TIME))
+    return (
+        TrialResult(recorded=trial, model=trial, acceleration=a, judged=JudgedMotion(None, TIME, none, none)),
+        (-balance[:, :3]),
+        shear[:, 0],
+    )
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("exports")
+    write_motion(folder, SUBJECT, moved()[0], VALUES, True)
+    write_standing_model(folder / "model.osim", SUBJECT, VALUES, worn=True)
+    return folder
+
+
+def test_force_of_the_strap_is_that_of_the_equations() -> None:
+    trial, _, shear = moved()
+    found = strap_force(SUBJECT, trial.model.q, trial.model.u, VALUES)
+    assert trial.model.strap is not None
+    np.testing.assert_allclose(np.linalg.norm(found.force, axis=1), np.hypot(trial.model.strap, shear), rtol=1e-7)
+    assert np.abs(shear).max() > 5.0 and np.abs(found.moment[:, 2]).max() > 1.0
+
+
+def test_inverse_dynamics_of_what_is_written_finds_the_torques(written: Path) -> None:
+    """With the straps as external loads in place of the model's bushing, and with the bushing in place of them."""
+    trial, left, _ = moved()
+    alone = (written / "loads_T1.xml").read_text()
+    first = alone.index("<ExternalForce", alone.index("</ExternalForce>"))
+    (written / "ground.xml").write_text(alone[:first] + alone[alone.index("\t\t</objects>") :])
+    names = with_exoskeleton(SUBJECT).equations.names
+    for loads, exclude in (("loads_T1.xml", "strap"), ("ground.xml", "")):
+        options = {"model": written / "model.osim", "loads": written / loads, "cutoff": 0.0}
+        if exclude:
+            options["exclude"] = exclude
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", gc.InputWarning)  # a strap that hardly presses, a foot that is held
+            found = gc.inverse_dynamics(written / "coordinates_T1.mot", **options)
+        inside = slice(5, -5)  # ends of the spline
+        for k, name in enumerate(names):
+            wanted = left[:, k] if k < 3 else trial.model.torque[:, k - 3]
+            theirs = found.table()[f"{name}_force [N]" if k < 2 else f"{name}_moment [N m]"].to_numpy()
+            np.testing.assert_allclose(theirs[inside], wanted[inside], atol=0.05, err_msg=f"{loads} {name}")
+
+
+def test_lines_over_time_carry_the_forces(written: Path) -> None:
+    trial, _, _ = moved()
+    collection = ET.parse(written / "forces_T1.pvd").getroot()
+    files = [each.get("file") for each in collection.iter("DataSet")]
+    assert len(files) == len(TIME)
+    frame = ET.parse(written / str(files[0])).getroot()
+    (force,) = [each for each in frame.iter("DataArray") if each.get("Name") == "force [N]"]
+    rows = np.array(str(force.text).split(), float).reshape(-1, 3)
+    assert trial.model.strap is not None
+    np.testing.assert_allclose(rows[0, :2], trial.model.force[0], rtol=1e-5)
+    of_strap = strap_force(SUBJECT, trial.model.q[:1], trial.model.u[:1], VALUES).force[0]
+    np.testing.assert_allclose(rows[-1], of_strap, rtol=1e-5, atol=1e-9)
+    assert (rows[1:-1] == 0.0).all()
+
+
+def test_straps_push_back_on_the_exoskeleton(written: Path) -> None:
+    data, loads = read_external_loads(written / "loads_T1.xml")
+    assert [load.body for load in loads] == ["foot", "thigh", "exo_thigh"]
+    table = read_table(data)
+    one, other = (table.column(f"strap_{name}_vx") for name in ("force", "back_force"))
+    np.testing.assert_array_equal(one, -other)
+    trial, _, _ = moved()
+    whole = np.hypot(one, table.column("strap_force_vy"))
+    own = strap_force(SUBJECT, trial.model.q, trial.model.u, VALUES).force
+    np.testing.assert_allclose(whole, LEGS * np.linalg.norm(own, axis=1), rtol=1e-8)
+
+
+@pytest.mark.oracle
+def test_opensim_reads_the_loads(opensim: Elsewhere, written: Path) -> None:
+    loads = opensim(opensim_oracle.external_loads, written / "loads_T1.xml")
+    assert [load[1] for load in loads] == ["foot", "thigh", "exo_thigh"]
