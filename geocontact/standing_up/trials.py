@@ -237,9 +237,13 @@ def recorded(
     name: str = "trial",
 ) -> StandingTrial:
     """What encoders, plates and mats record of a motion, `rate` samples a second."""
-    rng = np.random.default_rng(seed)
     time = np.linspace(motion.breaks[0], motion.breaks[-1], round(rate * float(np.ptp(motion.breaks))) + 1)
-    true = seen_in(model, motion, p, time, name)
+    return with_noise(seen_in(model, motion, p, time, name), model, noise, seed)
+
+
+def with_noise(true: StandingTrial, model: StandingModel, noise: StandingNoise, seed: int) -> StandingTrial:
+    """A trial that was seen perfectly, with white noise on every channel."""
+    rng = np.random.default_rng(seed)
 
     def off(of: Float[np.ndarray, "t ..."], size: float | Float[np.ndarray, " n"]) -> Float[np.ndarray, "t ..."]:
         return np.asarray(of + size * rng.normal(size=of.shape))
@@ -248,4 +252,4 @@ def recorded(
     u, force, centre = off(true.u, noise.rate), off(true.force, noise.force), off(true.centre, noise.centre)
     torque = None if true.torque is None else off(true.torque, noise.torque)
     strap = None if true.strap is None else off(true.strap, noise.strap)
-    return StandingTrial(time, q, u, force, centre, name, torque, strap)
+    return StandingTrial(true.time, q, u, force, centre, true.name, torque, strap)

@@ -56,9 +56,8 @@ def run(tmp_path, monkeypatch):
 
 
 def test_there_is_one_for_each_part():
-    assert {"contact_area", "gap", "gap_own_model", "knee", "mat", "elbow", "motion", "prosthesis", "shoulder"} <= {
-        notebook.stem for notebook in NOTEBOOKS
-    }
+    named = ("contact_area", "gap", "gap_own_model", "knee", "mat", "elbow", "motion", "prosthesis", "shoulder")
+    assert {*named, "sit_to_stand"} <= {notebook.stem for notebook in NOTEBOOKS}
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
@@ -297,6 +296,24 @@ def test_prosthesis_says_what_the_commands_say(run, tmp_path):
         assert line in said, "the command says something else"
     for name in ("segments.csv", "joints.csv", "amputee.osim"):
         assert (made / name).read_bytes() == (out / name).read_bytes(), name
+
+
+@pytest.mark.slow
+@pytest.mark.long
+@pytest.mark.filterwarnings("default")  # of the notebook machinery itself
+def test_sit_to_stand_says_what_the_command_says(run, tmp_path):
+    said = run(ROOT / "notebooks" / "sit_to_stand.ipynb")
+    assert "3 of 3 motions certified" in said and "standing_up.html written" in said
+    out, worn = tmp_path / "command", MESHES / "standing_up_exoskeleton"
+    options = ("--parameters", worn / "truth.csv", "--against", worn / "study.toml", "--nodes", 30, "--out", out)
+    with unpictured():
+        one = done(call("sit-to-stand", "predict", MESHES / "standing_up_held_out" / "study.toml", *options))
+    for line in said_of([one]):
+        assert line in said, "the command says something else"
+    tables = sorted(file.name for file in out.glob("*.csv"))
+    assert len(tables) == 3
+    for name in tables:
+        assert (tmp_path / "standing-result" / "predicted" / name).read_bytes() == (out / name).read_bytes(), name
 
 
 ONLY = {"geocontact", "pandas", "matplotlib", "matplotlib.pyplot", "pathlib"}

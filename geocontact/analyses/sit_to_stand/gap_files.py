@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pandas as pd
 
-from geocontact.identify.signals.zero_lag import zero_lag
 from geocontact.io.text.results import write_table
 from geocontact.io.text.written_units import CASES
 from geocontact.standing_up.chain import Subject
@@ -16,7 +15,7 @@ from geocontact.standing_up.exoskeleton import DAMPING
 from geocontact.standing_up.strap_motion import StrapMotion, strap_motion
 from geocontact.standing_up.trials import StandingTrial
 
-TEXT = """# One strap at the thigh: displacements of both chains as recorded, beside what the mat sees; up to 6 Hz.
+TEXT = """# One strap at the thigh: displacements of both chains as recorded, beside what the mat sees.
 # Trials of the calibration are no held-out ones: put trials that it did not use in their place.
 format = 1
 system = "sit_to_stand"
@@ -40,8 +39,6 @@ unit = "m"
 """
 ROOM = 10.0
 """Factor on the stiffness within which a fit may move it."""
-CUTOFF = 6.0
-"""Of displacements and mat, the study's [Hz]: a stiff strap makes newtons of every tenth of a degree."""
 
 
 def write_strap_case(
@@ -53,23 +50,21 @@ def write_strap_case(
 ) -> None:
     """NAME_strap.csv (displacements), NAME_mat.csv (normal force) and gather.toml, the last `held_out` to evaluate on.
 
-    Nothing for fewer trials than that and one more, or where they have too few samples a second to be low-passed.
+    Nothing for fewer trials than that and one more.
 
     Parameters
     ----------
     values
         Of the strap's parameters, in SI.
     """
-    if len(trials) <= held_out or min(trial.rate for trial in trials) <= 2.0 * CUTOFF:
+    if len(trials) <= held_out:
         return
     folder.mkdir(parents=True, exist_ok=True)
     for trial in trials:
-        moved = motion_table(trial, strap_motion(subject, trial.q, values["strap place"]))
+        moved = strap_motion(subject, trial.q, values["strap place"])
+        write_table(motion_table(trial, moved), folder, f"{trial.name}_strap", CASES)
         mat = pd.DataFrame({"time [s]": trial.time, "thigh_force [N]": trial.strap})
-        for name, table in (("strap", moved), ("mat", mat)):
-            columns = table.columns[1:]
-            table[columns] = zero_lag(table[columns].to_numpy(), 1.0 / trial.rate, CUTOFF)
-            write_table(table, folder, f"{trial.name}_{name}", CASES)
+        write_table(mat, folder, f"{trial.name}_mat", CASES)
     names = [trial.name for trial in trials]
     sources = "".join(f'[from.{n}]\ninputs = "{n}_strap.csv"\noutputs = "{n}_mat.csv"\n\n' for n in names)
     stiffness = values["strap normal"]
