@@ -148,8 +148,7 @@ def _solved(
     low, high = on.bounds()
     start = {"x0": on.guess()}
     if warm is not None:
-        durations = [float(m.breaks[-1] - m.breaks[0]) for m in warm.motions]
-        start["x0"] = on.packed(warm.p, durations, [m.state for m in warm.motions], [m.control for m in warm.motions])
+        start["x0"] = on.again(warm.p, warm.motions) if _same_mesh(on, warm) else on.resampled(warm.p, warm.motions)
         if len(warm.multipliers[0]) == on.size:
             start |= {"lam_x0": warm.multipliers[0], "lam_g0": warm.multipliers[1]}
     watch = _watch(program, progress)
@@ -191,6 +190,11 @@ def _solved(
         on.meshes,
         (np.array(answer["lam_x"]).ravel(), np.array(answer["lam_g"]).ravel()),
     )
+
+
+def _same_mesh(on: Transcription, warm: CollocationResult) -> bool:
+    same = all(len(a) == len(b) and np.array_equal(a, b) for a, b in zip(on.meshes, warm.meshes, strict=True))
+    return same and all(np.array_equal(m.scheme.points, on.scheme.points) for m in warm.motions)
 
 
 def _settings(o: SolverOptions, warm: bool, multipliers: bool, seconds: float) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -135,6 +136,23 @@ class Transcription:
             at_nodes = of_x(nodes)
             inner = np.concatenate([states, controls], axis=2).reshape(len(points), -1)
             parts.append(np.r_[duration, np.hstack([at_nodes[:-1], inner]).ravel(), at_nodes[-1]])
+        return np.asarray(np.concatenate(parts) / self.scale)
+
+    def resampled(self, p: Vector, motions: Sequence[CollocatedMotion]) -> Vector:
+        """Scaled variables of motions on other meshes."""
+        durations = [float(m.breaks[-1] - m.breaks[0]) for m in motions]
+        return self.packed(p, durations, [m.state for m in motions], [m.control for m in motions])
+
+    def again(self, p: Vector, motions: Sequence[CollocatedMotion]) -> Vector:
+        """Scaled variables of what `unpacked` gave on the same meshes.
+
+        As courses, Radau's last point of an interval would have the control of the next one.
+        """
+        parts = [p]
+        for motion in motions:
+            inner = np.concatenate([motion.states[:, 1:], motion.controls], axis=2).reshape(len(motion.states), -1)
+            steps = np.hstack([motion.states[:, 0], inner]).ravel()
+            parts.append(np.r_[motion.breaks[-1] - motion.breaks[0], steps, motion.end])
         return np.asarray(np.concatenate(parts) / self.scale)
 
     def unpacked(self, z: Vector) -> tuple[Vector, tuple[CollocatedMotion, ...]]:
