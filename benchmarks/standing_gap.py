@@ -34,7 +34,7 @@ from geocontact.standing_up.exoskeleton import STRAP_PARAMETERS, STRAP_PLANTED, 
 from geocontact.standing_up.trials import StandingNoise, StandingTrial, recorded, standing_up, with_noise
 
 ROOT = Path(__file__).resolve().parents[1]
-SEED, RATE, INTERVALS = 34, 100.0, 40
+SEED, RATE, INTERVALS = 34, 100.0, 30
 ENCODERS = StandingNoise(angle=np.radians(0.01))
 NONE = StandingNoise(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 SECONDS = (1.5, 1.3, 1.7, 1.4)

@@ -14,8 +14,10 @@ LARGEST = 1_000_000
 """Bytes."""
 
 
-def read_contact_parameters(path: Path, units: Mapping[str, str]) -> dict[str, float]:
-    """Values by name in SI; InputError where one of `units` is missing, twice there, or in another unit."""
+def read_contact_parameters(
+    path: Path, units: Mapping[str, str], bounds: Mapping[str, tuple[float, float]]
+) -> dict[str, float]:
+    """Values by name in SI; InputError where one of `units` is missing, twice, in another unit or out of bounds."""
     text = text_of(path, LARGEST, "a table of parameters").decode("utf-8")
     rows = csv.DictReader(text.splitlines())
     if not {"parameter", "unit", "value"} <= set(rows.fieldnames or ()):
@@ -36,6 +38,10 @@ def read_contact_parameters(path: Path, units: Mapping[str, str]) -> dict[str, f
             found[name] = math.nan
         if not math.isfinite(found[name]):
             raise InputError(path, f"line {number}", f"{name} is no number", "calibrate it, or write its value")
+        low, high = bounds[name]
+        if not low <= found[name] <= high:
+            what = f"{name} {found[name]:g} {unit} is outside {low:g} to {high:g}"
+            raise InputError(path, f"line {number}", what, "check value and unit")
     missing = [name for name in units if name not in found]
     if missing:
         raise InputError(path, "", f"no {', '.join(missing)}", "calibrate trials with the exoskeleton")
@@ -43,7 +49,10 @@ def read_contact_parameters(path: Path, units: Mapping[str, str]) -> dict[str, f
 
 
 def read_contact_intervals(path: Path, names: Collection[str]) -> dict[str, tuple[float, float]]:
-    """Ends of the intervals of `names` in SI, of those that have one: a held parameter has none."""
+    """Ends of the intervals of `names` in SI, of those that have one: a held parameter has none.
+
+    InputError for an interval without room.
+    """
     rows = csv.DictReader(text_of(path, LARGEST, "a table of parameters").decode("utf-8").splitlines())
     found: dict[str, tuple[float, float]] = {}
     for row in rows:
@@ -52,6 +61,10 @@ def read_contact_intervals(path: Path, names: Collection[str]) -> dict[str, tupl
                 low, high = float(row["lower"]), float(row["upper"])
             except (KeyError, TypeError, ValueError):
                 continue
-            if math.isfinite(low) and low < high:
-                found[row["parameter"]] = low, high
+            if not (math.isfinite(low) and math.isfinite(high)):
+                continue
+            if not low < high:
+                what = f"no room between {low:g} and {high:g}"
+                raise InputError(path, row["parameter"], what, "give lower < upper, or leave both empty")
+            found[row["parameter"]] = low, high
     return found

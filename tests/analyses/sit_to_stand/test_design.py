@@ -31,6 +31,13 @@ def test_options_that_cannot_be_are_refused(given: dict[str, object], words: str
         gc.sit_to_stand.design(HELD_OUT, parameters=TRUTH, **given)
 
 
+def test_an_interval_without_room_is_refused(tmp_path: Path) -> None:
+    table, file = pd.read_csv(TRUTH), tmp_path / "parameters.csv"
+    table.assign(lower=table["value"] + 0.01, upper=table["value"] - 0.01).to_csv(file, index=False)
+    with pytest.raises(gc.InputError, match="stiffness: no room between"):
+        gc.sit_to_stand.design(HELD_OUT, parameters=file, draws=2)
+
+
 def test_a_person_without_an_exoskeleton_is_refused() -> None:
     with pytest.raises(gc.InputError, match="is not of a person with an exoskeleton"):
         gc.sit_to_stand.design(ALONE, parameters=TRUTH)

@@ -47,7 +47,8 @@ def read(o: StandingDesignOptions, record: Record) -> TrialsToHelp:
     if trials.seated:
         remedy = "leave sitting out: a movement that is kept begins at seat-off"
         raise InputError(o.study, "sitting", "has no effect on a design", remedy)
-    values = read_contact_parameters(o.parameters, {each.name: each.unit for each in WORN_PARAMETERS})
+    bounds = {each.name: (each.least, each.most) for each in WORN_PARAMETERS}
+    values = read_contact_parameters(o.parameters, {each.name: each.unit for each in WORN_PARAMETERS}, bounds)
     ends = read_contact_intervals(o.parameters, values)
     record.add_input("`parameters`", o.parameters, parameters=len(values))
     if o.draws and not ends:

@@ -45,6 +45,7 @@ def read(o: StandingPredictOptions, record: Record) -> HeldOutTrials:
             raise InputError(file, "", what, "write exoskeleton = true, and name torques and strap of each trial")
     if trials.subject != known.subject:
         raise InputError(o.study, "mass", "is another person's than the calibration's", "predict trials of one person")
-    values = read_contact_parameters(o.parameters, {each.name: each.unit for each in EVERY})
+    bounds = {each.name: (each.least, each.most) for each in EVERY}
+    values = read_contact_parameters(o.parameters, {each.name: each.unit for each in EVERY}, bounds)
     record.add_input("`parameters`", o.parameters, parameters=len(values))
     return HeldOutTrials(trials, searched(EVERY, [values[each.name] for each in EVERY]), known)
