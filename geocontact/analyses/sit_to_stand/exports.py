@@ -74,7 +74,8 @@ def _write_lines(folder: Path, subject: Subject, trial: TrialResult, strap: Stra
     poses = (leg_chain(subject) if strap is None else two_chains(subject)).poses(trial.model.q)
     tops = [(PERSON, "trunk", TRUNK.length * subject.height)]
     tops += [] if strap is None else [(EXOSKELETON, "exo_module", HEIGHT)]
-    points, lines, force = [_centre(trial)], [(0,)], [_ground(trial)]
+    points, force = [_centre(trial)], [_ground(trial)]
+    lines: list[tuple[int, ...]] = [(0,)]
     for bodies, last, above in tops:
         lines.append(tuple(range(len(points), len(points) + len(bodies) + 1)))
         points += [poses[body].translation for body in bodies] + [poses[last].apply(np.array([0.0, above, 0.0]))]

@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from jaxtyping import Float
@@ -24,6 +24,14 @@ if TYPE_CHECKING:
     from types import FrameType
 
 Vector = Float[np.ndarray, " _"]
+
+
+class Stoppable(Protocol):
+    """A search that looks at `stop` now and then."""
+
+    stop: bool
+
+
 Progress = Callable[[int, float, float], None]
 """Iteration, objective, largest violation of a scaled constraint."""
 
@@ -169,7 +177,7 @@ def _solved(
             "ipopt": settings,
         },
     )
-    with _stopped_by_ctrl_c(watch):
+    with stopped_by_ctrl_c(watch):
         answer = solver(**start, lbx=low, ubx=high, lbg=program.lower, ubg=program.upper)
     status = solver.stats()["return_status"]
     z = np.array(answer["x"]).ravel()
@@ -272,7 +280,7 @@ def _watch(program: SparseProgram, progress: Progress | None) -> Any:
 
 
 @contextmanager
-def _stopped_by_ctrl_c(watch: Any) -> Iterator[None]:
+def stopped_by_ctrl_c(watch: Stoppable) -> Iterator[None]:
     """Ctrl-C asks the search to end; outside of the main thread it does what it did."""
     if threading.current_thread() is not threading.main_thread():
         yield

@@ -19,7 +19,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS
-from geocontact.standing_up.assistance.movement import Movement, Movements
+from geocontact.standing_up.assistance.movement import Movement, Movements, StoppedByHandError
 from geocontact.standing_up.assistance.peaks import MEASURES, ORDER
 from geocontact.standing_up.assistance.room import ROOM
 
@@ -31,6 +31,7 @@ FIRST = 0.15
 """Of the room: the longest first step."""
 NEAR = 1e-3
 """Of the room: a number that near to an end of it is on that end."""
+STOPPED = "interrupted; the last iterate is kept"
 MET = 1e-3
 """Of the limit: so much more is let pass."""
 
@@ -77,7 +78,9 @@ class HelpDesign:
     movements
         One for each of them.
     met
-        Whether the search ended within the limit.
+        Whether the search ended by itself, within the limit.
+    stopped
+        Whether Ctrl-C ended it, so that it is its last iterate.
     ending
         In words.
     price
@@ -96,6 +99,7 @@ class HelpDesign:
     price: float
     on_end: Bool[np.ndarray, " d"]
     slopes: Vector
+    stopped: bool = False
 
     @property
     def value(self) -> float:
@@ -104,14 +108,14 @@ class HelpDesign:
 
 
 def designed(movements: Movements, sets: Float[np.ndarray, "s p"], task: HelpTask, iterations: int = 60) -> HelpDesign:
-    """For all sets of parameters at once: aim and knee are the smooth worst of them.
+    """For all sets of parameters at once: aim and knee are the smooth worst of them. Ctrl-C keeps the last iterate.
 
     Parameters
     ----------
     sets
         What is searched of all parameters; the search starts at the first one's.
 
-    ArithmeticError where no movement is found.
+    ArithmeticError where no movement is found, StoppedByHandError where Ctrl-C came before the first one.
     """
     from scipy.optimize import minimize
 
@@ -137,26 +141,31 @@ def designed(movements: Movements, sets: Float[np.ndarray, "s p"], task: HelpTas
         "fun": lambda d: 1.0 - worst(d, KNEE)[0] / task.knee,
         "jac": lambda d: -worst(d, KNEE)[1][task.index] * room / task.knee,
     }
-    answer: Any = minimize(  # type: ignore[call-overload]
-        lambda d: worst(d, aim)[0] / unit,
-        start,
-        jac=lambda d: worst(d, aim)[1][task.index] * room / unit,
-        bounds=[(0.0, 1.0)] * len(room),
-        constraints=limit,
-        method="SLSQP",
-        options={"maxiter": iterations, "ftol": TOLERANCE},
-    )
-    best = np.clip(np.asarray(answer.x), 0.0, 1.0)
+    done, message, best = False, STOPPED, start
+    try:
+        answer: Any = minimize(  # type: ignore[call-overload]
+            lambda d: worst(d, aim)[0] / unit,
+            start,
+            jac=lambda d: worst(d, aim)[1][task.index] * room / unit,
+            bounds=[(0.0, 1.0)] * len(room),
+            constraints=limit,
+            method="SLSQP",
+            options={"maxiter": iterations, "ftol": TOLERANCE},
+        )
+        done, message, best = bool(answer.success), str(answer.message).lower(), np.asarray(answer.x)
+    except StoppedByHandError:
+        best = np.frombuffer(list(known)[-1])
+    best = np.clip(best, 0.0, 1.0)
     at_end = (best <= NEAR) | (best >= 1.0 - NEAR)
     (_, of_aim), (knee, of_knee) = worst(best, aim), worst(best, KNEE)
     inside = np.array(task.index)[~at_end]
     price = _price(of_aim[inside], of_knee[inside]) if knee >= task.knee * (1.0 - MET) else 0.0
     met = bool(knee <= task.knee * (1.0 + MET))
-    ending = "found" if answer.success and met else f"not found: {str(answer.message).lower()}"
+    stopped = message == STOPPED
+    ending = "found" if done and met else message if stopped else f"not found: {message}"
     rows = with_design(sets, task, low + room * best)
-    return HelpDesign(
-        task, rows, at(best), met and bool(answer.success), ending, price, at_end, of_aim + price * of_knee
-    )
+    slopes = of_aim + price * of_knee
+    return HelpDesign(task, rows, at(best), met and done, ending, price, at_end, slopes, stopped)
 
 
 def with_design(sets: Float[np.ndarray, "s p"], task: HelpTask, searched: Vector) -> Float[np.ndarray, "s p"]:

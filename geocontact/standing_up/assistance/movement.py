@@ -22,6 +22,10 @@ from geocontact.standing_up.trials import StandingTrial
 Vector = Float[np.ndarray, " p"]
 
 
+class StoppedByHandError(ArithmeticError):
+    """Ctrl-C came while a movement was sought."""
+
+
 @dataclass(frozen=True, eq=False)
 class Movement:
     """Of all trials with one set of parameters."""
@@ -39,7 +43,7 @@ class Movements:
     nodes
         Intervals a second.
     told
-        Called before each search.
+        Called before each search; may raise StoppedByHandError.
     """
 
     def __init__(
@@ -57,14 +61,20 @@ class Movements:
         self._last: CollocationResult | None = None
 
     def at(self, p: Vector, *, slopes: bool = True) -> Movement:
-        """ArithmeticError where no movement is found."""
+        """ArithmeticError where no movement is found, StoppedByHandError where Ctrl-C came."""
         self.told()
         problem = habit(self.model, self.subject, self.trials, p)
-        found = solve(problem, self.options, meshes=self.meshes, warm=self._last)
-        if not found.solved and self._last is not None and not found.ending.startswith("interrupted"):
-            found = solve(problem, self.options, meshes=self.meshes)
+        found = self._solved(problem, self._last)
+        if not found.solved and self._last is not None:
+            found = self._solved(problem, None)
         if not found.solved:
             raise ArithmeticError(found.ending)
         self._last = found
         self.solved, self.seconds = self.solved + 1, self.seconds + found.seconds
         return Movement(problem, found, asked(self.model, problem, found, slopes=slopes))
+
+    def _solved(self, problem: ControlProblem, warm: CollocationResult | None) -> CollocationResult:
+        found = solve(problem, self.options, meshes=self.meshes, warm=warm)
+        if found.ending.startswith("interrupted"):
+            raise StoppedByHandError("interrupted")
+        return found

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import os
-import signal
 import threading
 import warnings
-from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +11,6 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.listener import Listener
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
 from geocontact.analyses.sit_to_stand.calibrate.read import read
@@ -25,6 +21,7 @@ from geocontact.io.mocap.force_plates import ForcePlate
 from geocontact.io.opensim.moco_trajectory_writer import write_moco_trajectory
 from geocontact.standing_up.feet import FOOT_PARAMETERS
 from tests import opensim_oracle
+from tests.analyses.sit_to_stand.ctrl_c import Interrupting
 from tests.cli.calls import MESHES
 from tests.elsewhere import Elsewhere
 
@@ -150,28 +147,12 @@ def test_one_shipped_trial_from_files_to_files(tmp_path: Path) -> None:
     assert "num_states=12" in head and len(body.split("\n")[0].split("\t")) == 1 + 12 + 3 + 6
 
 
-class _Interrupting(Listener):
-    """Presses Ctrl-C at the fourth iteration."""
-
-    @contextmanager
-    def stages(self, label: str):  # type: ignore[no-untyped-def]
-        count = 0
-
-        def told(stage: str) -> None:
-            nonlocal count
-            count += 1
-            if count == 4:
-                os.kill(os.getpid(), signal.SIGINT)
-
-        yield told
-
-
 @pytest.mark.slow
 @pytest.mark.skipif(threading.current_thread() is not threading.main_thread(), reason="signals come to the main thread")
 def test_ctrl_c_keeps_the_last_iterate_and_says_so(tmp_path: Path) -> None:
     study = changed(tmp_path, trials=1)
     asked = StandingCalibrateOptions(study, nodes=12.0)
-    record = Record("sit-to-stand calibrate", {}, listener=_Interrupting())
+    record = Record("sit-to-stand calibrate", {}, listener=Interrupting(4))
     found = run(read(asked, record), asked, record)
     assert not found.accepted and found.exit_code == 1
     assert any("interrupted; the last iterate is kept" in line for line in found.warnings)

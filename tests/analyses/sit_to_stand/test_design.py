@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import warnings
 from pathlib import Path
 
@@ -9,6 +10,11 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
+from geocontact.analyses.sit_to_stand.design.read import read
+from geocontact.analyses.sit_to_stand.design.run import run
+from tests.analyses.sit_to_stand.ctrl_c import Interrupting
 from tests.cli.calls import MESHES
 
 ALONE, HELD_OUT = (MESHES / f"standing_up{kind}" / "study.toml" for kind in ("", "_held_out"))
@@ -64,3 +70,23 @@ def test_shipped_trial_from_files_to_files(tmp_path: Path) -> None:
     names = {each.name for each in found.write(tmp_path / "design").iterdir()}
     wanted = {"designs", "chosen", "sensitivity", "certificate", "front", "draws"}
     assert {f"{name}.csv" for name in wanted} | {"solution_P1.sto", "model.osim", "report.html", "design.png"} <= names
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(threading.current_thread() is not threading.main_thread(), reason="signals come to the main thread")
+@pytest.mark.parametrize(("at", "names"), [(5, ["without help", "share alone"]), (1, [])])
+def test_ctrl_c_keeps_the_last_iterate_and_says_so(tmp_path: Path, at: int, names: list[str]) -> None:
+    """At the fifth stage the share alone is sought; at the first there is nothing to keep."""
+    asked = StandingDesignOptions(HELD_OUT, parameters=TRUTH, vary="share,place", nodes=8.0, front=2)
+    record = Record("sit-to-stand design", {}, listener=Interrupting(at))
+    if not names:
+        with pytest.raises(KeyboardInterrupt):
+            run(read(asked, record), asked, record)
+        return
+    found = run(read(asked, record), asked, record)
+    assert [one.name for one in found.designs] == names and not found.front
+    assert not found.accepted and found.exit_code == 1
+    assert any("interrupted after share alone: the last iterate is kept" in line for line in found.warnings)
+    assert found.best.design is not None and found.best.design.stopped
+    found.write(tmp_path / "design")
+    assert (tmp_path / "design" / "report.html").is_file()

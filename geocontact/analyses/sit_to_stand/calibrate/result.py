@@ -91,7 +91,7 @@ class StandingCalibrateResult(Result):
         for trial in self.trials:
             write_motion(folder, self.given.subject, trial, values, self.found.solved)
         write_standing_model(folder / "model.osim", self.given.subject, values, worn=self.given.exoskeleton)
-        if self.given.exoskeleton:
+        if self.phases[-1].name == "B":
             write_strap_case(folder / "gap", self.given.subject, self.given.trials, values)
         save_both(self.figure(), folder, "standing_up")
         self.write_page(folder / "report.html")

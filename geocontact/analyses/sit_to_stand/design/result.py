@@ -70,9 +70,10 @@ class StandingDesignResult(Result):
 
     @property
     def accepted(self) -> bool:
-        """Whether every search found its answer and every motion is certified."""
-        each = (*self.designs, *self.front)
-        return all(one.certified and (one.design is None or one.design.met) for one in each)
+        """Whether every search found its answer, none was left out, and every motion is certified."""
+        each, o = (*self.designs, *self.front), self.options
+        wanted = (2 if o.varied == ("share",) else 3) + int(o.robust) + o.front
+        return len(each) == wanted and all(one.certified and (one.design is None or one.design.met) for one in each)
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`designs`, `chosen`, `sensitivity`, `certificate`; `front` and `draws` where they were asked for."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 
 import numpy as np
 from jaxtyping import Float
@@ -16,10 +15,10 @@ from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult
 from geocontact.analyses.sit_to_stand.design.words import doubt, say
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.data.errors import InputError
-from geocontact.dynamics.collocation.solve import SolverOptions
+from geocontact.dynamics.collocation.solve import SolverOptions, stopped_by_ctrl_c
 from geocontact.standing_up.assistance.assisted_model import SHARE, assisted_model, seen_assisted
 from geocontact.standing_up.assistance.design import KNEE, HelpDesign, HelpTask, designed
-from geocontact.standing_up.assistance.movement import Movement, Movements
+from geocontact.standing_up.assistance.movement import Movement, Movements, StoppedByHandError
 from geocontact.standing_up.assistance.peaks import MEASURES
 from geocontact.standing_up.judged import judged
 from geocontact.standing_up.phase import PhaseProblem
@@ -29,26 +28,33 @@ Vector = Float[np.ndarray, " p"]
 
 
 def run(given: TrialsToHelp, o: StandingDesignOptions, record: Record) -> StandingDesignResult:
-    """Every design; InputError where the person does not stand up with the given parameters."""
+    """Every design; InputError where the person does not stand up with the given parameters.
+
+    Ctrl-C ends the search: what was found until then is the result. KeyboardInterrupt where nothing was.
+    """
     with record.listener.stages("choosing") as stage:
         search = _DesignSearch(given, o, stage)
-        worn = search.worn()
-        designs = [worn, *search.chosen(worn)]
-        front = search.front(worn, designs[-1 if not o.robust else -2])
-        draws = search.drawn(designs)
+        with stopped_by_ctrl_c(search):
+            worn = search.worn()
+            designs = [worn, *search.chosen(worn)]
+            front = search.front(worn, next(one for one in designs[::-1] if one.name != ROBUST))
+            draws = search.drawn(designs)
     result = StandingDesignResult(
         record=record, options=o, given=given, designs=tuple(designs), front=front, draws=draws
     )
-    doubt(result)
+    doubt(result, stopped=search.stop)
     say(result, search.movements.solved, search.movements.seconds)
     return result
 
 
 class _DesignSearch:
-    """The trials' movements, and designs that are sought with them."""
+    """The trials' movements, and designs that are sought with them.
+
+    Once `stop` is set by Ctrl-C it begins nothing new.
+    """
 
     def __init__(self, given: TrialsToHelp, o: StandingDesignOptions, stage: Callable[[str], None]) -> None:
-        self.given, self.o, self.stage, self.now = given, o, stage, WORN
+        self.given, self.o, self.stage, self.now, self.stop = given, o, stage, WORN, False
         self.model = assisted_model(given.trials.subject)
         options = SolverOptions("radau", o.degree, 1, TOLERANCE, o.iterations, o.time_limit)
         trials = given.trials
@@ -58,72 +64,85 @@ class _DesignSearch:
 
     def _told(self) -> None:
         self.stage(f"{self.now}, movement {self.movements.solved + 1}")
+        if self.stop:
+            raise StoppedByHandError("interrupted")
 
     def worn(self) -> CertifiedDesign:
         without = self.given.p.copy()
         without[SHARE] = 0.0
         try:
             movement = self.movements.at(without)
+        except StoppedByHandError as error:
+            raise KeyboardInterrupt from error
         except ArithmeticError as error:
             remedy = "check that they are of this person"
             raise InputError(self.o.parameters, "", f"nobody stands up with these: {error}", remedy) from error
         return self._certified(WORN, float("nan"), None, movement)
 
     def chosen(self, worn: CertifiedDesign) -> list[CertifiedDesign]:
-        """Share alone, then everything, then for the draws too."""
-        alone = self._sought(ALONE, worn, self.o.knee, ("share",), self.given.p[None])
-        if self.o.varied == ("share",):
-            return [self._renamed(alone)]
-        best = self._sought(BEST, worn, self.o.knee, self.o.varied, _start(alone))
-        if not self.o.robust:
-            return [alone, best]
-        sets = np.vstack([_start(best), self.sets])
-        return [alone, best, self._sought(ROBUST, worn, self.o.knee, self.o.varied, sets)]
+        """Share alone, then everything, then for the draws too; KeyboardInterrupt where Ctrl-C came before any."""
+        found: list[CertifiedDesign] = []
+        every = (BEST, self.o.varied)
+        for name, vary in [every] if self.o.varied == ("share",) else [(ALONE, ("share",)), every]:
+            found += self._sought(name, worn, self.o.knee, vary, _start(found[-1]) if found else self.given.p[None])
+        if not found:
+            raise KeyboardInterrupt
+        if self.o.robust:
+            sets = np.vstack([_start(found[-1]), self.sets])
+            found += self._sought(ROBUST, worn, self.o.knee, self.o.varied, sets)
+        return found
 
     def front(self, worn: CertifiedDesign, best: CertifiedDesign) -> tuple[CertifiedDesign, ...]:
         """From no more than without help on down to the limit that was asked for."""
         limits = np.linspace(1.0, self.o.knee, self.o.front + 1)[:-1]
-        found: list[CertifiedDesign] = []
-        start = best
+        found = [best]
         for limit in limits[::-1]:
-            start = self._sought(f"knee at {limit:.3g}", worn, float(limit), self.o.varied, _start(start))
-            found.append(start)
-        return tuple(found[::-1])
+            found += self._sought(f"knee at {limit:.3g}", worn, float(limit), self.o.varied, _start(found[-1]))
+        return tuple(found[:0:-1])
 
     def drawn(self, designs: list[CertifiedDesign]) -> tuple[DrawnGain, ...]:
-        """Draws by the exoskeleton before the last and by the last; those without a movement are left out."""
-        reference, last = designs[-2], designs[-1]
-        if self.o.robust:
-            reference, last = designs[1], designs[-1]
-        index, found = HelpTask(self.o.varied, self.o.aim, 1.0).index, []
+        """Draws by the exoskeleton that the gain is over and by the last; those without a movement are left out."""
+        reference, last = designs[1] if len(designs) > 2 else designs[0], designs[-1]
+        found: list[DrawnGain] = []
+        index = HelpTask(self.o.varied, self.o.aim, 1.0).index
         aim = MEASURES.index(self.o.aim)
-        for k, row in enumerate(self.sets):
+        for k, row in enumerate([] if self.stop else self.sets):
             self.now = f"draw {k + 1}"
-            with suppress(ArithmeticError):
-                values = []
-                for one in (reference, last):
-                    p = row.copy()
-                    p[SHARE:] = one.movement.found.p[SHARE:]
-                    if one is last:
-                        p[index] = last.movement.found.p[index]
+            values = []
+            for one in (reference, last):
+                p = row.copy()
+                p[SHARE:] = one.movement.found.p[SHARE:]
+                if one is last:
+                    p[index] = last.movement.found.p[index]
+                try:
                     values.append(self.movements.at(p, slopes=False).asked.sizes)
+                except StoppedByHandError:
+                    self.stop = True
+                    return tuple(found)
+                except ArithmeticError:
+                    break
+            else:
                 found.append(DrawnGain(float(values[0][aim]), float(values[1][aim]), float(values[1][KNEE])))
         return tuple(found)
 
     def _sought(
         self, name: str, worn: CertifiedDesign, limit: float, vary: tuple[str, ...], sets: Float[np.ndarray, "s p"]
-    ) -> CertifiedDesign:
+    ) -> list[CertifiedDesign]:
+        """One design; none once the search was stopped."""
+        if self.stop:
+            return []
         self.now = name
         knee = limit * float(worn.movement.asked.sizes[KNEE])
         try:
             found = designed(self.movements, sets, HelpTask(vary, self.o.aim, knee))
+        except StoppedByHandError:
+            self.stop = True
+            return []
         except ArithmeticError as error:
             remedy = "vary less, or give more `nodes`"
             raise InputError("", f"`vary`, {name}", f"a movement is not found: {error}", remedy) from error
-        return self._certified(name, limit, found, found.movements[0])
-
-    def _renamed(self, one: CertifiedDesign) -> CertifiedDesign:
-        return CertifiedDesign(BEST, one.limit, one.design, one.movement, one.trials)
+        self.stop |= found.stopped
+        return [self._certified(name, limit, found, found.movements[0])]
 
     def _certified(self, name: str, limit: float, found: HelpDesign | None, movement: Movement) -> CertifiedDesign:
         self.stage(f"{name}, certificate")

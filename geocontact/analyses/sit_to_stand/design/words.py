@@ -13,11 +13,16 @@ from geocontact.standing_up.assistance.peaks import MEASURES, UNITS
 AIMS = {"strap": "peak force of the strap", "energy": "mean energy of the strap"}
 
 
-def doubt(r: StandingDesignResult) -> None:
-    """Searches without an answer, movements without a certificate, numbers at the end of what can be built."""
+def doubt(r: StandingDesignResult, *, stopped: bool) -> None:
+    """Searches without an answer, movements without a certificate, numbers at the end of what can be built.
+
+    `stopped` by Ctrl-C: what was not begun is missing.
+    """
     record = r.record
+    if stopped:
+        record.warn(f"interrupted after {r.best.name}: the last iterate is kept, and what would come next is missing")
     for one in (*r.designs, *r.front):
-        if one.design is not None and not one.design.met:
+        if one.design is not None and not one.design.met and not one.design.stopped:
             record.warn(f"{one.name}: {one.design.ending}; the knee's limit may be out of reach of what varies")
         for trial in one.trials:
             seen = trial.judged.certificate
@@ -28,7 +33,7 @@ def doubt(r: StandingDesignResult) -> None:
     if best is not None and best.on_end.any():
         names = ", ".join(name for name, end in zip(best.task.vary, best.on_end, strict=True) if end)
         record.warn(f"at the end of what can be built, so that the value says where that is: {names}")
-    if len(r.draws) < r.options.draws:
+    if len(r.draws) < r.options.draws and not stopped:
         record.warn(f"{r.options.draws - len(r.draws)} of {r.options.draws} draws have no movement and are left out")
 
 
