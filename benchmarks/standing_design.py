@@ -3,8 +3,7 @@
 Parts: slopes (derivatives of what a movement asks, and of the least of it, against problems solved again), gain (trials
 of a finer simulation calibrated by the commands, an exoskeleton chosen on a trial that was not used, and its gain over
 the share alone in the finer simulation beside the predicted interval), robust (what choosing for draws changes, on the
-shipped trial). Everything is synthetic; numbers of the finer
-strap are invented. Seed 34.
+shipped trial). Everything is synthetic; numbers of the finer strap are invented. Seed 34.
 """
 
 from __future__ import annotations
@@ -177,7 +176,7 @@ def slopes(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def robust(options: argparse.Namespace) -> dict[str, Any]:
-    """On the shipped trial that was not used, with the intervals that part `gain` found: chosen for one set and for all."""
+    """On the shipped trial that was not used, with the intervals of part `gain`: chosen for one set and for all."""
     import pandas as pd
 
     import geocontact as gc
