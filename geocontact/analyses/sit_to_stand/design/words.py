@@ -10,6 +10,8 @@ from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult
 from geocontact.analyses.sit_to_stand.design.tables import in_units
 from geocontact.standing_up.assistance.peaks import MEASURES, UNITS
 
+PARTS = {"share": "of the person's knee torque", "timing": "of the movement"}
+"""What numbers without a unit are parts of."""
 AIMS = {"strap": "peak force of the strap", "energy": "mean energy of the strap"}
 
 
@@ -42,7 +44,7 @@ def say(r: StandingDesignResult, solved: int, seconds: float) -> None:
     record, aim, unit = r.record, MEASURES.index(r.options.aim), UNITS[r.options.aim]
     each = [f"{one.name} {one.movement.asked.sizes[aim]:.3g} {unit}" for one in r.designs]
     record.say(f"{AIMS[r.options.aim]}, smooth: {', '.join(each)}; knee at most {r.options.knee:.0%} of without help")
-    numbers = ", ".join(f"{name} {value:.3g} {of}".strip() for name, value, of in in_units(r.best))
+    numbers = ", ".join(f"{name} {value:.3g} {PARTS.get(name, of)}" for name, value, of in in_units(r.best))
     record.say(f"{r.best.name}: {numbers}")
     gain, (low, high) = r.gain, gain_interval(r.draws)
     also = f", {low:.0%} to {high:.0%} over {counted(len(r.draws), 'draw')}" if np.isfinite(low) else ""
