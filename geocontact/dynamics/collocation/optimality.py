@@ -59,7 +59,7 @@ class OptimalitySystem:
         last[: int(moves.sum())] = everywhere[moves]
         rest = np.flatnonzero(~last)
         band = reverse_cuthill_mckee(matrix[rest][:, rest].tocsr(), symmetric_mode=True)
-        return np.r_[rest[band], np.flatnonzero(last)]
+        return np.asarray(np.r_[rest[band], np.flatnonzero(last)])
 
 
 def optimality_system(problem: ControlProblem, found: CollocationResult) -> OptimalitySystem:
