@@ -305,7 +305,7 @@ def test_sit_to_stand_says_what_the_command_says(run, tmp_path):
     said = run(ROOT / "notebooks" / "sit_to_stand.ipynb")
     assert "3 of 3 motions certified" in said and "standing_up.html written" in said
     out, worn = tmp_path / "command", MESHES / "standing_up_exoskeleton"
-    options = ("--parameters", worn / "truth.csv", "--against", worn / "study.toml", "--nodes", 30, "--out", out)
+    options = ("--parameters", worn / "truth.csv", "--against", worn / "study.toml", "--nodes", 42, "--out", out)
     with unpictured():
         one = done(call("sit-to-stand", "predict", MESHES / "standing_up_held_out" / "study.toml", *options))
     for line in said_of([one]):
