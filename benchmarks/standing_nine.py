@@ -257,7 +257,9 @@ def predict(out: Path, nodes: float, factor: float) -> dict[str, Any]:
 
     study, known = (standing_trials(out / f"{name}.toml", "study", Record("predict", {}))
                     for name in ("prediction", "calibration"))  # fmt: skip
-    values = read_contact_parameters(out / "cal" / "parameters.csv", {each.name: each.unit for each in WORN_PARAMETERS})
+    units = {each.name: each.unit for each in WORN_PARAMETERS}
+    bounds = {each.name: (each.least, each.most) for each in WORN_PARAMETERS}
+    values = read_contact_parameters(out / "cal" / "parameters.csv", units, bounds)
     stiffer = {name: value * (factor if name in SPRINGS else 1.0) for name, value in values.items()}
     p = searched(WORN_PARAMETERS, [stiffer[each.name] for each in WORN_PARAMETERS])
     model, rows = with_exoskeleton(study.subject), []
