@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 Vector = Float[np.ndarray, " _"]
 
 
+@runtime_checkable
 class Stoppable(Protocol):
     """A search that looks at `stop` now and then."""
 
