@@ -1,49 +1,42 @@
-"""What is put on and zeroed anew for every trial differs between trials, and is no effect."""
+"""What is put on and zeroed anew for every trial: directions in which the residual of a trial may lie."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
+import pytest
 
-from geocontact.data.gap.case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.effects.catalogue import candidates
-from geocontact.gap.case.preparation import problem_of
-from geocontact.gap.case.problem import Problem
-from geocontact.gap.selection.model_comparison import base_contender, singles
+from geocontact.gap.case.placement import ANGLE, GAIN, ZERO, placement
+from geocontact.gap.selection.held_out_error import TrialWeight
 from geocontact.systems.elastic_joint.model import JOINT
 
-EITHER = (0.35, -0.1, 0.3, -0.25, 0.2)
-"""Zeros of the torque in five trials, three of them for calibration [N m]; its largest value is 21, its noise 0.2."""
+NOISE = 0.2
+"""Of the torque [N m]."""
 
 
-def spring(zeros: tuple[float, ...]) -> Problem:
-    """A spring that lacks nothing, whose torque had these zeros when it was recorded."""
-    rng, trials = np.random.default_rng(3), []
+def swing(zero: float) -> Trial:
+    """A spring of 60 N m/rad that swings, its torque recorded with this zero [N m]."""
     time = 0.04 * np.arange(120)
-    for pace, zero in zip((0.35, 0.5, 0.7, 0.4, 0.6), zeros, strict=True):
-        angle = 0.35 * np.sin(2.0 * np.pi * pace * time)
-        torque = 60.0 * angle + zero + rng.normal(0.0, 0.2, len(time))
-        signals = Signals(time, np.column_stack([angle, torque]), ("angle", "torque"), ("rad", "N m"))
-        trials.append(Trial(f"{pace}", signals))
-    stiffness = Parameter("k", "N m/rad", 50.0, 10.0, 200.0)
-    told = {"torque": 0.2, "angle": 1e-6}
-    name = "geocontact.systems.elastic_joint.model:JOINT"
-    one = GapCase("swing", name, tuple(trials[:3]), tuple(trials[3:]), (stiffness,), noise=told)
-    return problem_of(one, JOINT.build(one.parameters, one.constants, one.tables))
+    angle = 0.35 * np.sin(3.0 * time)
+    return Trial("", Signals(time, np.column_stack([angle, 60.0 * angle + zero]), ("angle", "torque"), ("rad", "N m")))
 
 
-def test_zeros_of_either_sign_are_no_offset() -> None:
-    problem = spring(EITHER)
-    base = base_contender(problem)
-    offered = [each for each in candidates(problem.system) if each.label == "sensor_offset.torque"]
-    assert max(each.nats for each in singles(problem, base, offered)) - base.nats < 3.0
-    noise = replace(base.judged.noise, varies=problem.usual)
-    whiten, time = problem.whitenings(noise, base.judged.model)[0], 0.04 * np.arange(120)
-    alike = np.full((120, 1), 0.4)
-    moving = 0.4 * np.sign(np.sin(9.0 * time))[:, None]
-    costs = [float((whiten(each[..., None]) ** 2).sum()) for each in (alike, moving)]
-    assert costs[0] < 0.1 * costs[1], "a trial may have a zero of its own for next to nothing"
+def test_a_zero_of_its_own_costs_a_trial_next_to_nothing() -> None:
+    system = JOINT.build((Parameter("k", "N m/rad", 60.0, 10.0, 200.0),), {}, {})
+    trials = (swing(0.1), swing(-0.1))
+    system = system.scaled(trials, {"k": 60.0})
+    columns = placement(system, trials, {"k": 60.0}, ["angle"])[0]
+    predicted = system.simulate(trials[0], {"k": 60.0})
+    largest = float(np.abs(trials[0].column("torque")).max())
+    assert columns.shape == (120, 1, 3)
+    assert columns[..., 0] == pytest.approx(60.0 * ANGLE), "zero of the angle"
+    assert columns[..., 1] == pytest.approx(ZERO * largest, rel=0.02), "zero of the torque"
+    assert columns[..., 2] == pytest.approx(GAIN * predicted), "gain of the torque"
+    weigh = TrialWeight.of(np.ones((120, 1), bool), np.array([NOISE]), columns)
+    alike = np.full((120, 1), 0.1)
+    quick = 0.1 * np.sign(np.sin(40.0 * trials[0].time))[:, None]
+    costs = [float((weigh(each) ** 2).sum()) for each in (alike, quick)]
+    assert costs[0] < 0.05 * costs[1]
+    assert costs[1] > 0.9 * float((quick**2).sum()) / NOISE**2
