@@ -23,6 +23,7 @@ from geocontact.gap.selection.held_out_rules import (
     with_one,
 )
 from geocontact.gap.selection.model_comparison import Contender, base_contender, finished
+from geocontact.gap.selection.surrogate import Surrogate
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case, judged_as
 
@@ -205,6 +206,19 @@ def test_a_little_harm_must_be_sure_beside_what_trials_differ_by(rules: HeldOutR
         weights=tuple(TrialWeight.of(w.present, problem.floor, 0.0 * v) for w, v in zip(weights, makes, strict=True)),
     )
     assert still.ruled_out(one), "where trials differ by nothing it is sure"
+
+
+@pytest.mark.slow
+def test_without_a_gap_nothing_is_called_unknown(rules: HeldOutRules) -> None:
+    """However many nats a surrogate has gained: what it takes of the held-out error must be worth naming."""
+    floor = rules.problem.floor
+    shapes = [part.shape for part in rules.base.model.residuals]
+    noise = [floor * RNG.standard_normal(shape) for shape in shapes]
+    waves = [floor * np.sin(0.7 * np.arange(shape[0]))[:, None] for shape in shapes]
+    for size, counts in ((0.3, False), (2.0, True)):
+        change = tuple(size * wave for wave in waves)
+        found = Surrogate("time within the trial", 900.0, 500.0, 5.0, change, change)
+        assert rules.unnamed(found, [n + m for n, m in zip(noise, change, strict=True)]) is counts
 
 
 @pytest.mark.slow
