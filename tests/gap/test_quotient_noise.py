@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from geocontact.data.parameter import Parameter
 from geocontact.gap.case.quotient_noise import noise_spread
+from geocontact.systems.elastic_joint.model import JOINT
 
-SYSTEM: Any = SimpleNamespace(outputs=("force_y", "cop_x"), quotients={"cop_x": "force_y"})
+PLAIN = JOINT.build((Parameter("k", "N m/rad", 60.0, 10.0, 200.0),), {}, {})
+SYSTEM = replace(PLAIN, balance=replace(PLAIN.balance, outputs=("force_y", "cop_x")), quotients={"cop_x": "force_y"})
 
 
 def test_few_samples_at_small_forces_do_not_outweigh_the_others() -> None:
