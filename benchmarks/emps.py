@@ -10,6 +10,7 @@ import argparse
 import json
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,6 +19,9 @@ from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
+
+if TYPE_CHECKING:
+    from geocontact.gap.diagnose import Findings
 
 HERE = Path(__file__).resolve().parent
 HALF, FIRST = 3.119, 1.56
@@ -45,14 +49,29 @@ def case(data: Path, system: str, parameters: tuple[Parameter, ...]) -> GapCase:
     return GapCase("emps", system, tuple(map(trial, CALIBRATION)), tuple(map(trial, EVALUATION)), parameters)
 
 
-def said(data: Path, rubbing: bool) -> Diagnosis:
-    """The diagnosis, friction in the base or withheld."""
+def findings(data: Path, rubbing: bool) -> Findings:
+    """The diagnosis with all that it rests on, friction in the base or withheld."""
     from benchmarks.emps_model import DRIVE, RUBBING
     from geocontact.gap.diagnose import diagnose
 
     base, parameters = (RUBBING, (*BASE, *FRICTION)) if rubbing else (DRIVE, BASE)
     one = case(data, f"benchmarks.emps_model:{'RUBBING' if rubbing else 'DRIVE'}", parameters)
-    return diagnose(one, base.build(one.parameters, one.constants, one.tables)).diagnosis
+    return diagnose(one, base.build(one.parameters, one.constants, one.tables))
+
+
+def said(data: Path, rubbing: bool) -> Diagnosis:
+    """The diagnosis alone."""
+    return findings(data, rubbing).diagnosis
+
+
+def straight(data: Path) -> float:
+    """Friction [N] by least squares of the calibration trials: mass, damper, sign of the rate, offset."""
+    rows, forces = [], []
+    for trial in case(data, "", BASE).calibration:
+        rate = np.gradient(trial.column("q"), trial.time)
+        rows.append(np.column_stack([np.gradient(rate, trial.time), rate, np.sign(rate), np.ones_like(rate)]))
+        forces.append(trial.column("force"))
+    return float(np.linalg.lstsq(np.concatenate(rows), np.concatenate(forces), rcond=None)[0][2])
 
 
 def main() -> None:
@@ -62,15 +81,18 @@ def main() -> None:
     parser.add_argument("--data", type=Path, default=default, help="folder of the real data (%(default)s)")
     parser.add_argument("--out", type=Path, default=HERE / "results" / "emps.json", help="the JSON")
     options = parser.parse_args()
-    found = {}
+    found: dict[str, Any] = {"least squares [N]": float(f"{straight(options.data):.4g}")}
+    print(found, flush=True)
     for name, rubbing in (("friction withheld", False), ("friction in the base", True)):
-        one = said(options.data, rubbing)
+        whole = findings(options.data, rubbing)
+        one, judged = whole.diagnosis, whole.attribution.answer.chosen.judged.model.values
         limits = {k: v.value for k, v in one.parameters.items() if k.endswith("limit") or k == "F_c"}
         found[name] = {
             "verdict": one.verdict,
             "effects": one.effects,
             "probabilities": {k: round(v, 4) for k, v in one.probabilities.items() if v > 1e-3},
             "limits": {k: float(f"{v:.4g}") for k, v in limits.items()},
+            "judged": {k: float(f"{judged[k]:.4g}") for k in limits},
             "rmse": {k: [float(f"{v:.4g}") for v in (g.rmse_before, g.rmse_after)] for k, g in one.gap.items()},
             "remarks": one.remarks,
             "seconds": round(one.seconds, 1),

@@ -2,7 +2,8 @@
 
 The cases of `geocontact gap benchmark` (`gap_benchmark.drawing`), drawn, written, read back and attributed one after
 the other, systems and laboratories in turns, until all are done or so many minutes are over. What the report adds to a
-verdict costs as much again and changes nothing of it. Every case is added to a file beside the JSON as it is done.
+verdict costs as much again and changes nothing of it. Every case is added to a file beside the JSON as it is done, and
+the same call goes on where a run of the same commit ended.
 """
 
 from __future__ import annotations
@@ -113,6 +114,13 @@ def figures_of(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     return {name: every[name] for name in (*TOLD, "seconds")}
 
 
+def done(log: Path, what: str, chosen: Sequence[Lot]) -> list[dict[str, Any]]:
+    """Rows of these cases that a run of the same commit has written."""
+    written = log.read_text(encoding="utf-8").splitlines() if log.exists() else []
+    asked, rows = [asdict(lot) for lot in chosen], [json.loads(line) for line in written]
+    return [row for row in rows if row.get("commit") == what and row["lot"] in asked]
+
+
 def report(o: argparse.Namespace, what: str, rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """By system, by laboratory, pooled."""
     scopes: dict[str, list[Mapping[str, Any]]] = {"all": list(rows)}
@@ -131,13 +139,14 @@ def main() -> int:
     from geocontact.gap_benchmark.synthetic.cases import NotFoundError
 
     o = arguments()
-    rows, log, what, began = [], o.out.with_suffix(".rows"), commit(), time.monotonic()
+    log, what, began = o.out.with_suffix(".rows"), commit(), time.monotonic()
     chosen = mixed(list(lots(SYSTEMS, o.cases, o.kinds, o.seed, ABROAD if o.laboratory == "abroad" else (HOME,))))
-    for lot in chosen:
+    rows = done(log, what, chosen)
+    for lot in [one for one in chosen if asdict(one) not in [row["lot"] for row in rows]]:
         if time.monotonic() - began > 60.0 * o.minutes:
             break
         try:
-            row = attributed(lot)
+            row = {"commit": what, **attributed(lot)}
         except NotFoundError as error:
             print(f"{lot.system} {lot.laboratory} {lot.place} was not drawn: {error}", flush=True)
             continue

@@ -124,7 +124,7 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
         absorbed=tuple(each.name for each in hidden),
         where=where,
         gap=gap,
-        parameters=estimates(chosen),
+        parameters=estimates(chosen, errors.fitted),
         seconds=time.perf_counter() - began,
         version=version,
         faults=_faults(found),
@@ -133,7 +133,7 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
             *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
             *objection(found),
             *(nearest(found) if said.verdict == "unknown" else ()),
-            *(on_bounds(said.chosen, found.base) if said.effects else ()),
+            *(on_bounds(said.chosen, found.base, errors.fitted, errors.values) if said.effects else ()),
         ),
         next_experiment=then,
     )
@@ -164,12 +164,15 @@ def objection(found: Attribution) -> tuple[str, ...]:
     return (f"{best.label} gains {gain:.0f} nats and is not named: {why}",) if why and gain > SURE else ()
 
 
-def on_bounds(chosen: Contender, base: Contender) -> tuple[str, ...]:
-    """In words which shapes of named effects, and which base parameters only beside them, end on a bound."""
-    system, values, alone = chosen.judged.model.system, chosen.judged.model.values, base.judged.model
-    ended, stays = prior_spread(system, values) == 0.0, prior_spread(alone.system, alone.values) == 0.0
+def on_bounds(chosen: Contender, base: Contender, values: dict[str, float], alone: dict[str, float]) -> tuple[str, ...]:
+    """In words which shapes of named effects, and which base parameters only beside them, end on a bound.
+
+    `values` are the parameters that are told of what is named, `alone` those of the base model.
+    """
+    system, bare = chosen.judged.model.system, base.judged.model.system
+    ended, stays = prior_spread(system, values) == 0.0, prior_spread(bare, alone) == 0.0
     shapes = {p.name for one in chosen.candidates for p in one.parameters[1:]}
-    driven = {p.name for p, on_it in zip(free(alone.system), stays, strict=True) if not on_it}
+    driven = {p.name for p, on_it in zip(free(bare), stays, strict=True) if not on_it}
     names = " + ".join(chosen.names)
     told = []
     for p, on_it in zip(free(system), ended, strict=True):
@@ -192,23 +195,33 @@ def nearest(found: Attribution) -> tuple[str, ...]:
     return (f"nearest of the known effects: {best.label}, which gains {gain:.0f} nats and would remove {parts}{only}",)
 
 
-def estimates(judged: Judged) -> dict[str, Estimate]:
-    """Every free parameter with its interval, from the curvature of the evidence over all trials' weights.
+def estimates(judged: Judged, told: dict[str, float]) -> dict[str, Estimate]:
+    """Every free parameter of the fit that is reported and drawn (`gap.case.measured_fit`), with its interval.
 
-    Intervals are those of the calibration trials: held-out rows are left out of the curvature. Curvature tells nothing
-    of a parameter that ended on a bound: it gets the whole of what is physical, and is not called identified.
+    Parameters
+    ----------
+    judged
+        The model as it was judged: the curvature of its evidence on the calibration trials tells how well its own fit,
+        weighed by noise and variation, knows a parameter. That fit is the more exact one where the form of the model is
+        right, and then the square by which least squares differ from it adds to its variance (Hausman 1978,
+        Econometrica 46:1251). Where the form is not right, the interval holds both.
+    told
+        The values that are reported.
+
+    Curvature tells nothing of a parameter that ended on a bound: it gets the whole of what is physical, and is not
+    called identified.
     """
     system, values = judged.model.system, judged.model.values
     spread = prior_spread(system, values)
-    held = spread == 0.0
+    held = (spread == 0.0) | (prior_spread(system, told) == 0.0)
     scaled = judged.model.whitened_jacobian[: judged.fitted_rows] * spread
     covariance = spread[:, None] * np.linalg.inv(np.eye(len(spread)) + scaled.T @ scaled) * spread
     found = {}
     for k, p in enumerate(free(system)):
-        sd = float(np.sqrt(covariance[k, k])) if not held[k] else np.inf
-        low, high = (min(max(values[p.name] + s * Z95 * sd, p.lower), p.upper) for s in (-1.0, 1.0))
+        sd = float(np.hypot(np.sqrt(covariance[k, k]), told[p.name] - values[p.name])) if not held[k] else np.inf
+        low, high = (min(max(told[p.name] + s * Z95 * sd, p.lower), p.upper) for s in (-1.0, 1.0))
         identified = not held[k] and sd < TOLD * spread[k]
-        found[p.name] = Estimate(values[p.name], (low, high), p.unit, bool(identified))
+        found[p.name] = Estimate(told[p.name], (low, high), p.unit, bool(identified))
     return found
 
 

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from argparse import Namespace
+from dataclasses import asdict
+from pathlib import Path
 
-from benchmarks.gap_verdicts import TOLD, report
+from benchmarks.gap_verdicts import TOLD, done, report
 from geocontact.gap_benchmark.answers import oracle_answer
+from geocontact.gap_benchmark.drawing import Lot
 
 
 def row(system: str, laboratory: str, claimed: tuple[str, ...]) -> dict[str, object]:
@@ -29,3 +33,12 @@ def test_alarms_are_counted_by_system_and_laboratory() -> None:
     pooled = found["figures"]["all"]
     assert pooled["sure_alarms"]["hits"] == pooled["harm_in_sum"]["hits"] == 1
     assert set(TOLD) < set(pooled)
+
+
+def test_a_run_goes_on_where_one_of_the_same_commit_ended(tmp_path: Path) -> None:
+    log, lots = tmp_path / "out.rows", [Lot("knee", "none", 1, place) for place in range(3)]
+    assert done(log, "abc", lots) == []
+    written = [{"commit": what, "lot": asdict(lot)} for what, lot in (("old", lots[0]), ("abc", lots[1]))]
+    log.write_text("".join(json.dumps(one) + "\n" for one in written), encoding="utf-8")
+    assert done(log, "abc", lots) == written[1:]
+    assert done(log, "abc", lots[:1]) == []

@@ -174,9 +174,20 @@ def test_a_number_on_its_bound_has_the_whole_range_for_an_interval() -> None:
     p = next(p for p in problem.system.parameters if p.name == "x")
     n = len(problem.plain.whitened)
     model = replace(problem.plain, values={**problem.plain.values, "x": p.upper}, whitened_jacobian=np.ones((n, 3)))
-    found = estimates(judged_as(model))
+    found = estimates(judged_as(model), model.values)
     assert found["x"].ci95 == (p.lower, p.upper) and not found["x"].identifiable
     assert found["k"].ci95 != (50.0, 1000.0)
+
+
+def test_parameters_are_those_of_the_fit_that_is_drawn_and_their_intervals_hold_the_judged_one() -> None:
+    case = elbow_case(duration=2.0)
+    problem = problem_of(case, system_of(case))
+    judged = judged_as(replace(problem.plain, whitened_jacobian=np.diag([0.1, 1e3, 1e3])))
+    drawn = {**judged.model.values, "k": judged.model.values["k"] + 40.0}
+    near, far = estimates(judged, judged.model.values)["k"], estimates(judged, drawn)["k"]
+    assert far.value == drawn["k"] and far.ci95[0] < judged.model.values["k"] < drawn["k"] < far.ci95[1]
+    widths = [one.ci95[1] - one.ci95[0] for one in (near, far)]
+    assert widths[1] ** 2 - widths[0] ** 2 == pytest.approx((2.0 * 1.959964 * 40.0) ** 2)
 
 
 def test_what_ends_on_a_bound_is_told() -> None:
@@ -193,7 +204,8 @@ def test_what_ends_on_a_bound_is_told() -> None:
         return Contender((one,), judged_as(replace(problem.plain, system=system, values=values)))
 
     def told(*ended: Parameter, base: tuple[Parameter, ...] = ()) -> tuple[str, ...]:
-        return on_bounds(contender(with_it, *ended), contender(problem.system, *base))
+        both = contender(with_it, *ended), contender(problem.system, *base)
+        return on_bounds(*both, *(one.judged.model.values for one in both))
 
     assert told() == ()
     assert told(bend) == (f"the shape {bend.name} ends on its bound, 10 -",)

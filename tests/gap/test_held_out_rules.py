@@ -8,12 +8,22 @@ import numpy as np
 import pytest
 
 from geocontact.effects.catalogue import candidates
+from geocontact.gap.case.change_amplitude import amplitude
 from geocontact.gap.case.preparation import problem_of
-from geocontact.gap.case.problem import evaluated
+from geocontact.gap.case.problem import evaluated, floor_of
 from geocontact.gap.case.refit import refit
-from geocontact.gap.selection.held_out_error import TrialWeight, amplitude, taken_away
-from geocontact.gap.selection.held_out_rules import FEW, TOO_LITTLE, WORTH_NAMING, HeldOutRules, trimmed, with_one
+from geocontact.gap.selection.held_out_error import TrialWeight, taken_away
+from geocontact.gap.selection.held_out_rules import (
+    FEW,
+    ONLY_NOISE,
+    TOO_LITTLE,
+    WORTH_NAMING,
+    HeldOutRules,
+    trimmed,
+    with_one,
+)
 from geocontact.gap.selection.model_comparison import Contender, base_contender, finished
+from geocontact.gap.selection.surrogate import Surrogate
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case, judged_as
 
@@ -155,6 +165,60 @@ def test_the_share_is_that_of_an_error_without_what_base_parameters_differ_by(ru
     rules.fitted[one.label] = [b - s for b, s in zip(both, stiffness, strict=True)]
     assert taken_away(both, rules.fitted[one.label]) > 0.5, "of the error as it is"
     assert replace(rules, base=varied, before=both)._of_share(one) == TOO_LITTLE, "a trial's own stiffness is no effect"
+
+
+@pytest.mark.slow
+def test_a_floor_is_never_above_the_error_itself(rules: HeldOutRules) -> None:
+    problem = rules.problem
+    believed = replace(rules.base.noise, levels=problem.beliefs.middle, varies=100.0 * problem.usual)
+    count = len(problem.calibration.trials)
+    missed = np.sqrt(np.mean(np.concatenate(problem.plain.residuals[:count]) ** 2, axis=0))
+    assert floor_of(problem, believed, problem.plain) == pytest.approx(missed)
+    quiet = replace(believed, varies=0.0 * problem.usual)
+    assert floor_of(problem, quiet, problem.plain) <= missed
+
+
+@pytest.mark.slow
+def test_less_noise_of_the_inputs_is_no_effect(rules: HeldOutRules) -> None:
+    """What goes of the error with inputs as measured, and not with their noise taken off, was that noise."""
+    one = contenders(rules)[0]
+    rules.fitted[one.label] = [0.2 * part for part in rules.before]
+    assert rules._of_share(one) == "" and rules._of_noise(one) == ONLY_NOISE, "the model itself is the base model"
+    assert replace(rules, calm=[part + 2.0 * rules.problem.floor for part in rules.calm])._of_noise(one) == ""
+
+
+@pytest.mark.slow
+def test_a_little_harm_must_be_sure_beside_what_trials_differ_by(rules: HeldOutRules) -> None:
+    """Where trials are stiffer than the others throughout, a little more stiffness looks like harm in every block."""
+    one, problem, count = contenders(rules)[0], rules.problem, len(rules.problem.calibration.trials)
+    stiffness = [jacobian[..., 0] * 2.0 * problem.usual[0] for jacobian in rules.base.model.jacobian[count:]]
+    varied = replace(rules.base, noise=replace(rules.base.noise, varies=problem.usual))
+    makes = [varied.noise.varies * each for each in problem.varied(rules.base.model.jacobian)]
+    weights = [TrialWeight.of(p, problem.floor, v) for p, v in zip(problem.recorded.present, makes, strict=True)]
+    before = [part + 0.1 * problem.floor * RNG.standard_normal(part.shape) for part in stiffness]
+    alike = replace(rules, base=varied, before=before, weights=tuple(weights))
+    for more, ruled_out in ((0.02, False), (0.2, True)):
+        rules.fitted[one.label] = [b + more * s for b, s in zip(before, stiffness, strict=True)]
+        assert alike.ruled_out(one) is ruled_out
+    rules.fitted[one.label] = [1.02 * b + 0.0 * s for b, s in zip(rules.before, stiffness, strict=True)]
+    still = replace(
+        rules,
+        weights=tuple(TrialWeight.of(w.present, problem.floor, 0.0 * v) for w, v in zip(weights, makes, strict=True)),
+    )
+    assert still.ruled_out(one), "where trials differ by nothing it is sure"
+
+
+@pytest.mark.slow
+def test_without_a_gap_nothing_is_called_unknown(rules: HeldOutRules) -> None:
+    """However many nats a surrogate has gained: what it takes of the held-out error must be worth naming."""
+    floor = rules.problem.floor
+    shapes = [part.shape for part in rules.base.model.residuals]
+    noise = [floor * RNG.standard_normal(shape) for shape in shapes]
+    waves = [floor * np.sin(0.7 * np.arange(shape[0]))[:, None] for shape in shapes]
+    for size, counts in ((0.3, False), (2.0, True)):
+        change = tuple(size * wave for wave in waves)
+        found = Surrogate("time within the trial", 900.0, 500.0, 5.0, change, change)
+        assert rules.unnamed(found, [n + m for n, m in zip(noise, change, strict=True)]) is counts
 
 
 @pytest.mark.slow

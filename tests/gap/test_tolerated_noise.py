@@ -15,7 +15,7 @@ from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.plain_fit import plain_fit
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.tolerated_noise import HARM
+from geocontact.gap.case.tolerated_noise import HARM, worse_somewhere
 from geocontact.systems.elastic_joint.model import JOINT
 
 STEP = 0.04
@@ -58,3 +58,13 @@ def test_a_damper_has_the_size_that_was_planted(problem: Problem) -> None:
     (damper,) = [one for one in candidates(problem.system) if one.name == "damping"]
     found = plain_fit(damper.apply(problem.system), problem.calibration, problem.floor_of_noise, damper.starts, 40)
     assert found.values["damping.b"] == pytest.approx(3.0, rel=0.05)
+
+
+def test_a_channel_that_grows_counts_however_little_of_the_error_it_has() -> None:
+    """The larger channel loses half of its error, the smaller one gains half: in the sum the error falls."""
+    rng = np.random.default_rng(4)
+    before = [rng.standard_normal((300, 2)) * [40.0, 3.0] for _ in range(2)]
+    better = [part * [0.7, 1.0] for part in before]
+    assert not worse_somewhere(before, better)
+    wave = np.sin(np.linspace(0.0, 30.0, 300))
+    assert worse_somewhere(before, [part + np.column_stack([0.0 * wave, 3.0 * wave]) for part in better])

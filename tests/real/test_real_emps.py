@@ -32,7 +32,6 @@ def test_friction_that_is_withheld_is_named(withheld: Diagnosis) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(strict=True, reason="14.3 N: slow noise takes its share of each reversal")
 def test_its_limit_is_that_of_the_drive(withheld: Diagnosis) -> None:
     (limit,) = [one for name, one in withheld.parameters.items() if name.endswith(".limit")]
     assert limit.value == pytest.approx(emps.COULOMB, rel=0.2)

@@ -1,6 +1,7 @@
 """A model as somebody with a simulator has it: fitted by least squares to what was measured, nothing smoothed first.
 
-What is judged by its held-out error, what is reported of it and what is drawn are this one fit.
+What is judged by its held-out error, what is reported of it and what is drawn are this one fit. Beside it the same with
+noise of the inputs taken off and rates smoothed: what gains in one of them only is no effect but less noise.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap.case.plain_fit import Plain
+from geocontact.gap.case.plain_fit import Plain, plain_fit
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Refit, refit
 
@@ -34,3 +35,9 @@ def measured_fit(
     system = model.system.as_measured()
     values = refit(system, first, [Plain(there, floor) for there in first.present], [model.values], ROUNDS).values
     return values, whole.residuals(system, values)
+
+
+def smoothed_fit(problem: Problem, model: Refit, floor: Float[np.ndarray, " c"]) -> list[Float[np.ndarray, "_ c"]]:
+    """Residuals of the held-out trials, inputs and rates as the contest has them, fitted as in `measured_fit`."""
+    values = plain_fit(model.system, problem.calibration, floor, [model.values], ROUNDS).values
+    return problem.evaluation.residuals(model.system, values)

@@ -60,10 +60,12 @@ class InputBeliefs:
         most = {name: max(highest_noise(recorded.trials, name, passed[name]), seen[name]) for name in noisy}
         return cls(passed, shown, seen, most)
 
-    def tolerated(self, system: System, measured: Measured, plain: Refit, stated: Mapping[str, float]) -> InputBeliefs:
+    def tolerated(
+        self, system: System, measured: Measured, held_out: Measured, plain: Refit, stated: Mapping[str, float]
+    ) -> InputBeliefs:
         """The same without noise that could not be taken off without harm to the base model; what is told stays."""
         guessed = {name: level for name, level in self.seen.items() if name not in stated}
-        borne = tolerated(system, measured, measured.rough, plain.values, guessed, self.passed)
+        borne = tolerated(system, measured, held_out, plain.values, guessed, self.passed)
         less = {name: level for name, level in borne.items() if level < guessed[name]}
         most = {name: min(level, less.get(name, level)) for name, level in self.most.items()}
         return InputBeliefs(self.passed, self.shown | dict.fromkeys(less), self.seen | less, most)
@@ -98,7 +100,8 @@ def problem_of(case: GapCase, system: System) -> Problem:
     calibration, evaluation = (Measured.of(system, some, rough) for some in (case.calibration, case.evaluation))
     recorded = together(calibration, evaluation)
     plain = plain_fit(system, calibration, rough, base_starts(system), rounds=40)
-    inputs = InputBeliefs.of(system, recorded, calibration.trials, stated).tolerated(system, calibration, plain, stated)
+    inputs = InputBeliefs.of(system, recorded, calibration.trials, stated)
+    inputs = inputs.tolerated(system, calibration, evaluation, plain, stated)
     system = with_smoothed_rates(system, stated, calibration, plain, inputs.passed, inputs.seen, inputs.most)
     plain = plain_fit(system, calibration, rough, base_starts(system), rounds=40)
     as_came = Denoised(calibration, evaluation, {}, recorded)

@@ -179,14 +179,23 @@ class Noise:
 
 
 def floor_of(problem: Problem, noise: Noise, model: Refit) -> Float[np.ndarray, " c"]:
-    """Root mean square of what no model can predict, per channel: noise, noise of inputs, trial-to-trial variation."""
-    squares, counts = np.zeros(len(problem.floor)), np.zeros(len(problem.floor))
+    """Root mean square of what no model can predict, per channel: noise, noise of inputs, trial-to-trial variation.
+
+    Never more than what the model misses on the calibration trials, which holds all of it: variation is believed to be
+    as large as is usual while few trials tell, and may be hundreds of newtons where a millimetre is that stiff.
+    """
+    squares, missed, counts = (np.zeros(len(problem.floor)) for _ in range(3))
     fitted = problem.varied(model.jacobian[: len(problem.calibration.trials)])
-    for layout, varied, present in zip(problem.calibration_layouts, fitted, problem.calibration.present, strict=True):
+    each = zip(
+        problem.calibration_layouts, fitted, problem.calibration.present, model.residuals[: len(fitted)], strict=True
+    )
+    for layout, varied, present, residual in each:
         own = noise_variance(layout, noise.levels) + ((varied * noise.varies) ** 2).sum(axis=-1)
         squares += np.where(present, own, 0.0).sum(axis=0)
+        missed += np.where(present, residual**2, 0.0).sum(axis=0)
         counts += present.sum(axis=0)
-    return np.sqrt(squares / np.maximum(counts, 1))
+    least = np.where(missed > 0.0, np.minimum(squares, missed), squares)
+    return np.sqrt(least / np.maximum(counts, 1))
 
 
 def noise_variance(layout: Layout, levels: NoiseLevels) -> Float[np.ndarray, "t c"]:

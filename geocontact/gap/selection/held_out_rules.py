@@ -1,11 +1,17 @@
 """Rules on held-out trials that no evidence overrides.
 
 An effect is named only if it predicts trials that are left out better, and worsens no channel of the held-out ones:
-where the amplitude of what it changes, as those trials have it, is above one half (`held_out_error`); 1 where the
-change is what is missing. Whether it is there is asked of residuals that are whitened by noise and by what trials
-differ by, which tell most; whether it does harm of residuals in units of the floor, inputs as they were measured. What
-is named, or called unknown, takes at least a stated share of some channel's squared error away; and no verdict hangs
-on a few samples or on one trial. Of two effects each must do all that beside the other alone.
+where the amplitude of what it changes, as those trials have it, is above one half (`gap.case.change_amplitude`); 1
+where the change is what is missing. Whether it is there is asked of residuals that are whitened by noise and by what
+trials differ by, which tell most; whether it does harm of residuals in units of the floor, inputs as they were
+measured. What is named, or called unknown, takes at least a stated share of some channel's squared error away; and no
+verdict hangs on a few samples or on one trial. Of two effects each must do all that beside the other alone.
+
+A named effect takes its share of the error with the noise of the inputs taken off as well: rates as they were measured
+are noisy, and what clips or filters a prediction passes less of that on, whatever is missing.
+
+A channel whose squared error surely grows is predicted worse. Where it grows by less than that share it must be sure
+beside what the held-out trials differ by, too: two of them have two deviations, however many blocks they are cut into.
 
 The share is that of an error cleared of what the base parameters differ by in each trial: nobody can predict that, and
 what they can take of an effect they have taken when the base model was refitted, so that clearing leaves the effect.
@@ -21,13 +27,14 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
-from geocontact.gap.case.measured_fit import measured_fit
+from geocontact.gap.case.change_amplitude import Amplitude, amplitude
+from geocontact.gap.case.measured_fit import measured_fit, smoothed_fit
 from geocontact.gap.case.problem import Noise, Problem
 from geocontact.gap.case.refit import free, refit
 from geocontact.gap.case.whitening import Whitening
 from geocontact.gap.selection.calibration_share import changes
 from geocontact.gap.selection.evidence import Judged, prior_spread
-from geocontact.gap.selection.held_out_error import Amplitude, TrialWeight, amplitude, taken_away
+from geocontact.gap.selection.held_out_error import TrialWeight, taken_away
 from geocontact.gap.selection.model_comparison import Contender, finished
 from geocontact.gap.selection.surrogate import Surrogate
 
@@ -35,6 +42,7 @@ WORTH_NAMING = 0.1  # of a channel's squared error, that must go: a twentieth of
 FEW = 0.02  # of the samples, that no verdict may hang on
 ENOUGH = 6.0  # nats that the others must gain
 LEFT_OVER = 0.2  # of what a named effect changes, or of an error, in squares, that may be left over
+ONLY_NOISE = f"with the noise of the inputs taken off it takes less than {WORTH_NAMING:.0%} of the squared error away"
 TOO_LITTLE = f"in no channel it takes {WORTH_NAMING:.0%} of the squared error away"
 
 
@@ -50,6 +58,8 @@ class HeldOutRules:
         The base model as it was judged.
     before
         Its residuals on the held-out trials, refitted to the calibration trials, inputs as they were measured.
+    calm
+        The same with the noise of the inputs taken off.
     weights
         Of all trials.
     fitted
@@ -59,6 +69,7 @@ class HeldOutRules:
     problem: Problem
     base: Judged
     before: list[Float[np.ndarray, "_ c"]]
+    calm: list[Float[np.ndarray, "_ c"]]
     weights: tuple[TrialWeight, ...]
     fitted: dict[str, list[Float[np.ndarray, "_ c"]]] = field(default_factory=dict)
 
@@ -71,7 +82,7 @@ class HeldOutRules:
             TrialWeight.of(there, problem.floor, varied * varies)
             for there, varied in zip(problem.recorded.present, problem.varied(base.model.jacobian), strict=True)
         )
-        return cls(problem, base, before, weights)
+        return cls(problem, base, before, smoothed_fit(problem, problem.plain, problem.floor), weights)
 
     def objection(self, one: Contender, alone: Sequence[Contender]) -> str:
         """Why a model may not be named, in words; "" where nothing speaks against it.
@@ -115,7 +126,8 @@ class HeldOutRules:
 
     def over_base(self, one: Contender) -> str:
         """Why a model may not be named in place of the base; "" where nothing speaks against it."""
-        return self._of_change(one.judged) or self.harm(one) or self._of_share(one) or self._of_few(one.judged)
+        bare = self._of_change(one.judged) or self.harm(one) or self._of_share(one)
+        return bare or self._of_noise(one) or self._of_few(one.judged)
 
     def _beside(self, one: Contender, alone: Sequence[Contender]) -> str:
         """Why one of two effects may not be named beside the other: the same rules, that one alone for a base."""
@@ -124,7 +136,7 @@ class HeldOutRules:
         for other in one.candidates:
             first = next((each for each in alone if each.candidates == (other,)), None)
             first = first or with_one(self.problem, one, other)
-            why = replace(self, base=first.judged, before=self._after(first)).over_base(one)
+            why = replace(self, base=first.judged, before=self._after(first), calm=self._calm(first)).over_base(one)
             if why:
                 return f"beside {first.label} alone, {why}"
         return ""
@@ -162,14 +174,29 @@ class HeldOutRules:
 
     def _amplitudes(self, one: Contender) -> list[Amplitude | None]:
         """Of what a model changes on held-out trials, in units of the floor: of all channels together, of each."""
-        change = [b - a for b, a in zip(self.before, self._after(one), strict=True)]
-        old, new = ([part / self.problem.floor for part in parts] for parts in (self.before, change))
-        columns = [slice(None), *(slice(c, c + 1) for c in range(len(self.problem.floor)))]
-        return [amplitude([b[:, own] for b in old], [m[:, own] for m in new]) for own in columns]
+        floor, held = self.problem.floor, self.weights[len(self.problem.calibration.trials) :]
+        old, new = ([part / floor for part in parts] for parts in (self.before, self._after(one)))
+        change = [b - a for b, a in zip(old, new, strict=True)]
+        own = [b - weight.cleared(part) for b, weight, part in zip(old, held, self.before, strict=True)]
+        found = []
+        for columns in (slice(None), *(slice(c, c + 1) for c in range(len(floor)))):
+            parts = [[each[:, columns] for each in some] for some in (old, change, own)]
+            sure = amplitude(*parts[:2])
+            little = sure is not None and sure.grown <= WORTH_NAMING
+            found.append(amplitude(*parts) if little else sure)
+        return found
 
     def _of_share(self, one: Contender) -> str:
         before, after = self._cleared(self.before), self._cleared(self._after(one))
         return TOO_LITTLE if taken_away(before, after) < WORTH_NAMING else ""
+
+    def _of_noise(self, one: Contender) -> str:
+        before, after = self._cleared(self.calm), self._cleared(self._calm(one))
+        return ONLY_NOISE if taken_away(before, after) < WORTH_NAMING else ""
+
+    def _calm(self, one: Contender) -> list[Float[np.ndarray, "_ c"]]:
+        """Residuals of a model on the held-out trials with the noise of the inputs taken off."""
+        return smoothed_fit(self.problem, one.judged.model, self.problem.floor)
 
     def _cleared(self, parts: Sequence[Float[np.ndarray, "_ c"]]) -> list[Float[np.ndarray, "_ c"]]:
         """Residuals on held-out trials without what the base parameters differ by in each trial."""
