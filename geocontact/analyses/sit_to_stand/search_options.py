@@ -47,7 +47,7 @@ class StandingSearchOptions(Options):
             raise InputError("", "`time_limit`", f"{self.time_limit:g} s is no time", "give for example 300")
 
 
-def within(name: str, value: float, low: float, high: float, example: float) -> None:
+def within(name: str, value: int | float, low: int | float, high: int | float, example: int | float) -> None:
     """InputError where an option is not between two numbers."""
     if not low <= value <= high:
         raise InputError("", f"`{name}`", f"{value} is not {low} to {high}", f"give for example {example}")
