@@ -67,7 +67,7 @@ def test_a_socket_creeps_as_a_spring_beside_a_dashpot(load: float, after: float,
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("field", "value"), [("fulcrum", 0.09), ("retardation", 0.03)])
+@pytest.mark.parametrize(("field", "value"), [("fulcrum", 0.09), ("hysteresis", 0.15)])
 def test_a_planted_field_is_found_in_the_full_model(field: str, value: float) -> None:
     """The sole's numbers are held; the plate is the full model's own."""
     model, path, held = FullModel(foot_without(()), field), pressed(), np.zeros(10)
