@@ -136,6 +136,7 @@ def report(o: argparse.Namespace, what: str, rows: Sequence[Mapping[str, Any]]) 
 def main() -> int:
     """Attribute, score, write."""
     from geocontact.analyses.gap.benchmark.run import mixed
+    from geocontact.data.errors import InputError
     from geocontact.gap_benchmark.synthetic.cases import NotFoundError
 
     o = arguments()
@@ -149,6 +150,9 @@ def main() -> int:
             row = {"commit": what, **attributed(lot)}
         except NotFoundError as error:
             print(f"{lot.system} {lot.laboratory} {lot.place} was not drawn: {error}", flush=True)
+            continue
+        except InputError as error:  # too few samples, say: no verdict, so neither right nor wrong
+            print(f"{lot.system} {lot.laboratory} {lot.place} was refused: {error}", flush=True)
             continue
         rows.append(row)
         with log.open("a", encoding="utf-8") as file:
