@@ -134,3 +134,10 @@ def test_a_sphere_below_its_radius_is_told(pressed: Stance) -> None:
     depth[1, :3] = 0.023
     told = doubts(replace(pressed, loads=replace(pressed.loads, depth=depth)))
     assert "3 spheres sink beyond their radius, up to 23 mm" in told
+
+
+def test_a_ground_that_is_none_is_refused_before_anything_is_warned_of() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", gc.InputWarning)
+        with pytest.raises(gc.InputError, match="'nonsense' is neither a plane nor stairs"):
+            gc.prosthesis.simulate(TRIAL / "walking.trc", other_plate="other_force", ground="nonsense", **GIVEN)

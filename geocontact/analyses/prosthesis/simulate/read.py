@@ -82,6 +82,7 @@ class Walk:
 
 def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
     """Everything the options name."""
+    ground = _ground(o)
     foot = foot_with_law(record, vsf_foot(), o.law)
     fulcrum = fulcrum_of(o.setting, "pinned") if o.fulcrum is None else o.fulcrum
     standing = right_markers(record, "`static`", cast(Path, o.static), o.side, o.axes, o.markers_map)
@@ -96,7 +97,6 @@ def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
     require_weight(cast(Path, o.plates), "`other_plate`", other.name, other.wrench.force[:, 1], person.mass * GRAVITY)
     push = Push(other.time, of_side(np.nan_to_num(other.wrench.force), o.side))
     _require_clock(o, found.motion.time, other)
-    ground = _ground(o)
     own = _own(o, plates, found, foot, ground)
     poses = keel_poses(seen, leg, seen.time, FOOT_CUTOFF, o.gap_limit)
     return Walk(leg, found, ground, foot, fulcrum, push, own, SeenFoot(seen.time, poses))
