@@ -20,6 +20,7 @@ from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
 from geocontact.below_knee_prosthesis.synthetic.course import course
 from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, true_leg
 from tests.analyses.prosthesis.spoilt_trial import TRIAL, delayed_plates, in_metres, renamed_markers, spoilt_plates
+from tests.cli.calls import call
 
 GIVEN: dict[str, Any] = {
     "static": TRIAL / "standing.trc",
@@ -136,8 +137,9 @@ def test_a_sphere_below_its_radius_is_told(pressed: Stance) -> None:
     assert "3 spheres sink beyond their radius, up to 23 mm" in told
 
 
-def test_a_ground_that_is_none_is_refused_before_anything_is_warned_of() -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", gc.InputWarning)
-        with pytest.raises(gc.InputError, match="'nonsense' is neither a plane nor stairs"):
-            gc.prosthesis.simulate(TRIAL / "walking.trc", other_plate="other_force", ground="nonsense", **GIVEN)
+def test_a_ground_that_is_none_is_refused_before_anything_is_warned_of(tmp_path: Path) -> None:
+    given = GIVEN | {"other-plate": "other_force", "ground": "hill", "out": tmp_path / "out"}
+    typed = (f"--{name}={value}" for name, value in given.items())
+    refused = call("prosthesis", "simulate", TRIAL / "walking.trc", *typed)
+    assert refused.code == 2 and refused.warnings == [] and len(refused.complaints) == 1
+    assert "'hill' is neither a plane nor stairs" in refused.err and not (tmp_path / "out").exists()
