@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from geocontact.analyses.loadcells.job import load_cells
     from geocontact.analyses.mat.job import mat
     from geocontact.analyses.modulus.job import modulus
+    from geocontact.analyses.motion.functional_joint.job import functional_joint
     from geocontact.analyses.motion.inverse_dynamics.job import inverse_dynamics
     from geocontact.analyses.motion.inverse_kinematics.job import inverse_kinematics
     from geocontact.analyses.motion.scale.job import scale
@@ -92,6 +93,7 @@ _PLACES = {
     "modulus": "analyses.modulus.job",
     "mat": "analyses.mat.job",
     "scale": "analyses.motion.scale.job",
+    "functional_joint": "analyses.motion.functional_joint.job",
     "inverse_kinematics": "analyses.motion.inverse_kinematics.job",
     "inverse_dynamics": "analyses.motion.inverse_dynamics.job",
     "virtual_markers": "analyses.motion.virtual_markers.job",
@@ -163,6 +165,7 @@ __all__ = [
     "discriminability",
     "faces_where",
     "fit_shape",
+    "functional_joint",
     "gather",
     "inch",
     "inject",

@@ -29,6 +29,7 @@ KINDS = {
     "scale": "scale",
     "prosthesis_scale": "prosthesis_scale",
     "markers": "markers",
+    "joint": "joint",
     "standing": "standing_calibrate",
     "standing_predict": "standing_predict",
     "standing_compare": "standing_compare",

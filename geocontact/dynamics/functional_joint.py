@@ -77,7 +77,7 @@ def functional_centre(first: RigidTransform, second: RigidTransform) -> Function
     tilted = values[-1] / np.sqrt(len(right) / 3)
     if tilted < TILTED:
         what = f"{tilted:.2g} per metre along it"
-        raise ValueError(f"the segments turn about one axis: points of it hardly differ ({what}); ask for the axis")
+        raise ValueError(f"the segments turn about one axis: points of it hardly differ ({what})")
     found, *_ = np.linalg.lstsq(matrix, right, rcond=None)
     left = matrix @ found - right
     variance = left @ left / max(len(right) - 6, 1)

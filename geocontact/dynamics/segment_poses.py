@@ -12,6 +12,17 @@ FEWEST = 3
 """Markers that fix a pose."""
 
 
+Known = tuple[RigidTransform, Bool[np.ndarray, " t"]]
+"""Poses in the frames that are known, and which of all frames those are."""
+
+
+def seen_together(one: Known, other: Known) -> tuple[RigidTransform, RigidTransform, Bool[np.ndarray, " t"]]:
+    """Poses of two segments in the frames that tell both, and which frames those are."""
+    (first, known), (second, known_too) = one, other
+    both = known & known_too
+    return first[both[known]], second[both[known_too]], both
+
+
 def segment_poses(
     places: Float[np.ndarray, "t m 3"], template: Float[np.ndarray, "m 3"] | None = None
 ) -> tuple[RigidTransform, Bool[np.ndarray, " t"], Float[np.ndarray, " t"]]:

@@ -18,6 +18,7 @@ JOBS: tuple[Job, ...] = (
     gc.inverse_kinematics,
     gc.inverse_dynamics,
     gc.virtual_markers,
+    gc.functional_joint,
     gc.misalignment.simulate,
     gc.misalignment.identify,
     gc.misalignment.compare,

@@ -47,6 +47,7 @@ def test_help_names_the_commands_and_every_option_of_the_contract() -> None:
         "ik",
         "loadcells",
         "markers",
+        "joint",
         "scale",
         "view",
     )

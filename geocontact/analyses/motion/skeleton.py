@@ -100,7 +100,11 @@ def upwards(model: Multibody) -> Float[np.ndarray, " 3"]:
 
 def scene_of(model: Multibody, linkages: Sequence[Linkage]) -> Scene:
     """The picture: linkages over a floor through the ground's origin, seen from a little above and the right."""
-    up = upwards(model)
+    return scene_over(upwards(model), linkages)
+
+
+def scene_over(up: Float[np.ndarray, " 3"], linkages: Sequence[Linkage]) -> Scene:
+    """The same with a unit vector upwards, along an axis of the ground."""
     k = int(np.argmax(np.abs(up)))
     ways = {f"{sign}{axis}": s * np.eye(3)[j] for j, axis in enumerate("xyz") for s, sign in ((1.0, "+"), (-1.0, "−"))}
     names = {"+x": "front (+x)", "−x": "back (−x)", "+z": "right (+z)", "−z": "left (−z)", "+y": "above (+y)"}

@@ -10,14 +10,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from jaxtyping import Bool, Float
-from scipy.spatial.transform import RigidTransform
+from jaxtyping import Float
 
 from geocontact.below_knee_prosthesis.from_markers.marker_names import BODIES, INTACT_BODIES, MAP
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.dynamics.functional_joint import functional_axis, functional_centre
-from geocontact.dynamics.segment_poses import segment_poses
+from geocontact.dynamics.segment_poses import Known, seen_together, segment_poses
 
 Vector = Float[np.ndarray, " 3"]
 SEGMENTS = {**BODIES, **{name: of for name, of in INTACT_BODIES.items() if name != "intact_toes"}}
@@ -97,15 +96,17 @@ def functional_joints(
     moved = {body: _poses(seen, of, standing) for body, of in SEGMENTS.items()}
     found = FunctionalJoints()
     for joint, pair in POINTS.items():
+        one, other, _ = seen_together(*(moved[name] for name in pair))
         try:
-            point = functional_centre(*_both(moved, pair))
+            point = functional_centre(one, other)
         except ValueError as error:
             found.untold[joint] = str(error)
             continue
         found.points[joint] = JointPoint(point.first, point.first_sd, point.rms)
     for joint, pair in LINES.items():
+        one, other, _ = seen_together(*(moved[name] for name in pair))
         try:
-            line = functional_axis(*_both(moved, pair))
+            line = functional_axis(one, other)
         except ValueError as error:
             found.untold[joint] = str(error)
             continue
@@ -119,20 +120,10 @@ def functional_joints(
     return found
 
 
-Moved = tuple[RigidTransform, Bool[np.ndarray, " t"]]
-
-
-def _poses(seen: MarkerTrajectories, names: tuple[str, ...], standing: Mapping[str, Vector]) -> Moved:
+def _poses(seen: MarkerTrajectories, names: tuple[str, ...], standing: Mapping[str, Vector]) -> Known:
     """Poses in the frames that are known, against where the segment stood, and which frames those are."""
     try:
         poses, known, _ = segment_poses(seen.of(names), np.array([standing[name] for name in names]))
     except ValueError as error:
         raise InputError(seen.source, "`functional`", f"{', '.join(names)}: {error}", MOVE) from error
     return poses, known
-
-
-def _both(moved: Mapping[str, Moved], pair: tuple[str, str]) -> tuple[RigidTransform, RigidTransform]:
-    """Poses of two segments in the frames that show both."""
-    (one, known), (other, known_too) = (moved[name] for name in pair)
-    both = known & known_too
-    return one[both[known]], other[both[known_too]]

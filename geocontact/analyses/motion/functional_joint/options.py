@@ -1,0 +1,51 @@
+"""What a functional joint may be asked for."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated, ClassVar
+
+from geocontact.analyses.options import Expression, Options, Requires, TimeSpan
+
+
+@dataclass(frozen=True)
+class JointOptions(Options):
+    """Centre or axis of a joint from how the markers of two segments move against each other (SCoRE, SARA).
+
+    Parameters
+    ----------
+    trial
+        Markers while the joint moves through its range (.trc, .c3d, .csv).
+    first
+        Markers of one segment, three at the least, not on a line: R.ASIS,L.ASIS,V.Sacral.
+    second
+        Markers of the other one.
+    axis
+        Look for an axis, as of a knee, and not for a centre, as of a hip.
+    static
+        Markers while the subject stands still (.trc, .c3d, .csv): the joint is written as a marker of it, or as two on
+        an axis; without it, as a marker of the trial.
+    name
+        What that marker is called; on an axis NAME_1 and NAME_2, 5 cm on either side.
+    near
+        Markers whose middle is moved onto the axis to give its place: the epicondyles. All markers of both segments
+        unless given.
+    axes
+        Which of the markers' axes are x, y and z of what is written: x,z,-y where the laboratory's z is up.
+    time
+        First and last time of the trial [s].
+    """
+
+    over_time: ClassVar[bool] = True
+
+    trial: Path
+    _: KW_ONLY
+    first: str
+    second: str
+    axis: bool = False
+    static: Path | None = None
+    name: str = "JOINT"
+    near: Annotated[str | None, Requires("axis")] = None
+    axes: Expression | None = None
+    time: TimeSpan | None = None

@@ -1,0 +1,102 @@
+"""Centre and axis of a joint from markers: command and call on a synthetic leg whose joints are known."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
+from geocontact.io.mocap.trc import read_trc
+from tests import legs
+from tests.cli.calls import call, done
+
+PELVIS, FEMUR, TIBIA = (",".join(f"{body}{k}" for k in range(4)) for body in ("pelvis", "femur_r", "tibia_r"))
+
+
+@pytest.fixture
+def leg(tmp_path: Path) -> tuple[Multibody, np.ndarray, Path]:
+    """Model, coordinates and markers of a swing that moves all joints by 36 deg to either side."""
+    _, model, time, values = legs.planted(tmp_path, amplitude=2.5)
+    return model, values, legs.trc_file(tmp_path, legs.markers_of(model, time, values))
+
+
+def at(model: Multibody, values: np.ndarray, name: str) -> np.ndarray:
+    """Where a joint is in the ground [m]."""
+    joint = next(each for each in model.joints if each.name == name)
+    return model.poses(values)[joint.child].apply(joint.child_offset.translation)
+
+
+def test_a_hip_becomes_a_marker(leg: tuple[Multibody, np.ndarray, Path], tmp_path: Path) -> None:
+    model, values, file = leg
+    out = tmp_path / "out"
+    typed = done(call("joint", file, "--first", PELVIS, "--second", FEMUR, "--name", "HIP", "--out", out, folder=out))
+    hip = read_trc(out / "markers.trc")
+    np.testing.assert_allclose(hip.of(("HIP",))[:, 0], at(model, values, "hip_r"), atol=2e-6)
+    assert hip.names[:-1] == read_trc(file).names
+    table = typed.table("joint.csv")
+    np.testing.assert_allclose(table[[f"second_{a} [mm]" for a in "xyz"]], 1e3 * at(model, values, "hip_r"), atol=2e-3)
+    told = typed.record()["results"]
+    assert told["turn_deg"] > 10.0 and told["halves_apart_mm"] < 0.01 and max(told["first"]["point_sd_mm"]) < 1e-3
+    called = gc.functional_joint(file, first=PELVIS, second=FEMUR, name="HIP").write(tmp_path / "called")
+    for name in ("joint.json", "joint.csv", "markers.trc"):
+        assert typed.bytes(name) == (called / name).read_bytes(), name
+
+
+def test_a_knee_becomes_two_markers_of_the_standing_trial(
+    leg: tuple[Multibody, np.ndarray, Path], tmp_path: Path
+) -> None:
+    """On its axis, 10 cm apart, about the middle of the markers named; in another pose than any of the trial."""
+    model, values, file = leg
+    still = values[:3] * 0.0 + 0.1
+    names = tuple(m.name for m in model.markers)
+    (tmp_path / "still").mkdir()
+    standing = legs.trc_file(
+        tmp_path / "still", MarkerTrajectories(np.arange(3) / 100.0, model.marker_places(still), names)
+    )
+    found = gc.functional_joint(
+        file, first=FEMUR, second=TIBIA, axis=True, static=standing, near="tibia_r0,tibia_r1", name="KNEE"
+    )
+    assert found.markers.source == str(standing) and found.markers.names[-2:] == ("KNEE_1", "KNEE_2")
+    one, two = found.markers.of(("KNEE_1", "KNEE_2"))[0]
+    axis = (two - one) / 0.1
+    np.testing.assert_allclose(np.linalg.norm(two - one), 0.1, atol=1e-9)
+    centre = at(model, still, "knee_r")[0]
+    np.testing.assert_allclose(np.cross(one - centre, axis), 0.0, atol=1e-5)
+    near = found.pair.shown.of(("tibia_r0", "tibia_r1"))[0].mean(axis=0)
+    assert abs((0.5 * (one + two) - near) @ axis) < 1e-8
+    assert found.points.looseness is not None and found.points.looseness < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--first", PELVIS, "--second", "femur_r0,femur_r1"), "2 markers fix no pose"),
+        (("--first", PELVIS, "--second", "femur_r0,femur_r1,nowhere"), "no marker nowhere"),
+        (("--first", PELVIS, "--second", f"{FEMUR},pelvis1"), "pelvis1 is of both segments"),
+        (("--first", PELVIS, "--second", FEMUR, "--name", "pelvis0"), "there is a marker pelvis0 already"),
+        (("--first", FEMUR, "--second", TIBIA), "for a hinge give --axis"),
+        (("--first", FEMUR, "--second", TIBIA, "--near", "femur_r0"), "--near: has no effect without --axis"),
+    ],
+)
+def test_what_is_refused(
+    leg: tuple[Multibody, np.ndarray, Path], tmp_path: Path, options: tuple[str, ...], said: str
+) -> None:
+    told = call("joint", leg[2], *options, "--out", tmp_path / "out")
+    assert told.code == 2 and said in told.err and len(told.complaints) == 1 and not (tmp_path / "out").exists()
+
+
+def test_skin_and_exchanged_markers_are_told(leg: tuple[Multibody, np.ndarray, Path], tmp_path: Path) -> None:
+    model, values, _ = leg
+    places = model.marker_places(values)
+    names = tuple(m.name for m in model.markers)
+    moved = names.index("femur_r1")
+    places[:, moved] += 0.06 * np.sin(np.arange(len(places)) / 7.0)[:, None]
+    (tmp_path / "skin").mkdir()
+    file = legs.trc_file(tmp_path / "skin", MarkerTrajectories(np.arange(len(places)) / 100.0, places, names))
+    with pytest.warns(gc.InputWarning, match="mm from a rigid segment"):
+        found = gc.functional_joint(file, first=PELVIS, second=FEMUR)
+    assert found.summary["halves_apart_mm"] > 1.0
