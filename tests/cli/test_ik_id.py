@@ -128,9 +128,17 @@ def test_markers_of_a_c3d_file(tmp_path: Path) -> None:
     points[:3] = 1e3 * np.moveaxis(markers.positions, 2, 0).swapaxes(1, 2)
     points[:3, 2, 5:9] = np.nan
     content["data"]["points"] = points
+    content["parameters"]["ANALOG"]["RATE"]["value"] = [10.0 * legs.RATE]
+    content["parameters"]["ANALOG"]["LABELS"]["value"] = ["EMG Soleus", "Fz left"]
+    content["parameters"]["FORCE_PLATFORM"]["CHANNEL"]["value"] = np.array([[2]])
+    content["data"]["analogs"] = np.arange(2 * 10 * len(time), dtype=float).reshape(1, 2, -1)
     file = tmp_path / "walk.c3d"
     content.write(str(file))
-    result = done(ik(tmp_path, file))
+    result = done(ik(tmp_path, file, "--analog"))
+    emg = read_table(result.folder / "analog.sto")
+    assert emg.channels == ("EMG_Soleus",) and len(emg.time) == 10 * len(time), "the other one is of a plate"
+    np.testing.assert_allclose(emg.values[:, 0], np.arange(10 * len(time)), rtol=1e-6)
+    np.testing.assert_allclose(np.diff(emg.time), 0.1 / legs.RATE, atol=1e-9)
     assert result.record()["results"]["rms_mm"] < 1e-3  # single precision in the file
     table = result.table("markers.csv")
     assert table["pelvis2 [mm]"].isna().sum() == 4

@@ -19,7 +19,7 @@ from geocontact.data.errors import InputError
 from geocontact.io.text.file_preflight import read_bytes
 
 PATIENCE = 8.0, 2e-7
-"""Seconds for a file: to start, and per byte; several times what whole files take."""
+"""Seconds for a file on an idle machine: to start, and per byte; several times what whole files take."""
 
 MIPS = 86
 """Processor type in the parameter section whose integers have the high byte first."""
@@ -47,7 +47,7 @@ def read_apart(path: str | PathLike[str], module: str) -> Arrays:
         raise InputError(file, "", "is not a .c3d file although its name says so", "export or download it again")
     if len(data) > LARGEST:
         raise InputError(file, "", f"{len(data) / 1e6:.0f} MB is more than the {LARGEST / 1e6:.0f} MB limit", "cut it")
-    arrays = _run(file, module, PATIENCE[0] + PATIENCE[1] * len(data))
+    arrays = _run(file, module, (PATIENCE[0] + PATIENCE[1] * len(data)) * _waiting())
     declared, found = _frames_declared(data), int(arrays["frames"])
     if found < declared:  # ezc3d passes over what is missing without a word
         raise InputError(file, "", f"holds {found} of the {declared} frames it declares", "is it complete?")
@@ -73,6 +73,14 @@ def _run(file: str, module: str, patience: float) -> Arrays:
         raise InputError(file, "", "reading .c3d needs ezc3d", "pip install 'geocontact[mocap]'")
     why = said[-1][:160] if said and child.returncode > 0 else "ezc3d stopped"
     raise InputError(file, "", f"cannot be read ({why})", "is the file damaged?")
+
+
+def _waiting() -> float:
+    """How many times longer a process takes beside those that wait for a processor now; 1 where none has to wait."""
+    try:
+        return max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
+    except (AttributeError, OSError):  # Windows has no such figure
+        return 1.0
 
 
 def plates_of(path: str) -> Arrays:

@@ -40,6 +40,8 @@ class IkOptions(Options):
     events
         Heel strikes of a side [s], between which the coordinates are averaged over the gait cycle: right=0.63,1.86. May
         be given again. Those of a .c3d file count without it.
+    analog
+        Write the other analog channels of a .c3d, EMG among them, at their own rate: analog.sto.
     axes
         Which of the markers' axes are the model's x, y and z: x,z,-y where the laboratory's z is up.
     time
@@ -59,5 +61,6 @@ class IkOptions(Options):
     fill: Annotated[float, GAP] = 0.1
     knee: Texts = ()
     events: Texts = ()
+    analog: bool = False
     axes: Expression | None = None
     time: TimeSpan | None = None

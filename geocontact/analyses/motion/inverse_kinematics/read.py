@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from geocontact.analyses.motion.heel_strikes import Strikes, strikes_marked, strikes_typed
 from geocontact.analyses.motion.inverse_kinematics.knees import Knee, knees_of
@@ -11,21 +11,28 @@ from geocontact.analyses.motion.marker_names import renamed
 from geocontact.analyses.motion.marker_tasks import marker_tasks
 from geocontact.analyses.motion.markers import markers_given, with_marker_set
 from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_tasks import MarkerTasks
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
+from geocontact.io.mocap.c3d_analogs import read_c3d_analogs
 from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.text.tables import TextTable
 
 
 @dataclass(frozen=True)
 class KinematicsInputs:
-    """A model, its markers as seen, what each counts, knees whose clinical angles are wanted, heel strikes."""
+    """A model, its markers as seen, what each counts, knees whose clinical angles are wanted, heel strikes.
+
+    `analog` are the channels of a .c3d that belong to no force plate, where they are asked for.
+    """
 
     model: Multibody
     markers: MarkerTrajectories
     tasks: MarkerTasks
     knees: list[Knee]
     strikes: Strikes
+    analog: TextTable | None = None
 
 
 def read(o: IkOptions, record: Record) -> KinematicsInputs:
@@ -37,4 +44,19 @@ def read(o: IkOptions, record: Record) -> KinematicsInputs:
     seen = renamed(record, markers_given(o.markers, o.axes, o.time), model, o.markers_map)
     record.add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     strikes = strikes_typed(o.events) or strikes_marked(o.markers)
-    return KinematicsInputs(model, seen, marker_tasks(record, model, seen, o.tasks, o.weight, o.hold), knees, strikes)
+    tasks = marker_tasks(record, model, seen, o.tasks, o.weight, o.hold)
+    return KinematicsInputs(model, seen, tasks, knees, strikes, _analog(o))
+
+
+def _analog(o: IkOptions) -> TextTable | None:
+    if not o.analog:
+        return None
+    if o.markers.suffix.lower() != ".c3d":
+        raise InputError(o.markers, "`analog`", "is no .c3d file", "leave it out: only a .c3d holds analog channels")
+    found = read_c3d_analogs(o.markers, plates=False)
+    if not found.channels or not len(found.time):
+        raise InputError(o.markers, "`analog`", "no analog channel but those of force plates", "leave it out")
+    if o.time is None:
+        return found
+    kept = (found.time >= o.time[0] - 1e-6) & (found.time <= o.time[1] + 1e-6)
+    return replace(found, time=found.time[kept], values=found.values[kept], lines=found.lines[kept])

@@ -78,13 +78,16 @@ class IkResult(Result):
         )
 
     def write_files(self, folder: Path) -> None:
-        """ik.mot for OpenSim, tables, ik.json, page."""
+        """ik.mot for OpenSim, tables, ik.json, page; analog.sto where it is asked for."""
         values = printed(self.seen.model.coordinates, self.poses.values)
         file = folder / "ik.mot"
         write_storage(file, self.poses.time, self.poses.names, values, title="Coordinates", degrees=True)
         for name, table in self.tables().items():
             if name != "coordinates":  # which ik.mot holds
                 write_table(table, folder, name)
+        if (analog := self.seen.analog) is not None:
+            names = [name.replace(" ", "_") for name in analog.channels]
+            write_storage(folder / "analog.sto", analog.time, names, analog.values, title="Analog", degrees=False)
         write_json(folder / "ik.json", self.summary)
         self.write_page(folder / "report.html")
 
