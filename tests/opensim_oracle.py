@@ -283,3 +283,19 @@ def accelerations(file: Path, names: Sequence[str], q: np.ndarray, u: np.ndarray
         model.realizeAcceleration(state)
         found[k] = [model.getCoordinateSet().get(name).getAccelerationValue(state) for name in names]
     return found
+
+
+def run_inverse_kinematics(setup: Path) -> None:
+    """OpenSim's own tool from its set-up file."""
+    import opensim
+
+    opensim.Logger.setLevelString("Off")
+    opensim.InverseKinematicsTool(str(setup)).run()
+
+
+def run_scaling(setup: Path) -> None:
+    """OpenSim's own tool from its set-up file."""
+    import opensim
+
+    opensim.Logger.setLevelString("Off")
+    opensim.ScaleTool(str(setup)).run()

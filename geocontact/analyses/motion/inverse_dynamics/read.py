@@ -31,8 +31,8 @@ class Loaded:
 
     Parameters
     ----------
-    recorded, values
-        Times [s] and filtered coordinates [rad, m] of the whole recording.
+    recorded, unfiltered, values
+        Times [s] and coordinates [rad, m] of the whole recording, as they are and filtered.
     time
         Those of them that are wanted.
     loads
@@ -45,6 +45,7 @@ class Loaded:
 
     model: Multibody
     recorded: Float[np.ndarray, " n"]
+    unfiltered: Float[np.ndarray, "n c"]
     values: Float[np.ndarray, "n c"]
     time: Float[np.ndarray, " t"]
     loads: dict[str, Wrench]
@@ -64,13 +65,14 @@ def read(o: IdOptions, record: Record) -> Loaded:
     record.add_input("`model`", o.model, bodies=len(model.bodies), coordinates=len(model.coordinates))
     table = read_table(o.coordinates)
     record.add_input("coordinates", o.coordinates, frames=len(table.time))
-    values = _filtered(table, motion_of(table, model, o.angles), o.cutoff)
+    unfiltered = motion_of(table, model, o.angles)
+    values = _filtered(table, unfiltered, o.cutoff)
     shown = _shown(table, o.time)
     time = table.time[shown]
     loads = loads_on_bodies(record, o, model, time, values[shown])
     strikes = strikes_typed(o.events) or strikes_on_plates(time, loads, upwards(model))
     passive = read_passive_forces(o.model, model, o.exclude)
-    return Loaded(model, table.time, values, time, loads, strikes, passive)
+    return Loaded(model, table.time, unfiltered, values, time, loads, strikes, passive)
 
 
 def _filtered(table: TextTable, values: Float[np.ndarray, "t n"], cutoff: float) -> Float[np.ndarray, "t n"]:

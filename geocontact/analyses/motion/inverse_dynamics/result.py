@@ -17,6 +17,8 @@ from geocontact.analyses.motion.gait_cycles import GaitCycles
 from geocontact.analyses.motion.inverse_dynamics.forces import Forces
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.inverse_dynamics.page import write_forces_report
+from geocontact.analyses.motion.inverse_dynamics.read import Loaded
+from geocontact.analyses.motion.inverse_dynamics.setup import write_setup
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.result import Result
 from geocontact.data.wrench import Wrench
@@ -36,6 +38,8 @@ class IdResult(Result):
     ----------
     forces
         Over time [N m, N].
+    given
+        Model, recording and loads.
     coordinates
         At the same times, filtered [rad, m].
     loads
@@ -48,6 +52,7 @@ class IdResult(Result):
 
     options: IdOptions
     forces: Forces
+    given: Loaded
     coordinates: Float[np.ndarray, "t n"]
     loads: Mapping[str, Wrench]
     cycles: GaitCycles
@@ -70,12 +75,13 @@ class IdResult(Result):
         )
 
     def write_files(self, folder: Path) -> None:
-        """id.sto for OpenSim, the table of gait cycles, id.json, page."""
+        """id.sto for OpenSim, its set-up, the table of gait cycles, id.json, page."""
         f, title = self.forces, "Inverse Dynamics Generalized Forces"
         write_storage(folder / "id.sto", f.time, f.names, f.values, title=title, degrees=False)
         if self.cycles:
             write_table(self.table("cycles"), folder, "cycles")
         write_json(folder / "id.json", self.summary)
+        write_setup(folder, self.options, self.given)
         self.write_page(folder / "report.html")
 
     def write_page(self, file: Path) -> None:

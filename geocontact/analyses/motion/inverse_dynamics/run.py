@@ -30,12 +30,16 @@ def run(given: Loaded, o: IdOptions, record: Record) -> IdResult:
     if cycles:
         summary["gait_cycles"] = cycles.counts
     record.results.update(plain(summary))
+    single = tuple(name for name in o.exclude if name in passive.excluded)
+    if single:
+        record.warn(f"OpenSim leaves out groups of forces only: with setup_id.xml it lets {listed(single)} act")
     warn_of_other_feet(record, given.model, given.shown, given.loads)
     _tell(record, forces)
     return IdResult(
         record=record,
         options=o,
         forces=forces,
+        given=given,
         coordinates=given.shown,
         loads=given.loads,
         cycles=cycles,

@@ -19,7 +19,10 @@ from geocontact.analyses.motion.printed import printed
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.result import Result
 from geocontact.dynamics.inverse_kinematics import Poses
+from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.io.opensim.osim_scaler import write_scaled_model
 from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.io.opensim.tool_setup_writer import write_ik_setup
 from geocontact.io.text.results import write_table
 from geocontact.view.page.tables import inputs_table
 
@@ -78,13 +81,14 @@ class IkResult(Result):
         )
 
     def write_files(self, folder: Path) -> None:
-        """ik.mot for OpenSim, tables, ik.json, page; analog.sto where it is asked for."""
+        """ik.mot for OpenSim, its set-up with the markers as read, tables, ik.json, page; analog.sto if asked for."""
         values = printed(self.seen.model.coordinates, self.poses.values)
         file = folder / "ik.mot"
         write_storage(file, self.poses.time, self.poses.names, values, title="Coordinates", degrees=True)
         for name, table in self.tables().items():
             if name != "coordinates":  # which ik.mot holds
                 write_table(table, folder, name)
+        self._write_setup(folder)
         if (analog := self.seen.analog) is not None:
             names = [name.replace(" ", "_") for name in analog.channels]
             write_storage(folder / "analog.sto", analog.time, names, analog.values, title="Analog", degrees=False)
@@ -99,6 +103,17 @@ class IkResult(Result):
         write_kinematics_report(
             file, title, seen.model, self.poses, seen.markers, self.cycles, tables, self.warnings, self.sentences
         )
+
+    def _write_setup(self, folder: Path) -> None:
+        """With which OpenSim's own tool finds the same."""
+        o, seen = self.options, self.seen
+        model = str(o.model.absolute())
+        if o.marker_set is not None:  # OpenSim's tool takes the model's own markers only
+            model = "model.osim"
+            write_scaled_model(o.model, folder / model, seen.model, {})
+        write_trc(folder / "seen.trc", seen.markers)
+        span = float(self.poses.time[0]), float(self.poses.time[-1])
+        write_ik_setup(folder / "setup_ik.xml", model, "seen.trc", seen.tasks, span, "opensim_ik.mot")
 
     def _distances(self) -> pd.DataFrame:
         off = {f"{name} [mm]": 1e3 * d for name, d in zip(self.poses.markers, self.poses.distances.T, strict=True)}

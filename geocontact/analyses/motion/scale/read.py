@@ -25,9 +25,10 @@ MOVED = 0.02
 
 @dataclass(frozen=True)
 class Standing:
-    """A model, the mean of a static trial as one frame, factors by body, and what each marker counts."""
+    """A model, a static trial and its mean as one frame, factors by body, and what each marker counts."""
 
     model: Multibody
+    recorded: MarkerTrajectories
     markers: MarkerTrajectories
     factors: Factors
     tasks: MarkerTasks
@@ -42,7 +43,7 @@ def read(o: ScaleOptions, record: Record) -> Standing:
     seen = _standing(record, whole)
     record.add_input("static", o.static, frames=len(whole), markers=len(seen.names))
     factors = factors_told(model, whole, o.scale)
-    return Standing(model, seen, factors, marker_tasks(record, model, seen, o.tasks))
+    return Standing(model, whole, seen, factors, marker_tasks(record, model, seen, o.tasks))
 
 
 def _standing(record: Record, seen: MarkerTrajectories) -> MarkerTrajectories:

@@ -14,11 +14,14 @@ from geocontact.analyses.json_file import write_json
 from geocontact.analyses.motion.scale.factors import labelled
 from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.analyses.motion.scale.page import write_scaling_page
+from geocontact.analyses.motion.scale.read import Standing
 from geocontact.analyses.result import Result
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.dynamics.scaling import Factors
+from geocontact.io.mocap.trc_writer import write_trc
 from geocontact.io.opensim.osim_scaler import write_scaled_model
+from geocontact.io.opensim.tool_setup_writer import write_scale_setup
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -27,6 +30,8 @@ class ScaleResult(Result):
 
     Parameters
     ----------
+    standing
+        The trial and what each marker counts.
     factors
         Of the bodies that were scaled, along their axes.
     model
@@ -40,6 +45,7 @@ class ScaleResult(Result):
     """
 
     options: ScaleOptions
+    standing: Standing
     factors: Factors
     model: Multibody
     pose: Poses
@@ -55,11 +61,12 @@ class ScaleResult(Result):
         return {"markers": pd.DataFrame(off), "factors": pd.DataFrame(by)}
 
     def write_files(self, folder: Path) -> None:
-        """scaled.osim, scale.json, page."""
+        """scaled.osim, scale.json, OpenSim's set-up with the static trial as it was read, page."""
         values = np.asarray(self.pose.values)[0].tolist()
         standing = {name: v for name, v in zip(self.pose.names, values, strict=True) if np.isfinite(v)}
         write_scaled_model(self.options.model, folder / "scaled.osim", self.model, self.factors, standing)
         write_json(folder / "scale.json", self.summary)
+        self._write_setup(folder)
         self.write_page(folder / "report.html")
 
     def write_page(self, file: Path) -> None:
@@ -67,3 +74,20 @@ class ScaleResult(Result):
         title = f"Model scaled to {self.options.static.name}"
         both = self.seen, self.modelled
         write_scaling_page(file, title, self.record, self.model, labelled(self.factors), self.pose, both)
+
+    def _write_setup(self, folder: Path) -> None:
+        """With which OpenSim's own tool makes the same model."""
+        o, standing = self.options, self.standing
+        write_trc(folder / "seen.trc", standing.recorded)
+        write_scale_setup(
+            folder / "setup_scale.xml",
+            str(o.model.absolute()),
+            "" if o.marker_set is None else str(o.marker_set.absolute()),
+            "seen.trc",
+            self.factors,
+            standing.tasks,
+            (float(standing.recorded.time[0]), float(standing.recorded.time[-1])),
+            mass=o.mass,
+            place=not o.keep_markers,
+            out="opensim_scaled.osim",
+        )

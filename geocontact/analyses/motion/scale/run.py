@@ -42,6 +42,7 @@ def run(given: Standing, o: ScaleOptions, record: Record) -> ScaleResult:
     return ScaleResult(
         record=record,
         options=o,
+        standing=given,
         factors=given.factors,
         model=moved,
         pose=pose,
