@@ -94,6 +94,7 @@ def inverse_kinematics(
     if count < FEWEST:
         raise ValueError(f"no frame shows more than {count} markers of the model; three are needed")
     search = _Search(tree, markers, tasks)
+    wanted = tasks.wanted({c.name: c.default for c in tree.model.coordinates}, seen.time)
     values, distances = np.zeros((len(seen), len(tree.names))), np.full((len(seen), len(markers)), np.nan)
     steps, settled = np.zeros(len(seen), dtype=np.int64), np.zeros(len(seen), dtype=bool)
     determined = np.zeros(values.shape, dtype=bool)
@@ -102,7 +103,7 @@ def inverse_kinematics(
     for frames in (range(first, len(seen)), range(first - 1, -1, -1)):
         q = search.start if frames.step > 0 else values[first]
         for frame in frames:
-            q, steps[frame], settled[frame] = search.pose(q, places[frame])
+            q, steps[frame], settled[frame] = search.pose(q, places[frame], wanted[frame])
             values[frame], determined[frame] = q, search.determined(q, there[frame])
             distances[frame] = np.linalg.norm(search.fit.places(q) - places[frame], axis=1)
             done += 1
@@ -145,18 +146,14 @@ class _Search:
             tree.names.index(c.dependent): [tree.names.index(n) for n in c.of] for c in tree.model.couplers
         }
         self.locked = np.array([c.locked or k in self.followers for k, c in enumerate(coordinates)])
-        wanted = [tasks.coordinates.get(c.name, (0.0, None)) for c in coordinates]
-        self.held = np.array([weight for weight, _ in wanted])
-        self.wanted = np.array(
-            [c.default if value is None else value for c, (_, value) in zip(coordinates, wanted, strict=True)]
-        )
+        self.held = tasks.held(tree.names)
         self.whole: Bool[np.ndarray, " n"] | None = None
 
-    def pose(self, q: Vector, observed: Float[np.ndarray, "m 3"]) -> tuple[Vector, int, bool]:
+    def pose(self, q: Vector, observed: Float[np.ndarray, "m 3"], wanted: Vector) -> tuple[Vector, int, bool]:
         """Coordinates of a frame from a start, steps taken, and whether the last was short enough."""
         there = np.all(np.isfinite(observed), axis=1)
         weights = np.where(there, self.weights, 0.0)
-        against = (np.where(there[:, None], observed, 0.0), weights, self.wanted, weights.sum() * self.held)
+        against = (np.where(there[:, None], observed, 0.0), weights, wanted, weights.sum() * self.held)
         gradient, cost = self.fit.slope(q, against)
         damping, before = 0.0, np.inf
         for step in range(1, MOST + 1):

@@ -128,6 +128,41 @@ def test_the_set_ups_written_give_opensim_the_same_angles_and_moments(tmp_path: 
         assert np.abs(ours.column(name) - wanted).max() < 1e-3 * np.abs(wanted).max(), name
 
 
+def test_a_coordinate_follows_a_recording_as_in_opensim(tmp_path: Path, opensim: Elsewhere) -> None:
+    """`from_file`: a knee that is 3 deg off what markers say, and counts as much as they do."""
+    swinging(tmp_path)
+    model = read_multibody(tmp_path / "leg.osim")
+    time, values = legs.motion(model)
+    values[:, [c.name for c in model.coordinates].index("knee")] += np.radians(3.0)
+    (tmp_path / "off").mkdir()
+    legs.mot_file(tmp_path / "off", model, time, values)
+    near = '<IKCoordinateTask name="knee"><value_type>from_file</value_type><weight>0.05</weight></IKCoordinateTask>'
+    tasks = "".join(task(m.name, 1.0) for m in model.markers)
+    (tmp_path / "tasks.xml").write_text(TASKS.format(tasks + near))
+    setup = tmp_path / "ik.xml"
+    setup.write_text(IK.replace("Unassigned", "off/walk.mot"))
+    done(call("ik", "--setup", setup, "--out", tmp_path / "ours"))
+    opensim(opensim_oracle.run_inverse_kinematics, tmp_path / "ours" / "setup_ik.xml")
+    ours, theirs = (read_table(tmp_path / "ours" / name) for name in ("ik.mot", "opensim_ik.mot"))
+    truth = read_table(tmp_path / "walk.mot").column("knee")
+    assert 0.2 < np.abs(ours.column("knee") - truth).max() < 2.9
+    for c in model.coordinates:
+        np.testing.assert_allclose(ours.column(c.name), theirs.column(c.name), atol=0.03, err_msg=c.name)
+
+
+def test_a_recording_to_follow_is_needed_and_has_an_effect(tmp_path: Path) -> None:
+    swinging(tmp_path)
+    leg = ("--model", tmp_path / "leg.osim", "--tasks", tmp_path / "tasks.xml", "--out", tmp_path / "o")
+    idle = call("ik", tmp_path / "walk.trc", *leg, "--follow", tmp_path / "walk.mot")
+    assert idle.code == 2 and "--follow: has no effect: no task is of the kind from_file" in idle.err
+    near = '<IKCoordinateTask name="knee"><value_type>from_file</value_type><weight>1</weight></IKCoordinateTask>'
+    text = (tmp_path / "tasks.xml").read_text()
+    (tmp_path / "tasks.xml").write_text(text.replace("</objects>", f"{near}</objects>"))
+    alone = call("ik", tmp_path / "walk.trc", *leg)
+    assert alone.code == 2 and "knee is to be near a recording; name its file with --follow" in alone.err
+    done(call("ik", tmp_path / "walk.trc", *leg, "--follow", tmp_path / "walk.mot"))
+
+
 def test_a_force_that_opensim_cannot_leave_out_is_told(tmp_path: Path) -> None:
     swinging(tmp_path)
     leg = ("--model", tmp_path / "leg.osim", "--loads", tmp_path / "loads.xml", "--out", tmp_path / "id")

@@ -87,7 +87,6 @@ MOTIONS: Cases = {
         motion("time [s],tx [mm],ty [mm],tz [mm],rx,ry,rz\n0,0,20,0,0,0,0\n", order="XYZ"),
         ("poses.csv", "--angles"),
     ),
-    "rows unlike declared": ({**JOINT, "--motion": edited("nRows=2", "nRows=7")}, ("gait.mot", "nRows=7", "2 rows")),
     "contradictory angle units": (
         {**JOINT, "--motion": edited("inDegrees=yes\n", "inDegrees=no\nAngles are in degrees.\n")},
         ("gait.mot", "inDegrees=no but the text says degrees", "--angles deg or rad"),

@@ -98,16 +98,6 @@ REFUSED = {
     "no endheader": (GOOD.replace("endheader\n", ""), "no line 'endheader' found"),
     "nothing after the header": (GOOD.split("time")[0], "line 7: no column labels found"),
     "no rows": (GOOD.split("0.0\t")[0], "line 8: no rows below the column labels"),
-    "fewer rows than declared": (GOOD.replace("1.0\t30\t0.3\n", ""), "line 3: header says 'nRows=3' but 2 rows follow"),
-    "more rows than declared": (GOOD + "2\t3\t4\n", "line 3: header says 'nRows=3' but 4 rows follow"),
-    "columns unlike declared": (
-        GOOD.replace("nColumns=3", "nColumns=4"),
-        "line 4: header says 'nColumns=4' but there are 3",
-    ),
-    "SIMM rows unlike declared": (
-        SIMM.replace("datarows 3", "datarows 9"),
-        "line 3: header says 'datarows 9' but 3 rows",
-    ),
     "count is no number": (GOOD.replace("nRows=3", "nRows=three"), "line 3: 'nRows=three' is not a count"),
     "short row": (GOOD.replace("0.5\t20\t0.2", "0.5\t20"), "line 9: 2 cells where 3 columns are named"),
     "long row": (GOOD.replace("0.5\t20\t0.2", "0.5\t20\t0.2\t7"), "line 9: more cells where 3 columns are named"),
@@ -122,6 +112,35 @@ REFUSED = {
     "flag is no flag": (GOOD.replace("=yes", "=maybe"), "line 5: inDegrees=maybe is neither yes nor no"),
     "quaternions packed into cells": (V3.replace("double", "Quaternion"), "line 2: DataType=Quaternion cannot be used"),
 }
+
+
+COUNTS = {
+    "fewer rows than declared": (GOOD.replace("1.0\t30\t0.3\n", ""), "line 3: header says 'nRows=3' but 2 rows follow"),
+    "more rows than declared": (GOOD + "2\t3\t4\n", "line 3: header says 'nRows=3' but 4 rows follow"),
+    "columns unlike declared": (
+        GOOD.replace("nColumns=3", "nColumns=4"),
+        "line 4: header says 'nColumns=4' but 3 column labels",
+    ),
+    "SIMM rows unlike declared": (
+        SIMM.replace("datarows 3", "datarows 9"),
+        "line 3: header says 'datarows 9' but 3 rows",
+    ),
+}
+
+
+@pytest.mark.parametrize(("text", "message"), COUNTS.values(), ids=COUNTS.keys())
+def test_counts_that_do_not_fit_are_warned_of(tmp_path: Path, text: str, message: str) -> None:
+    """OpenSim reads on."""
+    with pytest.warns(InputWarning, match=message):
+        found = table(tmp_path, text)
+    assert found.channels == ("knee", "knee_tx") and len(found.time) == text.split("endheader\n")[1].count("\n") - 1
+
+
+@pytest.mark.parametrize("name", ["gait.mot", "gait.csv"])
+def test_bytes_of_older_programs_are_latin_1(tmp_path: Path, name: str) -> None:
+    (tmp_path / name).write_bytes((GOOD if name.endswith("mot") else CSV).replace("knee", "kn\xe9").encode("latin-1"))
+    with pytest.warns(InputWarning, match="is not UTF-8; the file is read as Latin-1"):
+        assert read_table(tmp_path / name).channels[0].startswith("kn\xe9")
 
 
 @pytest.mark.parametrize(("text", "message"), REFUSED.values(), ids=REFUSED.keys())
@@ -158,7 +177,7 @@ def test_missing_files_and_other_formats(tmp_path: Path, name: str) -> None:
 
 
 def test_stale_column_count_in_version_3_is_only_warned_of(tmp_path: Path) -> None:
-    with pytest.warns(InputWarning, match="line 4: header says 'nColumns=9' but there are 3"):
+    with pytest.warns(InputWarning, match="line 4: header says 'nColumns=9' but 3 column labels"):
         assert table(tmp_path, V3.replace("OpenSimVersion=4.5", "nColumns=9"), "a.sto").values.shape == (3, 2)
 
 

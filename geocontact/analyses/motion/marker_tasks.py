@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -10,12 +11,13 @@ from geocontact.analyses.motion.marker_names import map_hint, names_told
 from geocontact.analyses.quantities import number
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_tasks import MarkerTasks
+from geocontact.data.multibody.marker_tasks import Followed, MarkerTasks
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import FEWEST
+from geocontact.io.opensim.coordinates import columns_of, coordinates_of
 from geocontact.io.opensim.marker_weights import read_marker_weights
-from geocontact.io.text.tables import listed
+from geocontact.io.text.tables import listed, read_table
 
 HELD = 1e3  # weight of a coordinate that is held, against 1 of a marker: a radian as dear as 30 m of a marker
 
@@ -25,10 +27,14 @@ def marker_tasks(
     model: Multibody,
     seen: MarkerTrajectories,
     file: Path | None,
+    follow: Path | None = None,
     weight: tuple[str, ...] = (),
     hold: tuple[str, ...] = (),
 ) -> MarkerTasks:
-    """Weights of the task file, or 1 for every marker of the model; then what single options say."""
+    """Weights of the task file, or 1 for every marker of the model; then what single options say.
+
+    `follow` is the recording that tasks of the kind from_file keep coordinates near.
+    """
     if not model.markers:
         raise InputError(
             str(record.options["model"]), "", "has no markers", "give a model with a MarkerSet, or `marker_set`"
@@ -48,8 +54,42 @@ def marker_tasks(
         raise InputError("", "`hold`", f"'{fixed[0]}' is locked by the model", "unlock it there, or leave it out")
     wanted = {name: (HELD, np.radians(v) if known[name].kind == "rotational" else v) for name, v in held.items()}
     _refuse_strangers(model, seen, markers)
-    _warn(record, model, seen, markers, [name for name, (w, _) in tasks.coordinates.items() if w > 0.0])
-    return MarkerTasks(markers, {**tasks.coordinates, **wanted})
+    weighed = [name for name, (weight, _) in tasks.coordinates.items() if weight > 0.0]
+    _warn(record, model, seen, markers, [*weighed, *tasks.from_file])
+    near = {name: by for name, by in tasks.from_file.items() if name in known and name not in wanted}
+    followed = _followed(record, model, seen, near, file, follow)
+    return MarkerTasks(markers, {**tasks.coordinates, **wanted}, near, followed)
+
+
+def _followed(
+    record: Record,
+    model: Multibody,
+    seen: MarkerTrajectories,
+    near: Mapping[str, float],
+    tasks: Path | None,
+    follow: Path | None,
+) -> dict[str, Followed]:
+    """Recordings of the coordinates that tasks of the kind from_file name."""
+    if not near and follow is None:
+        return {}
+    if not near:
+        raise InputError(tasks or "", "`follow`", "has no effect: no task is of the kind from_file", "leave it out")
+    if follow is None:
+        what = f"{listed(tuple(near))} is to be near a recording"
+        raise InputError(tasks or "", "", what, "name its file with `follow` in ik; scale takes manual_value")
+    table = read_table(follow)
+    record.add_input("`follow`", follow, frames=len(table.time))
+    columns = columns_of(table, model.joints)
+    lost = [name for name in near if name not in columns]
+    if lost:
+        raise InputError(follow, "", f"no column for {lost[0]}", f"columns are: {listed(table.channels)}")
+    values = coordinates_of(table, model.joints, columns, None)
+    found = {name: Followed(table.time, values[name]) for name in near}
+    try:
+        found[next(iter(near))].at(seen.time)
+    except ValueError as error:
+        raise InputError(follow, "", str(error), "cut the markers with `time`") from error
+    return found
 
 
 def _refuse_strangers(model: Multibody, seen: MarkerTrajectories, markers: dict[str, float]) -> None:

@@ -18,6 +18,7 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.io.mocap.subject import without_subject
+from geocontact.io.text.encoding import decoded
 from geocontact.io.text.file_preflight import read_bytes
 from geocontact.io.text.table_rows import read_rows
 from geocontact.io.text.units import LENGTH
@@ -30,7 +31,7 @@ _ROUNDED = 0.51e-3
 def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
     """Markers of a .trc file, in metres; InputError where counts, units or times contradict the rows."""
     file = fspath(path)
-    lines = read_bytes(path).decode("utf-8-sig", errors="replace").splitlines()
+    lines = decoded(read_bytes(path), path).splitlines()
     if len(lines) <= _HEAD or not lines[0].startswith("PathFileType"):
         raise InputError(file, "line 1", "does not begin with 'PathFileType'", "is it a complete .trc file?")
     declared = dict(zip(lines[1].split(), lines[2].split(), strict=False))

@@ -9,20 +9,25 @@ from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_tasks import MarkerTasks
 from geocontact.io.opensim.osim_xml import is_true, label, numbers_of, read_document, text_of
 
+FROM_FILE = "from_file"
+
 
 def read_marker_weights(path: str | PathLike[str]) -> MarkerTasks:
     """Markers and coordinates with their weights; a task without a weight, or that does not apply, counts nothing.
 
-    A coordinate is wanted at the model's default or at the task's own value; values from a file are refused.
+    A coordinate is wanted at the model's default, at the task's own value, or near a recording that the tool's set-up
+    names elsewhere.
     """
     file = fspath(path)
     root = read_document(path)
     markers = {e.get("name", ""): _weight(file, e) for e in root.iter("IKMarkerTask")}
     weighed = [(e, _weight(file, e)) for e in root.iter("IKCoordinateTask")]
-    coordinates = {e.get("name", ""): (weight, _wanted(file, e)) for e, weight in weighed if weight > 0.0}
+    held = [(e, weight, text_of(e, "value_type", "default_value")) for e, weight in weighed if weight > 0.0]
+    followed = {e.get("name", ""): weight for e, weight, kind in held if kind == FROM_FILE}
+    coordinates = {e.get("name", ""): (weight, _wanted(file, e, kind)) for e, weight, kind in held if kind != FROM_FILE}
     if not markers and not weighed:
         raise InputError(file, "", "holds no IKMarkerTask", "give OpenSim's setup of inverse kinematics")
-    return MarkerTasks(markers, coordinates)
+    return MarkerTasks(markers, coordinates, followed)
 
 
 def _weight(file: str, task: Element) -> float:
@@ -34,11 +39,10 @@ def _weight(file: str, task: Element) -> float:
     return weight
 
 
-def _wanted(file: str, task: Element) -> float | None:
-    kind = text_of(task, "value_type", "default_value")
+def _wanted(file: str, task: Element, kind: str) -> float | None:
     if kind == "default_value":
         return None
     if kind == "manual_value":
         return float(numbers_of(file, task, "value", 1)[0])
     what = f"'{kind[:40]}' is not supported"
-    raise InputError(file, f"{label(task)} <value_type>", what, "default_value or manual_value")
+    raise InputError(file, f"{label(task)} <value_type>", what, f"default_value, manual_value or {FROM_FILE}")

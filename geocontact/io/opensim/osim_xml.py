@@ -15,6 +15,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.errors import InputError
+from geocontact.io.text.encoding import decoded
 
 LARGEST_MODEL = 32_000_000
 """Bytes of an .osim file; full-body models are below 10 MB."""
@@ -24,6 +25,7 @@ OLDEST = 20_000
 
 _DEEPEST = 50
 _SCOPED = re.compile(rb"(</?[A-Za-z_][\w.]*)::")
+_ENCODING = re.compile(rb"""\s*<\?xml[^>]*encoding=["']([\w-]+)["']""")
 _SETS = ("BodySet", "JointSet", "ForceSet", "ComponentSet")
 
 
@@ -73,7 +75,7 @@ def read_document(path: str | PathLike[str], kind: str = "OpenSim document") -> 
         size = Path(file).stat().st_size
         if size > LARGEST_MODEL:
             raise InputError(file, "", f"{size / 1e6:.0f} MB is more than the {LARGEST_MODEL / 1e6:.0f} MB limit")
-        root = _parsed(Path(file).read_bytes())
+        root = _parsed(_readable(Path(file).read_bytes(), file))
     except OSError as error:
         raise InputError(file, "", f"cannot be read ({error.strerror})", "check the path") from error
     except InputError:
@@ -81,6 +83,12 @@ def read_document(path: str | PathLike[str], kind: str = "OpenSim document") -> 
     except (ParseError, ValueError, LookupError) as error:
         raise InputError(file, "", f"not a readable {kind} ({error})", "is the file complete?") from error
     return root
+
+
+def _readable(text: bytes, file: str) -> bytes:
+    """The same in UTF-8 where it is said to be that, or nothing is said, and it is not."""
+    said = _ENCODING.match(text)
+    return text if said and said[1].lower() != b"utf-8" else decoded(text, file).encode()
 
 
 def _parsed(text: bytes) -> Element:

@@ -11,6 +11,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from geocontact.data.errors import InputError
+from geocontact.io.opensim.marker_weights import read_marker_weights
 from geocontact.io.opensim.osim_xml import is_true, label, numbers_of, read_document, text_of
 
 UNASSIGNED = ("", "unassigned")
@@ -58,8 +59,9 @@ def _inverse_dynamics(file: str, tool: Element) -> ToolSetup:
 
 def _inverse_kinematics(file: str, tool: Element) -> ToolSetup:
     options = [*_files(file, tool, {"model_file": "model"}), ("tasks", _tasks(file, tool)), *_time(file, tool)]
-    unheeded = tuple(name for name in ("coordinate_file",) if _told(tool, name))
-    return ToolSetup(_needed(file, tool, "marker_file"), tuple(options), unheeded)
+    if read_marker_weights(dict(options)["tasks"]).from_file:  # else OpenSim does not look at the file either
+        options += _files(file, tool, {"coordinate_file": "follow"})
+    return ToolSetup(_needed(file, tool, "marker_file"), tuple(options))
 
 
 def _scale(file: str, tool: Element) -> ToolSetup:

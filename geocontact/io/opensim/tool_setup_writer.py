@@ -13,6 +13,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.multibody.marker_tasks import MarkerTasks
+from geocontact.io.opensim.marker_weights import FROM_FILE
 
 Ends = tuple[float, float]
 NONE = "Unassigned"
@@ -20,18 +21,23 @@ NOT_TRACKED = "Muscles", "Actuators"
 """Of a model's forces, by OpenSim's own words for them: they never act in inverse dynamics here."""
 
 
-def write_ik_setup(path: Path, model: str, markers: str, tasks: MarkerTasks, span: Ends, out: str) -> None:
+def write_ik_setup(
+    path: Path, model: str, markers: str, follow: str, tasks: MarkerTasks, span: Ends, *, out: str
+) -> None:
     """Inverse kinematics of a .trc file between two times [s].
 
     Parameters
     ----------
     model, markers
         .osim and .trc file.
+    follow
+        Recording that tasks of the kind from_file keep coordinates near.
     out
         Name of the motion that OpenSim writes.
     """
     root, tool = _tool("InverseKinematicsTool", path)
-    _texts(tool, model_file=model, marker_file=markers, time_range=_span(span), output_motion_file=out)
+    _texts(tool, model_file=model, marker_file=markers, coordinate_file=follow or NONE)
+    _texts(tool, time_range=_span(span), output_motion_file=out)
     _tasks(tool, tasks)
     _write(root, path)
 
@@ -138,6 +144,9 @@ def _tasks(owner: Element, tasks: MarkerTasks) -> None:
         _texts(task, value_type="default_value" if wanted is None else "manual_value")
         if wanted is not None:
             _texts(task, value=f"{wanted:.17g}")
+    for name, weight in tasks.from_file.items():
+        _texts(SubElement(objects, "IKCoordinateTask", name=name), apply="true", weight=f"{weight:.12g}")
+        _texts(objects[-1], value_type=FROM_FILE)
 
 
 def _texts(owner: Element, **texts: str) -> None:

@@ -30,18 +30,20 @@ _MOST_COMMENTS = 100
 
 
 @contextmanager
-def open_plain(path: str | PathLike[str], errors: str = "strict") -> Iterator[TextIOBase]:
+def open_plain(path: str | PathLike[str], errors: str = "strict", encoding: str = "utf-8-sig") -> Iterator[TextIOBase]:
     """A .csv or .xlsx file as text; lines keep their numbers, rows without content at the end are left out.
 
     Parameters
     ----------
     errors
-        What becomes of bytes that are not UTF-8: "strict" or "replace".
+        What becomes of bytes that the encoding does not have: "strict" or "replace".
+    encoding
+        Of a .csv file.
     """
     if is_sheet(path):
         yield StringIO(_EMPTY_ROWS.sub("\n", sheet_text(path)))
         return
-    with Path(path).open(encoding="utf-8-sig", errors=errors) as stream:
+    with Path(path).open(encoding=encoding, errors=errors) as stream:
         separated = _separated_by_semicolons(stream)
         stream.seek(0)
         if separated:

@@ -16,6 +16,7 @@ from jaxtyping import Float, Int
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.motion import Signals
 from geocontact.io.text.column_names import ColumnNames
+from geocontact.io.text.encoding import UTF8, encoding_of
 from geocontact.io.text.plain_table import open_plain
 from geocontact.io.text.spreadsheet import SHEET
 from geocontact.io.text.storage_header import LONGEST_LINE, AngleEvidence, StorageHeader, read_storage_header
@@ -85,19 +86,20 @@ def listed(names: tuple[str, ...], most: int = 30) -> str:
 def read_table(path: str | PathLike[str]) -> TextTable:
     """Table in a .mot, .sto (versions 1 to 3, SIMM's form too), .csv or .xlsx file.
 
-    Refused with InputError: other content, counts that the header declares and the rows do not bear out, ragged rows,
-    cells that are not numbers, and time that is missing, NaN or not strictly increasing. NaN elsewhere is kept until
-    the column is used: force plates are full of it.
+    Refused with InputError: other content, ragged rows, cells that are not numbers, and time that is missing, NaN or
+    not strictly increasing. Warned of: counts that the header declares and the rows do not bear out, bytes that are
+    not UTF-8 (taken as Latin-1). NaN elsewhere is kept until the column is used: force plates are full of it.
     """
     file, suffix = fspath(path), Path(path).suffix.lower()
     if suffix not in (".mot", ".sto", *CELLS):
         raise InputError(file, "", f"'{suffix}' is not a table of motion", "give a .mot, .sto, .csv or .xlsx file")
     if suffix != SHEET:
         _preflight(file)
+    encoding = UTF8 if suffix == SHEET else encoding_of(file)
     if suffix in CELLS:
-        with open_plain(file, "replace") as stream:
+        with open_plain(file, encoding=encoding) as stream:
             return _read_csv(stream, file)
-    with open(file, encoding="utf-8-sig", errors="replace") as stream:
+    with open(file, encoding=encoding) as stream:
         return _read_storage(stream, file)
 
 
@@ -122,26 +124,22 @@ def _read_storage(stream: TextIOBase, file: str) -> TextTable:
     header = read_storage_header(stream, file)
     names = tuple(_label_line(stream, file, header.lines + 1).split())
     values, lines = read_rows(stream, header.lines + 2, names, file, str.split)
-    _check_rows(header, len(values), file)
-    _check_columns(header, len(names), file)
+    _warn_of_counts(header, len(values), len(names), file)
     return _table(file, names, ("",) * len(names), values, lines, header.angles)
 
 
-def _check_columns(header: StorageHeader, count: int, file: str) -> None:
-    """Version 3 keeps nColumns of the table that columns were taken from, and OpenSim does not look at it."""
-    for declared, text, line in header.columns:
-        if declared != count:
-            what = f"header says '{text}' but there are {count} column labels"
-            if header.version != "3":
-                raise InputError(file, f"line {line}", what, "correct the header")
-            warnings.warn(InputWarning(f"{file} line {line}: {what}"), stacklevel=4)
-
-
-def _check_rows(header: StorageHeader, count: int, file: str) -> None:
-    for declared, text, line in header.rows:
-        if declared != count:
-            what = f"header says '{text}' but {count} rows follow"
-            raise InputError(file, f"line {line}", what, "is the file truncated?")
+def _warn_of_counts(header: StorageHeader, rows: int, columns: int, file: str) -> None:
+    """Counts of the header that are not those of the table: OpenSim reads on without a word."""
+    counts = [
+        (header.rows, rows, "rows follow: is the file complete?"),
+        (header.columns, columns, "column labels follow"),
+    ]
+    for declared, found, what in counts:
+        for count, text, line in declared:
+            if count != found:
+                warnings.warn(
+                    InputWarning(f"{file} line {line}: header says '{text}' but {found} {what}"), stacklevel=4
+                )
 
 
 def _read_csv(stream: TextIOBase, file: str) -> TextTable:

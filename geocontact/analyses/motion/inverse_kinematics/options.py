@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.options import Expression, Options, Texts, TimeSpan
+from geocontact.analyses.options import Expression, Options, Requires, Texts, TimeSpan
 from geocontact.data.ranges import GAP
 
 
@@ -23,6 +23,8 @@ class IkOptions(Options):
     tasks
         OpenSim's setup of inverse kinematics or its task set (.xml): weights of markers and coordinates. Without it all
         markers of the model count alike.
+    follow
+        Coordinates over time (.mot, .sto, .csv) that tasks of OpenSim's kind from_file keep near.
     marker_set
         Markers of the model from a file of their own (.xml with a MarkerSet) in place of the model's.
     markers_map
@@ -54,6 +56,7 @@ class IkOptions(Options):
     _: KW_ONLY
     model: Path
     tasks: Path | None = None
+    follow: Annotated[Path | None, Requires("tasks")] = None
     marker_set: Path | None = None
     markers_map: str | None = None
     weight: Texts = ()

@@ -44,7 +44,7 @@ def read(o: IkOptions, record: Record) -> KinematicsInputs:
     seen = renamed(record, markers_given(o.markers, o.axes, o.time), model, o.markers_map)
     record.add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     strikes = strikes_typed(o.events) or strikes_marked(o.markers)
-    tasks = marker_tasks(record, model, seen, o.tasks, o.weight, o.hold)
+    tasks = marker_tasks(record, model, seen, o.tasks, o.follow, o.weight, o.hold)
     return KinematicsInputs(model, seen, tasks, knees, strikes, _analog(o))
 
 

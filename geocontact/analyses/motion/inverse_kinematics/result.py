@@ -113,7 +113,8 @@ class IkResult(Result):
             write_scaled_model(o.model, folder / model, seen.model, {})
         write_trc(folder / "seen.trc", seen.markers)
         span = float(self.poses.time[0]), float(self.poses.time[-1])
-        write_ik_setup(folder / "setup_ik.xml", model, "seen.trc", seen.tasks, span, "opensim_ik.mot")
+        follow = "" if o.follow is None else str(o.follow.absolute())
+        write_ik_setup(folder / "setup_ik.xml", model, "seen.trc", follow, seen.tasks, span, out="opensim_ik.mot")
 
     def _distances(self) -> pd.DataFrame:
         off = {f"{name} [mm]": 1e3 * d for name, d in zip(self.poses.markers, self.poses.distances.T, strict=True)}
