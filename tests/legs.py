@@ -60,10 +60,16 @@ def mot_file(folder: Path, model: Multibody, time: np.ndarray, values: np.ndarra
     return file
 
 
-def plate_files(folder: Path, time: np.ndarray, force: tuple[float, ...], point: tuple[float, ...]) -> Path:
+def plate_files(
+    folder: Path,
+    time: np.ndarray,
+    force: tuple[float, ...],
+    point: tuple[float, ...],
+    torque: tuple[float, ...] = (0.0, 0.0, 0.0),
+) -> Path:
     """A constant reaction on the foot, and OpenSim's file that says so."""
     names = [f"plate_force_{kind}{axis}" for kind in "vp" for axis in "xyz"] + [f"plate_torque_{a}" for a in "xyz"]
-    row = np.array([*force, *point, 0.0, 0.0, 0.0])
+    row = np.array([*force, *point, *torque])
     write_storage(folder / "grf.mot", time, names, np.tile(row, (len(time), 1)), title="Plates", degrees=False)
     file = folder / "loads.xml"
     file.write_text(

@@ -163,6 +163,26 @@ def test_a_recording_to_follow_is_needed_and_has_an_effect(tmp_path: Path) -> No
     done(call("ik", tmp_path / "walk.trc", *leg, "--follow", tmp_path / "walk.mot"))
 
 
+@pytest.mark.parametrize(("force", "point"), [("foot_r", "foot_r"), ("tibia_r", "ground"), ("ground", "femur_r")])
+def test_forces_and_points_in_bodies_are_those_of_opensim(
+    tmp_path: Path, opensim: Elsewhere, force: str, point: str
+) -> None:
+    """With the torque named as the beginning of its columns, without the underscore."""
+    swinging(tmp_path)
+    time, _ = legs.motion(read_multibody(tmp_path / "leg.osim"))
+    legs.plate_files(tmp_path, time, (20.0, 200.0, 5.0), (0.1, 0.0, 0.05), (3.0, 6.0, -4.0))
+    expressed = "<{0}_expressed_in_body>{1}</{0}_expressed_in_body>"
+    frames = expressed.format("force", force) + expressed.format("point", point)
+    text = (tmp_path / "loads.xml").read_text().replace("</applied_to_body>", f"</applied_to_body>{frames}")
+    (tmp_path / "loads.xml").write_text(text.replace("plate_torque_<", "plate_torque<"))
+    done(call("id", "--setup", tmp_path / "id.xml", "--out", tmp_path / "ours"))
+    opensim(opensim_oracle.run_inverse_dynamics, tmp_path / "id.xml", tmp_path / "theirs")
+    ours, theirs = read_table(tmp_path / "ours" / "id.sto"), read_table(tmp_path / "theirs" / "theirs.sto")
+    for name in theirs.channels:
+        wanted = theirs.column(name)
+        assert np.abs(ours.column(name) - wanted).max() < 1e-3 * np.abs(wanted).max(), name
+
+
 def test_a_force_that_opensim_cannot_leave_out_is_told(tmp_path: Path) -> None:
     swinging(tmp_path)
     leg = ("--model", tmp_path / "leg.osim", "--loads", tmp_path / "loads.xml", "--out", tmp_path / "id")

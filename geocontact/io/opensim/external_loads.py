@@ -26,18 +26,26 @@ class ExternalLoad:
         By its name.
     torque
         Whether the plate's free torque acts too.
+    force_frame, point_frame
+        Bodies that force with torque, and point, are expressed in; "" for the ground.
     """
 
     plate: str
     body: str
     torque: bool = True
+    force_frame: str = ""
+    point_frame: str = ""
+
+    @property
+    def moves(self) -> bool:
+        """Whether it is expressed in a body."""
+        return bool(self.force_frame or self.point_frame)
 
 
 def read_external_loads(path: str | PathLike[str]) -> tuple[Path, tuple[ExternalLoad, ...]]:
     """The file of the plates, beside this one unless it says otherwise, and who acts on whom.
 
-    Forces and points in another frame than the ground's are refused, and points or torques of another plate than the
-    force's. Without a torque the plate's own does not act.
+    Points or torques of another plate than the force's are refused. Without a torque the plate's own does not act.
     """
     file = fspath(path)
     root = read_document(path)
@@ -52,9 +60,7 @@ def read_external_loads(path: str | PathLike[str]) -> tuple[Path, tuple[External
 
 
 def _load(file: str, element: Element) -> ExternalLoad:
-    for part in ("force_expressed_in_body", "point_expressed_in_body"):
-        if text_of(element, part) not in GROUND:
-            raise InputError(file, f"{label(element)} <{part}>", "is another body than the ground", "not supported")
+    frames = [text_of(element, f"{part}_expressed_in_body") for part in ("force", "point")]
     body, force = basename(text_of(element, "applied_to_body")), text_of(element, "force_identifier")
     if not body or not force:
         raise InputError(file, label(element), "names no body or no force", "give applied_to_body and force_identifier")
@@ -64,10 +70,11 @@ def _load(file: str, element: Element) -> ExternalLoad:
         raise InputError(file, f"{label(element)} <point_identifier>", what, f"expected {stem}p")
     torque = text_of(element, "torque_identifier")
     known = {stem.replace("force", word) + letter for word in ("torque", "moment") for letter in ("", "m")}
-    if torque and torque not in known:
+    if torque and torque not in known | {each.rstrip("_") for each in known}:  # a beginning of the names, OpenSim says
         what = f"'{torque[:40]}' does not belong to the force '{force[:40]}'"
         raise InputError(file, f"{label(element)} <torque_identifier>", what, f"expected {min(known)}")
-    return ExternalLoad(stem.rstrip("_"), body, bool(torque))
+    named = ["" if each in GROUND else basename(each) for each in frames]
+    return ExternalLoad(stem.rstrip("_"), body, bool(torque), *named)
 
 
 def _is_off(file: str, element: Element) -> bool:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
+from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.quantities import turned_axes
@@ -41,12 +43,16 @@ def loads_on_bodies(
     found: dict[str, Wrench] = {}
     for load in loads:
         names = tuple(body.name for body in model.bodies)
-        if load.body not in names:
-            raise InputError(o.loads or "", load.plate, f"no body '{load.body}'", f"bodies are: {listed(names)}")
+        for body in (load.body, load.force_frame, load.point_frame):
+            if body and body not in names:
+                raise InputError(o.loads or "", load.plate, f"no body '{body}'", f"bodies are: {listed(names)}")
         named = "`plate`" if o.loads is None else f"{o.loads} <force_identifier>"
-        plate = _turned(plate_named(plates, load.plate, file, named), o, file, model)
-        wrench = _during(file, _loaded(plate, load, o.threshold), time)
-        _warn_of_far_points(record, file, load, wrench, model.poses(values)[load.body].translation)
+        plate, poses = plate_named(plates, load.plate, file, named), model.poses(values)
+        if load.moves:
+            wrench = _carried(file, plate, load, o.threshold, time, poses)
+        else:
+            wrench = _during(file, _loaded(_turned(plate, o, file, model), load, o.threshold), time)
+        _warn_of_far_points(record, file, load, wrench, poses[load.body].translation)
         before = found.get(load.body)
         if before is not None:
             wrench = replace(wrench, force=wrench.force + before.force, moment=wrench.moment + before.moment)
@@ -110,6 +116,33 @@ def _during(file: Path, plate: ForcePlate, time: Float[np.ndarray, " t"]) -> Wre
         )
         raise InputError(file, plate.name, what, "fill the gap, or cut the motion with `time`")
     return wrench
+
+
+def _carried(
+    file: Path,
+    plate: ForcePlate,
+    load: ExternalLoad,
+    threshold: float,
+    time: Float[np.ndarray, " t"],
+    poses: Mapping[str, RigidTransform],
+) -> Wrench:
+    """The wrench of a force, torque and point that are expressed in bodies, about the ground's origin."""
+    wrench = plate.wrench
+    torque = wrench.moment if load.torque else np.zeros_like(wrench.moment)
+    size = np.linalg.norm(wrench.force, axis=1)
+    idle = ((size < threshold) | (size == 0.0))[:, None]
+    own = [np.where(idle, 0.0, each) for each in (wrench.force, torque, wrench.origin)]
+    still = replace(plate, wrench=Wrench(own[0], np.zeros_like(torque), np.zeros_like(torque), wrench.frame))
+    _during(file, still, time)  # refuses gaps and other clocks
+    force, moment, point = (np.column_stack([np.interp(time, plate.time, column) for column in each.T]) for each in own)
+    if load.force_frame:
+        turn = poses[load.force_frame].rotation
+        force, moment = turn.apply(force), turn.apply(moment)
+    point = poses[load.point_frame].apply(point) if load.point_frame else point
+    lost = ~np.isfinite(np.column_stack([moment, point])).all(axis=1)
+    if lost.any():
+        raise InputError(file, plate.name, f"point or torque is missing at {time[np.argmax(lost)]:g} s", "fill the gap")
+    return Wrench(force, moment, point, OPENSIM_FRAME).moved_to(np.zeros(3))
 
 
 def _warn_of_far_points(
