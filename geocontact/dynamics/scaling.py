@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -55,8 +55,8 @@ def measured_factor(
 def scaled(model: Multibody, factors: Factors, mass: float | None = None) -> Multibody:
     """The model with its bodies scaled: joints, markers and mass centres move with them.
 
-    Shifts along the axes of a joint that are no coordinate by themselves scale with the parent body, as in OpenSim, and
-    so do coordinates that depend on others and are shifts.
+    Shifts along the axes of a joint that are no coordinate by themselves scale with the body that they are expressed in
+    (the parent, but of a reversed joint), as in OpenSim, and so do coordinates that depend on others and are shifts.
     Moments of inertia are those of the same mass spread over the scaled body, exact for every factor; OpenSim takes a
     cylinder where factors differ.
 
@@ -73,13 +73,13 @@ def scaled(model: Multibody, factors: Factors, mass: float | None = None) -> Mul
     ones = np.ones(3)
 
     def of(name: str) -> Float[np.ndarray, " 3"]:
-        return np.asarray(factors.get(name, ones), float)
+        return ones if name == GROUND else np.asarray(factors.get(name, ones), float)
 
     unknown = set(factors) - {body.name for body in model.bodies}
     if unknown:
         raise ValueError(f"there is no body {min(unknown)}")
     bodies = tuple(_body(body, of(body.name), heavier) for body in model.bodies)
-    joints = tuple(_joint(joint, of(joint.parent), of(joint.child)) for joint in model.joints)
+    joints = tuple(_joint(joint, of) for joint in model.joints)
     markers = tuple(replace(m, location=m.location * of(m.body)) for m in model.markers)
     couplers = tuple(
         replace(c, function=c.function.scaled(coupler_stretch(model, c.dependent, factors))) for c in model.couplers
@@ -95,15 +95,14 @@ def _body(body: Body, by: Float[np.ndarray, " 3"], heavier: float) -> Body:
     return Body(body.name, heavier * body.mass, body.centre * by, inertia)
 
 
-def _joint(joint: JointModel, parent: Float[np.ndarray, " 3"], child: Float[np.ndarray, " 3"]) -> JointModel:
-    if joint.parent == GROUND:
-        parent = np.ones(3)
-    shifts = tuple(_shift(joint.axes[slot], joint.stretch(slot, parent)) for slot in (3, 4, 5))
+def _joint(joint: JointModel, of: Callable[[str], Float[np.ndarray, " 3"]]) -> JointModel:
+    """`of` gives the factors of a body, ones of the ground."""
+    shifts = tuple(_shift(joint.axes[slot], joint.stretch(slot, of(joint.base))) for slot in (3, 4, 5))
     return replace(
         joint,
         axes=(*joint.axes[:3], *shifts),
-        parent_offset=_moved(joint.parent_offset, parent),
-        child_offset=_moved(joint.child_offset, child),
+        parent_offset=_moved(joint.parent_offset, of(joint.parent)),
+        child_offset=_moved(joint.child_offset, of(joint.child)),
     )
 
 

@@ -8,7 +8,11 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.dynamics.scaling import scaled
 from geocontact.io.opensim.osim_multibody import read_multibody
+from meshes.leg_files import leg_model
+from tests import opensim_oracle
+from tests.elsewhere import Elsewhere
 from tests.io.test_osim import MODELS, written
 
 MARKERS = """<MarkerSet><objects>
@@ -123,3 +127,29 @@ def test_what_is_no_tree_is_refused(tmp_path: Path, text: str, message: str) -> 
     with pytest.raises(InputError) as error:
         read_multibody(written(tmp_path, text))
     assert message in str(error.value)
+
+
+def turned_round(text: str) -> str:
+    """The leg with the knee's parent and child exchanged, as OpenSim 4 writes joints that OpenSim 3 calls reversed."""
+    swapped = text.replace("socket_parent_frame>knee_r_in", "socket_parent_frame>KEPT")
+    swapped = swapped.replace("socket_child_frame>knee_r_out", "socket_child_frame>knee_r_in")
+    return swapped.replace("socket_parent_frame>KEPT", "socket_parent_frame>knee_r_out")
+
+
+def test_a_joint_whose_child_is_nearer_to_the_ground(tmp_path: Path, opensim: Elsewhere) -> None:
+    """It is turned round; poses and scaled models are those of OpenSim."""
+    file = tmp_path / "leg.osim"
+    file.write_text(turned_round(leg_model()))
+    model = read_multibody(file)
+    (knee,) = (joint for joint in model.joints if joint.name == "knee_r")
+    assert (knee.parent, knee.child, knee.base, knee.reverse) == ("femur_r", "tibia_r", "tibia_r", True)
+    q = np.random.default_rng(1).uniform(-0.5, 0.5, (5, len(model.coordinates)))
+    names = tuple(c.name for c in model.coordinates)
+    theirs = opensim(opensim_oracle.poses, file, names, q, [("tibia_r", "ground"), ("foot_r", "ground")])
+    ours = model.poses(q)
+    for k, body in enumerate(("tibia_r", "foot_r")):
+        np.testing.assert_allclose(ours[body].translation, theirs[:, k, :3, 3], atol=1e-12)
+    by = {"femur_r": 1.2 * np.ones(3), "tibia_r": 0.9 * np.ones(3)}
+    opensim(opensim_oracle.scaled, file, tmp_path / "theirs.osim", {n: tuple(f) for n, f in by.items()}, 30.0)
+    wanted, found = read_multibody(tmp_path / "theirs.osim").poses(q), scaled(model, by, 30.0).poses(q)
+    np.testing.assert_allclose(found["foot_r"].translation, wanted["foot_r"].translation, atol=1e-9)

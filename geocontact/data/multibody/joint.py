@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -58,9 +58,10 @@ class TransformAxis:
 class JointModel:
     """A joint between two bodies.
 
-    `X_PC(q) = parent_offset · X_J(q) · child_offset⁻¹`, with X_J inverted where `reverse` is set (OpenSim 3: the
-    functions then give the parent in the child). X_J turns about three body-fixed axes in turn and then shifts by the
-    sum of three displacements expressed in the parent's joint frame.
+    `X_PC(q) = parent_offset · X_J(q) · child_offset⁻¹`, with X_J inverted where `reverse` is set (OpenSim 3, and joints
+    of OpenSim 4 whose child is the one nearer to the ground: the functions then give the parent in the child). X_J
+    turns about three body-fixed axes in turn and then shifts by the sum of three displacements, all expressed in the
+    joint frame of the body that `base` names.
     """
 
     name: str
@@ -85,10 +86,26 @@ class JointModel:
         moved = RigidTransform.from_components(np.asarray(shift), turned[0] * turned[1] * turned[2])
         return self.parent_offset * (moved.inv() if self.reverse else moved) * self.child_offset.inv()
 
+    @property
+    def base(self) -> str:
+        """The body in whose joint frame X_J turns and shifts: the parent, the child where `reverse` is set."""
+        return self.child if self.reverse else self.parent
+
     def stretch(self, slot: int, by: Float[np.ndarray, " 3"]) -> float:
-        """How much a shift along an axis (3, 4, 5 among `axes`) grows where the parent body does by these factors."""
-        direction = self.parent_offset.rotation.apply(self.axes[slot].direction)
-        return float(np.linalg.norm(direction * by))
+        """How much a shift along an axis (3, 4, 5 among `axes`) grows where `base` does by these factors."""
+        offset = self.child_offset if self.reverse else self.parent_offset
+        return float(np.linalg.norm(offset.rotation.apply(self.axes[slot].direction) * by))
+
+    def turned_round(self) -> JointModel:
+        """The same joint with parent and child exchanged."""
+        return replace(
+            self,
+            parent=self.child,
+            child=self.parent,
+            parent_offset=self.child_offset,
+            child_offset=self.parent_offset,
+            reverse=not self.reverse,
+        )
 
 
 def _amount(axis: TransformAxis, q: Mapping[str, Float[np.ndarray, " t"]], frames: int) -> Float[np.ndarray, " t"]:

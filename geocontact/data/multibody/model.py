@@ -145,15 +145,19 @@ class Multibody:
 
 
 def outwards(joints: tuple[JointModel, ...]) -> tuple[tuple[JointModel, ...], tuple[JointModel, ...]]:
-    """Joints in the order in which they lead away from the ground, and those that never do (a loop, a lost parent)."""
+    """Joints in the order in which they lead away from the ground, and those that never do (a loop, a lost parent).
+
+    One whose child is reached first is turned round, as OpenSim 4 has joints that OpenSim 3 calls reversed.
+    """
     reached, order, waiting = {GROUND}, [], list(joints)
     while waiting:
-        found = [joint for joint in waiting if joint.parent in reached and joint.child not in reached]
+        found = [joint for joint in waiting if (joint.parent in reached) != (joint.child in reached)]
         if not found:
             break
-        order.append(found[0])
-        reached.add(found[0].child)
-        waiting.remove(found[0])
+        first = next((joint for joint in found if joint.parent in reached), found[0])
+        order.append(first if first.parent in reached else first.turned_round())
+        reached.add(order[-1].child)
+        waiting.remove(first)
     return tuple(order), tuple(waiting)
 
 
@@ -161,6 +165,6 @@ def coupler_stretch(model: Multibody, dependent: str, factors: Mapping[str, Floa
     """How much a dependent coordinate that is a shift grows where bodies do by these factors; 1 for an angle."""
     for joint in model.joints:
         for slot, axis in enumerate(joint.axes):
-            if slot >= 3 and axis.coordinates == (dependent,) and joint.parent in factors:
-                return joint.stretch(slot, factors[joint.parent])
+            if slot >= 3 and axis.coordinates == (dependent,) and joint.base in factors:
+                return joint.stretch(slot, factors[joint.base])
     return 1.0

@@ -121,10 +121,10 @@ def _shifts(file: str, model: Element, scaled: Multibody, of: FactorOf) -> None:
     for element in model.iter("CustomJoint"):
         joint = joints.get(element.get("name", ""))
         for axis in element.findall("SpatialTransform/TransformAxis"):
-            if joint is None or joint.parent == GROUND or axis.get("name") not in _SHIFTS:
+            if joint is None or joint.base == GROUND or axis.get("name") not in _SHIFTS:
                 continue
             slot = _SHIFTS.index(axis.get("name", ""))
-            _multiply(file, axis, joint.stretch(3 + slot, of(joint.parent)))
+            _multiply(file, axis, joint.stretch(3 + slot, of(joint.base)))
 
 
 def _couplers(file: str, model: Element, scaled: Multibody, factors: Mapping[str, Vector]) -> None:

@@ -1,0 +1,253 @@
+"""OpenSim models beside OpenSim: `python -m benchmarks.opensim_models [FOLDER ...]`.
+
+Every .osim file below the folders (the project's own meshes and the real data unless named) is read by both. At random
+states within the coordinates' ranges: places and turns of all bodies, generalised forces; the model scaled by factors
+of its own for each body, with another mass; inverse kinematics of its virtual markers with noise, angles and frames per
+CPU second of one core. Models with ball, free or scapulothoracic joints are compared at rest, and without the forces of
+those joints: their speeds are angular velocities in OpenSim and rates of the coordinates here. A model that is refused
+here stands in the table with the line that says why. Motions are synthetic, models are as found.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import tempfile
+import time
+import warnings
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from benchmarks.one_core import pin
+
+HERE = Path(__file__).resolve().parent
+STATES, FRAMES, RATE, NOISE, SEED = 8, 60, 60.0, 2e-3, 3636
+"""Random states; frames of the virtual trial, its rate [Hz], noise of its markers [m]."""
+FEWEST = 8
+"""Markers of a model that inverse kinematics is tried with."""
+
+
+def main() -> None:
+    """Measure, print the table, write the JSON."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.opensim_models", description=__doc__.splitlines()[0])
+    parser.add_argument("folders", nargs="*", type=Path)
+    parser.add_argument("--out", type=Path, default=HERE / "results")
+    options = parser.parse_args()
+    pin()
+    from benchmarks.machine import machine, versions
+    from tests.elsewhere import another_process
+
+    rows = []
+    with another_process() as call:
+        for name, file in _models(options.folders):
+            rows.append({"model": name, **compared(file, call)})
+            print(_line(rows[-1]), flush=True)
+    report = {
+        "machine": machine(),
+        "versions": versions({"casadi", "numpy", "scipy", "opensim"}),
+        "seed": SEED,
+        "models": rows,
+    }
+    options.out.mkdir(parents=True, exist_ok=True)
+    (options.out / "opensim_models.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+
+
+def _models(folders: list[Path]) -> Iterator[tuple[str, Path]]:
+    data = Path(os.environ.get("GEOCONTACT_DATA", HERE.parent.parent / "shared" / "data"))
+    for folder in folders or [HERE.parent / "meshes", data]:
+        for file in sorted(folder.rglob("*.osim")):
+            yield file.relative_to(folder.parent).as_posix(), file
+
+
+def compared(file: Path, call: Any) -> dict[str, Any]:
+    """Differences to OpenSim, or why there are none."""
+    import numpy as np
+
+    from geocontact.data.errors import InputError
+    from geocontact.dynamics.tree import tree_of
+    from geocontact.io.opensim.osim_multibody import read_multibody
+
+    try:
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            tree = tree_of(read_multibody(file))
+    except InputError as error:
+        return {"refused": str(error).replace(str(file), file.name)}
+    found: dict[str, Any] = {
+        "bodies": len(tree.model.bodies),
+        "coordinates": len(tree.names),
+        "markers": len(tree.model.markers),
+        "warnings": sorted({str(each.message).replace(str(file), file.name) for each in said}),
+    }
+    rng = np.random.default_rng(SEED)
+    try:
+        found |= _kinematics(file, tree, call, _states(tree.model, rng, STATES))
+        found |= _dynamics(file, tree, call, _states(tree.model, rng, STATES), rng)
+        found |= _scaling(file, tree.model, call, rng)
+        if len(tree.model.markers) >= FEWEST:
+            found |= _markers(file, tree, call, rng)
+    except (RuntimeError, ValueError, IndexError, KeyError) as error:  # of either program: it belongs into the table
+        found["failed"] = " ".join(f"{type(error).__name__}: {error}".split())[:200].replace(str(file), file.name)
+    return found
+
+
+def _states(model: Any, rng: Any, count: int) -> Any:
+    """Coordinates about the middle of their ranges, half as wide; locked ones and those that follow as they are."""
+    import numpy as np
+
+    low, high = np.array([c.limits for c in model.coordinates]).T
+    start = np.array([c.default for c in model.coordinates])
+    wide = np.isfinite(low) & np.isfinite(high) & (high - low < 7.0)
+    low, high = np.where(wide, low, start - 0.5), np.where(wide, high, start + 0.5)
+    middle, span = 0.5 * (low + high), 0.5 * (high - low)
+    turned = np.array([c.kind == "rotational" for c in model.coordinates])
+    span = np.where(turned, np.minimum(span, 0.6), np.minimum(span, 0.1))
+    middle = np.where(np.abs(middle - start) > span, np.clip(start, middle - span, middle + span), middle)
+    values = middle + rng.uniform(-0.5, 0.5, (count, len(span))) * span
+    locked = np.array([c.locked for c in model.coordinates])
+    return model.coupled(np.where(locked, start, values))
+
+
+def _kinematics(file: Path, tree: Any, call: Any, q: Any) -> dict[str, Any]:
+    import numpy as np
+    from scipy.spatial.transform import Rotation
+
+    from tests import opensim_oracle
+
+    names = [body.name for body in tree.model.bodies if body.mass > 0.0]
+    theirs = call(opensim_oracle.poses, file, tree.names, q, [(name, "ground") for name in names])
+    ours = tree.model.poses(q)
+    apart = max(np.linalg.norm(ours[n].translation - theirs[:, k, :3, 3], axis=1).max() for k, n in enumerate(names))
+    turns = max(
+        (ours[n].rotation.inv() * Rotation.from_matrix(theirs[:, k, :3, :3])).magnitude().max()
+        for k, n in enumerate(names)
+    )
+    return {"bodies_apart_mm": 1e3 * float(apart), "bodies_turned_deg": float(np.degrees(turns))}
+
+
+def _dynamics(file: Path, tree: Any, call: Any, q: Any, rng: Any) -> dict[str, Any]:
+    """Largest difference of a coordinate's force over the range of that force, and which coordinates are beyond 1 %."""
+    import casadi
+    import numpy as np
+
+    from geocontact.dynamics.inverse_dynamics import generalised_forces
+    from tests import opensim_oracle
+
+    turning = _turning(file)
+    moving = np.array([not c.locked for c in tree.model.coordinates]) & (not turning)
+    u, a = (np.where(moving, rng.normal(size=q.shape), 0.0) for _ in range(2))
+    run = casadi.Function("id", [tree.q, tree.u, tree.a], [generalised_forces(tree)]).map(len(q))
+    ours = np.array(run(q.T, u.T, a.T)).T
+    theirs = call(opensim_oracle.inverse_dynamics, file, tree.names, q, u, a)
+    off = np.abs(ours - theirs).max(axis=0) / np.maximum(np.ptp(theirs, axis=0), 1e-3 * np.abs(theirs).max())
+    shares = {name: float(share) for name, share in zip(tree.names, off, strict=True) if name not in turning}
+    return {
+        "forces_at_rest": bool(turning),
+        "forces_off_share": max(shares.values()),
+        "forces_beyond_1_percent": [name for name, share in shares.items() if share > 0.01],
+        "forces_not_compared": sorted(turning),
+    }
+
+
+def _turning(file: Path) -> set[str]:
+    """Coordinates of joints whose speeds are angular velocities in OpenSim, and rates of the coordinates here."""
+    from geocontact.io.opensim.osim_xml import read_model
+
+    kinds = {"BallJoint", "FreeJoint", "ScapulothoracicJoint"}
+    joints = [element for element in read_model(file).iter() if element.tag in kinds]
+    return {each.get("name", "") for joint in joints for each in joint.iter("Coordinate")}
+
+
+def _scaling(file: Path, model: Any, call: Any, rng: Any) -> dict[str, Any]:
+    """One factor a body, another mass."""
+    import numpy as np
+
+    from geocontact.dynamics.scaling import scaled
+    from geocontact.io.opensim.osim_multibody import read_multibody
+    from tests import opensim_oracle
+
+    total = sum(body.mass for body in model.bodies)
+    by = {b.name: rng.uniform(0.9, 1.15) * np.ones(3) for b in model.bodies if b.mass > 0.0}
+    mass = 1.1 * total
+    with tempfile.TemporaryDirectory() as place:
+        out = Path(place) / "theirs.osim"
+        call(opensim_oracle.scaled, file, out, {name: tuple(each) for name, each in by.items()}, mass)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            theirs = read_multibody(out)
+    ours = scaled(model, by, mass)
+    known = {body.name: body for body in theirs.bodies}
+    off = [0.0]
+    for body in ours.bodies:
+        if body.mass > 0.0:
+            other = known[body.name]
+            off.append(abs(body.mass - other.mass) / other.mass)
+            size = max(float(np.abs(other.inertia).max()), 1e-12)
+            off.append(float(np.abs(body.inertia - other.inertia).max()) / size)
+            off.append(float(np.abs(body.centre - other.centre).max()))
+    joints = {joint.name: joint for joint in theirs.joints}
+    for joint in ours.joints:
+        if joint.name in joints:
+            for side in ("parent_offset", "child_offset"):
+                one, two = (getattr(each, side).translation for each in (joint, joints[joint.name]))
+                off.append(float(np.abs(one - two).max()))
+    places = {m.name: m.location for m in theirs.markers}
+    off += [float(np.abs(m.location - places[m.name]).max()) for m in ours.markers if m.name in places]
+    return {"scaled_off": max(off)}
+
+
+def _markers(file: Path, tree: Any, call: Any, rng: Any) -> dict[str, Any]:
+    """Inverse kinematics of a smooth motion with noise of the markers, from the same file."""
+    import numpy as np
+
+    from geocontact.data.multibody.marker_tasks import MarkerTasks
+    from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+    from geocontact.dynamics.inverse_kinematics import inverse_kinematics
+    from geocontact.io.mocap.trc import read_trc
+    from geocontact.io.mocap.trc_writer import write_trc
+    from tests import opensim_oracle
+
+    one, two = _states(tree.model, rng, 2)
+    phase = 0.5 - 0.5 * np.cos(np.linspace(0.0, 2.0 * np.pi, FRAMES))[:, None]
+    values = tree.model.coupled(one + phase * (two - one))
+    names = tuple(m.name for m in tree.model.markers)
+    places = tree.model.marker_places(values) + NOISE * rng.normal(size=(FRAMES, len(names), 3))
+    tasks = MarkerTasks(dict.fromkeys(names, 1.0))
+    with tempfile.TemporaryDirectory() as place:
+        trial = Path(place) / "trial.trc"
+        write_trc(trial, MarkerTrajectories(np.arange(FRAMES) / RATE, places, names))
+        seen = read_trc(trial)
+        inverse_kinematics(tree, seen.between(0.0, 0.05), tasks)
+        began = time.process_time()
+        found = inverse_kinematics(tree, seen, tasks)
+        ours = time.process_time() - began
+        weights = dict(tasks.markers)
+        theirs, angles = call(
+            opensim_oracle.inverse_kinematics, file, trial, weights, {}, list(seen.time[:-1]), list(tree.names), 1e-9
+        )
+    told = found.determined.all(axis=0)
+    turned = told & np.array([c.kind == "rotational" for c in tree.model.coordinates])
+    off = np.degrees(np.abs(found.values[:-1] - angles)[:, turned]).max(axis=0, initial=0.0)
+    return {
+        "angles_off_deg": float(off.max(initial=0.0)),
+        "angles_beyond_0.1_deg": [n for n, each in zip(np.array(tree.names)[turned], off, strict=True) if each > 0.1],
+        "not_determined": [name for name, each in zip(tree.names, told, strict=True) if not each],
+        "frames_per_second": FRAMES / ours,
+        "opensim_frames_per_second": FRAMES / theirs,
+        "steps_a_frame": float(found.steps.mean()),
+    }
+
+
+def _line(row: dict[str, Any]) -> str:
+    if "refused" in row:
+        return f"{row['model']}: refused: {row['refused']}"
+    keys = ("bodies_apart_mm", "bodies_turned_deg", "forces_off_share", "scaled_off",
+            "angles_off_deg", "frames_per_second", "opensim_frames_per_second")  # fmt: skip
+    told = ", ".join(f"{key} {row[key]:.3g}" for key in keys if key in row)
+    return f"{row['model']}: {row['coordinates']} coordinates: {told}{'; ' + row['failed'] if 'failed' in row else ''}"
+
+
+if __name__ == "__main__":
+    main()
