@@ -107,7 +107,23 @@ def _states(model: Any, rng: Any, count: int) -> Any:
     middle = np.where(np.abs(middle - start) > span, np.clip(start, middle - span, middle + span), middle)
     values = middle + rng.uniform(-0.5, 0.5, (count, len(span))) * span
     locked = np.array([c.locked for c in model.coordinates])
-    return model.coupled(np.where(locked, start, values))
+    return _closed(model, model.coupled(np.where(locked, start, values)))
+
+
+def _closed(model: Any, values: Any) -> Any:
+    """States near these in which points of constraints lie on each other."""
+    import numpy as np
+    from scipy.optimize import least_squares
+
+    if not model.pairs:
+        return values
+
+    def apart(q: Any) -> Any:
+        poses = model.poses(q[None])
+        ends = [[poses[body].apply(place)[0] for body, place in map(pair.ends, (0, 1))] for pair in model.pairs]
+        return np.concatenate([one - other for one, other in ends])
+
+    return np.array([least_squares(lambda q, near=near: np.r_[1e4 * apart(q), q - near], near).x for near in values])
 
 
 def _kinematics(file: Path, tree: Any, call: Any, q: Any) -> dict[str, Any]:
@@ -211,7 +227,7 @@ def _markers(file: Path, tree: Any, call: Any, rng: Any) -> dict[str, Any]:
 
     one, two = _states(tree.model, rng, 2)
     phase = 0.5 - 0.5 * np.cos(np.linspace(0.0, 2.0 * np.pi, FRAMES))[:, None]
-    values = tree.model.coupled(one + phase * (two - one))
+    values = _closed(tree.model, tree.model.coupled(one + phase * (two - one)))
     names = tuple(m.name for m in tree.model.markers)
     places = tree.model.marker_places(values) + NOISE * rng.normal(size=(FRAMES, len(names), 3))
     tasks = MarkerTasks(dict.fromkeys(names, 1.0))

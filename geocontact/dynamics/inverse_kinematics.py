@@ -4,7 +4,8 @@ Lu & O'Connor (1999), Bone position estimation from skin marker co-ordinates usi
 Newton's steps; the curvature, exact, is kept as long as they shrink fast, and damped after Levenberg and Marquardt
 where they do not lead down. As in OpenSim a coordinate that is held counts beside the mean over the markers that are
 seen in the frame: Σ w |x - observed|² / Σ w + v (q - wanted)². Coordinates that the model clamps stay within their
-limits, locked ones at their default; those that depend on others follow them. A marker that is not seen does not count
+limits, locked ones at their default; those that depend on others follow them, and points that a constraint joins stay
+together, to 0.1 mm. A marker that is not seen does not count
 in that frame. The search begins where most markers are seen and goes from there to both ends. What the markers of a
 frame do not tell is not stated, or filled where the gap is short.
 """
@@ -181,6 +182,8 @@ class _Search:
         slopes = self.fit.slopes(q).reshape(len(there), 3, len(q))
         weights = np.where(there, self.weights, 0.0)
         normal = np.einsum("m,mik,mil->kl", weights, slopes, slopes)
+        ties = self.fit.ties(q)
+        normal += weights.sum() * ties.T @ ties
         found = np.asarray(self.locked | ~_open(normal + weights.sum() * np.diag(self.held), ~self.locked))
         for k, of in self.followers.items():
             found[k] = found[of].all()

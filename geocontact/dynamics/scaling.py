@@ -84,7 +84,8 @@ def scaled(model: Multibody, factors: Factors, mass: float | None = None) -> Mul
     couplers = tuple(
         replace(c, function=c.function.scaled(coupler_stretch(model, c.dependent, factors))) for c in model.couplers
     )
-    return replace(model, bodies=bodies, joints=joints, markers=markers, couplers=couplers)
+    pairs = tuple(replace(p, places=p.places * np.array([of(body) for body in p.bodies])) for p in model.pairs)
+    return replace(model, bodies=bodies, joints=joints, markers=markers, couplers=couplers, pairs=pairs)
 
 
 def _body(body: Body, by: Float[np.ndarray, " 3"], heavier: float) -> Body:

@@ -24,7 +24,7 @@ PIN = MODELS["4 PinJoint"].replace("<Ground", f"<gravity>0 0 -9.8</gravity>{MARK
 OLD_MARKERS = """<MarkerSet><objects><Marker name="m"><body>c</body><location>1 2 3</location></Marker></objects>
 </MarkerSet>"""
 OLD = MODELS["3 PinJoint false"].replace("<BodySet>", f"{OLD_MARKERS}<BodySet>", 1)
-HELD = """<ConstraintSet><objects><PointConstraint name="k">{}</PointConstraint></objects>
+HELD = """<ConstraintSet><objects><WeldConstraint name="k">{}</WeldConstraint></objects>
 </ConstraintSet>"""
 
 
@@ -102,7 +102,7 @@ def test_parents_come_before_children(tmp_path: Path) -> None:
 
 def test_constraints_are_said(tmp_path: Path) -> None:
     on = PIN.replace("<BodySet", HELD.format("") + "<BodySet", 1)
-    with pytest.warns(InputWarning, match="constraints are not heeded.*PointConstraint k"):
+    with pytest.warns(InputWarning, match="constraints are not heeded.*WeldConstraint k"):
         read_multibody(written(tmp_path, on))
     for flag in ("<isDisabled>true</isDisabled>", "<isEnforced>false</isEnforced>"):
         read_multibody(written(tmp_path, PIN.replace("<BodySet", HELD.format(flag) + "<BodySet", 1)))

@@ -56,6 +56,27 @@ class Marker:
 
 
 @dataclass(frozen=True)
+class PointPair:
+    """Points of two bodies that a constraint keeps together, as at a joint that closes a loop.
+
+    Parameters
+    ----------
+    bodies
+        Names of both; one may be the ground.
+    places
+        In the frames of the bodies [m].
+    """
+
+    name: str
+    bodies: tuple[str, str]
+    places: Float[np.ndarray, "2 3"]
+
+    def ends(self, which: int) -> tuple[str, Float[np.ndarray, " 3"]]:
+        """Body and place of one of them."""
+        return self.bodies[which], self.places[which]
+
+
+@dataclass(frozen=True)
 class Coupler:
     """A coordinate that is a function of others, as that of a patella is of the knee's.
 
@@ -92,6 +113,8 @@ class Multibody:
         Its acceleration in the ground's frame [m/s^2].
     couplers
         In an order in which each depends on independent coordinates and on those of couplers before it.
+    pairs
+        Points that belong together: inverse kinematics keeps them so, nothing else does.
     """
 
     name: str
@@ -100,6 +123,7 @@ class Multibody:
     markers: tuple[Marker, ...]
     gravity: Float[np.ndarray, " 3"]
     couplers: tuple[Coupler, ...] = ()
+    pairs: tuple[PointPair, ...] = ()
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:

@@ -1,4 +1,4 @@
-"""Coordinates of an OpenSim model that are functions of others (`CoordinateCouplerConstraint`); other constraints."""
+"""Constraints of an OpenSim model: coordinates that are functions of others, points that belong together."""
 
 from __future__ import annotations
 
@@ -6,26 +6,49 @@ import warnings
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
+import numpy as np
+
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.multibody.model import Coupler
+from geocontact.data.multibody.model import Coupler, PointPair
 from geocontact.io.opensim.osim_functions import read_function
-from geocontact.io.opensim.osim_xml import is_true, label, numbers_of, text_of
+from geocontact.io.opensim.osim_xml import Frames, is_true, label, numbers_of, socket_of, text_of
 from geocontact.io.text.tables import listed
 
-TAG = "CoordinateCouplerConstraint"
+TAG, PAIR = "CoordinateCouplerConstraint", "PointConstraint"
 
 
 def read_couplers(file: str, model: Element, coordinates: Sequence[str]) -> tuple[Coupler, ...]:
     """Couplers that are switched on, in an order in which each follows those it depends on.
 
-    Constraints of other kinds are no part of a tree: a warning names them.
+    Constraints of other kinds, but for pairs of points, are no part of a tree: a warning names them.
     """
-    found = [e for e in model.findall("ConstraintSet/objects/*") if not _is_off(file, e)]
-    others = tuple(label(e) for e in found if e.tag != TAG)
+    found = _switched_on(file, model)
+    others = tuple(label(e) for e in found if e.tag not in (TAG, PAIR))
     if others:
         message = f"{file}: constraints are not heeded, coordinates they couple move freely: {listed(others)}"
         warnings.warn(InputWarning(message), stacklevel=4)
     return _in_order(file, [_coupler(file, e, coordinates) for e in found if e.tag == TAG])
+
+
+def read_pairs(file: str, model: Element, frames: Frames) -> tuple[PointPair, ...]:
+    """Points that a `PointConstraint` keeps together, in the bodies that its frames are fixed to."""
+    return tuple(_pair(file, e, frames) for e in _switched_on(file, model) if e.tag == PAIR)
+
+
+def _pair(file: str, element: Element, frames: Frames) -> PointPair:
+    bodies, places = [], []
+    for end in ("1", "2"):
+        named = socket_of(element, f"body_{end}") or text_of(element, f"body_{end}")
+        if not named:
+            raise InputError(file, label(element), f"names no body {end}", "correct the model")
+        body, pose = frames.in_body(frames.resolve("/constraintset", named))
+        bodies.append(body)
+        places.append(pose.apply(numbers_of(file, element, f"location_body_{end}", 3, (0.0, 0.0, 0.0))))
+    return PointPair(element.get("name", ""), (bodies[0], bodies[1]), np.array(places))
+
+
+def _switched_on(file: str, model: Element) -> list[Element]:
+    return [e for e in model.findall("ConstraintSet/objects/*") if not _is_off(file, e)]
 
 
 def _coupler(file: str, element: Element, coordinates: Sequence[str]) -> Coupler:

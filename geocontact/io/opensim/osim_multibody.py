@@ -12,7 +12,7 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import GROUND, Body, Marker, Multibody, outwards
 from geocontact.io.opensim.osim import joints_of
-from geocontact.io.opensim.osim_couplers import read_couplers
+from geocontact.io.opensim.osim_couplers import read_couplers, read_pairs
 from geocontact.io.opensim.osim_scapula import between
 from geocontact.io.opensim.osim_xml import (
     Frames,
@@ -31,9 +31,9 @@ _MOMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 def read_multibody(path: str | PathLike[str]) -> Multibody:
     """Bodies, joints and markers of an .osim file.
 
-    Coordinates that a coupler makes functions of others follow them. Other constraints are no part of a tree: a model
-    with some that are not switched off is read with a warning that names them. Muscles and other forces are left aside.
-    InputError for loops and bodies without a joint.
+    Coordinates that a coupler makes functions of others follow them; points that a constraint keeps together are told.
+    Other constraints are no part of a tree: a model with some that are not switched off is read with a warning that
+    names them. Muscles and other forces are left aside. InputError for loops and bodies without a joint.
     """
     file = fspath(path)
     model = read_model(path)
@@ -49,7 +49,8 @@ def read_multibody(path: str | PathLike[str]) -> Multibody:
     couplers = read_couplers(file, model, [c.name for joint in joints for c in joint.coordinates])
     markers = _markers(file, frames, model.findall("MarkerSet/objects/Marker"), {body.name for body in bodies})
     gravity = numbers_of(file, model, "gravity", 3, (0.0, -9.80665, 0.0))
-    return Multibody(model.get("name", ""), bodies, joints, markers, gravity, couplers)
+    pairs = read_pairs(file, model, frames)
+    return Multibody(model.get("name", ""), bodies, joints, markers, gravity, couplers, pairs)
 
 
 def read_marker_set(path: str | PathLike[str], osim: str | PathLike[str]) -> tuple[Marker, ...]:

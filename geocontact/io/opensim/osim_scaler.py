@@ -15,7 +15,7 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.model import GROUND, Multibody, coupler_stretch
 from geocontact.io.opensim.osim_multibody import read_multibody
-from geocontact.io.opensim.osim_xml import label, numbers_of, outside_of_sets, read_document, socket_of, text_of
+from geocontact.io.opensim.osim_xml import Frames, label, numbers_of, outside_of_sets, read_document, socket_of, text_of
 from geocontact.io.text.tables import listed
 
 Vector = Float[np.ndarray, " 3"]
@@ -66,6 +66,7 @@ def write_scaled_model(
     _frames(file, model, scaled, of)
     _shifts(file, model, scaled, of)
     _couplers(file, model, scaled, factors)
+    _pairs(file, model, Frames(file, model), of)
     _markers(model, scaled)
     for point in list(model.iter()):
         if point.tag.endswith("PathPoint"):
@@ -135,6 +136,18 @@ def _couplers(file: str, model: Element, scaled: Multibody, factors: Mapping[str
         if dependent in dependents:
             factor = float(numbers_of(file, element, "scale_factor", 1, (1.0,))[0])
             _set(element, "scale_factor", [factor * coupler_stretch(scaled, dependent, factors)])
+
+
+def _pairs(file: str, model: Element, frames: Frames, of: FactorOf) -> None:
+    """Points that a constraint keeps together move with their bodies; OpenSim leaves them where they were."""
+    for element in model.findall("ConstraintSet/objects/PointConstraint"):
+        for end in ("1", "2"):
+            named = socket_of(element, f"body_{end}") or text_of(element, f"body_{end}")
+            body, pose = frames.in_body(frames.resolve("/constraintset", named))
+            if not np.array_equal(pose.as_matrix(), np.eye(4)) and not np.array_equal(of(body), np.ones(3)):
+                what = f"<location_body_{end}> is in an offset frame, which is not scaled there"
+                raise InputError(file, label(element), what, f"express it in {body}")
+            _times(file, element, f"location_body_{end}", of(body))
 
 
 def _multiply(file: str, axis: Element, factor: float) -> None:
@@ -212,6 +225,10 @@ def _compare(file: str, target: Path, scaled: Multibody) -> None:
             scaled.marker_places(scaled.coupled(places)).swapaxes(0, 1),
             strict=True,
         )
+    ]
+    ends += [
+        (f"constraint {one.name}", one.places.ravel().tolist(), other.places.ravel().tolist())
+        for one, other in zip(found.pairs, scaled.pairs, strict=True)
     ]
     for what, one, other in ends:
         if np.abs(np.subtract(one, other)).max() > _SAME:
