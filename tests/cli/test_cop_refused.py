@@ -39,7 +39,6 @@ GOOD = "0,0,0,0.02,heel"
         (HEAD.replace("px [m]", "px [furlong]"), [GOOD], "column 'px' is in 'furlong'"),
         (f"{HEAD}, px [m]", [f"{GOOD},0"], "column 'px' occurs 2 times"),
         (f"{HEAD}, k [N/mm]", [f"{GOOD},10"], "column 'k' is in 'N/mm'"),
-        (f"{HEAD}, k [N/m^2]", [f"{GOOD},10"], "column k is in N/m^2 but the exponent is 1.2; give --exponent 2"),
         (f"{HEAD}, k [N/m^n]", [f"{GOOD},0"], "line 2: k is 0; it must be positive"),
         (f"{HEAD}, b [N s/m]", [f"{GOOD},-1"], "line 2: b is -1; it must not be negative"),
         (f"{HEAD}, b [Ns/mm]", [f"{GOOD},1"], "column 'b' is in 'Ns/mm'"),
@@ -51,6 +50,15 @@ def test_tables_of_spheres(tmp_path: Path, head: str, rows: list[str], words: st
     result = cop(tmp_path, spheres=spheres)
     assert (result.code, len(result.complaints), result.folder.exists()) == (2, 1, False)
     assert words in result.complaints[0]
+
+
+def test_an_exponent_that_the_unit_contradicts(tmp_path: Path) -> None:
+    """The unit of k says it; typed otherwise it is refused."""
+    table = f"{HEAD}, k [N/m^2]\n{GOOD},10\n"
+    spheres = written(tmp_path / "spheres.csv", table)
+    assert cop(tmp_path, spheres=spheres).record()["results"]["cop"]["law"]["n"] == 2.0
+    other = cop(tmp_path, "--exponent", "1.2", spheres=spheres)
+    assert other.code == 2 and "column k is in N/m^2 but the exponent is 1.2; give --exponent 2" in other.err
 
 
 @pytest.mark.parametrize("content", [b"", b"\0" * 600, b"<html></html>", b"px [m]"])

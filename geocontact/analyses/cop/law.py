@@ -26,7 +26,9 @@ def sole_law(record: Record, table: SphereTable, o: CopOptions) -> SoleLaw:
     assumed: dict[str, float] = {}
     static, kinetic = (None, None) if o.friction is None else o.friction
     one = _Numbers(o, assumed)
-    exponent = one("exponent", "n", o.exponent, file.n, EXPONENT)
+    exponent = table.exponent if o.exponent is None and file.n is None else None  # the unit of k says it
+    if exponent is None:
+        exponent = one("exponent", "n", o.exponent, file.n, EXPONENT)
     if table.exponent is not None and table.exponent != exponent:
         what = f"column k is in N/m^{table.exponent:g} but the exponent is {exponent:g}"
         raise InputError("", "`exponent`", what, f"give `exponent` {table.exponent:g}")

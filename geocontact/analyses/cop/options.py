@@ -47,9 +47,15 @@ class CopOptions(Options):
     Parameters
     ----------
     spheres
-        Table of the spheres in the foot's frame: px [m], py [m], pz [m], radius [m], zone.
+        Table of the spheres in the foot's frame: px [m], py [m], pz [m], radius [m], zone; or an OpenSim model (.osim)
+        with contact spheres on `body`.
     motion
         Poses of the foot in the ground's frame (.csv), or coordinates (.mot .sto) with `osim` and `joint`, or `map`.
+
+    The foot
+    --------
+    body
+        Body of the OpenSim model whose contact spheres are the foot's, each a zone.
 
     The ground
     ----------
@@ -126,6 +132,7 @@ class CopOptions(Options):
     spheres: Path
     _: KW_ONLY
     motion: Path
+    body: str | None = None
     ground: Expression | None = None
     unit: MeshUnit | None = None
     point: Literal["ground", "sphere"] = "ground"

@@ -11,9 +11,11 @@ from geocontact.analyses.cop.ground import ground_of
 from geocontact.analyses.cop.law import sole_law
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.io.mocap.force_plates import ForcePlate
-from geocontact.io.recordings.spheres import read_spheres
+from geocontact.io.opensim.osim_contact_spheres import read_contact_spheres
+from geocontact.io.recordings.spheres import SphereTable, read_spheres
 from geocontact.loads.ground import Ground
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
 
@@ -33,7 +35,7 @@ class Foot:
 def read(o: CopOptions, record: Record) -> Foot:
     """Everything the options name."""
     ground = ground_of(record, o)
-    table = read_spheres(o.spheres)
+    table = _spheres(o)
     record.add_input("spheres", o.spheres, spheres=len(table.radius))
     sole = SphereSet(table.centre, table.radius, table.zone)
     law = sole_law(record, table, o)
@@ -42,3 +44,11 @@ def read(o: CopOptions, record: Record) -> Foot:
     if plate is not None and o.compare is not None:
         plate = smoothed_plate(plate, o.force_cutoff, o.compare)
     return Foot(o.spheres.name, sole, law, motion, ground, plate)
+
+
+def _spheres(o: CopOptions) -> SphereTable:
+    if o.spheres.suffix.lower() == ".osim":
+        return read_contact_spheres(o.spheres, o.body)
+    if o.body is not None:
+        raise InputError(o.spheres, "`body`", "has no effect: the spheres are not those of a model", "leave it out")
+    return read_spheres(o.spheres)
