@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
@@ -21,7 +21,9 @@ from geocontact.gap.selection.held_out_rules import TOO_LITTLE, HeldOutRules
 from geocontact.gap.selection.model_comparison import Contender, base_contender, pairs, settled_in, singles
 from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, recorder_remarks, residual_anomalies
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
+from geocontact.gap.selection.tails import Tails, tails
 from geocontact.gap.selection.verdict import Answer, answer, borne_out, most_of, ranking, with_mistake, with_refused
+from geocontact.identify.noise.student import StudentNoise
 
 FIRSTS = 3  # singles that a second effect is tried on
 LEADING = 3  # contenders under whose noise everyone is compared
@@ -67,6 +69,8 @@ class Attribution:
         Channels whose recordings end at a level.
     answer
         The verdict.
+    heavy
+        Channels whose noise has heavy tails, in which samples and stretches have weights.
     """
 
     problem: Problem
@@ -80,6 +84,7 @@ class Attribution:
     objections: dict[str, str]
     flat: tuple[ClippedChannel, ...]
     answer: Answer
+    heavy: Mapping[str, StudentNoise] = field(default_factory=dict)
 
 
 def attribute(case: GapCase, system: System, offer: Offer, at: Listener = nobody) -> Attribution:
@@ -105,7 +110,32 @@ def attribute(case: GapCase, system: System, offer: Offer, at: Listener = nobody
 def _attributed(
     problem: Problem, data_error: DataError | None, clean: Problem, offer: Offer, case: GapCase, at: Listener
 ) -> Attribution:
-    """The contest of the effects, a mistake undone; `case` is what `clean` was made of."""
+    """The contest of the effects, a mistake undone; `case` is what `clean` was made of.
+
+    Where what nobody accounts for has heavy tails, it is held again with their weights.
+    """
+    found = _contest(problem, data_error, clean, Tails.none(clean), offer, case, at)
+    leader = max((found.base, *found.contenders), key=lambda one: one.nats)
+    rest = found.remaining.get(leader.label) or surrogate(clean, leader.judged)
+    heavy = tails(clean, leader.judged, rest.predicted)
+    if not heavy.channels:
+        return found
+    at("the same with heavy tails of the noise")
+    weighed = heavy.weighed(clean)
+    again = _contest(weighed if clean is problem else problem, data_error, weighed, heavy, offer, case, at)
+    return replace(again, heavy=heavy.channels)
+
+
+def _contest(
+    problem: Problem,
+    data_error: DataError | None,
+    clean: Problem,
+    heavy: Tails,
+    offer: Offer,
+    case: GapCase,
+    at: Listener,
+) -> Attribution:
+    """Every effect alone, pairs, and what is left over, under one weight of each sample."""
     candidates = offer(clean.system)
     base = base_contender(clean)
     hidden = hidden_mistakes(clean, base.judged, candidates) if data_error is None else ()
@@ -122,7 +152,7 @@ def _attributed(
     base, *contenders = compared(clean, [base, *contenders])
     most = max(c.nats for c in contenders)
     contenders = [
-        undone(clean, case, c)
+        undone(clean, case, c, heavy)
         if c.candidates[0] in hidden and len(c.candidates) == 1 and c.nats > most - WORTH_UNDOING
         else c
         for c in contenders

@@ -131,6 +131,7 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
         remarks=(
             *(f"{each.words} in {each.channel}" for each in (*found.odd, *found.recorder)),
             *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
+            *(f"{each.words} in {channel}" for channel, each in found.heavy.items()),
             *objection(found),
             *(nearest(found) if said.verdict == "unknown" else ()),
             *(on_bounds(said.chosen, found.base, errors.fitted, errors.values) if said.effects else ()),

@@ -12,6 +12,7 @@ from geocontact.gap.data_errors.gross import data_error_of
 from geocontact.gap.data_errors.hidden import hidden_mistakes, undone
 from geocontact.gap.selection.evidence import by_smoothing
 from geocontact.gap.selection.model_comparison import base_contender, finished
+from geocontact.gap.selection.tails import Tails
 from geocontact.gap_benchmark.drawing import Lot, drawn
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
@@ -58,7 +59,7 @@ def judged_both_ways() -> tuple[float, float, float]:
     samples = sum(len(t) for t in (*case.calibration, *case.evaluation))
     clean = base_contender(problem_of(right, problem.system)).judged
     expected = clean.nats + samples * float(np.log(pound)) - owed
-    return alone.judged.nats, undone(problem, case, alone).judged.nats, expected
+    return alone.judged.nats, undone(problem, case, alone, Tails.none(problem)).judged.nats, expected
 
 
 @pytest.mark.slow

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.gap.case.placement import ANGLE, GAIN, ZERO, placement
+from geocontact.gap.diagnose import diagnose
 from geocontact.gap.selection.held_out_error import TrialWeight
+from geocontact.systems.catalogue import system_of
 from geocontact.systems.elastic_joint.model import JOINT
+from tests.elsewhere import Elsewhere
+from tests.gap.cases import TRUE, elbow_case
 
+LENGTH, TURN, SHARE = 1e-3, np.radians(0.5), 0.01
+"""Standard deviations of what is put on anew: a length [m], the zero of an angle [rad], a gain."""
 NOISE = 0.2
 """Of the torque [N m]."""
 
@@ -40,3 +49,25 @@ def test_a_zero_of_its_own_costs_a_trial_next_to_nothing() -> None:
     costs = [float((weigh(each) ** 2).sum()) for each in (alike, quick)]
     assert costs[0] < 0.05 * costs[1]
     assert costs[1] > 0.9 * float((quick**2).sum()) / NOISE**2
+
+
+def put_on_anew() -> Diagnosis:
+    """Of an elbow that lacks nothing: a constant length, the zero of its angle and the gain of its force are a trial's
+    own."""
+    case, rng = elbow_case(seed=3, duration=8.0), np.random.default_rng(8)
+    system = system_of(case)
+    for trial in (*case.calibration, *case.evaluation):
+        moved = {**case.constants, "l": case.constants["l"] + LENGTH * rng.standard_normal()}
+        other = system_of(replace(case, constants=moved))
+        values = trial.signals.values
+        angle, force = 0, 1
+        values[:, force] += (other.simulate(trial, TRUE) - system.simulate(trial, TRUE))[:, 0]
+        values[:, force] *= 1.0 + SHARE * rng.standard_normal()
+        values[:, angle] += TURN * rng.standard_normal()
+    return diagnose(case, system).diagnosis
+
+
+@pytest.mark.slow
+def test_what_is_put_on_anew_is_no_gap(elsewhere: Elsewhere) -> None:
+    found = elsewhere(put_on_anew)
+    assert (found.verdict, found.effects) == ("no_gap", ())

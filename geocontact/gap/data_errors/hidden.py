@@ -22,6 +22,7 @@ from geocontact.gap.data_errors.correction import corrected
 from geocontact.gap.data_errors.gross import gross, recognised
 from geocontact.gap.selection.evidence import Judged, by_smoothing
 from geocontact.gap.selection.model_comparison import Contender, base_contender
+from geocontact.gap.selection.tails import Tails
 
 MODEST = 20.0  # factor of a unit up to which a wrong one may hide in parameters
 ROUNDS = 8
@@ -45,14 +46,15 @@ def hidden_mistakes(problem: Problem, base: Judged, candidates: Sequence[Candida
     return tuple(found)
 
 
-def undone(problem: Problem, case: GapCase, one: Contender) -> Contender:
+def undone(problem: Problem, case: GapCase, one: Contender, heavy: Tails) -> Contender:
     """A mistake judged where it is undone, with the noise that the case tells, if that makes it more probable.
 
+    Samples weigh what they do for everyone else (`heavy`).
     A wrong unit of an output is a change of variables: the densities differ by the factor, sample by sample.
     """
     mistake = one.candidates[0]
     data_error = recognised(problem, mistake, one.judged.model)
-    clean = problem_of(corrected(case, data_error), problem.system)
+    clean = heavy.weighed(problem_of(corrected(case, data_error), problem.system))
     base = base_contender(clean).judged
     wide = np.log(abs(mistake.factor)) if mistake.channel in problem.system.outputs else 0.0
     column = problem.system.outputs.index(mistake.channel) if wide else 0

@@ -13,7 +13,7 @@ each other, apart from d; that keeps matrices small, and is right for what is fo
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 
@@ -51,6 +51,10 @@ class NoiseBlock:
     channel: Int[np.ndarray, " n"]
     inputs: Float[np.ndarray, "j n n"]
     spread: Float[np.ndarray, " n"]
+
+    def louder(self, times: Float[np.ndarray, " n"]) -> NoiseBlock:
+        """The same rows with sensor noise so many times as high."""
+        return replace(self, inputs=self.inputs / np.outer(times, times), spread=self.spread * times)
 
     def covariance(self, levels: NoiseLevels) -> Float[np.ndarray, "n n"]:
         """Of rows divided by `spread`, at these levels."""
@@ -126,6 +130,10 @@ class Layout:
         )
         scale = sum(scale + float(np.log(b.spread).sum()) for b, (_, scale) in zip(self.blocks, factors, strict=True))
         return Whitener(tuple(block.rows for block in self.blocks), inverses, scale)
+
+    def louder(self, times: Float[np.ndarray, "t c"]) -> Layout:
+        """The same trial with the sensor noise of each sample so many times as high."""
+        return Layout(self.shape, tuple(block.louder(times.ravel()[block.rows]) for block in self.blocks))
 
     @cached_property
     def rows(self) -> Int[np.ndarray, " n"]:
