@@ -1,19 +1,22 @@
-"""A simulator as a base model: asked for all outputs at once, nothing inside of it can be replaced.
+"""A simulator as a base model: asked for all outputs at once.
 
 The chain is motion → simulator → sensor: effects on inputs, outputs, timing and data apply, and loads beside it.
-Effects of a law or a geometry are not offered.
+Nothing inside of it can be replaced, unless it takes a force law as an argument (`acting_law`): then effects of the law
+are offered too. Effects of a geometry are not.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import cast
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.implicit import NotConverged
+from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor, Values
 from geocontact.chain.magnitudes import Magnitudes
@@ -21,6 +24,7 @@ from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.simulator import Simulator, SimulatorError
 from geocontact.systems.base import Base
+from geocontact.systems.external.acting_law import ActingLaw, RunWithLaw, SimulatedWithLaw
 
 Run = Callable[[Float[np.ndarray, " t"], Float[np.ndarray, "i t"], dict[str, float]], object]
 """Time [s], inputs (a row each, SI), numbers by name → outputs (t, c), or (t,) of a single one."""
@@ -100,19 +104,38 @@ def simulated_system(
 
 @dataclass(frozen=True, eq=False)
 class PythonSimulator:
-    """A function as a simulator; whatever it raises, or an answer of another shape, is a run that failed."""
+    """A function as a simulator; whatever it raises, or an answer of another shape, is a run that failed.
 
-    function: Run
+    With `acts_on`, an input, it is one that takes a force law (`run_with`).
+    """
+
+    function: Run | RunWithLaw
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     units: Mapping[str, str]
+    acts_on: str = ""
 
     def run(
         self, time: Float[np.ndarray, " t"], inputs: Float[np.ndarray, "i t"], numbers: Mapping[str, float]
     ) -> Float[np.ndarray, "t c"]:
         """Outputs at the times of the inputs; SimulatorError where there are none."""
+        function = cast(Run, self.function)
+        return self._answer(time, lambda: function(time.copy(), inputs.copy(), dict(numbers)))
+
+    def run_with(
+        self,
+        time: Float[np.ndarray, " t"],
+        inputs: Float[np.ndarray, "i t"],
+        numbers: Mapping[str, float],
+        law: ActingLaw,
+    ) -> Float[np.ndarray, "t c"]:
+        """The same of a function that takes a law."""
+        function = cast(RunWithLaw, self.function)
+        return self._answer(time, lambda: function(time.copy(), inputs.copy(), dict(numbers), law))
+
+    def _answer(self, time: Float[np.ndarray, " t"], asked: Callable[[], object]) -> Float[np.ndarray, "t c"]:
         try:
-            found = np.array(self.function(time.copy(), inputs.copy(), dict(numbers)), dtype=float)
+            found = np.array(asked(), dtype=float)
         except Exception as error:  # the user's code may raise anything
             raise SimulatorError(f"{type(error).__name__}: {error}") from error
         if found.shape == time.shape and len(self.outputs) == 1:
@@ -126,7 +149,15 @@ class PythonSimulator:
 
 
 def simulator_base(
-    name: str, inputs: Mapping[str, str], outputs: Mapping[str, str], run: Run, dynamic: bool = False
+    name: str,
+    inputs: Mapping[str, str],
+    outputs: Mapping[str, str],
+    run: Run | RunWithLaw,
+    dynamic: bool = False,
+    *,
+    acts_on: str = "",
+    law: Mapping[str, Source] | None = None,
+    load: str = "",
 ) -> Base:
     """A function as a base model of one's own, for `system = "package.module:OBJECT"`.
 
@@ -142,10 +173,29 @@ def simulator_base(
     dynamic
         Whether outputs feel what inputs did before (inertia, creep), or `run` differentiates its inputs. Noise of the
         inputs is then followed through `run` sample by sample, which takes some hundred runs per trial.
+    acts_on
+        Input that a force law acts on. `run` takes the law as a fourth argument then, an `ActingLaw`, and adds what it
+        gives where it belongs; effects on the law are offered.
+    law
+        Numbers of the law that the base has already, by name: {"k": "stiffness"} takes its spring from the parameter
+        stiffness. Nothing unless given: a law without effects gives 0.
+    load
+        Unit of what the law gives; that of the first output in N or N m, else of the first, unless given.
+
+    ValueError where `acts_on` is no input, or `law` or `load` is given without it.
     """
-    simulator = PythonSimulator(run, tuple(inputs), tuple(outputs), {**inputs, **outputs})
+    if acts_on and acts_on not in inputs:
+        raise ValueError(f"acts_on names {acts_on!r}; inputs are {', '.join(inputs)}")
+    if not acts_on and (law is not None or load):
+        raise ValueError("a law without acts_on: name the input that it acts on")
+    simulator = PythonSimulator(run, tuple(inputs), tuple(outputs), {**inputs, **outputs}, acts_on)
+    unit = load or next((each for each in outputs.values() if each in ("N", "N m")), next(iter(outputs.values())))
 
     def build(parameters: tuple[Parameter, ...], constants: Mapping[str, float], _tables: object) -> System:
-        return simulated_system(name, simulator, None, parameters, constants, dynamic)
+        made = simulated_system(name, simulator, None, parameters, constants, dynamic)
+        if not acts_on:
+            return made
+        link = Law(INTERFACE_LAW, load=unit, deflection=inputs[acts_on]).having(dict(law or {}))
+        return replace(made, geometry=SimulatedWithLaw(simulator.run_with, acts_on, NOTHING), law=link)
 
     return Base(name, simulator.inputs, simulator.outputs, build)
