@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import re
 import sys
 from dataclasses import replace
@@ -12,6 +13,7 @@ import pytest
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.effect import Effect
+from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
 from geocontact.data.gap.case import LISTED_SYSTEMS, GapCase
@@ -25,8 +27,9 @@ from geocontact.io.cases.program import program
 from geocontact.systems.base import Base
 from geocontact.systems.catalogue import SYSTEMS, system_of
 from geocontact.systems.elastic_joint import model as elastic_joint
+from geocontact.systems.external.acting_law import ActingLaw
 from geocontact.systems.external.python_model import python_base
-from geocontact.systems.external.simulator import PythonSimulator, Run
+from geocontact.systems.external.simulator import PythonSimulator, Run, simulator_base
 from geocontact.systems.knee import full_chain
 from tests.systems.examples import elbow, foot, joint
 from tests.systems.test_command import Spring
@@ -219,13 +222,16 @@ def test_listed_names_are_those_of_the_systems() -> None:
 
 
 def blocks() -> list[str]:
-    """Python of the page for users, in order: a simulator, the model, a look at it, a law, an effect, and two more."""
+    """Python of the page for users: a simulator, the model, a look at it, a law, an effect, and three more.
+
+    They are a simulator, one that takes a law, and a program.
+    """
     page = Path(__file__).resolve().parents[2] / "docs" / "how-to" / "own_model.md"
     return re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
 
 
 def test_the_model_of_the_page_for_users_works(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    _, model, _, _, effect, _, _ = blocks()
+    _, model, _, _, effect, _, _, _ = blocks()
     monkeypatch.delitem(sys.modules, "own_orthosis", raising=False)
     text = effect + model.replace('"N m"},', '"N m"}, own=(SECOND_STRUT,),')
     (here / "own_orthosis.py").write_text(text, encoding="utf-8")
@@ -243,7 +249,7 @@ def test_the_model_of_the_page_for_users_works(here: Path, monkeypatch: pytest.M
 def test_the_simulator_of_the_page_for_users_works(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Against the branch's convolution; the diagnosis is offered what does not reach inside."""
     monkeypatch.delitem(sys.modules, "own_creeping", raising=False)
-    (here / "own_creeping.py").write_text(blocks()[-2], encoding="utf-8")
+    (here / "own_creeping.py").write_text(blocks()[-3], encoding="utf-8")
     given = case("own_creeping:CREEPING", constants={"neutral": 0.1, "c": 4.0, "tau": 0.3})
     system = system_of(given)
     time, angle = given.calibration[0].time, given.calibration[0].column("angle")
@@ -254,6 +260,78 @@ def test_the_simulator_of_the_page_for_users_works(here: Path, monkeypatch: pyte
     offered = {one.name for one in candidates(system)}
     assert {"sensor_drift", "time_shift", "motion_offset", "unit_error"} <= offered
     assert not {"damping", "series_compliance"} & offered
+
+
+def carriage(law: dict[str, str] | None = None) -> Base:
+    """Mass and spring of its own beside the law."""
+
+    def run(_: np.ndarray, inputs: np.ndarray, numbers: dict[str, float], acting: ActingLaw) -> np.ndarray:
+        return numbers["M"] * acting.acceleration + numbers["c"] * inputs[0] + acting(inputs[0], acting.rate)
+
+    return simulator_base("carriage", {"angle": "rad"}, {"torque": "N m"}, run, acts_on="angle", law=law)
+
+
+def test_effects_of_a_law_act_inside_of_a_simulator() -> None:
+    """As they do on a chain with the same law, whatever else the simulator does."""
+    parameters = (Parameter("M", "kg m^2", 0.3, 0.0, 9.0), Parameter("c", "N m/rad", 4.0, 0.0, 99.0))
+    parameters += (Parameter("k", "N m/rad", 50.0, 1.0, 500.0),)
+    given = case("carriage")
+    made = carriage({"k": "k"}).build(parameters, {}, {}).scaled(given.calibration)
+    chain = elastic_joint.JOINT.build(parameters[2:], {"angle0": 0.0}, {}).scaled(given.calibration)
+    trial, inputs = given.calibration[0], made.motion.seen(given.calibration[0], made.start)
+    own = 0.3 * inputs.acceleration[0] + 4.0 * inputs.position[0]
+    law = {"dry_friction", "damping", "dead_zone", "end_stop", "stiffening", "preload", "relaxation", "slip"}
+    offered = {one.label: one for one in candidates(made)}
+    assert law <= {one.name for one in offered.values()} and "series_compliance" not in offered
+    for one in candidates(chain):
+        if one.name in law and one.label in offered:
+            values = {**made.start, **one.starts[0]}
+            want = one.apply(chain).simulate(trial, values)[:, 0] + own
+            found = offered[one.label].apply(made).simulate(trial, values)[:, 0]
+            np.testing.assert_allclose(found, want, rtol=1e-9, atol=1e-9, err_msg=one.label)
+    np.testing.assert_allclose(made.simulate(trial, made.start)[:, 0], own + 50.0 * inputs.position[0], atol=1e-9)
+
+
+def test_a_law_goes_from_step_to_step_as_along_a_run() -> None:
+    """With friction and creep, which remember."""
+    time = np.linspace(0.0, 2.0, 81)
+    u = np.sin(3.0 * time)
+    v = 3.0 * np.cos(3.0 * time)
+    numbers = INTERFACE_LAW.having(
+        {"k": 5.0, "dry_friction.stroke.limit": 2.0, "dry_friction.stroke.reach": 0.1, "relaxation.ratio": 0.5}
+    ).numbers({})
+    acting = ActingLaw(time, v, -9.0 * u, numbers)
+    force = acting.stepper()
+    steps = [force(u[i], v[i], time[i] - time[i - 1] if i else 0.0) for i in range(len(time))]
+    np.testing.assert_allclose(steps, acting(u, v), rtol=1e-12, atol=1e-12)
+    assert np.abs(acting(u, v) - 5.0 * u).max() > 1.0
+    with pytest.raises(ValueError, match=r"a deflection \(3,\) where \(81,\) is expected"):
+        acting(u[:3])
+
+
+def test_a_law_needs_an_input_to_act_on() -> None:
+    def run(time: np.ndarray, inputs: np.ndarray, numbers: dict[str, float]) -> np.ndarray:
+        return inputs[0]
+
+    with pytest.raises(ValueError, match="acts_on names 'x'; inputs are q"):
+        simulator_base("s", {"q": "m"}, {"force": "N"}, run, acts_on="x")
+    with pytest.raises(ValueError, match="a law without acts_on"):
+        simulator_base("s", {"q": "m"}, {"force": "N"}, run, law={"k": "k"})
+
+
+def test_the_simulator_with_a_law_of_the_page_for_users_works(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delitem(sys.modules, "own_carriage", raising=False)
+    (here / "own_carriage.py").write_text(f"import geocontact as gc\n\n{blocks()[-2]}", encoding="utf-8")
+    monkeypatch.chdir(here)
+    monkeypatch.syspath_prepend(here)
+    base = importlib.import_module("own_carriage").CARRIAGE
+    made = base.build((Parameter("M", "kg", 90.0, 1.0, 500.0), Parameter("F_v", "N s/m", 200.0, 0.0, 900.0)), {}, {})
+    time = np.linspace(0.0, 2.0, 101)
+    moved = Trial("t", Signals(time, np.column_stack([0.1 * np.sin(3.0 * time)] * 2), ("q", "force"), ("m", "N")))
+    seen = made.motion.seen(moved, made.start)
+    want = 90.0 * seen.acceleration[0] + 200.0 * seen.rate[0]
+    np.testing.assert_allclose(made.simulate(moved, made.start)[:, 0], want, rtol=1e-9, atol=1e-9)
+    assert "dry_friction" in {one.name for one in candidates(made.scaled((moved,)))}
 
 
 @pytest.mark.parametrize(
