@@ -57,6 +57,7 @@ DIMENSIONS: dict[str, dict[str, float]] = {
     "kg m^2": {"kg m^2": 1.0},
     "Hz": {"Hz": 1.0, "1/s": 1.0, "kHz": 1e3},
     "V": {"V": 1.0, "mV": 1e-3, "uV": 1e-6},
+    "A": {"A": 1.0, "mA": 1e-3},
 }
 """How many SI units one unit is, by the SI unit of each dimension."""
 
