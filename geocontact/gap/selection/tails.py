@@ -3,7 +3,8 @@
 What the best model and the surrogate on top of it leave is noise. Where its samples have heavy tails, as a recorder
 that jumps or a sensor that is struck makes them, it is a mixture of scales (`identify.noise.student`): the noise of a
 sample is divided by the root of its weight. Weights are of the case and not of a model: a smooth effect that is missing
-is no tail, since the best model leaves nothing of it, and every model is fitted and judged with them.
+is no tail, since the best model leaves nothing of it, and every model is fitted and judged with them. What even that
+model misses is smooth, or returns at the same place of every trial: neither is a tail.
 """
 
 from __future__ import annotations
@@ -24,6 +25,11 @@ SURE = 12.0
 """Nats that heavy tails must gain over normal noise in a channel."""
 ROUNDS = 4
 """Times that weights are found anew: a sample that is off misleads about those next to it."""
+PHASES, FEWEST = 20, 2
+"""Parts of a trial in which tails are compared between trials; trials and parts that it takes at the least."""
+RETURNING = 0.3
+"""Correlation from which they return: noise that depends on the movement, or a gap, three standard deviations of chance
+in five trials."""
 
 
 @dataclass(frozen=True)
@@ -64,9 +70,9 @@ def tails(problem: Problem, one: Judged, explained: Sequence[Float[np.ndarray, "
         off = [standing_out(layout, one.noise.levels, r, v) * times for layout, r, v, times in parts]
         found = {}
         for c in range(len(problem.system.outputs)):
-            there = (layout.rows[layout.rows % off[0].shape[1] == c] for layout in layouts)
-            own = student_noise(np.concatenate([each.ravel()[rows] for each, rows in zip(off, there, strict=True)]))
-            if own.gain > SURE:
+            columns = [sharp(each[:, c]) for each in off]
+            own = student_noise(np.concatenate([each[np.isfinite(each)] for each in columns]))
+            if own.gain > SURE and returning([own.weights(each) for each in columns]) < RETURNING:
                 found[c] = own
         louder = [_louder(layout, each, found) for layout, each in zip(layouts, off, strict=True)]
         if not found:
@@ -74,11 +80,37 @@ def tails(problem: Problem, one: Judged, explained: Sequence[Float[np.ndarray, "
     return Tails(tuple(louder), {problem.system.outputs[c]: own for c, own in found.items()})
 
 
+def sharp(off: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
+    """The part of each sample that its neighbours in time do not share; NaN where nothing was measured.
+
+    What a model leaves of an effect is smooth. Of a sample and its distance from the mean of its neighbours, in
+    standard deviations of independent noise, it is the smaller.
+    """
+    beside = np.concatenate([off[1:2], 0.5 * (off[:-2] + off[2:]), off[-2:-1]])
+    apart = (off - np.where(np.isfinite(beside), beside, 0.0)) / np.sqrt(1.5)
+    return np.asarray(np.where(np.abs(apart) < np.abs(off), apart, off))
+
+
+def returning(weights: Sequence[Float[np.ndarray, " _"]]) -> float:
+    """How alike the places in a trial are where samples weigh little: correlation with the mean of the other trials."""
+    profiles = np.full((len(weights), PHASES), np.nan)
+    for profile, own in zip(profiles, weights, strict=True):
+        for k, part in enumerate(np.array_split(np.log(own), PHASES)):
+            if np.isfinite(part).any():
+                profile[k] = np.nanmean(part)
+    profiles = profiles[:, np.isfinite(profiles).all(axis=0)]
+    if min(profiles.shape) < FEWEST:
+        return 0.0
+    others = (profiles.sum(axis=0) - profiles) / (len(profiles) - 1)
+    both = [(a - a.mean(), b - b.mean()) for a, b in zip(profiles, others, strict=True)]
+    return float(np.mean([a @ b / max(np.sqrt((a @ a) * (b @ b)), 1e-300) for a, b in both]))
+
+
 def _louder(
     layout: Layout, off: Float[np.ndarray, "t c"], channels: dict[int, StudentNoise]
 ) -> Float[np.ndarray, "t c"]:
     """One over the root of each sample's weight; stretches are the layout's blocks, channel by channel."""
-    flat, out = off.ravel(), np.ones(off.size)
+    flat, out = np.column_stack([sharp(column) for column in off.T]).ravel(), np.ones(off.size)
     for block in layout.blocks:
         for c, own in channels.items():
             rows = block.rows[block.channel == c]
@@ -90,7 +122,8 @@ def _louder(
 def standing_out(
     layout: Layout, levels: NoiseLevels, residual: Float[np.ndarray, "t c"], varied: Float[np.ndarray, "t c q"]
 ) -> Float[np.ndarray, "t c"]:
-    """How far each sample is from what all others of its block make of it, in standard deviations of that.
+    """How far each sample is from what all others of its block make of it, in standard deviations of that; NaN where
+    nothing was measured.
 
     With the covariance K of a block it is (K⁻¹ r)_i / sqrt((K⁻¹)_ii), after what the trial differs by is taken out.
     """
@@ -98,7 +131,7 @@ def standing_out(
     white, design = whitener(residual[..., None])[:, 0], whitener(varied)
     own = np.linalg.solve(np.eye(design.shape[1]) + design.T @ design, design.T @ white)
     white = white - design @ own
-    out, at = np.zeros(residual.size), 0
+    out, at = np.full(residual.size, np.nan), 0
     for rows, factor in zip(whitener.rows, whitener.factors, strict=True):
         out[rows] = factor.T @ white[at : at + len(rows)] / np.sqrt((factor**2).sum(axis=0))
         at += len(rows)
