@@ -45,6 +45,8 @@ class Candidate:
     settles
         Whether the law no longer changes towards the amplitude's upper bound, as with a stop that is as good as rigid:
         an amplitude there is an answer, not a search that was cut short.
+    ceiling
+        Name of the parameter that no recorded magnitude of `channel` can pass but for noise; "" where there is none.
     """
 
     name: str
@@ -60,6 +62,7 @@ class Candidate:
     within: frozenset[str] = frozenset()
     ways: int = 1
     settles: bool = False
+    ceiling: str = ""
 
     def __post_init__(self) -> None:
         first = {p.name: p.start for p in self.parameters}

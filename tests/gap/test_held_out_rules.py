@@ -222,6 +222,23 @@ def test_without_a_gap_nothing_is_called_unknown(rules: HeldOutRules) -> None:
 
 
 @pytest.mark.slow
+def test_a_level_that_the_recording_passes_is_none_that_it_was_cut_off_at(rules: HeldOutRules) -> None:
+    """The level is refused as long as more than two in a hundred samples lie beyond it, gains and noise aside."""
+    problem = rules.problem
+    one = next(each for each in candidates(problem.system) if each.name == "saturation")
+    seen = np.sort(np.abs(np.concatenate([each.ravel() for each in problem.recorded.outputs])))
+    enough = (seen[-len(seen) // 100] - 4.0 * problem.recorded.rough[0]) / 1.05
+
+    def cut(level: float) -> Contender:
+        values = {**rules.base.model.values, "saturation.force.level": level}
+        return Contender((one,), replace(rules.base, model=replace(rules.base.model, values=values)))
+
+    assert rules._of_recording(cut(enough)) == ""
+    assert rules.over_base(cut(0.8 * enough)).endswith(f"of the samples of force lie beyond {0.8 * enough:.4g}")
+    assert rules._of_recording(contenders(rules)[0]) == "", "other effects have no level"
+
+
+@pytest.mark.slow
 def test_each_of_two_effects_must_earn_its_place_beside_the_other_alone() -> None:
     """A damper is there and a drift is not: what the two gain together is the damper's."""
     case = elbow_case("damping", {"damping.b": 6.0, "damping.exponent": 1.0}, duration=6.0)

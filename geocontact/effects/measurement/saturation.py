@@ -46,7 +46,9 @@ def saturated(system: System, name: str) -> Candidate:
     link = with_sensor(Modifier(f"saturation.{name}", RANK, change, apart=True))
     others = ({level.name: 0.8 * most}, {level.name: 0.6 * most})
     neutral = {level.name: np.inf}
-    return Candidate("saturation", name, "sensor", (level, softness), link, neutral, others, channel=name)
+    return Candidate(
+        "saturation", name, "sensor", (level, softness), link, neutral, others, channel=name, ceiling=level.name
+    )
 
 
 def offer(system: System) -> tuple[Candidate, ...]:

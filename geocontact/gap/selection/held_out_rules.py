@@ -30,6 +30,7 @@ from geocontact.chain.candidate import Candidate
 from geocontact.gap.case.change_amplitude import Amplitude, amplitude
 from geocontact.gap.case.measured_fit import measured_fit, smoothed_fit
 from geocontact.gap.case.problem import Noise, Problem
+from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.case.refit import free, refit
 from geocontact.gap.case.whitening import Whitening
 from geocontact.gap.selection.calibration_share import changes
@@ -40,6 +41,8 @@ from geocontact.gap.selection.surrogate import Surrogate
 
 WORTH_NAMING = 0.1  # of a channel's squared error, that must go: a twentieth of the error, less than anybody would see
 FEW = 0.02  # of the samples, that no verdict may hang on
+GAINS, NOISE = 0.05, 4.0  # of a level, five times what gains differ by from trial to trial, and standard deviations of
+# noise, that a recording may pass a level by at which it is cut off
 ENOUGH = 6.0  # nats that the others must gain
 LEFT_OVER = 0.2  # of what a named effect changes, or of an error, in squares, that may be left over
 ONLY_NOISE = f"with the noise of the inputs taken off it takes less than {WORTH_NAMING:.0%} of the squared error away"
@@ -126,7 +129,7 @@ class HeldOutRules:
 
     def over_base(self, one: Contender) -> str:
         """Why a model may not be named in place of the base; "" where nothing speaks against it."""
-        bare = self._of_change(one.judged) or self.harm(one) or self._of_share(one)
+        bare = self._of_recording(one) or self._of_change(one.judged) or self.harm(one) or self._of_share(one)
         return bare or self._of_noise(one) or self._of_few(one.judged)
 
     def _beside(self, one: Contender, alone: Sequence[Contender]) -> str:
@@ -139,6 +142,19 @@ class HeldOutRules:
             why = replace(self, base=first.judged, before=self._after(first), calm=self._calm(first)).over_base(one)
             if why:
                 return f"beside {first.label} alone, {why}"
+        return ""
+
+    def _of_recording(self, one: Contender) -> str:
+        """A level that the recording itself passes is none that it was cut off at."""
+        for each in one.candidates:
+            if not each.ceiling:
+                continue
+            c = self.problem.system.outputs.index(each.channel)
+            level = one.judged.model.values[each.ceiling]
+            passed = level * (1.0 + GAINS) + NOISE * self.problem.recorded.rough[c]
+            seen = np.abs(np.concatenate(measured_columns(self.problem, c)))
+            if (seen > passed).mean() > FEW:
+                return f"{(seen > passed).mean():.0%} of the samples of {each.channel} lie beyond {level:.4g}"
         return ""
 
     def _of_change(self, one: Judged) -> str:
