@@ -1,15 +1,16 @@
-"""A leg exoskeleton on the same feet: three more hinges beside the person's, and one strap at the thigh.
+"""A leg exoskeleton on the same feet: three more hinges beside the person's, and straps, one at the thigh at least.
 
 Both legs are one planar chain, here as for the person: masses of the exoskeleton's bodies are those of both sides. The
-strap's numbers are those of one leg, as a mat on one leg sees it; two of them act in parallel between the chains. That
-is the only place where a 2 enters besides the masses. All numbers of the exoskeleton are invented. A hinge of the
-exoskeleton lies where the person's does, but for the knee, which is higher by `SHIFT`.
+numbers of a strap at thigh or shank are those of one leg, as a mat on one leg sees it; two of them act in parallel
+between the chains. That is the only place where a 2 enters besides the masses; the pelvis has one module. All numbers
+of the exoskeleton are invented. A hinge of the exoskeleton lies where the person's does, but for the knee, which is
+higher by `SHIFT`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,17 +23,18 @@ from geocontact.dynamics.body_contact import together
 from geocontact.dynamics.equations import equations_of_motion
 from geocontact.dynamics.inverse_dynamics import Wrenches
 from geocontact.dynamics.tree import Tree, tree_of
-from geocontact.standing_up.chain import SHANK, THIGH, Subject, leg_chain
+from geocontact.standing_up.chain import JOINTS, SHANK, THIGH, Subject, leg_chain
 from geocontact.standing_up.chair import COMPONENTS, chair_on_person
 from geocontact.standing_up.contact_parameter import ContactParameter, searched
 from geocontact.standing_up.feet import FOOT_PARAMETERS, ground_on_feet
 from geocontact.standing_up.standing_model import StandingModel
+from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite
 
 if TYPE_CHECKING:
     from casadi import SX
 
-LEGS = 2
-"""Straps in parallel."""
+LEGS = THIGH_STRAP.count
+"""Straps in parallel at the thigh."""
 DAMPING, TURNING_DAMPING = 10.0, 0.1
 """Of one strap [N s/m], [N m s/rad]: the study's, held."""
 PLATE, LOWER, UPPER, MODULE = 2.0, 3.0, 4.0, 5.0
@@ -42,13 +44,8 @@ SHIFT = 0.01
 HEIGHT = 0.25
 """Of the module [m]."""
 EXO_JOINTS = ("exo_ankle", "exo_knee", "exo_hip")
-STRAP_PARAMETERS = (
-    ContactParameter("strap normal", "N/m", 3e3, 1.0, 1e2, 1e5, logarithm=True),
-    ContactParameter("strap tangential", "N/m", 3e3, 1.0, 1e2, 1e5, logarithm=True),
-    ContactParameter("strap turning", "N m/rad", 20.0, 1.0, 0.5, 1e3, logarithm=True),
-    ContactParameter("strap place", "m", 0.2, 0.03, 0.05, 0.38),
-)
-"""Of one strap: stiffness across the thigh, along it and in turning, and its distance from the knee."""
+STRAP_PARAMETERS = THIGH_STRAP.parameters
+"""Of one strap at the thigh: stiffness across it, along it and in turning, and its distance from the knee."""
 WORN_PARAMETERS = (*FOOT_PARAMETERS, *STRAP_PARAMETERS)
 STRAP = tuple(each.name for each in STRAP_PARAMETERS)
 STRAP_PLANTED = searched(STRAP_PARAMETERS, [4.5e3, 2e3, 30.0, 0.22])
@@ -57,18 +54,20 @@ STRAP_PLANTED = searched(STRAP_PARAMETERS, [4.5e3, 2e3, 30.0, 0.22])
 
 @dataclass(frozen=True)
 class Strap:
-    """Force and moment of both straps on the person's thigh, and what one of them is like.
+    """Force and moment of all straps on the person, and what one of them is like.
 
     Parameters
     ----------
     loads
-        On the person's thigh and against it on the exoskeleton's.
+        On the person's bodies and against it on the exoskeleton's.
     normal
-        Force of one strap on the person across the thigh, forwards positive [N].
+        Force of the thigh's strap of one leg on the person across the thigh, forwards positive [N].
     shear
         The same along the thigh, towards the hip positive [N].
     energy, normal_energy
-        Of the springs of both, without the normal one, which a mat sees, and of that one [J].
+        Of the springs of all, without the normal ones, which a mat sees, and of those [J].
+    elsewhere
+        Normal force of one strap at each further site [N], by its name.
     """
 
     loads: Wrenches
@@ -76,6 +75,7 @@ class Strap:
     shear: SX
     energy: SX
     normal_energy: SX
+    elsewhere: Mapping[str, SX] = field(default_factory=dict)
 
 
 StrapLaw = Callable[[Tree, "SX"], Strap]
@@ -123,6 +123,12 @@ def with_exoskeleton(
     return worn_model(tree, p, along, torque, parameters, strap, chair)
 
 
+def strapped(subject: Subject, sites: Sequence[StrapSite], *, seated: bool = False) -> StandingModel:
+    """The same with straps at sites, the first of which is the thigh."""
+    further = tuple(parameter for site in sites[1:] for parameter in site.parameters)
+    return with_exoskeleton(subject, straps_at(sites), further, seated=seated)
+
+
 def worn_model(
     tree: Tree,
     p: SX,
@@ -161,43 +167,73 @@ def worn_model(
         strap.energy,
         strap.normal_energy,
         0 if chair is None else COMPONENTS,
+        strap.elsewhere,
     )
 
 
 def thigh_strap(tree: Tree, p: SX) -> Strap:
-    """Springs and dashpots in the frame of the person's thigh; `p` is what is searched of `STRAP_PARAMETERS`.
+    """The one strap that is always there; `p` is what is searched of `STRAP_PARAMETERS`."""
+    return strap_at(tree, p, THIGH_STRAP)
+
+
+def straps_at(sites: Sequence[StrapSite]) -> StrapLaw:
+    """All of them; `p` is what is searched of the parameters of each, one site after the other."""
+
+    def law(tree: Tree, p: SX) -> Strap:
+        each, at = [], 0
+        for site in sites:
+            each.append(strap_at(tree, p[at : at + len(site.parameters), :], site))
+            at += len(site.parameters)
+        first, *others = each
+        energy, normal_energy = first.energy, first.normal_energy
+        for strap in others:
+            energy, normal_energy = energy + strap.energy, normal_energy + strap.normal_energy
+        return Strap(
+            together(*(strap.loads for strap in each)),
+            first.normal,
+            first.shear,
+            energy,
+            normal_energy,
+            {site.name: strap.normal for site, strap in zip(sites[1:], others, strict=True)},
+        )
+
+    return law
+
+
+def strap_at(tree: Tree, p: SX, site: StrapSite) -> Strap:
+    """Springs and dashpots in the frame of the person's segment; `p` is what is searched of the site's parameters.
 
     The force acts at the exoskeleton's point on both bodies, as that of springs whose displacement is seen from the
-    thigh must: then it is the derivative of their energy.
+    person's segment must: then it is the derivative of their energy.
     """
     from casadi import cross, exp, mtimes, vertcat
 
-    person, device = tree.bodies["thigh"], tree.bodies["exo_thigh"]
-    normal, tangential, turning = (STRAP_PARAMETERS[k].usual * exp(p[k]) for k in range(3))
+    person, device = tree.bodies[site.person], tree.bodies[site.device]
+    normal, tangential, turning = (site.parameters[k].usual * exp(p[k]) for k in range(3))
     own = mtimes(person.rotation, vertcat(0.0, p[3], 0.0))
-    # the same height over the person's knee, so that nothing is displaced while all angles are 0
-    other = mtimes(device.rotation, vertcat(0.0, p[3] - SHIFT, 0.0))
+    # the same height over the person's hinge, so that nothing is displaced while all angles are 0
+    other = mtimes(device.rotation, vertcat(0.0, p[3] - (SHIFT if site.higher else 0.0), 0.0))
     gap = device.place + other - person.place - own
     speed = device.speed + cross(device.spin, other) - person.speed - cross(person.spin, own)
     off = mtimes(person.rotation.T, gap)
     rate = mtimes(person.rotation.T, speed - cross(person.spin, gap))
-    turn, turn_rate = _turn_between(tree)
+    turn, turn_rate = _turn_between(tree, site.hinges)
     across = bushing_force(off[0], rate[0], normal, DAMPING)
     lengthwise = bushing_force(off[1], rate[1], tangential, DAMPING)
-    force = LEGS * mtimes(person.rotation, vertcat(across, lengthwise, 0.0))
-    moment = LEGS * vertcat(0.0, 0.0, bushing_force(turn, turn_rate, turning, TURNING_DAMPING))
+    force = site.count * mtimes(person.rotation, vertcat(across, lengthwise, 0.0))
+    moment = site.count * vertcat(0.0, 0.0, bushing_force(turn, turn_rate, turning, TURNING_DAMPING))
     about = cross(device.place + other, force) + moment
-    energy = 0.5 * LEGS * (tangential * off[1] ** 2 + turning * turn**2)
-    loads = {"thigh": (force, about), "exo_thigh": (-force, -about)}
-    return Strap(loads, across, lengthwise, energy, 0.5 * LEGS * normal * off[0] ** 2)
+    energy = 0.5 * site.count * (tangential * off[1] ** 2 + turning * turn**2)
+    loads = {site.person: (force, about), site.device: (-force, -about)}
+    return Strap(loads, across, lengthwise, energy, 0.5 * site.count * normal * off[0] ** 2)
 
 
-def _turn_between(tree: Tree) -> tuple[SX, SX]:
-    """How far the exoskeleton's thigh is turned against the person's [rad], and its rate: sums along both chains."""
+def _turn_between(tree: Tree, hinges: int) -> tuple[SX, SX]:
+    """How far the exoskeleton's body is turned against the person's [rad], and its rate: sums along both chains."""
     at = {name: k for k, name in enumerate(tree.names)}
-    person, device = ("ankle", "knee"), EXO_JOINTS[:2]
 
     def between(values: SX) -> SX:
-        return values[at[device[0]]] + values[at[device[1]]] - values[at[person[0]]] - values[at[person[1]]]
+        turned = [values[at[device]] - values[at[person]] for device, person in zip(EXO_JOINTS, JOINTS, strict=True)]
+        return sum(turned[1:hinges], turned[0])
 
     return between(tree.q), between(tree.u)

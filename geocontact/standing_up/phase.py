@@ -90,7 +90,7 @@ def standing_phase(
     jerk_sizes
         Of the foot and of the joints [m/s^3, rad/s^3].
     """
-    from casadi import SX, sumsqr
+    from casadi import SX, sumsqr, vertcat
 
     e, n = model.equations, model.count
     channels = {
@@ -99,15 +99,18 @@ def standing_phase(
         "force": (model.force, np.full(2, noise.force)),
         "centre": (model.centre, np.array([noise.centre])),
         "torque": (model.torques, np.full(n - 3, noise.torque)),
-        "strap": (model.strap, np.full(model.strap.numel(), noise.strap)),
+        "strap": (model.straps, np.full(model.straps.numel(), noise.strap)),
     }
     width = {name: len(channels[name][1]) for name in tracks}
-    seen, jerk = SX.sym("seen", sum(width.values()) + 1), SX.sym("jerk", n)
+    recorded = SX.sym("recorded", width["strap"] if model.elsewhere and "strap" in tracks else 0)
+    values, share, jerk = SX.sym("values", sum(width.values())), SX.sym("share"), SX.sym("jerk", n)
     terms, at = {}, 0
     for name in tracks:
         symbol, size = channels[name]
-        terms[name] = seen[-1] * sumsqr((symbol - seen[at : at + width[name], :]) / size)
+        off = (symbol - values[at : at + width[name], :]) / size
+        terms[name] = share * sumsqr(recorded * off if name == "strap" and recorded.numel() else off)
         at += width[name]
+    seen = vertcat(values, recorded, share)
     sizes = np.r_[np.full(3, jerk_sizes[0]), np.full(n - 3, jerk_sizes[1])]
     terms |= {**small, "jerk": sumsqr(jerk / sizes)}
     system = jerk_controlled(
@@ -147,18 +150,24 @@ def belief(p: SX, parameters: Sequence[ContactParameter], free: Sequence[str]) -
 
 
 def _data(trial: StandingTrial, tracks: Sequence[str]) -> Course:
-    """Chair's force where there is one, channels, what one sample counts; from the trial's own first time on."""
+    """Chair's force where there is one, channels, what one sample counts; from the trial's own first time on.
+
+    Of straps at several sites also which were recorded.
+    """
     channels = {
         "coordinates": trial.q,
         "rates": trial.u,
         "force": trial.force,
         "centre": trial.centre,
         "torque": trial.torque,
-        "strap": trial.strap,
+        "strap": trial.straps,
     }
     columns = [each for name in tracks if (each := channels[name]) is not None]
     if len(columns) < len(tracks):
         raise ValueError(f"{trial.name} lacks a channel of {', '.join(tracks)}")
+    if "strap" in tracks and trial.straps is not None and trial.elsewhere:
+        columns[list(tracks).index("strap")] = np.nan_to_num(trial.straps)
+        columns.append(np.isfinite(trial.straps).astype(float))
     chair = [] if trial.chair is None else [trial.chair]
     course = CubicSpline(trial.time - trial.time[0], np.column_stack([*chair, *columns]))
     share = trial.rate / RATE

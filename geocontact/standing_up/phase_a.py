@@ -13,15 +13,16 @@ from jaxtyping import Float
 
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.contact_parameter import usual
-from geocontact.standing_up.feet import FOOT_PARAMETERS, LAW
+from geocontact.standing_up.feet import LAW
 from geocontact.standing_up.phase import FOOT_JERK, JOINT_JERK, PhaseProblem, standing_phase
 from geocontact.standing_up.standing_model import StandingModel
+from geocontact.standing_up.strap_sites import SPRINGS, STRAP_SITES
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
 LITTLE_TORQUE = 1e-6
 """Weight of the torques' squares [1/(N m)^2]; ours."""
-SLACK, SPRINGS = -30.0, 3
-"""What is searched of a strap's stiffnesses that are as good as 0, and how many there are."""
+SLACK = -30.0
+"""What is searched of a strap's stiffnesses that are as good as 0."""
 TRACKS = ("coordinates", "rates", "force", "centre")
 
 
@@ -38,13 +39,14 @@ def phase_a(
 ) -> PhaseProblem:
     """The problem whose solution has the parameters; see `standing_phase`.
 
-    An exoskeleton's strap has no stiffness here: its chain stands up by its own torques, as in the study.
+    An exoskeleton's straps have no stiffness here: its chain stands up by its own torques, as in the study.
     """
     from casadi import sumsqr
 
     small = {"torques": LITTLE_TORQUE * sumsqr(model.torques)}
     held = usual(model.parameters)
-    held[len(FOOT_PARAMETERS) : len(FOOT_PARAMETERS) + SPRINGS] = SLACK
+    springs = {name for site in STRAP_SITES for name in site.names[: len(SPRINGS)]}
+    held[[each.name in springs for each in model.parameters]] = SLACK
     return standing_phase(
         model,
         subject,

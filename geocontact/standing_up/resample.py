@@ -67,10 +67,7 @@ def resampled(
     rows: list[Float[np.ndarray, " p"]] = []
     for k in range(2 * count):
         again = [
-            replace(
-                recorded(model, motion, found.p, trial.rate, noise, 1000 * seed + 100 * k + j, trial.name),
-                chair=trial.chair,
-            )
+            _like(recorded(model, motion, found.p, trial.rate, noise, 1000 * seed + 100 * k + j, trial.name), trial)
             for j, (trial, motion) in enumerate(zip(trials, found.motions, strict=True))
         ]
         end = solve(build(again, found.p), found)
@@ -81,3 +78,13 @@ def resampled(
         if len(rows) == count:
             break
     return Resampled(np.array(rows)) if len(rows) > 1 else None
+
+
+def _like(again: StandingTrial, trial: StandingTrial) -> StandingTrial:
+    """On the same chair, and without the straps that were not recorded."""
+    again = replace(again, chair=trial.chair)
+    if again.strap is None or trial.strap is None or not trial.elsewhere:
+        return again
+    strap = np.where(np.isnan(trial.strap), np.nan, again.strap)
+    others = {name: np.where(np.isnan(trial.elsewhere[name]), np.nan, of) for name, of in again.elsewhere.items()}
+    return replace(again, strap=strap, elsewhere=others)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -33,6 +34,8 @@ class StandingModel:
         Of those components of the straps that no mat sees, and of the normal one [J].
     given
         How many of the inputs, the last ones, are given over time.
+    elsewhere
+        Normal force of one strap at each further site on the person [N], by its name.
     """
 
     equations: Equations
@@ -44,6 +47,14 @@ class StandingModel:
     energy: SX
     normal_energy: SX
     given: int = 0
+    elsewhere: Mapping[str, SX] = field(default_factory=dict)
+
+    @property
+    def straps(self) -> SX:
+        """Normal force of one strap at each site [N]."""
+        from casadi import vertcat
+
+        return vertcat(self.strap, *self.elsewhere.values())
 
     @property
     def count(self) -> int:

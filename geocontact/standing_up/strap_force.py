@@ -1,4 +1,4 @@
-"""What one strap does to the person's thigh along a motion of both chains: force, moment, and where it acts."""
+"""What one strap does to the person along a motion of both chains: force, moment, and where it acts."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from geocontact.contact.bushing import bushing_force
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton import DAMPING, SHIFT, TURNING_DAMPING, two_chains
 from geocontact.standing_up.strap_motion import strap_motion
+from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite
 
 STEP = 1e-6
 """Of the time along the rates, for rates of displacements [s]."""
@@ -24,7 +25,7 @@ class StrapForce:
     Parameters
     ----------
     own, place
-        Points of the person's and of the exoskeleton's thigh [m]; the force acts at the latter.
+        Points of the person's and of the exoskeleton's segment [m]; the force acts at the latter.
     force, moment
         Of one strap on the person [N], [N m].
     """
@@ -36,24 +37,29 @@ class StrapForce:
 
 
 def strap_force(
-    subject: Subject, q: Float[np.ndarray, "t 9"], u: Float[np.ndarray, "t 9"], values: Mapping[str, float]
+    subject: Subject,
+    q: Float[np.ndarray, "t 9"],
+    u: Float[np.ndarray, "t 9"],
+    values: Mapping[str, float],
+    site: StrapSite = THIGH_STRAP,
 ) -> StrapForce:
-    """Springs and dashpots as `exoskeleton.thigh_strap` has them; `values` are those of `STRAP_PARAMETERS` in SI."""
-    at = values["strap place"]
-    moved = _displaced(subject, q, at)
-    rate = (_displaced(subject, q + STEP * u, at) - _displaced(subject, q - STEP * u, at)) / (2.0 * STEP)
-    stiffness = [values[f"strap {way}"] for way in ("normal", "tangential", "turning")]
+    """Springs and dashpots as `exoskeleton.strap_at` has them; `values` are those of the site's parameters in SI."""
+    *stiffness, at = (values[name] for name in site.names)
+    moved, before, after = (_displaced(subject, q + h * u, at, site) for h in (0.0, -STEP, STEP))
+    rate = (after - before) / (2.0 * STEP)
     across, along, turning = (
         bushing_force(moved[:, k], rate[:, k], k_n, b)
         for k, (k_n, b) in enumerate(zip(stiffness, (DAMPING, DAMPING, TURNING_DAMPING), strict=True))
     )
     poses, none = two_chains(subject).poses(q), np.zeros(len(q))
-    force = poses["thigh"].rotation.apply(np.column_stack([across, along, none]))
-    own = poses["thigh"].apply(np.array([0.0, at, 0.0]))
-    place = poses["exo_thigh"].apply(np.array([0.0, at - SHIFT, 0.0]))
+    force = poses[site.person].rotation.apply(np.column_stack([across, along, none]))
+    own = poses[site.person].apply(np.array([0.0, at, 0.0]))
+    place = poses[site.device].apply(np.array([0.0, at - (SHIFT if site.higher else 0.0), 0.0]))
     return StrapForce(own, place, force, np.column_stack([none, none, turning]))
 
 
-def _displaced(subject: Subject, q: Float[np.ndarray, "t 9"], place: float) -> Float[np.ndarray, "t 3"]:
-    moved = strap_motion(subject, q, place)
+def _displaced(
+    subject: Subject, q: Float[np.ndarray, "t 9"], place: float, site: StrapSite
+) -> Float[np.ndarray, "t 3"]:
+    moved = strap_motion(subject, q, place, site)
     return np.column_stack([moved.normal, moved.tangential, moved.rotation])

@@ -1,4 +1,4 @@
-"""How the exoskeleton's thigh moves against the person's at the strap, from coordinates of both chains.
+"""How the exoskeleton moves against the person at a strap, from coordinates of both chains.
 
 These are the inputs of the base model `sit_to_stand`, whose force along them is the strap's normal one: stiffness times
 displacement across the thigh, and dashpot times its rate. A strap that sits elsewhere than it was taken for is
@@ -12,23 +12,21 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.standing_up.chain import COORDINATES, Subject
+from geocontact.standing_up.chain import COORDINATES, JOINTS, Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, SHIFT, two_chains
-
-BELOW_THIGH = (("ankle", "knee"), EXO_JOINTS[:2])
-"""Hinges between the foot and either thigh."""
+from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite
 
 
 @dataclass(frozen=True, eq=False)
 class StrapMotion:
-    """In the frame of the person's thigh, at the strap's place.
+    """In the frame of the person's segment, at the strap's place.
 
     Parameters
     ----------
     normal, tangential
-        Of the exoskeleton's point from the person's, across the thigh (forwards) and along it (towards the hip) [m].
+        Of the exoskeleton's point from the person's, across the segment (forwards) and along it (upwards) [m].
     rotation
-        Of the exoskeleton's thigh against the person's [rad].
+        Of the exoskeleton's segment against the person's [rad].
     """
 
     normal: Float[np.ndarray, " t"]
@@ -36,12 +34,15 @@ class StrapMotion:
     rotation: Float[np.ndarray, " t"]
 
 
-def strap_motion(subject: Subject, q: Float[np.ndarray, "t 9"], place: float) -> StrapMotion:
-    """Along coordinates of both chains; `place` is the strap's distance from the person's knee [m]."""
+def strap_motion(
+    subject: Subject, q: Float[np.ndarray, "t 9"], place: float, site: StrapSite = THIGH_STRAP
+) -> StrapMotion:
+    """Along coordinates of both chains; `place` is the strap's distance from the person's hinge [m]."""
     names = (*COORDINATES, *EXO_JOINTS)
     poses = two_chains(subject).poses(q)
-    own = poses["thigh"].apply(np.array([0.0, place, 0.0]))
-    other = poses["exo_thigh"].apply(np.array([0.0, place - SHIFT, 0.0]))
-    off = poses["thigh"].rotation.inv().apply(other - own)
-    person, device = (q[:, [names.index(each) for each in hinges]].sum(axis=1) for hinges in BELOW_THIGH)
+    own = poses[site.person].apply(np.array([0.0, place, 0.0]))
+    other = poses[site.device].apply(np.array([0.0, place - (SHIFT if site.higher else 0.0), 0.0]))
+    off = poses[site.person].rotation.inv().apply(other - own)
+    below = (hinges[: site.hinges] for hinges in (JOINTS, EXO_JOINTS))
+    person, device = (q[:, [names.index(each) for each in hinges]].sum(axis=1) for hinges in below)
     return StrapMotion(off[:, 0], off[:, 1], device - person)

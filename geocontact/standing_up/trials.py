@@ -6,8 +6,8 @@ sizes and the course of the angles are invented.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from jaxtyping import Float
@@ -51,10 +51,12 @@ class StandingTrial:
     torque
         Of the joints of both legs [N m]; None where it is not recorded.
     strap
-        Normal force of one leg's strap on the person [N]; None where it is not recorded.
+        Normal force of one leg's strap at the thigh on the person [N]; None where it is not recorded.
     chair
         Force of the chair on the person, forwards and up [N], and its moment about the ground's origin [N m]; None in a
         trial from seat-off on.
+    elsewhere
+        Normal force of one strap at each further site by its name [N]; no number where it is not recorded.
     """
 
     time: Float[np.ndarray, " t"]
@@ -66,6 +68,12 @@ class StandingTrial:
     torque: Float[np.ndarray, "t j"] | None = None
     strap: Float[np.ndarray, " t"] | None = None
     chair: Float[np.ndarray, "t 3"] | None = None
+    elsewhere: Mapping[str, Float[np.ndarray, " t"]] = field(default_factory=dict)
+
+    @property
+    def straps(self) -> Float[np.ndarray, "t s"] | None:
+        """Normal force of one strap at each site [N]."""
+        return None if self.strap is None else np.column_stack([self.strap, *self.elsewhere.values()])
 
     @property
     def rate(self) -> float:
@@ -220,11 +228,12 @@ def seen_in(
     from casadi import Function
 
     e, n, x = model.equations, model.count, motion.state(time)
-    seen = Function("seen", [e.q, e.u, e.p], [model.force, model.centre, model.strap]).map(len(time))
+    seen = Function("seen", [e.q, e.u, e.p], [model.force, model.centre, model.straps]).map(len(time))
     given = (x[:, :n].T, x[:, n : 2 * n].T, np.tile(p[:, None], (1, len(time))))
-    force, centre, strap = (each.full() for each in seen(*given))
-    worn = strap[0] if len(strap) else None
-    return StandingTrial(time, x[:, :n], x[:, n : 2 * n], force.T, centre[0], name, motion.control(time)[:, n:], worn)
+    force, centre, straps = (each.full() for each in seen(*given))
+    worn, elsewhere = straps[0] if len(straps) else None, dict(zip(model.elsewhere, straps[1:], strict=True))
+    torque = motion.control(time)[:, n:]
+    return StandingTrial(time, x[:, :n], x[:, n : 2 * n], force.T, centre[0], name, torque, worn, elsewhere=elsewhere)
 
 
 def recorded(
@@ -252,4 +261,5 @@ def with_noise(true: StandingTrial, model: StandingModel, noise: StandingNoise, 
     u, force, centre = off(true.u, noise.rate), off(true.force, noise.force), off(true.centre, noise.centre)
     torque = None if true.torque is None else off(true.torque, noise.torque)
     strap = None if true.strap is None else off(true.strap, noise.strap)
-    return StandingTrial(true.time, q, u, force, centre, true.name, torque, strap)
+    elsewhere = {name: off(force, noise.strap) for name, force in true.elsewhere.items()}
+    return StandingTrial(true.time, q, u, force, centre, true.name, torque, strap, elsewhere=elsewhere)

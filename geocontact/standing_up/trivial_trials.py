@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 from jaxtyping import Float
@@ -16,7 +17,7 @@ PLACES = 2
 def mean_trial(others: Sequence[StandingTrial], time: Float[np.ndarray, " t"]) -> StandingTrial:
     """Mean of others over parts of the movement, which knows nothing of the trial but how long it is.
 
-    Torques and strap are None where one of them has none.
+    Torques and straps are None where one of them has none; straps that were not recorded do not count.
     """
     part = (time - time[0]) / np.ptp(time)
 
@@ -26,16 +27,27 @@ def mean_trial(others: Sequence[StandingTrial], time: Float[np.ndarray, " t"]) -
             values = of(other)
             if values is None:
                 return None
+            if np.isnan(values).all():
+                continue
             own = (other.time - other.time[0]) / np.ptp(other.time)
             columns = [np.interp(part, own, column) for column in values.reshape(len(own), -1).T]
             found.append(np.stack(columns, axis=1).reshape(len(part), *values.shape[1:]))
-        return np.asarray(np.mean(found, axis=0))
+        return np.asarray(np.mean(found, axis=0)) if found else None
 
     q, u, force, centre = (mean(of) for of in (lambda t: t.q, lambda t: t.u, lambda t: t.force, lambda t: t.centre))
     if q is None or u is None or force is None or centre is None:
         raise ValueError("a trial has no coordinates")
     torque, strap = mean(lambda t: t.torque), mean(lambda t: t.strap)
-    return StandingTrial(time, q, u, force, centre, "mean of others", torque, strap)
+    elsewhere = {}
+    for site in others[0].elsewhere:
+        pressed = mean(partial(_at, site))
+        if pressed is not None:
+            elsewhere[site] = pressed
+    return StandingTrial(time, q, u, force, centre, "mean of others", torque, strap, elsewhere=elsewhere)
+
+
+def _at(site: str, trial: StandingTrial) -> Float[np.ndarray, " t"] | None:
+    return trial.elsewhere.get(site)
 
 
 def nearest_trial(others: Sequence[StandingTrial], trial: StandingTrial) -> StandingTrial:

@@ -1,4 +1,4 @@
-"""Two chains and a strap: forces are the derivatives of an energy, action is reaction, and one leg sees half."""
+"""Two chains and straps: forces are the derivatives of an energy, action is reaction, and one leg sees half."""
 
 from __future__ import annotations
 
@@ -7,30 +7,40 @@ import pytest
 
 from geocontact.standing_up import exoskeleton
 from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.exoskeleton import LEGS, STRAP_PARAMETERS, STRAP_PLANTED, two_chains, with_exoskeleton
+from geocontact.standing_up.exoskeleton import (
+    LEGS,
+    STRAP_PARAMETERS,
+    STRAP_PLANTED,
+    strapped,
+    two_chains,
+    with_exoskeleton,
+)
 from geocontact.standing_up.feet import PLANTED
+from geocontact.standing_up.strap_sites import STRAP_SITES
 
 SUBJECT = Subject()
 P = np.r_[PLANTED, STRAP_PLANTED]
 HIGH = np.array([0.1, 3.0, 0.2, -0.3, 0.9, -0.7, -0.25, 0.8, -0.6])
 
 
-def test_strap_force_is_the_derivative_of_its_energy(monkeypatch: pytest.MonkeyPatch) -> None:
-    """In air and at rest: what the springs add to the balance is -dV/dq, V of both legs."""
-    from casadi import Function, gradient
+def test_straps_pull_as_the_derivative_of_their_energy(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In air and at rest: what the springs add to the balance is -dV/dq, V of both legs and of one pelvis."""
+    from casadi import Function, gradient, sumsqr
 
     monkeypatch.setattr(exoskeleton, "DAMPING", 0.0)
-    model = with_exoskeleton(SUBJECT)
+    model = strapped(SUBJECT, STRAP_SITES)
     e = model.equations
+    every = np.r_[P, STRAP_PLANTED[:3], 0.3, STRAP_PLANTED[:3], 0.1]
     energy = model.energy + model.normal_energy
-    normal = model.strap**2 / (2.0 * STRAP_PARAMETERS[0].usual * np.exp(STRAP_PLANTED[0]))
-    outputs = [e.balance, gradient(energy, e.q), energy, LEGS * normal, model.normal_energy]
+    count = np.array([LEGS, LEGS, 1.0])
+    normal = sumsqr(np.sqrt(count) * model.straps) / (2.0 * STRAP_PARAMETERS[0].usual * np.exp(STRAP_PLANTED[0]))
+    outputs = [e.balance, gradient(energy, e.q), energy, normal, model.normal_energy]
     both = Function("both", [e.q, e.u, e.a, e.w, e.p], outputs)
     still = np.zeros(9)
-    soft = P.copy()
-    soft[7:10] = -40.0
+    soft = every.copy()
+    soft[[7, 8, 9, 11, 12, 13, 15, 16, 17]] = -40.0
     at = (HIGH, still, still, np.zeros(6))
-    with_strap, slope, stored, of_one_leg, of_both = (each.full().ravel() for each in both(*at, P))
+    with_strap, slope, stored, of_one_leg, of_both = (each.full().ravel() for each in both(*at, every))
     without, _, none, _, _ = (each.full().ravel() for each in both(*at, soft))
     assert stored[0] > 0.1 and none[0] < 1e-12
     np.testing.assert_allclose(of_one_leg, of_both, rtol=1e-12)

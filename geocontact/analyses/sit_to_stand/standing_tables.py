@@ -33,7 +33,7 @@ def errors_table(trials: Sequence[TrialResult], noise: StandingNoise, tracks: Se
         }
         for trial in trials
         for each in channels(trial.recorded, trial.model, noise)
-        if each.channel in tracks
+        if each.channel in tracks and np.isfinite(each.recorded).all()
     ]
     return pd.DataFrame(rows, columns=["trial", "quantity", "unit", "rmsd", "noise"])
 
@@ -58,7 +58,7 @@ def trial_table(trial: TrialResult, noise: StandingNoise, tracks: Sequence[str])
         if each.channel == "rates":
             continue
         columns[f"{each.name} [{each.unit}]"] = each.factor * each.model
-        if each.channel in tracks:
+        if each.channel in tracks and np.isfinite(each.recorded).all():
             columns[f"recorded {each.name} [{each.unit}]"] = each.factor * each.recorded
     columns["residual [N]"] = trial.residual(trial.judged.force)
     columns["residual [N m]"] = trial.residual(trial.judged.moment)

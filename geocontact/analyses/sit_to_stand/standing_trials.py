@@ -18,6 +18,7 @@ from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT
 from geocontact.standing_up.phase_a import TRACKS
 from geocontact.standing_up.phase_b import TRACKS_B
+from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite, strap_sites
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
 
@@ -31,6 +32,8 @@ class StandingUpTrials:
         Whether it was worn, so that its strap is calibrated too.
     free, tracks
         Names of the feet's parameters, and channels.
+    sites
+        Where straps are, if an exoskeleton was worn.
     """
 
     subject: Subject
@@ -39,6 +42,7 @@ class StandingUpTrials:
     exoskeleton: bool
     free: tuple[str, ...]
     tracks: tuple[str, ...]
+    sites: tuple[StrapSite, ...] = (THIGH_STRAP,)
 
     @property
     def seated(self) -> bool:
@@ -59,8 +63,10 @@ def standing_trials(file: Path, role: str, record: Record) -> StandingUpTrials:
     if study.exoskeleton and "strap" not in tracks:
         raise InputError(file, "tracks", "strap is not among them", "add it, or leave out exoskeleton = true")
     chain = two_chains(subject) if study.exoskeleton else leg_chain(subject)
-    trials = with_chairs([channels_of(each, chain, tracks, file, record) for each in study.trials])
-    return StandingUpTrials(subject, StandingNoise(**study.noise), trials, study.exoskeleton, free, tracks)
+    sites = strap_sites(tuple(site for each in study.trials for site in each.elsewhere))
+    names = tuple(site.name for site in sites[1:])
+    trials = with_chairs([channels_of(each, chain, tracks, file, record, names) for each in study.trials])
+    return StandingUpTrials(subject, StandingNoise(**study.noise), trials, study.exoskeleton, free, tracks, sites)
 
 
 def with_chairs(trials: Sequence[StandingTrial]) -> tuple[StandingTrial, ...]:

@@ -24,6 +24,8 @@ FEWEST = 20
 """Samples of a trial."""
 NORMAL, FORWARDS = "normal", "fx"
 """Columns of a strap's force: in a file of its own, and in the wrench.csv of a mat, whose scan has x forwards."""
+SCANS = {"thigh": "thigh", "shank": "shank", "pelvis": "torso"}
+"""What a scan of a site is of."""
 CELL = "r0c0"
 """First cell in a mat's own recording."""
 BESIDE = 0.5
@@ -34,16 +36,27 @@ Table = Float[np.ndarray, "t c"]
 
 
 def channels_of(
-    files: StandingTrialFiles, chain: Multibody, tracks: tuple[str, ...], study: Path, record: Record
+    files: StandingTrialFiles,
+    chain: Multibody,
+    tracks: tuple[str, ...],
+    study: Path,
+    record: Record,
+    sites: tuple[str, ...] = (),
 ) -> StandingTrial:
-    """The trial; InputError where a channel that is tracked is missing, or where clocks or models are not the same."""
+    """The trial; InputError where a channel that is tracked is missing, or where clocks or models are not the same.
+
+    Parameters
+    ----------
+    sites
+        Names of the further straps that the model has.
+    """
     place = f"[[trials]] {files.name}"
     for channel, file, key in (
         ("rates", files.rates, "rates"),
         ("force", files.plates, "plates"),
         ("centre", files.plates, "plates"),
         ("torque", files.torques, "torques"),
-        ("strap", files.strap or None, "strap"),
+        ("strap", next(iter([*files.strap, *sum(files.elsewhere.values(), ())]), None), "strap"),
     ):
         if channel in tracks and file is None:
             what = f"{channel} is tracked, and this trial has none"
@@ -68,15 +81,16 @@ def channels_of(
     force, centre = np.zeros((len(time), 2)), np.zeros(len(time))
     if feet is not None and files.plates is not None:
         force, centre = _under_the_feet(files.plates, feet, time, q[:, 0])
-    torque = strap = None
+    torque, strap, elsewhere = None, None, {}
     if "torque" in tracks and files.torques is not None:
         names = [c.name for c in chain.coordinates[3:]]
         torque = _columns(files.torques, names, record, f"{files.name} torques", time)
-    if "strap" in tracks and files.strap:
-        forces = [strap_force(file, record, f"{files.name} strap", time) for file in files.strap]
-        strap = np.asarray(np.sum(forces, axis=0))
+    if "strap" in tracks:
+        strap = site_force(files.strap, record, f"{files.name} strap", "thigh", time)
+        roles = {site: f"{files.name} strap_{site}" for site in sites}
+        elsewhere = {s: site_force(files.elsewhere.get(s, ()), record, role, s, time) for s, role in roles.items()}
     sat_on = chair_load(chair, time) if files.sitting and chair is not None else None
-    return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on)
+    return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on, elsewhere)
 
 
 def chair_load(chair: ForcePlate, time: Times) -> Table:
@@ -85,12 +99,19 @@ def chair_load(chair: ForcePlate, time: Times) -> Table:
     return np.asarray(np.nan_to_num(np.column_stack([wrench.force[:, :2], wrench.moment[:, 2]])))
 
 
-def strap_force(file: Path, record: Record, role: str, time: Times) -> Times:
+def site_force(files: Sequence[Path], record: Record, role: str, site: str, time: Times) -> Times:
+    """Sum over the mats of one strap [N]; not a number where there is none."""
+    forces = [strap_force(file, record, role, site, time) for file in files]
+    return np.asarray(np.sum(forces, axis=0)) if forces else np.full(len(time), np.nan)
+
+
+def strap_force(file: Path, record: Record, role: str, site: str, time: Times) -> Times:
     """Normal force on the person, forwards positive [N]; InputError for pressures of cells that lie on no body."""
     names = read_table(file).channels
     if CELL in names:
         what = "is a mat's own recording: pressures of cells, and the mat is not registered to a body"
-        remedy = "run geocontact mat with a scan of the thigh and landmarks, and give its wrench.csv"
+        remedy = f"register it: geocontact mat {file.name} --surface {SCANS[site]}.stl --landmarks landmarks.csv"
+        remedy += " --layout layout.toml --out mat, then give mat/wrench.csv"
         raise InputError(file, "", what, remedy)
     return _columns(file, [FORWARDS if FORWARDS in names else NORMAL], record, role, time)[:, 0]
 

@@ -91,4 +91,7 @@ def channels(seen: StandingTrial, model: StandingTrial, noise: StandingNoise) ->
     if model.strap is not None:
         told = none if seen.strap is None else seen.strap
         found.append(StandingChannel("strap", "strap", "N", 1.0, told, model.strap, noise.strap))
+    for site, force in model.elsewhere.items():
+        told = seen.elsewhere.get(site, none)
+        found.append(StandingChannel("strap", f"{site} strap", "N", 1.0, told, force, noise.strap))
     return found

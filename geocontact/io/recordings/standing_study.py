@@ -24,7 +24,8 @@ beside mass and height, `start` and `end` [s] in a trial instead of `chair`; wit
 the person still sits, and the chair's force is a load on the model. With `exoskeleton = true` a trial also has
 `torques` of all joints of both legs (.sto, [N m]) and `strap`, the normal force of the mat of one leg on the person,
 forwards positive (.csv, `time [s], normal [N]`), or the wrench.csv of a mat on a scan of the thigh, x forwards. A list
-of files, such as mats in front and behind, has the sum of their forces.
+of files, such as mats in front and behind, has the sum of their forces. `strap_shank` and `strap_pelvis` are the same
+of further straps; at the pelvis the force is that of the whole module. A trial needs one of the three.
 """
 
 from __future__ import annotations
@@ -49,7 +50,9 @@ TALL = Plausible("the height of a person", m, (0.8, 2.5))
 NOISE = {"length": "m", "angle": "rad", "rate": "rad/s", "force": "N", "centre": "m", "torque": "N m", "strap": "N"}
 KEYS = ("mass", "height", "exoskeleton", "noise", "free", "tracks", "trials")
 FILES = ("coordinates", "rates", "plates", "torques")
-TRIAL = ("name", *FILES, "strap", "feet", "chair", "sitting", "start", "end")
+ELSEWHERE = ("shank", "pelvis")
+"""Sites of straps besides the thigh's."""
+TRIAL = ("name", *FILES, "strap", *(f"strap_{site}" for site in ELSEWHERE), "feet", "chair", "sitting", "start", "end")
 
 
 @dataclass(frozen=True)
@@ -61,7 +64,9 @@ class StandingTrialFiles:
     coordinates, rates, plates, torques
         Files; all but the first may be missing.
     strap
-        Files whose forces add; none where the strap's force was not recorded.
+        Files whose forces add; none where the thigh's strap was not recorded.
+    elsewhere
+        The same by further sites, of those that were recorded.
     feet, chair
         Plates by name or number.
     sitting
@@ -76,6 +81,7 @@ class StandingTrialFiles:
     plates: Path | None
     torques: Path | None
     strap: tuple[Path, ...]
+    elsewhere: Mapping[str, tuple[Path, ...]]
     feet: str | None
     chair: str | None
     sitting: bool
@@ -183,7 +189,10 @@ def _trial(path: Path, number: int, told: Any) -> StandingTrialFiles:
         raise InputError(path, place, f"name {name!r} cannot be that of a file", "write letters, digits, - and _")
     rates, forces, torques = files
     strap = _files(path, f"{place} strap", told.get("strap"))
-    return StandingTrialFiles(name, coordinates, rates, forces, torques, strap, feet, chair, sitting, start, end)
+    others = {site: _files(path, f"{place} strap_{site}", told.get(f"strap_{site}")) for site in ELSEWHERE}
+    others = {site: files for site, files in others.items() if files}
+    told_files = (coordinates, rates, forces, torques, strap, others)
+    return StandingTrialFiles(name, *told_files, feet, chair, sitting, start, end)
 
 
 def _time(path: Path, place: str, told: Mapping[str, Any], key: str) -> float | None:

@@ -16,24 +16,29 @@ from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.io.opensim.external_loads import read_external_loads
 from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.exoskeleton import LEGS, STRAP_PLANTED, WORN_PARAMETERS, with_exoskeleton
+from geocontact.standing_up.exoskeleton import LEGS, STRAP_PLANTED, strapped
 from geocontact.standing_up.feet import EVERY_PLANTED
 from geocontact.standing_up.judged import JudgedMotion
 from geocontact.standing_up.strap_force import strap_force
+from geocontact.standing_up.strap_sites import STRAP_SITES
 from geocontact.standing_up.trials import StandingTrial
 from tests import opensim_oracle
 from tests.elsewhere import Elsewhere
 
 SUBJECT = Subject()
-P = np.r_[EVERY_PLANTED, STRAP_PLANTED]
-VALUES = {each.name: each.value(float(p)) for each, p in zip(WORN_PARAMETERS, P, strict=True)}
+MODEL = strapped(SUBJECT, STRAP_SITES, seated=True)
+P = np.r_[EVERY_PLANTED, STRAP_PLANTED, STRAP_PLANTED[:3], 0.3, STRAP_PLANTED[:3], 0.1]
+VALUES = {each.name: each.value(float(p)) for each, p in zip(MODEL.parameters, P, strict=True)}
+STRAPS = {"strap": "thigh", "shank_strap": "shank", "pelvis_strap": "trunk"}
+BODIES = ["foot", "trunk", "thigh", "exo_thigh", "shank", "exo_shank", "trunk", "exo_module"]
 TIME = np.linspace(0.0, 1.0, 101)
 SEATED = np.array([0.0, 0.083, 0.0, -0.4, 1.6, -2.0, -0.42, 1.66, -1.9])
 UP = np.array([0.0, 0.083, 0.0, -0.07, 0.14, -0.14, -0.06, 0.13, -0.1])
 
 
 def moved() -> tuple[TrialResult, np.ndarray, np.ndarray]:
-    """Both chains rise on their own path; torques of the joints, what is left over at the foot, force along the strap.
+    """Both chains rise off a chair on their own path; torques of the joints, what is left over at the foot, force along
+    the thigh's strap.
 
     Nobody's motion: the foot stands still, whatever the balance asks of the ground.
     """
@@ -43,13 +48,14 @@ def moved() -> tuple[TrialResult, np.ndarray, np.ndarray]:
     q = SEATED + (UP - SEATED) * np.sin(0.5 * turn) ** 2
     u = (UP - SEATED) * 0.5 * np.pi * np.sin(turn)
     a = (UP - SEATED) * 0.5 * np.pi**2 * np.cos(turn)
-    model = with_exoskeleton(SUBJECT)
-    e = model.equations
-    outputs = [e.balance, model.force, model.centre, model.strap, model.shear]
+    e = MODEL.equations
+    chair = np.column_stack([20.0 * (1.0 - TIME), 300.0 * (1.0 - TIME), -90.0 * (1.0 - TIME)])
+    outputs = [e.balance, MODEL.force, MODEL.centre, MODEL.strap, MODEL.shear]
     seen = Function("seen", [e.q, e.u, e.a, e.w, e.p], outputs).map(len(TIME))
-    many = seen(q.T, u.T, a.T, np.zeros((6, len(TIME))), np.tile(P[:, None], (1, len(TIME))))
+    given = np.vstack([np.zeros((6, len(TIME))), chair.T])
+    many = seen(q.T, u.T, a.T, given, np.tile(P[:, None], (1, len(TIME))))
     balance, force, centre, strap, shear = (each.full().T for each in many)
-    trial = StandingTrial(TIME, q, u, force, centre[:, 0], "T1", -balance[:, 3:], strap[:, 0])
+    trial = StandingTrial(TIME, q, u, force, centre[:, 0], "T1", -balance[:, 3:], strap[:, 0], chair)
     none = np.zeros(len(TIME))
     return (
         TrialResult(recorded=trial, model=trial, acceleration=a, judged=JudgedMotion(None, TIME, none, none)),
@@ -78,10 +84,10 @@ def test_inverse_dynamics_of_what_is_written_finds_the_torques(written: Path) ->
     """With the straps as external loads in place of the model's bushing, and with the bushing in place of them."""
     trial, left, _ = moved()
     alone = (written / "loads_T1.xml").read_text()
-    first = alone.index("<ExternalForce", alone.index("</ExternalForce>"))
+    first = alone.index('<ExternalForce name="strap_force"')
     (written / "ground.xml").write_text(alone[:first] + alone[alone.index("\t\t</objects>") :])
-    names = with_exoskeleton(SUBJECT).equations.names
-    for loads, exclude in (("loads_T1.xml", "strap"), ("ground.xml", "")):
+    names = MODEL.equations.names
+    for loads, exclude in (("loads_T1.xml", tuple(STRAPS)), ("ground.xml", ())):
         options = {"model": written / "model.osim", "loads": written / loads, "cutoff": 0.0}
         if exclude:
             options["exclude"] = exclude
@@ -105,24 +111,27 @@ def test_lines_over_time_carry_the_forces(written: Path) -> None:
     rows = np.array(str(force.text).split(), float).reshape(-1, 3)
     assert trial.model.strap is not None
     np.testing.assert_allclose(rows[0, :2], trial.model.force[0], rtol=1e-5)
-    of_strap = strap_force(SUBJECT, trial.model.q[:1], trial.model.u[:1], VALUES).force[0]
-    np.testing.assert_allclose(rows[-1], of_strap, rtol=1e-5, atol=1e-9)
-    assert (rows[1:-1] == 0.0).all()
+    for site, row in zip(STRAP_SITES, rows[-5::2], strict=True):
+        of_strap = strap_force(SUBJECT, trial.model.q[:1], trial.model.u[:1], VALUES, site).force[0]
+        np.testing.assert_allclose(row, of_strap, rtol=1e-5, atol=1e-9)
+    assert (rows[1:-5] == 0.0).all() and (rows[-4::2] == 0.0).all()
 
 
 def test_straps_push_back_on_the_exoskeleton(written: Path) -> None:
     data, loads = read_external_loads(written / "loads_T1.xml")
-    assert [load.body for load in loads] == ["foot", "thigh", "exo_thigh"]
+    assert [load.body for load in loads] == BODIES
     table = read_table(data)
-    one, other = (table.column(f"strap_{name}_vx") for name in ("force", "back_force"))
-    np.testing.assert_array_equal(one, -other)
     trial, _, _ = moved()
-    whole = np.hypot(one, table.column("strap_force_vy"))
-    own = strap_force(SUBJECT, trial.model.q, trial.model.u, VALUES).force
-    np.testing.assert_allclose(whole, LEGS * np.linalg.norm(own, axis=1), rtol=1e-8)
+    for site, (name, body) in zip(STRAP_SITES, STRAPS.items(), strict=True):
+        one, other = (table.column(f"{name}_{way}_vx") for way in ("force", "back_force"))
+        np.testing.assert_array_equal(one, -other)
+        whole = np.hypot(one, table.column(f"{name}_force_vy"))
+        own = strap_force(SUBJECT, trial.model.q, trial.model.u, VALUES, site).force
+        count = 1 if body == "trunk" else LEGS
+        np.testing.assert_allclose(whole, count * np.linalg.norm(own, axis=1), rtol=1e-8)
 
 
 @pytest.mark.oracle
 def test_opensim_reads_the_loads(opensim: Elsewhere, written: Path) -> None:
     loads = opensim(opensim_oracle.external_loads, written / "loads_T1.xml")
-    assert [load[1] for load in loads] == ["foot", "thigh", "exo_thigh"]
+    assert [load[1] for load in loads] == BODIES

@@ -30,7 +30,8 @@ def test_a_mat_that_is_not_registered_is_refused_in_one_line(tmp_path: Path) -> 
     (tmp_path / "frames.csv").write_text((MESHES / "mat_thigh_16x8" / "frames.csv").read_text())
     with pytest.raises(gc.InputError, match="the mat is not registered to a body") as refused:
         gc.sit_to_stand.calibrate(study_with(tmp_path, '"frames.csv"'))
-    assert "\n" not in str(refused.value) and "geocontact mat" in str(refused.value)
+    assert "\n" not in str(refused.value)
+    assert "geocontact mat frames.csv --surface thigh.stl --landmarks landmarks.csv" in str(refused.value)
 
 
 def test_forces_of_mats_in_front_and_behind_add(tmp_path: Path) -> None:
@@ -42,8 +43,22 @@ def test_forces_of_mats_in_front_and_behind_add(tmp_path: Path) -> None:
     files, at = study.trials[0].strap, np.linspace(0.5, 1.5, 5)
     assert [each.name for each in files] == ["front.csv", "behind.csv"]
     record = Record("sit-to-stand calibrate", {})
-    total = np.sum([strap_force(file, record, "strap", at) for file in files], axis=0)
+    total = np.sum([strap_force(file, record, "strap", "thigh", at) for file in files], axis=0)
     np.testing.assert_allclose(total, 2.0 * at, atol=1e-12)
+
+
+def test_a_trial_may_have_the_mats_of_some_sites_only(tmp_path: Path) -> None:
+    """As in the study: both matrices at the pelvis in one configuration, at thigh and shank in the other."""
+    study = study_with(tmp_path, '"T1_strap.csv"')
+    text = study.read_text().replace('strap = "T2_strap.csv"', 'strap_pelvis = "T2_strap.csv"')
+    study.write_text(text)
+    trials = standing_trials(study, "study", Record("sit-to-stand calibrate", {}))
+    assert [site.name for site in trials.sites] == ["thigh", "pelvis"]
+    first, second, _ = trials.trials
+    assert np.isfinite(first.strap).all() and np.isnan(first.elsewhere["pelvis"]).all()
+    assert np.isnan(second.strap).all() and np.ptp(second.elsewhere["pelvis"]) > 5.0
+    with pytest.raises(gc.InputError, match="a design has one strap, at the thigh"):
+        gc.sit_to_stand.design(study, parameters=WORN / "truth.csv")
 
 
 def test_a_trial_may_begin_on_the_chair(tmp_path: Path) -> None:

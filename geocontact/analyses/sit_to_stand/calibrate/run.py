@@ -16,7 +16,7 @@ from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.standing_up.calibrated_phase import SAME, CalibratedPhase, PhaseSearch, calibrated_phase
 from geocontact.standing_up.cost_shares import MOST_OF_IT
-from geocontact.standing_up.exoskeleton import with_exoskeleton
+from geocontact.standing_up.exoskeleton import strapped
 from geocontact.standing_up.feet import FOOT_PARAMETERS, feet_on_ground
 from geocontact.standing_up.phase import PhaseProblem
 from geocontact.standing_up.phase_a import TRACKS, phase_a
@@ -55,8 +55,10 @@ def _phases(
     """A, and with an exoskeleton B on what A found; only A where its search has no answer."""
     options = SolverOptions("radau", o.degree, 1, TOLERANCE, o.iterations, o.time_limit)
     search = PhaseSearch(options, o.nodes, o.starts, o.resamples, o.seed, o.level, o.profiles)
-    made = with_exoskeleton if given.exoskeleton else feet_on_ground
-    model = made(given.subject, seated=given.seated)
+    if given.exoskeleton:
+        model = strapped(given.subject, given.sites, seated=given.seated)
+    else:
+        model = feet_on_ground(given.subject, seated=given.seated)
     in_a = tuple(name for name in TRACKS if name in given.tracks)
 
     def told(phase: str) -> Callable[[int, float, float], None]:
@@ -70,11 +72,12 @@ def _phases(
     first = calibrated_phase("A", model, given.trials, given.noise, build_a, search, told("A"))
     if not given.exoskeleton or not first.found.solved:
         return (first,)
-    feet = first.found.p[: len(FOOT_PARAMETERS)]
+    feet, straps = first.found.p[: len(FOOT_PARAMETERS)], [name for site in given.sites for name in site.names]
 
     def build_b(trials: Sequence[StandingTrial], start: Start) -> PhaseProblem:
         strap = None if start is None else start[len(feet) :]
-        return phase_b(model, given.subject, trials, given.noise, feet, tracks=given.tracks, start=strap)
+        noise, tracks = given.noise, given.tracks
+        return phase_b(model, given.subject, trials, noise, feet, free=straps, tracks=tracks, start=strap)
 
     return first, calibrated_phase("B", model, given.trials, given.noise, build_b, search, told("B"))
 
@@ -120,11 +123,12 @@ def _say(r: StandingCalibrateResult) -> None:
     numbers = [number for phase in r.phases for number in phase.numbers.numbers if number.verdict != "held"]
     known = [number.name for number in numbers if number.verdict == "known"]
     worst = {}
+    straps = errors["quantity"].str.endswith("strap")
     for name, chosen in (("force", errors["unit"] == "N"), ("centre", errors["quantity"] == "centre")):
-        worst[name] = errors[chosen & (errors["quantity"] != "strap")]["rmsd"].max()
+        worst[name] = errors[chosen & ~straps]["rmsd"].max()
     angle = errors[errors["unit"] == "deg"]["rmsd"].max()
-    strap = errors[errors["quantity"] == "strap"]["rmsd"]
-    also = f", strap within {strap.max():.1f} N" if len(strap) else ""
+    worn = errors[straps].groupby("quantity", sort=False)["rmsd"].max()
+    also = "".join(f", {name} within {off:.1f} N" for name, off in worn.items())
     record.say(
         f"{counted(len(r.trials), 'trial')}: ground reaction within {worst['force']:.1f} N, centre of pressure within "
         f"{worst['centre']:.1f} mm, angles within {angle:.2f}°{also} (largest RMSD of a trial)"

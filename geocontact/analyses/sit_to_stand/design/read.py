@@ -44,6 +44,9 @@ def read(o: StandingDesignOptions, record: Record) -> TrialsToHelp:
     if not trials.exoskeleton:
         what, remedy = "is not of a person with an exoskeleton", "write exoskeleton = true, and torques and strap"
         raise InputError(o.study, "", what, remedy)
+    if len(trials.sites) > 1:
+        remedy = f"leave out {', '.join(f'strap_{site.name}' for site in trials.sites[1:])}"
+        raise InputError(o.study, "", "a design has one strap, at the thigh", remedy)
     if trials.seated:
         remedy = "leave sitting out: a movement that is kept begins at seat-off"
         raise InputError(o.study, "sitting", "has no effect on a design", remedy)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,10 +14,8 @@ from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, s
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.contact_parameters import read_contact_parameters
 from geocontact.standing_up.contact_parameter import ContactParameter, searched
-from geocontact.standing_up.exoskeleton import STRAP_PARAMETERS
 from geocontact.standing_up.feet import FOOT_PARAMETERS
-
-EVERY: tuple[ContactParameter, ...] = (*FOOT_PARAMETERS, *STRAP_PARAMETERS)
+from geocontact.standing_up.strap_sites import StrapSite
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,12 +27,22 @@ class HeldOutTrials:
     p
         What is searched of all parameters.
     known
-        Trials of the calibration.
+        Trials of the calibration, which say where straps are.
     """
 
     trials: StandingUpTrials
     p: Float[np.ndarray, " p"]
     known: StandingUpTrials
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Of all parameters by name, in SI."""
+        every = _parameters(self.known.sites)
+        return {each.name: each.value(float(p)) for each, p in zip(every, self.p, strict=True)}
+
+
+def _parameters(sites: Sequence[StrapSite]) -> tuple[ContactParameter, ...]:
+    return (*FOOT_PARAMETERS, *(each for site in sites for each in site.parameters))
 
 
 def read(o: StandingPredictOptions, record: Record) -> HeldOutTrials:
@@ -45,7 +54,12 @@ def read(o: StandingPredictOptions, record: Record) -> HeldOutTrials:
             raise InputError(file, "", what, "write exoskeleton = true, and name torques and strap of each trial")
     if trials.subject != known.subject:
         raise InputError(o.study, "mass", "is another person's than the calibration's", "predict trials of one person")
-    bounds = {each.name: (each.least, each.most) for each in EVERY}
-    values = read_contact_parameters(o.parameters, {each.name: each.unit for each in EVERY}, bounds)
+    lacking = {site.name for site in trials.sites} - {site.name for site in known.sites}
+    if lacking:
+        what = f"has a strap at the {min(lacking)}, which the calibration has not"
+        raise InputError(o.study, "", what, f"leave strap_{min(lacking)} out, or calibrate with it")
+    every = _parameters(known.sites)
+    bounds = {each.name: (each.least, each.most) for each in every}
+    values = read_contact_parameters(o.parameters, {each.name: each.unit for each in every}, bounds)
     record.add_input("`parameters`", o.parameters, parameters=len(values))
-    return HeldOutTrials(trials, searched(EVERY, [values[each.name] for each in EVERY]), known)
+    return HeldOutTrials(trials, searched(every, [values[each.name] for each in every]), known)

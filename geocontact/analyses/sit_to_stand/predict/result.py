@@ -21,7 +21,7 @@ from geocontact.analyses.sit_to_stand.standing_tables import certificate_rows, e
 from geocontact.analyses.sit_to_stand.trial_result import DEGREE, TrialResult
 from geocontact.io.text.results import write_table
 from geocontact.standing_up.chain import COORDINATES
-from geocontact.standing_up.exoskeleton import EXO_JOINTS, WORN_PARAMETERS
+from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from geocontact.standing_up.trials import StandingTrial
 
 if TYPE_CHECKING:
@@ -101,6 +101,11 @@ class StandingPredictResult(Result):
         ]
         if seen.strap is not None and mean.strap is not None:
             columns.append(("strap", "N", 1.0, mean.strap - seen.strap, noise.strap))
+        columns += [
+            (f"{site} strap", "N", 1.0, mean.elsewhere[site] - force, noise.strap)
+            for site, force in seen.elsewhere.items()
+            if site in mean.elsewhere
+        ]
         return [
             {
                 "trial": seen.name,
@@ -111,6 +116,7 @@ class StandingPredictResult(Result):
                 "noise": factor * size,
             }
             for name, unit, factor, off, size in columns
+            if np.isfinite(off).all()
         ]
 
     def tables(self) -> dict[str, pd.DataFrame]:
@@ -132,10 +138,9 @@ class StandingPredictResult(Result):
         """Tables, trajectories, figure, page."""
         for name, rows in self.tables().items():
             write_table(rows, folder, name)
-        values = {of.name: of.value(float(p)) for of, p in zip(WORN_PARAMETERS, self.given.p, strict=True)}
         for one in self.predictions:
             if one.name == ALL:
-                write_motion(folder, self.given.trials.subject, one.trial, values, one.solved)
+                write_motion(folder, self.given.trials.subject, one.trial, self.given.values, one.solved)
         save_both(self.figure(), folder, "strap")
         self.write_page(folder / "report.html")
 

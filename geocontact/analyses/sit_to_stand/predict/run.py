@@ -14,7 +14,7 @@ from geocontact.analyses.sit_to_stand.predict.result import ALL, PredictedTrial,
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation.solve import SolverOptions, solve
 from geocontact.standing_up.chain import COORDINATES
-from geocontact.standing_up.exoskeleton import with_exoskeleton
+from geocontact.standing_up.exoskeleton import strapped
 from geocontact.standing_up.judged import judged
 from geocontact.standing_up.phase_c import TRACKS_C, phase_c
 from geocontact.standing_up.standing_model import StandingModel
@@ -41,7 +41,7 @@ def run(given: HeldOutTrials, o: StandingPredictOptions, record: Record) -> Stan
 
 def predicted(given: HeldOutTrials, o: StandingPredictOptions, record: Record) -> tuple[PredictedTrial, ...]:
     """Trials outer, predictors inner; searches without an answer and motions without a certificate are warned of."""
-    model, predictions = with_exoskeleton(given.trials.subject, seated=given.trials.seated), []
+    model, predictions = strapped(given.trials.subject, given.known.sites, seated=given.trials.seated), []
     with record.listener.stages("predicting") as stage:
         for trial in given.trials.trials:
             for name, tracks in GIVEN.items():
@@ -87,7 +87,7 @@ def _predicted(
 
 def _say(r: StandingPredictResult) -> None:
     record, errors = r.record, r.errors
-    strap = errors[errors["quantity"] == "strap"].groupby("predictor", sort=False)["rmsd"].max()
+    strap = errors[errors["quantity"].str.endswith("strap")].groupby("predictor", sort=False)["rmsd"].max()
     turning = errors["quantity"].isin(COORDINATES) & (errors["unit"] == "deg")
     angles = errors[turning].groupby("predictor", sort=False)["rmsd"].max()
     record.say(
