@@ -33,7 +33,7 @@ def test_straps_pull_as_the_derivative_of_their_energy(monkeypatch: pytest.Monke
     every = np.r_[P, STRAP_PLANTED[:3], 0.3, STRAP_PLANTED[:3], 0.1]
     energy = model.energy + model.normal_energy
     count = np.array([LEGS, LEGS, 1.0])
-    normal = sumsqr(np.sqrt(count) * model.straps) / (2.0 * STRAP_PARAMETERS[0].usual * np.exp(STRAP_PLANTED[0]))
+    normal = sumsqr(model.straps * np.sqrt(count)) / (2.0 * STRAP_PARAMETERS[0].usual * np.exp(STRAP_PLANTED[0]))
     outputs = [e.balance, gradient(energy, e.q), energy, normal, model.normal_energy]
     both = Function("both", [e.q, e.u, e.a, e.w, e.p], outputs)
     still = np.zeros(9)

@@ -80,13 +80,13 @@ def plate_named(plates: tuple[ForcePlate, ...], name: str | None, path: Path, op
     """The plate of this name or number, counted from 1; the only one where none is named.
 
     `option` is how the user names one, for messages. A plate that pulls at the foot is refused: its file holds the
-    forces on the plate.
+    forces on the plate. A force whose opposite is there too is none of a plate, but between two bodies.
     """
     plate = _named(plates, name, path, option)
     pushing = plate.wrench.force @ plate.normal
     loaded = pushing[np.abs(pushing) >= LOADED]
     usual = float(np.median(loaded)) if len(loaded) else 0.0
-    if usual < 0.0:
+    if usual < 0.0 and not any(np.array_equal(other.wrench.force, -plate.wrench.force) for other in plates):
         up = "xyz"[int(np.argmax(np.abs(plate.normal)))]
         what = f"its force along {up}, which is up, is {usual:.4g} N under load: that is the force on the plate"
         raise InputError(path, plate.name, what, "give the force on the foot: turn the sign of forces and torques")
