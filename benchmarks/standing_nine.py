@@ -142,7 +142,7 @@ def kinematics(out: Path, clock: Any) -> Any:
     return q
 
 
-def torques(out: Path, subject: Any, q: Any, clock: Any) -> Any:
+def torques(out: Path, subject: Any, q: Any, clock: Any, plate: tuple[str, ...] = ("feet_force=foot",)) -> Any:
     """Of person and exoskeleton [N m]: inverse dynamics of both less the motors' torque less friction; torques.sto."""
     import numpy as np
     from scipy.signal import butter, filtfilt
@@ -160,7 +160,7 @@ def torques(out: Path, subject: Any, q: Any, clock: Any) -> Any:
     rates = np.gradient(filtfilt(*low, q[:, 6:], axis=0), clock, axis=0)
     worn = device.torque(filtfilt(*low, motors, axis=0), rates)
     forces = gc.inverse_dynamics(
-        out / "coordinates.sto", model=out / "model.osim", plates=out / "plates.mot", plate=("feet_force=foot",)
+        out / "coordinates.sto", model=out / "model.osim", plates=out / "plates.mot", plate=plate
     ).table("forces")
     both = np.column_stack([forces[f"{name}_moment [N m]"] for name in ("ankle", "knee", "hip")])
     both = np.column_stack([np.interp(clock, forces["time [s]"], column) for column in both.T])
@@ -183,17 +183,17 @@ def unloaded(subject: Any) -> Any:
     return identified(subject, q, u, a, motors + noise)
 
 
-def straps(out: Path, clock: Any) -> Any:
-    """The strap's force [N] by both mats; wrench.csv of each."""
+def straps(out: Path, clock: Any, scan: str = "thigh", prefix: str = "") -> Any:
+    """Force of one site's strap [N] by both mats on a scan; wrench.csv of each."""
     import numpy as np
 
     import geocontact as gc
 
     total = np.zeros(len(clock))
-    for name in ("front", "behind"):
+    for name in (f"{prefix}front", f"{prefix}behind"):
         found = gc.mat(
             out / name / "mat.csv",
-            surface=MESHES / "thigh.stl",
+            surface=MESHES / f"{scan}.stl",
             unit="mm",
             landmarks=out / name / "landmarks.csv",
             layout=out / name / "layout.toml",
@@ -203,8 +203,16 @@ def straps(out: Path, clock: Any) -> Any:
     return total
 
 
-def write_studies(out: Path, spans: Mapping[str, tuple[float, float]]) -> None:
-    """calibration.toml and prediction.toml."""
+MATS_OF_THE_THIGH = ('strap = ["front/wrench.csv", "behind/wrench.csv"]',)
+
+
+def write_studies(
+    out: Path,
+    spans: Mapping[str, tuple[float, float]],
+    mats: Mapping[str, tuple[str, ...]] | None = None,
+    studies: Mapping[str, tuple[str, ...]] | None = None,
+) -> None:
+    """calibration.toml and prediction.toml, or `studies` by name; `mats` are the lines of trials with other ones."""
     head = ['mass = { value = 70, unit = "kg" }', 'height = { value = 1.75, unit = "m" }', "exoskeleton = true"]
     head += ['tracks = ["coordinates", "force", "centre", "torque", "strap"]', "", "[noise]"]
     head += [f'{key} = {{ value = {value}, unit = "{unit}" }}' for key, (value, unit) in TOLD.items()]
@@ -214,12 +222,19 @@ def write_studies(out: Path, spans: Mapping[str, tuple[float, float]]) -> None:
         'feet = "feet_force"',
         'torques = "torques.sto"',
     ]
-    files += ['strap = ["front/wrench.csv", "behind/wrench.csv"]']
-    for study, names in (("calibration", PASSIVE), ("prediction", HELD_OUT)):
+    for study, names in (studies or {"calibration": PASSIVE, "prediction": HELD_OUT}).items():
         lines = list(head)
         for name in names:
             begin, end = spans[name]
-            lines += ["", "[[trials]]", f'name = "{name}"', *files, f"start = {begin:.6g}", f"end = {end:.6g}"]
+            lines += [
+                "",
+                "[[trials]]",
+                f'name = "{name}"',
+                *files,
+                *(mats or {}).get(name, MATS_OF_THE_THIGH),
+                f"start = {begin:.6g}",
+                f"end = {end:.6g}",
+            ]
         (out / f"{study}.toml").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 

@@ -8,6 +8,7 @@ shares. Speeds and postures differ as those of one person do.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import RigidTransform
 
-from benchmarks.standing_truth import PLANTED, padded_strap
+from benchmarks.standing_truth import PLANTED, padded_strap, padded_straps
 from geocontact.data.multibody.joint_kinds import revolute
 from geocontact.data.multibody.model import Body, Multibody
 from geocontact.dynamics.body_contact import together
@@ -25,11 +26,13 @@ from geocontact.dynamics.smooth_sphere_contact import OpenSimSphereLaw, smooth_s
 from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.exoskeleton import WORN_PARAMETERS, two_chains
+from geocontact.standing_up.chair import COMPONENTS, chair_on_person
+from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.feet import FOOT_PARAMETERS, FRICTION
 from geocontact.standing_up.judged import JudgedMotion, judged
 from geocontact.standing_up.phase import PhaseProblem
 from geocontact.standing_up.standing_model import StandingModel
+from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite
 from geocontact.standing_up.synthetic_study import RATE, SEATED, SECONDS
 from geocontact.standing_up.trials import seen_in, standing_up
 
@@ -55,6 +58,8 @@ HELPED = (
     ("P6", 1.60, (22.0, 73.0, 40.0), 0.10),
 )
 """Assisted trials: duration [s], leans of shank, thigh and trunk at seat-off [deg], share of the person's torque."""
+ON_CHAIR, LEAVING, BEHIND = 300.0, 0.3, -0.35
+"""Of a chair that is let go: its force [N], how long that takes [s], and how far ahead of the ankle it acts [m]."""
 INTERVALS = 32
 """Of each motion, of degree 4."""
 CHANNELS = ("time", "q", "u", "force", "centre", "torque", "strap")
@@ -87,29 +92,45 @@ def chain_with_toes(subject: Subject) -> Multibody:
     return replace(chain, bodies=tuple(bodies), joints=(*chain.joints, joint))
 
 
-def finer_model(subject: Subject) -> StandingModel:
-    """Ten coordinates, torques of the six hinges that have one; only the strap's part of the parameters acts."""
+def finer_model(
+    subject: Subject, sites: Sequence[StrapSite] = (THIGH_STRAP,), *, seated: bool = False
+) -> StandingModel:
+    """Ten coordinates, torques of the six hinges that have one; only the straps' part of the parameters acts.
+
+    Straps are at the thigh, or at all sites; `seated` with the force of a chair among the inputs.
+    """
     from casadi import SX
 
     tree = tree_of(chain_with_toes(subject))
-    p, torque = SX.sym("p", len(WORN_PARAMETERS)), SX.sym("torque", 6)
+    parameters = (*FOOT_PARAMETERS, *(each for site in sites for each in site.parameters))
+    p, torque = SX.sym("p", len(parameters)), SX.sym("torque", 6)
+    law = padded_strap if len(sites) == 1 else padded_straps
     at = tree.names.index("toe_joint")
     along = {name: torque[k] for k, name in enumerate(tree.names[3:9])}
     along["toe_joint"] = -TOE_SPRING * tree.q[at] - TOE_DAMPER * tree.u[at]
-    ground, strap = under_three_spheres(tree), padded_strap(tree, p[len(FOOT_PARAMETERS) :, :])
-    loads = together(ground, strap.loads)
-    e = equations_of_motion(tree, loads=loads, along=along, inputs=[torque], parameters=[p])
+    ground, strap = under_three_spheres(tree), law(tree, p[len(FOOT_PARAMETERS) :, :])
+    sat_on = [SX.sym("chair", COMPONENTS)] if seated else []
+    loads = together(ground, strap.loads, *(chair_on_person(each) for each in sat_on))
+    e = equations_of_motion(tree, loads=loads, along=along, inputs=[torque, *sat_on], parameters=[p])
     force, moment = (sum(wrench[k] for wrench in ground.values()) for k in range(2))
     return StandingModel(
         e,
-        WORN_PARAMETERS,
+        parameters,
         force[:2, :],
         moment[2] / force[1],
         strap.normal,
         strap.shear,
         strap.energy,
         strap.normal_energy,
+        given=COMPONENTS if seated else 0,
+        elsewhere=strap.elsewhere,
     )
+
+
+def let_go(time: np.ndarray) -> np.ndarray:
+    """Force of the chair forwards and up [N] and its moment about the ground's origin [N m], (t, 3)."""
+    up = ON_CHAIR * np.clip(1.0 - time / LEAVING, 0.0, 1.0) ** 3
+    return np.column_stack([0.0 * up, up, BEHIND * up])
 
 
 def under_three_spheres(tree: Tree) -> Any:
@@ -126,9 +147,13 @@ def under_three_spheres(tree: Tree) -> Any:
 
 
 def finer_trials(
-    model: StandingModel, subject: Subject, intervals: int = INTERVALS, names: tuple[str, ...] = ()
+    model: StandingModel,
+    subject: Subject,
+    intervals: int = INTERVALS,
+    names: tuple[str, ...] = (),
+    planted: np.ndarray = PLANTED,
 ) -> list[FinerTrial]:
-    """All nine, or those named. ArithmeticError where a motion is not found."""
+    """All nine, or those named, on a chair at first if the model has one. ArithmeticError where one is not found."""
     passive = [(f"T{k + 1}", SECONDS[k], tuple(np.degrees(SEATED[k])), 0.0) for k in range(3)]
     found = []
     for name, seconds, seated, assistance in (*passive, *HELPED):
@@ -139,9 +164,10 @@ def finer_trials(
             subject,
             seconds=seconds,
             seated=np.radians(seated),
-            planted=PLANTED,
+            planted=planted,
             assistance=assistance,
             intervals=intervals,
+            chair=let_go if model.given else None,
         )
         if not one.solved:
             raise ArithmeticError(f"{name}: {one.ending}")
@@ -150,14 +176,26 @@ def finer_trials(
     return found
 
 
-def write_truth(file: Path, subject: Subject, intervals: int = INTERVALS) -> None:
+def write_truth(
+    file: Path,
+    subject: Subject,
+    intervals: int = INTERVALS,
+    sites: Sequence[StrapSite] = (THIGH_STRAP,),
+    planted: np.ndarray = PLANTED,
+    names: tuple[str, ...] = (),
+    *,
+    seated: bool = False,
+) -> None:
     """Everything that a perfect recording of the nine would hold, 100 samples a second, in SI."""
-    model, saved = finer_model(subject), {}
-    for one in finer_trials(model, subject, intervals):
+    model, saved = finer_model(subject, sites, seated=seated), {}
+    for one in finer_trials(model, subject, intervals, names, planted):
         time = np.linspace(0.0, one.motion.breaks[-1], round(RATE * float(one.motion.breaks[-1])) + 1)
-        seen = seen_in(model, one.motion, PLANTED, time, one.name)
+        seen = seen_in(model, one.motion, planted, time, one.name)
         told = one.judged.certificate
         saved |= {f"{one.name} {name}": getattr(seen, name) for name in CHANNELS}
+        if seated:
+            saved[f"{one.name} chair"] = let_go(time)
+        saved |= {f"{one.name} {site} strap": force for site, force in seen.elsewhere.items()}
         saved[f"{one.name} residual"] = np.array([one.judged.force.max(), one.judged.moment.max()])
         saved[f"{one.name} certified"] = np.array(told is not None and told.converged)
         print(one.name, saved[f"{one.name} residual"], saved[f"{one.name} certified"], flush=True)

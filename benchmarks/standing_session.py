@@ -9,7 +9,7 @@ what the two press. Motors give what the exoskeleton needs and overcome friction
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -28,20 +28,19 @@ from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.coupled_chain import coupled_chain
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from meshes.mat_files import landmarks
-from meshes.mat_placement import THIGH_MAT, Mat
+from meshes.mat_placement import SHANK_MAT, THIGH_MAT, TORSO_MAT, Mat
 from meshes.mat_recordings import SOFT, Recording
 from meshes.moving_pressure import Footprint, resultant
-from meshes.segments import THIGH
+from meshes.segments import SHANK, THIGH, TORSO
 
 RATE, MAT_RATE = 100.0, 50.0
 BESIDE, BETWEEN = 0.4, 0.6
 """Of a trial that is continued on either side, and from there to the next one [s]."""
 PRELOAD = 15.0
 """Of either mat where the strap's force is 0 [N]."""
-MIDDLE = 8.0
-"""Of the pads above the middle of the thigh's scan [mm]."""
 BACK_MAT = Mat("mat_thigh_behind_16x8", THIGH, 16, 8, theta=np.pi, y=20.0, turn=0.0)
-MATS = {"front": (THIGH_MAT, 0.0), "behind": (BACK_MAT, np.pi)}
+CALF_MAT = Mat("mat_calf_16x8", SHANK, 16, 8, theta=np.pi, y=0.0, turn=0.0)
+LOIN_MAT = Mat("mat_loin_32x8", TORSO, 32, 8, theta=np.pi, y=-40.0, turn=np.radians(86.0))
 MARKERS = {"foot": 8, "toes": 2, "shank": 12, "thigh": 16, "trunk": 18}
 """How many there are on the segments of both sides."""
 ARTEFACT = {"foot": 1.0, "toes": 1.0, "shank": 5.0, "thigh": 10.0, "trunk": 6.0}
@@ -52,8 +51,41 @@ SEEN = 0.3
 """Noise of a marker [mm]."""
 VISCOUS, COULOMB = np.array([2.0, 3.0, 2.5]), np.array([1.5, 2.5, 2.0])
 """Friction of the exoskeleton's hinges [N m s/rad, N m]."""
-NOISES = {"force": 2.0, "centre": 1e-3, "encoder": np.radians(0.1), "motor": 0.3}
+NOISES = {"force": 2.0, "centre": 1e-3, "encoder": np.radians(0.1), "chair": 0.5, "motor": 0.3}
 TURNS = np.radians(1.0)
+
+
+@dataclass(frozen=True)
+class MatsOfASite:
+    """In front and behind, and the pads that press on them.
+
+    Parameters
+    ----------
+    channel
+        Of the truth.
+    middle
+        Of the pads above the middle of the scan [mm].
+    along, across
+        Half-lengths of the pads [mm].
+    """
+
+    channel: str
+    front: Mat
+    behind: Mat
+    middle: float
+    along: float
+    across: float
+
+    def __iter__(self) -> Iterator[tuple[str, Mat, float]]:
+        return iter((("front", self.front, 0.0), ("behind", self.behind, np.pi)))
+
+
+MATS = MatsOfASite("strap", THIGH_MAT, BACK_MAT, 8.0, 55.0, 42.0)
+FURTHER_MATS = {
+    "shank": MatsOfASite("shank strap", SHANK_MAT, CALF_MAT, 0.0, 55.0, 34.0),
+    "pelvis": MatsOfASite("pelvis strap", TORSO_MAT, LOIN_MAT, -38.0, 40.0, 60.0),
+}
+"""By site; the folders of their mats are called shank_front and so on."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +115,9 @@ def session_of(truth: Mapping[str, np.ndarray]) -> Session:
         count = len(truth[f"{name} time"])
         spans[name] = ((at + beside) / RATE, (at + beside + count - 1) / RATE)
         at += count + 2 * beside + between
-        for what in ("q", "force", "centre", "torque", "strap"):
+        further = [mats.channel for mats in FURTHER_MATS.values() if f"{name} {mats.channel}" in truth]
+        sat_on = ["chair"] if f"{name} chair" in truth else []
+        for what in ("q", "force", "centre", "torque", "strap", *further, *sat_on):
             own = truth[f"{name} {what}"].reshape(count, -1)
             before, after = 2 * own[0] - own[beside:0:-1], 2 * own[-1] - own[-2 : -2 - beside : -1]
             parts.setdefault(what, []).append(np.vstack([before, own, after]))
@@ -150,7 +184,12 @@ def write_session(folder: Path, session: Session, subject: Subject, seed: int) -
     centre = c["centre"][:, 0] + NOISES["centre"] * rng.normal(size=len(time))
     columns = [force[:, 0], force[:, 1], none, centre, none, none, none, none, none]
     kinds = [*(f"force_v{x}" for x in "xyz"), *(f"force_p{x}" for x in "xyz"), *(f"torque_{x}" for x in "xyz")]
-    write_storage(folder / "plates.mot", time, [f"feet_{k}" for k in kinds], np.column_stack(columns),
+    names = [f"feet_{kind}" for kind in kinds]
+    if "chair" in c:
+        fore, up, about = (c["chair"] + NOISES["chair"] * rng.normal(size=c["chair"].shape)).T
+        columns += [fore, up, *([none] * 6), about]
+        names += [f"chair_{kind}" for kind in kinds]
+    write_storage(folder / "plates.mot", time, names, np.column_stack(columns),
                   title="synthetic plates", degrees=False)  # fmt: skip
     angles = c["q"][:, 6:9]
     rates = np.gradient(angles, 1.0 / RATE, axis=0)
@@ -158,9 +197,13 @@ def write_session(folder: Path, session: Session, subject: Subject, seed: int) -
     write_storage(folder / "encoders.sto", time, EXO_JOINTS, np.degrees(seen), title="encoders", degrees=True)
     motors = c["torque"][:, 3:] + friction(rates) + NOISES["motor"] * rng.normal(size=rates.shape)
     write_storage(folder / "motors.sto", time, EXO_JOINTS, motors, title="motors", degrees=False)
-    for name, (mat, theta) in MATS.items():
-        (folder / name).mkdir()
-        write_mat_of(folder / name, session, mat, theta, seed)
+    for site, mats in {"": MATS, **FURTHER_MATS}.items():
+        if mats.channel not in c:
+            continue
+        for name, mat, theta in mats:
+            own = folder / (f"{site}_{name}" if site else name)
+            own.mkdir()
+            write_mat_of(own, session, mat, theta, seed + len(site), mats)
 
 
 def friction(rates: np.ndarray) -> np.ndarray:
@@ -179,14 +222,14 @@ def pressed(strap: np.ndarray, theta: float) -> np.ndarray:
     return np.asarray(0.5 * (np.hypot(strap, 2.0 * PRELOAD) + ahead * strap))
 
 
-def write_mat_of(folder: Path, session: Session, mat: Mat, theta: float, seed: int) -> None:
+def write_mat_of(folder: Path, session: Session, mat: Mat, theta: float, seed: int, mats: MatsOfASite = MATS) -> None:
     """mat.csv, layout.toml and landmarks.csv: a soft pad whose pressure is scaled to the force forwards."""
-    one = Footprint(np.ones(1), np.array([[theta, MIDDLE]]), 55.0, 42.0, SOFT)
+    one = Footprint(np.ones(1), np.array([[theta, mats.middle]]), mats.along, mats.across, SOFT)
     points, weights = mat.cell_points()
-    cells = (one.pressure(THIGH, points[None]) @ weights)[0]
-    unit = abs(float(resultant(THIGH, one, np.zeros(3)).force[0, 0]))
+    cells = (one.pressure(mat.segment, points[None]) @ weights)[0]
+    unit = abs(float(resultant(mat.segment, one, np.zeros(3)).force[0, 0]))
     time = np.arange(0.0, session.time[-1], 1.0 / MAT_RATE)
-    force = pressed(np.interp(time, session.time, session.channels["strap"][:, 0]), theta)
+    force = pressed(np.interp(time, session.time, session.channels[mats.channel][:, 0]), theta)
     pressure = with_noise(1e3 * force[:, None, None] / unit * cells, seed + round(theta))
     names = [f"r{i}c{j} [kPa]" for i in range(mat.rows) for j in range(mat.columns)]
     table = pd.DataFrame(1e-3 * pressure.reshape(len(pressure), -1), columns=names)

@@ -1,6 +1,7 @@
-"""A strap that is finer than the one that is calibrated: pads along the thigh that stiffen on soft tissue.
+"""Straps that are finer than those that are calibrated: pads along a segment that stiffen on soft tissue.
 
-Nothing of it is measured; all numbers are invented. Five pads lie over `LENGTH` of the thigh. Each presses with a share
+Nothing of it is measured; all numbers are invented. Five pads lie over `LENGTH` of the thigh, and of shank and pelvis
+where these have a strap. Each presses with a share
 of the stiffness that grows with the square of how far it is pressed in, so that the strap turns by its length and its
 middle of pressure moves, which one spring at one point cannot. What lies along the thigh slips beyond a limit, and the
 tissue damps four times as much. Chains, feet and the person's habit are those of the calibration.
@@ -17,14 +18,13 @@ from geocontact.dynamics.body_contact import together
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton import (
     DAMPING,
-    LEGS,
     SHIFT,
-    STRAP_PARAMETERS,
     STRAP_PLANTED,
     Strap,
     with_exoskeleton,
 )
 from geocontact.standing_up.feet import EVERY_PLANTED
+from geocontact.standing_up.strap_sites import STRAP_SITES, THIGH_STRAP, StrapSite
 from geocontact.standing_up.synthetic_study import (
     ASSISTANCE,
     OTHER_SEATED,
@@ -47,20 +47,21 @@ PLANTED = np.r_[EVERY_PLANTED, STRAP_PLANTED]
 
 
 class Pad:
-    """Place of a strap between both thighs: how far the exoskeleton's is off, and how fast, seen by the person's.
+    """Place of a strap between both chains: how far the exoskeleton's is off, and how fast, seen by the person's.
 
     Parameters
     ----------
     height
-        Over the person's knee [m].
+        Over the person's hinge [m].
     """
 
-    def __init__(self, tree: Any, height: Any) -> None:
+    def __init__(self, tree: Any, height: Any, site: StrapSite = THIGH_STRAP) -> None:
         from casadi import cross, mtimes, vertcat
 
-        self.person, device = tree.bodies["thigh"], tree.bodies["exo_thigh"]
+        self.site = site
+        self.person, device = tree.bodies[site.person], tree.bodies[site.device]
         own = mtimes(self.person.rotation, vertcat(0.0, height, 0.0))
-        other = mtimes(device.rotation, vertcat(0.0, height - SHIFT, 0.0))
+        other = mtimes(device.rotation, vertcat(0.0, height - (SHIFT if site.higher else 0.0), 0.0))
         gap = device.place + other - self.person.place - own
         speed = device.speed + cross(device.spin, other) - self.person.speed - cross(self.person.spin, own)
         self.at = device.place + other
@@ -68,12 +69,12 @@ class Pad:
         self.rate = mtimes(self.person.rotation.T, speed - cross(self.person.spin, gap))
 
     def loads(self, across: Any, along: Any) -> dict[str, tuple[Any, Any]]:
-        """Of both legs, where one leg's pad has these forces on the person [N]."""
+        """Of all straps of the site, where one's pad has these forces on the person [N]."""
         from casadi import cross, mtimes, vertcat
 
-        force = LEGS * mtimes(self.person.rotation, vertcat(across, along, 0.0))
+        force = self.site.count * mtimes(self.person.rotation, vertcat(across, along, 0.0))
         about = cross(self.at, force)
-        return {"thigh": (force, about), "exo_thigh": (-force, -about)}
+        return {self.site.person: (force, about), self.site.device: (-force, -about)}
 
 
 @dataclass(frozen=True)
@@ -102,12 +103,16 @@ class PaddedStrap:
 
     def __call__(self, tree: Any, p: Any) -> Strap:
         """As `StrapLaw` wants it."""
+        return self.at_site(tree, p, THIGH_STRAP)
+
+    def at_site(self, tree: Any, p: Any, site: StrapSite) -> Strap:
+        """The same at any place of the body."""
         from casadi import SX, exp, tanh
 
-        normal, tangential, _ = (STRAP_PARAMETERS[k].usual * exp(p[k]) for k in range(3))
+        normal, tangential, _ = (site.parameters[k].usual * exp(p[k]) for k in range(3))
         loads, across, along, energy, normal_energy = [], SX(0), SX(0), SX(0), SX(0)
         for at in np.linspace(-0.5, 0.5, PADS) * LENGTH:
-            pad = Pad(tree, p[3] + at)
+            pad = Pad(tree, p[3] + at, site)
             off, rate = pad.off, pad.rate
             stiffer = normal * off[0] * (1.0 + (off[0] / self.stiffens) ** 2)
             pressed = (stiffer + self.damping * rate[0] + self.preload) / PADS
@@ -116,15 +121,27 @@ class PaddedStrap:
             sheared = (held + self.damping * rate[1]) / PADS
             loads.append(pad.loads(pressed, sheared))
             across, along = across + pressed, along + sheared
-            energy = energy + 0.5 * LEGS * tangential * off[1] ** 2 / PADS
+            energy = energy + 0.5 * site.count * tangential * off[1] ** 2 / PADS
             stored = 0.5 * off[0] ** 2 + 0.25 * off[0] ** 4 / self.stiffens**2
-            normal_energy = normal_energy + LEGS * normal * stored / PADS
+            normal_energy = normal_energy + site.count * normal * stored / PADS
         seen = across * np.cos(self.tilt) + along * np.sin(self.tilt)
         return Strap(together(*loads), seen, along, energy, normal_energy)
 
 
 padded_strap = PaddedStrap(STIFFENS, SLIPS, PADS_DAMPING)
 """The one that is finer than what is calibrated."""
+
+
+def padded_straps(tree: Any, p: Any) -> Strap:
+    """The same at all sites, `p` the parameters of one after the other."""
+    each = [padded_strap.at_site(tree, p[4 * k : 4 * k + 4, :], site) for k, site in enumerate(STRAP_SITES)]
+    first, *others = each
+    energy, normal_energy = first.energy, first.normal_energy
+    for strap in others:
+        energy, normal_energy = energy + strap.energy, normal_energy + strap.normal_energy
+    elsewhere = {site.name: strap.normal for site, strap in zip(STRAP_SITES[1:], others, strict=True)}
+    loads = together(*(strap.loads for strap in each))
+    return Strap(loads, first.normal, first.shear, energy, normal_energy, elsewhere)
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,7 +20,7 @@ SUBJECT = Subject()
 def test_mats_are_pressed_by_the_difference() -> None:
     """Neither pulls, both are pressed without a strap's force, and their difference is the strap's."""
     strap = np.linspace(-60.0, 60.0, 13)
-    front, behind = (pressed(strap, theta) for _, theta in MATS.values())
+    front, behind = (pressed(strap, theta) for _, _, theta in MATS)
     np.testing.assert_allclose(behind - front, strap, atol=1e-12)
     assert min(front.min(), behind.min()) > 0.0 and front[6] == pytest.approx(PRELOAD)
 
@@ -62,7 +62,7 @@ def test_the_mat_pipeline_finds_the_strap(tmp_path: Path) -> None:
     strap = 30.0 * np.sin(np.pi * time)
     session = Session(time, {}, {"strap": strap[:, None]})
     total, at = np.zeros(0), np.zeros(0)
-    for name, (mat, theta) in MATS.items():
+    for name, mat, theta in MATS:
         (tmp_path / name).mkdir()
         write_mat_of(tmp_path / name, session, mat, theta, 1)
         with warnings.catch_warnings():

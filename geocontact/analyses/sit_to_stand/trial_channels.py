@@ -110,8 +110,10 @@ def strap_force(file: Path, record: Record, role: str, site: str, time: Times) -
     names = read_table(file).channels
     if CELL in names:
         what = "is a mat's own recording: pressures of cells, and the mat is not registered to a body"
-        remedy = f"register it: geocontact mat {file.name} --surface {SCANS[site]}.stl --landmarks landmarks.csv"
-        remedy += " --layout layout.toml --out mat, then give mat/wrench.csv"
+        remedy = (
+            f"register it: run geocontact mat {file.name} with a scan of the {SCANS[site]} as `surface`, `landmarks`"
+        )
+        remedy += " and `layout`, and give the wrench.csv that it writes"
         raise InputError(file, "", what, remedy)
     return _columns(file, [FORWARDS if FORWARDS in names else NORMAL], record, role, time)[:, 0]
 

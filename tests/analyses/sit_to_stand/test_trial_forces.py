@@ -31,7 +31,7 @@ def test_a_mat_that_is_not_registered_is_refused_in_one_line(tmp_path: Path) -> 
     with pytest.raises(gc.InputError, match="the mat is not registered to a body") as refused:
         gc.sit_to_stand.calibrate(study_with(tmp_path, '"frames.csv"'))
     assert "\n" not in str(refused.value)
-    assert "geocontact mat frames.csv --surface thigh.stl --landmarks landmarks.csv" in str(refused.value)
+    assert "geocontact mat frames.csv with a scan of the thigh as" in str(refused.value)
 
 
 def test_forces_of_mats_in_front_and_behind_add(tmp_path: Path) -> None:
