@@ -15,8 +15,10 @@ from geocontact.standing_up.exoskeleton import (
     two_chains,
     with_exoskeleton,
 )
-from geocontact.standing_up.feet import PLANTED
+from geocontact.standing_up.feet import EVERY_PLANTED, PLANTED
+from geocontact.standing_up.phase_b import phase_b
 from geocontact.standing_up.strap_sites import STRAP_SITES
+from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
 SUBJECT = Subject()
 P = np.r_[PLANTED, STRAP_PLANTED]
@@ -67,3 +69,28 @@ def test_straps_are_within_the_two_chains() -> None:
     upright = np.r_[0.0, 3.0, np.zeros(7)]
     _, none, energy = seen(upright, np.zeros(9), np.zeros(9), np.zeros(6), P)
     assert float(none) == pytest.approx(0.0, abs=1e-12) and float(energy) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_only_recorded_straps_count() -> None:
+    """A trial with the pelvis alone: the cost of its strap channel is that of one deviation, whatever the others do."""
+    from casadi import Function, symvar, vertcat
+
+    model, noise, time = strapped(SUBJECT, STRAP_SITES), StandingNoise(), np.linspace(0.0, 1.0, 51)
+    lost, none = np.full(51, np.nan), np.zeros((51, 9))
+    none[:, 1] = 0.09
+    sites = {"shank": lost, "pelvis": np.full(51, 7.0)}
+    rest = (np.zeros((51, 2)), np.zeros(51), "T1", np.zeros((51, 6)), lost)
+    trial = StandingTrial(time, none, 0.0 * none, *rest, elsewhere=sites)
+    free = tuple(name for site in STRAP_SITES for name in site.names)
+    phase = phase_b(model, SUBJECT, [trial], noise, EVERY_PLANTED, free=free)
+    data = phase.control.trials[0].inputs(np.array([0.5]))[0]
+    assert np.isfinite(data).all()
+    e, term = model.equations, phase.terms["strap"]
+    seen = [each for each in symvar(term) if each.name().split("_")[0] in ("values", "recorded", "share")]
+    at = {each.name(): value for each, value in zip(symvar(phase.control.system.w), data, strict=True)}
+    cost = Function("cost", [e.q, e.u, e.p, vertcat(*seen)], [term, model.straps])
+    p = np.r_[EVERY_PLANTED, STRAP_PLANTED, STRAP_PLANTED[:3], 0.3, STRAP_PLANTED[:3], 0.1]
+    found, straps = cost(HIGH, np.zeros(9), p, [at[each.name()] for each in seen])
+    pelvis = float(straps.full().ravel()[2])
+    assert abs(pelvis) > 5.0
+    assert float(found) == pytest.approx(0.5 * ((pelvis - 7.0) / noise.strap) ** 2, rel=1e-9)

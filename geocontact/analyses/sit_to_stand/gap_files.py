@@ -6,6 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from geocontact.io.text.results import write_table
@@ -50,13 +51,14 @@ def write_strap_case(
 ) -> None:
     """NAME_strap.csv (displacements), NAME_mat.csv (normal force) and gather.toml, the last `held_out` to evaluate on.
 
-    Nothing for fewer trials than that and one more.
+    Nothing for fewer trials with the thigh's strap than that and one more.
 
     Parameters
     ----------
     values
         Of the strap's parameters, in SI.
     """
+    trials = [trial for trial in trials if trial.strap is not None and np.isfinite(trial.strap).all()]
     if len(trials) <= held_out:
         return
     folder.mkdir(parents=True, exist_ok=True)

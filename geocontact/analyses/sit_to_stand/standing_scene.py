@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.standing_up.chain import COORDINATES, FOOT, TRUNK, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import HEIGHT, STRAP_PARAMETERS, two_chains
+from geocontact.standing_up.trials import StandingTrial
 from geocontact.view.page.content import Curve, Curves
 from geocontact.view.page.linkage import Linkage
 from geocontact.view.page.scene import Scene
@@ -93,6 +95,10 @@ def _lines(subject: Subject, trial: TrialResult, number: int, count: int) -> lis
     ]
 
 
+def _elsewhere(site: str, trial: StandingTrial) -> Float[np.ndarray, " t"]:
+    return trial.elsewhere.get(site, np.full(len(trial.time), np.nan))
+
+
 def _strap(trial: TrialResult, thigh: RigidTransform, aside: Float[np.ndarray, " 3"]) -> Linkage:
     """Normal force of one leg's strap on the person, at the usual place."""
     strap = np.zeros(len(trial.recorded.time)) if trial.model.strap is None else trial.model.strap
@@ -117,12 +123,16 @@ def standing_curves(trials: Sequence[TrialResult]) -> list[Curves]:
     ]
     if all(trial.model.strap is not None and trial.recorded.strap is not None for trial in trials):
         pairs.append(("Normal force of one strap, forwards", "N", 1.0, lambda t: t.strap))
+    sites = trials[0].model.elsewhere
+    pairs += [(f"Normal force of a strap, {site}, forwards", "N", 1.0, partial(_elsewhere, site)) for site in sites]
     for title, unit, factor, of in pairs:
         curves = []
         for k, trial in enumerate(trials):
             name = trial.recorded.name
             curves.append(Curve(f"{name} model", factor * at_parts(trial, of(trial.model)), stroke=2 * k))
-            curves.append(Curve(f"{name} recorded", factor * at_parts(trial, of(trial.recorded)), stroke=2 * k + 1))
+            recorded = at_parts(trial, of(trial.recorded))
+            if np.isfinite(recorded).all():
+                curves.append(Curve(f"{name} recorded", factor * recorded, stroke=2 * k + 1))
         panels.append(Curves(title, unit, curves))
     single: list[tuple[str, str, Of]] = [
         ("Residual of the forces between the points", "N", lambda t: t.residual(t.judged.force)),
