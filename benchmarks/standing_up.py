@@ -3,7 +3,7 @@
 Parts: coverage (how often intervals of 95 % hold what was planted, over noises, as found and with the bias of resampled
 trials taken off), nodes (the same estimates on 50, 100 and 200 nodes a second, with their times), starts (success from
 20 random starts), exoskeleton (phases A and B of three trials, and a held-out trial by every predictor), profiles (of
-the feet's parameters). Everything is synthetic; truth and calibration share their equations.
+the feet's parameters), strap profiles. Everything is synthetic; truth and calibration share their equations.
 """
 
 from __future__ import annotations
@@ -185,7 +185,30 @@ def profiles(options: argparse.Namespace) -> dict[str, Any]:
     }
 
 
-PARTS = {"coverage": coverage, "nodes": nodes, "starts": starts, "exoskeleton": exoskeleton, "profiles": profiles}
+def strap_profiles(options: argparse.Namespace) -> dict[str, Any]:
+    """The same of the strap in phase B, feet held at what was planted, on the shipped study with an exoskeleton."""
+    from geocontact.analyses.run_record import Record
+    from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+    from geocontact.dynamics.collocation.solve import SolverOptions
+    from geocontact.standing_up.calibrated_phase import PhaseSearch, calibrated_phase
+    from geocontact.standing_up.exoskeleton import strapped
+    from geocontact.standing_up.feet import EVERY_PLANTED
+    from geocontact.standing_up.phase_b import phase_b
+
+    study = standing_trials(SAMPLES / "standing_up_exoskeleton" / "study.toml", "study", Record("calibrate", {}))
+    model = strapped(study.subject, study.sites)
+
+    def build(trials: Any, begin: Any) -> Any:
+        return phase_b(model, study.subject, trials, study.noise, EVERY_PLANTED)
+
+    search = PhaseSearch(SolverOptions("radau", 4, 1, 1e-7, 300), 30.0, profiles=1)
+    one = calibrated_phase("B", model, study.trials, study.noise, build, search)
+    rises = {each.name: [round(float(r), 2) for r in each.rise[each.distance != 0.0]] for each in one.profiles}
+    return {"rise three sd below and above": rises}
+
+
+PARTS = {"coverage": coverage, "nodes": nodes, "starts": starts, "exoskeleton": exoskeleton, "profiles": profiles,
+         "strap profiles": strap_profiles}  # fmt: skip
 
 
 if __name__ == "__main__":

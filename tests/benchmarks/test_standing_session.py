@@ -10,7 +10,17 @@ import pytest
 
 import geocontact as gc
 from benchmarks.standing_nine_truth import PLANTED, chain_with_toes, finer_model
-from benchmarks.standing_session import MARKERS, MATS, PRELOAD, Session, marked, pressed, session_of, write_mat_of
+from benchmarks.standing_session import (
+    FURTHER_MATS,
+    MARKERS,
+    MATS,
+    PRELOAD,
+    Session,
+    marked,
+    pressed,
+    session_of,
+    write_mat_of,
+)
 from geocontact.standing_up.chain import Subject
 from tests.cli.calls import MESHES
 
@@ -56,20 +66,22 @@ def test_markers_and_toes() -> None:
 
 
 @pytest.mark.slow
-def test_the_mat_pipeline_finds_the_strap(tmp_path: Path) -> None:
-    """Mats in front and behind, each registered to the thigh by its landmarks: within 1 N of the strap's force."""
+@pytest.mark.parametrize("scan", ["thigh", "shank", "torso"])
+def test_the_mat_pipeline_finds_the_strap(tmp_path: Path, scan: str) -> None:
+    """Mats in front and behind, each registered to the segment by its landmarks: within 1 N of the strap's force."""
     time = np.linspace(0.0, 2.0, 201)
     strap = 30.0 * np.sin(np.pi * time)
-    session = Session(time, {}, {"strap": strap[:, None]})
+    mats = MATS if scan == "thigh" else FURTHER_MATS[{"torso": "pelvis"}.get(scan, scan)]
+    session = Session(time, {}, {mats.channel: strap[:, None]})
     total, at = np.zeros(0), np.zeros(0)
-    for name, mat, theta in MATS:
+    for name, mat, theta in mats:
         (tmp_path / name).mkdir()
-        write_mat_of(tmp_path / name, session, mat, theta, 1)
+        write_mat_of(tmp_path / name, session, mat, theta, 1, mats)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", gc.InputWarning)
             found = gc.mat(
                 tmp_path / name / "mat.csv",
-                surface=MESHES / "thigh.stl",
+                surface=MESHES / f"{scan}.stl",
                 unit="mm",
                 landmarks=tmp_path / name / "landmarks.csv",
                 layout=tmp_path / name / "layout.toml",
