@@ -231,6 +231,41 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
         np.testing.assert_allclose(own.inertia, other.inertia, rtol=1e-9)
 
 
+def _scale_options(folder: Path, text: str) -> tuple[tuple[str, str], ...]:
+    (folder / "scale.xml").write_text(text.format(task("femur_r0", 1.0)))
+    return read_tool_setup(folder / "scale.xml", "ScaleTool").options
+
+
+def test_sizes_are_asked_for_as_opensim_takes_them(tmp_path: Path) -> None:
+    """Each seen by trial on OpenSim 4.6: sets in files of their own, no order, a scaler that is switched off."""
+    whole = _scale_options(tmp_path, SCALE)
+    sizes = SCALE[SCALE.index("<MeasurementSet>") : SCALE.index("<ScaleSet>")]
+    (tmp_path / "sizes.xml").write_text(f"<OpenSimDocument>{sizes}</OpenSimDocument>")
+    assert _scale_options(tmp_path, SCALE.replace(sizes, '<MeasurementSet file="sizes.xml"/>')) == whole
+    off = SCALE.replace("<ModelScaler>", "<ModelScaler><apply>false</apply>")
+    unordered = SCALE.replace("<scaling_order> measurements manualScale</scaling_order>", "")
+    assert not {"scale", "mass"} & dict(_scale_options(tmp_path, off)).keys() and "scale" in dict(whole)
+    assert dict(_scale_options(tmp_path, unordered)).keys() == dict(whole).keys() - {"scale"}
+    with pytest.raises(InputError, match=r"sizes\.xml: holds no <ScaleSet>"):
+        _scale_options(tmp_path, SCALE.replace("<ScaleSet>", '<ScaleSet file="sizes.xml">'))
+
+
+def test_numbers_of_a_set_up_are_not_rounded(tmp_path: Path) -> None:
+    told = dict(
+        _scale_options(tmp_path, SCALE.replace("<mass>30<", "<mass>62.1234567<").replace("0.02<", "101.2345678<"))
+    )
+    assert float(told["mass"]) == 62.1234567 and float(told["time"].split(":")[1]) == 101.2345678
+
+
+def test_a_time_range_for_sizes_alone_is_told(tmp_path: Path) -> None:
+    """OpenSim measures in one part of the trial and places markers in another."""
+    (tmp_path / "scale.xml").write_text(SCALE.replace("<preserve", "<time_range>0 0.01</time_range><preserve"))
+    assert (
+        "a time range of its own for the sizes of bodies"
+        in read_tool_setup(tmp_path / "scale.xml", "ScaleTool").unheeded
+    )
+
+
 REFUSED = {
     "another tool": (IK, "holds no <InverseDynamicsTool>"),
     "no motion": (ID.replace("walk.mot", "Unassigned"), "<coordinates_file>: names no file"),

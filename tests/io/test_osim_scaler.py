@@ -1,4 +1,4 @@
-"""Moving points of muscles' paths are scaled along the axes of their body, as OpenSim does it."""
+"""Points of paths and of bushings are scaled along the axes of their body, as OpenSim does it; what stays is told."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from geocontact.dynamics.scaling import scaled
 from geocontact.io.opensim.osim_functions import read_function
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.opensim.osim_scaler import write_scaled_model
-from geocontact.io.opensim.osim_xml import read_model
+from geocontact.io.opensim.osim_xml import numbers_of, read_model
 from tests.cli.calls import MESHES
 
 SPLINE = "<SimmSpline{name}><x>-1 0 1 2</x><y>{y}</y></SimmSpline>"
@@ -51,3 +51,29 @@ def test_moving_path_points_are_scaled(tmp_path: Path, inside: bool) -> None:
         before, after = (functions[file, name](q) for file in ("leg.osim", "out.osim"))
         np.testing.assert_allclose(after, factor * before, rtol=1e-12)
         assert np.ptp(before) > 0.1
+
+
+THINGS = """<ForceSet name="forceset"><objects>
+<PathActuator name="pull"><GeometryPath name="path"><PathPointSet><objects>
+<PathPoint name="p"><socket_parent_frame>/jointset/ankle_r/ankle_r_in</socket_parent_frame>
+<location>0.1 0.1 0.1</location></PathPoint></objects></PathPointSet></GeometryPath></PathActuator>
+<BushingForce name="pad"><body_1>pelvis</body_1><body_2>tibia_r</body_2><location_body_2>0.1 0.1 0.1</location_body_2>
+</BushingForce></objects></ForceSet><ContactGeometrySet name="cg"><objects><ContactSphere name="heel">
+<socket_frame>/bodyset/tibia_r</socket_frame><location>0 0 0</location><radius>0.03</radius></ContactSphere></objects>
+</ContactGeometrySet>"""
+WRAP = """<WrapObjectSet><objects><WrapCylinder name="w"><translation>0 0 0</translation></WrapCylinder></objects>
+</WrapObjectSet>"""
+
+
+def test_what_hangs_on_frames_of_bodies_is_scaled_and_what_stays_is_told(tmp_path: Path) -> None:
+    """Places as OpenSim 4.6 scales them: by the body that a point's frame is fixed to, along the frame's axes."""
+    source = tmp_path / "leg.osim"
+    text = (MESHES / "leg.osim").read_text(encoding="utf-8").replace("</JointSet>", "</JointSet>" + THINGS)
+    source.write_text(text.replace('<Body name="tibia_r">', '<Body name="tibia_r">' + WRAP), encoding="utf-8")
+    factors = {"tibia_r": FACTORS}
+    with pytest.warns(InputWarning, match="not scaled: wrapping surfaces, contact geometry"):
+        write_scaled_model(source, tmp_path / "out.osim", scaled(read_multibody(source), factors), factors)
+    model = read_model(tmp_path / "out.osim")
+    for kind, child in (("PathPoint", "location"), ("BushingForce", "location_body_2")):
+        (found,) = model.iter(kind)
+        np.testing.assert_allclose(numbers_of("", found, child, 3), 0.1 * FACTORS, rtol=1e-12)

@@ -23,6 +23,16 @@ FactorOf = Callable[[str], Vector]
 
 _PLACES = ("x_location", "y_location", "z_location")
 _SHIFTS = ("translation1", "translation2", "translation3")
+_KEPT: dict[str, Callable[[Element], bool]] = {
+    "lengths of fibres and tendons": lambda e: e.tag in ("optimal_fiber_length", "tendon_slack_length"),
+    "lengths of ligaments and springs": lambda e: e.tag in ("resting_length", "slack_length"),
+    "wrapping surfaces": lambda e: (
+        e.tag.startswith("Wrap") and bool(e.get("name")) and e.find("translation") is not None
+    ),
+    "contact geometry": lambda e: e.tag in ("ContactSphere", "ContactMesh", "ContactEllipsoid", "ContactCylinder"),
+}
+"""What stays as it is written, and how an element of it is told."""
+
 _SAME = 1e-9
 """m that the file that was written may differ from what it was to be."""
 
@@ -63,21 +73,21 @@ def write_scaled_model(
         return np.asarray(factors.get(basename(body), np.ones(3)), float)
 
     _bodies(file, model, scaled, of)
+    frames = Frames(file, model)
     _frames(file, model, scaled, of)
     _shifts(file, model, scaled, of)
     _couplers(file, model, scaled, factors)
-    _pairs(file, model, Frames(file, model), of)
+    _pairs(file, model, frames, of)
     _markers(model, scaled)
     for point in list(model.iter()):
         if point.tag.endswith("PathPoint"):
-            by = of(text_of(point, "body") or socket_of(point, "parent_frame"))
+            by = of(_body_of(point, frames))
             _times(file, point, "location", by)
             _moving(point, by)
         elif point.tag == "Coordinate" and point.get("name", "") in (pose or {}):
             _set(point, "default_value", [(pose or {})[point.get("name", "")]])
-    if any(True for _ in model.iter("optimal_fiber_length")):
-        message = f"{file}: lengths of fibres and tendons, wrapping surfaces and contact geometry are not scaled"
-        warnings.warn(InputWarning(message), stacklevel=2)
+    if kept := [what for what, is_there in _KEPT.items() if any(is_there(e) for e in model.iter())]:
+        warnings.warn(InputWarning(f"{file}: not scaled: {', '.join(kept)}"), stacklevel=2)
     ElementTree(root).write(target, encoding="UTF-8", xml_declaration=True)
     _compare(file, target, scaled)
 
@@ -114,6 +124,9 @@ def _frames(file: str, model: Element, scaled: Multibody, of: FactorOf) -> None:
         for joint in element.findall("Joint/*"):
             _times(file, joint, "location_in_parent", of(text_of(joint, "parent_body")))
             _times(file, joint, "location", of(element.get("name", "")))
+    for bushing in (e for e in model.iter() if e.tag.endswith("BushingForce")):
+        for k in "12":  # OpenSim 3
+            _times(file, bushing, f"location_body_{k}", of(text_of(bushing, f"body_{k}")))
 
 
 def _shifts(file: str, model: Element, scaled: Multibody, of: FactorOf) -> None:
@@ -160,6 +173,14 @@ def _multiply(file: str, axis: Element, factor: float) -> None:
     if function.tag == "LinearFunction" and numbers_of(file, function, "coefficients", None).tolist() == [1.0, 0.0]:
         return  # the coordinate itself
     _around(holder, function, factor, "function" if nested is None else "")
+
+
+def _body_of(point: Element, frames: Frames) -> str:
+    """Of a point of a path: as OpenSim does, also where the point is in a frame that is fixed to the body."""
+    socket = socket_of(point, "parent_frame")
+    if not socket:
+        return text_of(point, "body")
+    return frames.in_body(frames.resolve(f"/forceset/{point.get('name', '')}", socket))[0]
 
 
 def _moving(point: Element, by: Vector) -> None:

@@ -49,7 +49,7 @@ def read_tool_setup(path: str | PathLike[str], tool: str) -> ToolSetup:
 def _inverse_dynamics(file: str, tool: Element) -> ToolSetup:
     options = [*_files(file, tool, {"model_file": "model", "external_loads_file": "loads"}), *_time(file, tool)]
     cutoff = float(numbers_of(file, tool, "lowpass_cutoff_frequency_for_coordinates", 1, (-1.0,))[0])
-    options.append(("cutoff", f"{max(cutoff, 0.0):g}"))
+    options.append(("cutoff", str(max(cutoff, 0.0))))
     options += [("exclude", word) for word in text_of(tool, "forces_to_exclude").split()]
     unheeded = tuple(
         name for name in ("joints_to_report_body_forces", "states_file", "speeds_file") if _told(tool, name)
@@ -69,15 +69,18 @@ def _scale(file: str, tool: Element) -> ToolSetup:
     maker, scaler, placer = (_part(file, tool, name) for name in ("GenericModelMaker", "ModelScaler", "MarkerPlacer"))
     files = {"model_file": "model", "marker_set_file": "marker-set"}
     options = _files(file, maker, files)
+    scales = scaler.find("apply") is None or is_true(file, scaler, "apply")
     mass = float(numbers_of(file, tool, "mass", 1, (-1.0,))[0])
-    if mass > 0.0:
-        options.append(("mass", f"{mass:g}"))
-    options += [("scale", text) for text in _sizes(file, scaler)]
+    if scales and mass > 0.0:
+        options.append(("mass", str(mass)))
+    options += [("scale", text) for text in (_sizes(file, scaler) if scales else ())]
     recording = _needed(file, placer, "marker_file")
     options += [("tasks", _tasks(file, placer)), *_time(file, placer)]
     unheeded = []
     if _told(scaler, "marker_file") and _needed(file, scaler, "marker_file") != recording:
         unheeded.append("a trial of its own for the sizes of bodies")
+    if scales and _time(file, scaler) != _time(file, placer):
+        unheeded.append("a time range of its own for the sizes of bodies")
     if text_of(scaler, "preserve_mass_distribution", "true").lower() == "false":
         unheeded.append("masses by volume")
     if not is_true(file, placer, "apply") and placer.find("apply") is not None:
@@ -86,9 +89,11 @@ def _scale(file: str, tool: Element) -> ToolSetup:
 
 
 def _sizes(file: str, scaler: Element) -> list[str]:
-    """Measurements and factors by hand in the order that is asked for; the last one of an axis counts."""
+    """Measurements and factors by hand in the order that is asked for, without an order none, as OpenSim has it; the
+    last one of an axis counts.
+    """
     told: dict[tuple[str, str], str] = {}
-    for kind in text_of(scaler, "scaling_order", "measurements").split():
+    for kind in text_of(scaler, "scaling_order").split():
         for body, axes, size in (_by_hand if kind == "manualScale" else _measured)(file, scaler):
             told.update({(body, axis): size for axis in axes})
     alike: dict[tuple[str, str], str] = {}
@@ -99,7 +104,7 @@ def _sizes(file: str, scaler: Element) -> list[str]:
 
 def _measured(file: str, scaler: Element) -> list[tuple[str, str, str]]:
     found = []
-    for measure in scaler.findall("MeasurementSet/objects/Measurement"):
+    for measure in _set_of(file, scaler, "MeasurementSet").findall("objects/Measurement"):
         if measure.find("apply") is not None and not is_true(file, measure, "apply"):
             continue
         pairs = [text_of(pair, "markers").split() for pair in measure.findall("MarkerPairSet/objects/MarkerPair")]
@@ -113,12 +118,27 @@ def _measured(file: str, scaler: Element) -> list[tuple[str, str, str]]:
 
 def _by_hand(file: str, scaler: Element) -> list[tuple[str, str, str]]:
     found = []
-    for scale in scaler.findall("ScaleSet/objects/Scale"):
+    for scale in _set_of(file, scaler, "ScaleSet").findall("objects/Scale"):
         if scale.find("apply") is not None and not is_true(file, scale, "apply"):
             continue
         factors = numbers_of(file, scale, "scales", 3)
         found += [(text_of(scale, "segment"), axis, f"{by:.17g}") for axis, by in zip("xyz", factors, strict=True)]
     return found
+
+
+def _set_of(file: str, owner: Element, name: str) -> Element:
+    """A set in the set-up itself, or in the file that it names; empty where there is neither."""
+    found = owner.find(name)
+    if found is None:
+        return Element(name)
+    if not (named := found.get("file", "")):
+        return found
+    other = Path(file).parent / named
+    root = read_document(other, f"OpenSim {name}")
+    inside = root if root.tag == name else root.find(name)
+    if inside is None:
+        raise InputError(str(other), "", f"holds no <{name}>", f"give the {name} that {Path(file).name} names")
+    return inside
 
 
 def _part(file: str, tool: Element, name: str) -> Element:
@@ -164,7 +184,7 @@ def _time(file: str, owner: Element) -> list[tuple[str, str]]:
     if len(ends) != 2 or not np.isfinite(ends).all():
         what = f"'{text[:40]}' where a first and a last time are expected"
         raise InputError(file, f"{label(owner)} <time_range>", what, "write 0.4 1.6")
-    return [("time", f"{ends[0]:g}:{ends[1]:g}")]
+    return [("time", ":".join(str(float(end)) for end in ends))]
 
 
 _TOOLS: dict[str, Callable[[str, Element], ToolSetup]] = {
