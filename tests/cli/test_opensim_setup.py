@@ -18,6 +18,7 @@ from geocontact.io.opensim.tool_setup import read_tool_setup
 from geocontact.io.text.tables import read_table
 from tests import legs, opensim_oracle
 from tests.cli.calls import call, done
+from tests.dynamics.test_coupled_coordinates import coupled_leg
 from tests.dynamics.test_passive_loads import planar_leg
 from tests.elsewhere import Elsewhere
 
@@ -264,6 +265,18 @@ def test_a_time_range_for_sizes_alone_is_told(tmp_path: Path) -> None:
         "a time range of its own for the sizes of bodies"
         in read_tool_setup(tmp_path / "scale.xml", "ScaleTool").unheeded
     )
+
+
+def test_a_weight_of_constraints_is_told_where_there_are_some(tmp_path: Path) -> None:
+    swinging(tmp_path)
+    soft = IK.replace("<time_range>", "<constraint_weight>20</constraint_weight><time_range>")
+    (tmp_path / "ik.xml").write_text(soft)
+    assert read_tool_setup(tmp_path / "ik.xml", "InverseKinematicsTool").unheeded == ()
+    coupled_leg(tmp_path)
+    (told,) = read_tool_setup(tmp_path / "ik.xml", "InverseKinematicsTool").unheeded
+    assert told.startswith("constraint_weight 20")
+    (tmp_path / "ik.xml").write_text(soft.replace(">20<", ">Infinity<"))
+    assert read_tool_setup(tmp_path / "ik.xml", "InverseKinematicsTool").unheeded == ()
 
 
 REFUSED = {

@@ -65,6 +65,9 @@ def _load(file: str, element: Element) -> ExternalLoad:
     if not body or not force:
         raise InputError(file, label(element), "names no body or no force", "give applied_to_body and force_identifier")
     stem = force.removesuffix("v")
+    if not text_of(element, "point_identifier"):
+        remedy = f"name the columns of the point, {stem}p: a force at a body's origin is not read"
+        raise InputError(file, label(element), "names no <point_identifier>", remedy)
     if text_of(element, "point_identifier") != f"{stem}p":
         what = f"'{text_of(element, 'point_identifier')[:40]}' does not belong to the force '{force[:40]}'"
         raise InputError(file, f"{label(element)} <point_identifier>", what, f"expected {stem}p")

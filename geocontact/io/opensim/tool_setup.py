@@ -12,7 +12,7 @@ import numpy as np
 
 from geocontact.data.errors import InputError
 from geocontact.io.opensim.marker_weights import read_marker_weights
-from geocontact.io.opensim.osim_xml import is_true, label, numbers_of, read_document, text_of
+from geocontact.io.opensim.osim_xml import is_true, label, numbers_of, read_document, read_model, text_of
 
 UNASSIGNED = ("", "unassigned")
 
@@ -61,7 +61,16 @@ def _inverse_kinematics(file: str, tool: Element) -> ToolSetup:
     options = [*_files(file, tool, {"model_file": "model"}), ("tasks", _tasks(file, tool)), *_time(file, tool)]
     if read_marker_weights(dict(options)["tasks"]).from_file:  # else OpenSim does not look at the file either
         options += _files(file, tool, {"coordinate_file": "follow"})
-    return ToolSetup(_needed(file, tool, "marker_file"), tuple(options))
+    return ToolSetup(_needed(file, tool, "marker_file"), tuple(options), _soft(tool, dict(options).get("model", "")))
+
+
+def _soft(tool: Element, model: str) -> tuple[str, ...]:
+    """A weight of constraints, where the model has some: they are exact here."""
+    weight = text_of(tool, "constraint_weight", "Infinity")
+    if weight.lower().startswith("inf") or not model or not Path(model).is_file():
+        return ()
+    held = read_model(model).findall("ConstraintSet/objects/*")
+    return (f"constraint_weight {weight[:20]}: constraints are exact,",) if held else ()
 
 
 def _scale(file: str, tool: Element) -> ToolSetup:
@@ -74,7 +83,8 @@ def _scale(file: str, tool: Element) -> ToolSetup:
     if scales and mass > 0.0:
         options.append(("mass", str(mass)))
     options += [("scale", text) for text in (_sizes(file, scaler) if scales else ())]
-    recording = _needed(file, placer, "marker_file")
+    places = placer.find("apply") is None or is_true(file, placer, "apply")
+    recording = _needed(file, placer if places or _told(placer, "marker_file") else scaler, "marker_file")
     options += [("tasks", _tasks(file, placer)), *_time(file, placer)]
     unheeded = []
     if _told(scaler, "marker_file") and _needed(file, scaler, "marker_file") != recording:
@@ -83,7 +93,7 @@ def _scale(file: str, tool: Element) -> ToolSetup:
         unheeded.append("a time range of its own for the sizes of bodies")
     if text_of(scaler, "preserve_mass_distribution", "true").lower() == "false":
         unheeded.append("masses by volume")
-    if not is_true(file, placer, "apply") and placer.find("apply") is not None:
+    if not places:
         options.append(("keep-markers", ""))
     return ToolSetup(recording, tuple(options), tuple(unheeded))
 
