@@ -7,11 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.system import System
 from geocontact.effects.catalogue import candidates
+from geocontact.gap.attribute import Attribution, attribute
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.selection.model_comparison import base_contender, singles
 from geocontact.gap.selection.surrogate import surrogate
-from geocontact.gap.selection.tails import tails
+from geocontact.gap.selection.tails import RETURNING, returning, sharp, tails
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import NOISE, Change, elbow_case
@@ -35,19 +38,25 @@ def strikes(at_the_top: bool) -> Change:
     return struck
 
 
-def gains(damped: bool, at_the_top: bool, names: Sequence[str]) -> tuple[dict[str, float], ...]:
-    """What effects gain on a case with strikes [nats], without weights and with those of tails."""
+def answered(damped: bool, at_the_top: bool, names: Sequence[str]) -> tuple[dict[str, float], Attribution]:
+    """What effects gain on a case with strikes where every sample weighs the same [nats], and what is found out."""
     case = elbow_case("damping" if damped else "", DAMPED if damped else {}, 1, 8.0, recorded=strikes(at_the_top))
-    problem = problem_of(case, system_of(case))
-    offered = [one for one in candidates(problem.system) if one.name in names]
-    found = []
-    for _ in range(2):
-        base = base_contender(problem)
-        single = singles(problem, base, offered)
-        found.append({c.label: c.nats - base.nats for c in single})
-        leader = max((base, *single), key=lambda one: one.nats)
-        problem = tails(problem, leader.judged, surrogate(problem, leader.judged).predicted).weighed(problem)
-    return tuple(found)
+    system = system_of(case)
+
+    def offer(scaled: System) -> list[Candidate]:
+        return [one for one in candidates(scaled) if one.name in names]
+
+    problem = problem_of(case, system)
+    base = base_contender(problem)
+    found = singles(problem, base, offer(problem.system))
+    return {c.label: c.nats - base.nats for c in found}, attribute(case, system, offer)
+
+
+def gains(*asked: object) -> tuple[dict[str, float], dict[str, float], tuple[str, ...], tuple[str, ...]]:
+    """The same, with what they gain in the end, the effects that are named, and the channels with tails."""
+    before, found = answered(*asked)  # type: ignore[arg-type]
+    after = {c.label: c.nats - found.base.nats for c in found.contenders}
+    return before, after, found.answer.effects, tuple(found.heavy)
 
 
 def seen_without_tails() -> list[tuple[str, ...]]:
@@ -62,18 +71,42 @@ def seen_without_tails() -> list[tuple[str, ...]]:
 
 @pytest.mark.slow
 def test_strikes_carry_no_effect(elsewhere: Elsewhere) -> None:
-    before, after = elsewhere(gains, False, True, ("saturation", "stiffening"))
+    before, after, named, channels = elsewhere(gains, False, True, ("saturation", "stiffening"))
     assert max(before.values()) > 30.0, "what was to be shown"
+    assert channels == ("force",)
     assert max(after.values()) < 6.0
+    assert named == ()
 
 
 @pytest.mark.slow
 def test_a_true_effect_comes_out_from_under_them(elsewhere: Elsewhere) -> None:
-    before, after = elsewhere(gains, True, False, ("damping", "relaxation"))
+    before, after, named, channels = elsewhere(gains, True, False, ("damping", "relaxation"))
     assert before["damping"] < before["relaxation"], "what was to be shown"
-    assert after["damping"] > 100.0
-    assert after["damping"] > after["relaxation"] + 5.0
+    assert channels == ("force",)
+    assert after["damping"] > max(100.0, after["relaxation"] + 5.0)
+    assert named == ("damping",)
 
 
 def test_a_gap_is_no_tail(elsewhere: Elsewhere) -> None:
     assert elsewhere(seen_without_tails) == [()]
+
+
+def test_what_returns_in_every_trial_is_no_tail() -> None:
+    rng = np.random.default_rng(2)
+    calm = np.ones((5, 400))
+    reversal, anywhere = calm.copy(), calm.copy()
+    reversal[:, 190:215] = rng.uniform(0.02, 1.0, (5, 25))
+    for row in anywhere:
+        row[rng.choice(400, 12, replace=False)] = 0.02
+    assert returning(list(reversal)) > 0.9
+    assert returning(list(anywhere)) < RETURNING
+
+
+def test_what_is_smooth_is_no_tail() -> None:
+    smooth = 20.0 * np.sin(np.linspace(0.0, 9.0, 300))
+    struck = smooth.copy()
+    struck[150], struck[200] = struck[150] - 15.0, np.nan
+    found = sharp(struck)
+    assert np.isnan(found[200])
+    assert np.abs(np.delete(found, [149, 150, 151, 199, 200, 201])).max() < 0.5
+    assert abs(found[150]) > 10.0
