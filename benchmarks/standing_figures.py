@@ -50,6 +50,6 @@ def drawn(names: Sequence[str], time: Mapping[str, Any], curves: Curves, grey: M
                     seen.add(grey[label])
                 ax.plot(time[label], one.factor * one.model, color=PALETTE[k % len(PALETTE)], lw=1.0, label=label)
                 ax.set_title(f"{name} [{one.unit}]")
-            ax.set_xlabel("time since seat-off [s]")
+            ax.set_xlabel("time [s]")
         axes[0].legend(fontsize=5)
     return figure
