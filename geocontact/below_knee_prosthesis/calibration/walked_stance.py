@@ -9,13 +9,13 @@ import numpy as np
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion, driving_inputs
-from geocontact.below_knee_prosthesis.model.leg_tree import PELVIS, RECORDED
+from geocontact.below_knee_prosthesis.model.leg_tree import HIP, KNEE, PELVIS, RECORDED
 from geocontact.below_knee_prosthesis.simulate import Push
 from geocontact.contact.bushing import SOCKET, Bushing
 from geocontact.dynamics.recorded_inputs import RecordedInputs
 
 ANGLE = np.radians(0.4)
-"""rad; standard deviation of hip and of knee, constant over the stance; invented. The foot's pitch is 0.55° off."""
+"""rad; standard deviation of each turn of hip and knee, constant over the stance; invented. Pitch is 0.55° off."""
 LEAD = 12
 """Samples that are simulated before the first that is compared, where the recording has them."""
 
@@ -52,11 +52,11 @@ class WalkedStance:
         return driving_inputs(self.motion, self.push.at(self.motion.time))
 
     def moved(self) -> Iterator[WalkedStance]:
-        """By one standard deviation of each error of the motion: height, speed forward and up, hip, knee."""
+        """By one standard deviation of each error of the motion: height, speed, each turn of hip and knee."""
         e, since = self.recorded.errors, self.motion.time - self.recorded.time[0]
         shifts = [(PELVIS[4], np.full(len(since), e.height))]
-        shifts += [(name, e.speed * since) for name in PELVIS[3:5]]
-        shifts += [(name, np.full(len(since), ANGLE)) for name in ("hip_flexion", "knee_flexion")]
+        shifts += [(name, e.speed * since) for name in PELVIS[3:]]
+        shifts += [(name, np.full(len(since), ANGLE)) for name in (*HIP, *KNEE)]
         for name, by in shifts:
             values = self.motion.values.copy()
             values[:, RECORDED.index(name)] += by
