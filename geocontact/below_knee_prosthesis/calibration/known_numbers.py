@@ -73,7 +73,7 @@ class Knowledge:
     half: Float[np.ndarray, " p"]
 
 
-class Residuals(Protocol):
+class StanceResiduals(Protocol):
     """Of stances, by the logarithms of a sole's numbers: `SoleResiduals`, `WholeResiduals`."""
 
     @property
@@ -96,7 +96,7 @@ class Residuals(Protocol):
         """Each stance, and the keel along it."""
 
 
-def knowledge(residuals: Residuals, z: Float[np.ndarray, " p"], level: float = 0.95) -> Knowledge:
+def knowledge(residuals: StanceResiduals, z: Float[np.ndarray, " p"], level: float = 0.95) -> Knowledge:
     """At the logarithms that a calibration found, with intervals of probability `level`."""
     zones, values = residuals.zones, residuals.values(z)
     off, slope = residuals.of_data(z), residuals.slope_of_data(z)
@@ -119,7 +119,7 @@ def knowledge(residuals: Residuals, z: Float[np.ndarray, " p"], level: float = 0
     return Knowledge(tuple(rows), identifiability(names, slope[:, alive]), memory, half)
 
 
-def slipping_zones(residuals: Residuals, z: Float[np.ndarray, " p"]) -> Bool[np.ndarray, " zones"]:
+def slipping_zones(residuals: StanceResiduals, z: Float[np.ndarray, " p"]) -> Bool[np.ndarray, " zones"]:
     """Whether each zone slips in earnest in any of the stances, in their order."""
     chosen = list(residuals.zones.sole.spheres.zones.values())
     lasting = np.zeros(len(chosen))
