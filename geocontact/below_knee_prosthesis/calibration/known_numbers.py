@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Literal, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
@@ -73,6 +73,7 @@ class Knowledge:
     half: Float[np.ndarray, " p"]
 
 
+@runtime_checkable
 class StanceResiduals(Protocol):
     """Of stances, by the logarithms of a sole's numbers: `SoleResiduals`, `WholeResiduals`."""
 
