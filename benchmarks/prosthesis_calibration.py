@@ -21,6 +21,7 @@ from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibrati
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResiduals
 from geocontact.below_knee_prosthesis.calibration.stance_from_markers import stance_from_markers
+from geocontact.below_knee_prosthesis.calibration.whole_residuals import WholeResiduals
 from geocontact.below_knee_prosthesis.from_markers.sides import as_right, of_side
 from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
 from geocontact.below_knee_prosthesis.from_markers.walking import walked
@@ -78,7 +79,7 @@ def judged(one: Recorded, foot: VariableStiffnessFoot) -> StanceErrors:
     return stance_errors(found, one.plate)
 
 
-def best_of_random(residuals: SoleResiduals, samples: int, seed: int = 1) -> float:
+def best_of_random(residuals: SoleResiduals | WholeResiduals, samples: int, seed: int = 1) -> float:
     """Least cost of numbers drawn evenly in their logarithms between the bounds."""
     rng, reach = np.random.default_rng(seed), residuals.zones.reach
     lowest = np.inf

@@ -188,11 +188,8 @@ def simulate_stance(
     inputs = driving_inputs(motion, push.at(motion.time))
     count = round((span[1] - span[0]) * SAMPLING)
     time = span[0] + np.arange(count + 1) / SAMPLING
-    start = [motion.place(axis, span[0]) for axis in "xy"]
-    still = np.zeros(len(model.equations.names) - 2)
-    state = tuple(np.concatenate([[first[k] for first in start], still]) for k in (0, 1))
     found = model.stepper.simulate(
-        (state[0], state[1], np.zeros(model.equations.z.shape[0])),
+        recorded_start(model, motion, span[0]),
         time,
         inputs=inputs,
         parameters=p,
@@ -200,10 +197,20 @@ def simulate_stance(
         first=FIRST,
         steps=steps,
     )
-    told = _told(model, found, inputs.at(time), p)
-    poses = RigidTransform.from_components(told["place"], Rotation.from_matrix(told["rotation"].reshape(-1, 3, 3)))
-    loads = loads_at(foot.at(fulcrum), found.q[:, 8:], found.u[:, 8:], poses, _rate(told), ground)
-    return Stance(motion, foot, fulcrum, bushing, push, time, found, poses, loads, told["socket"], ground)
+    columns = found.q.T, found.u.T, found.z.T, inputs.at(time).T, np.repeat(p[:, None], len(time), axis=1)
+    told = told_at(model, *columns)
+    loads = loads_at(foot.at(fulcrum), found.q[:, 8:], found.u[:, 8:], told.poses, told.rate, ground)
+    return Stance(motion, foot, fulcrum, bushing, push, time, found, told.poses, loads, told.socket, ground)
+
+
+def recorded_start(
+    model: StanceModel, motion: LegMotion, when: float
+) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"], Float[np.ndarray, " k"]]:
+    """Coordinates, rates and memories at a time [s]: the pelvis as recorded, socket and keel at rest."""
+    place = [motion.place(axis, when) for axis in "xy"]
+    q, u = np.zeros((2, len(model.equations.names)))
+    q[:2], u[:2] = np.transpose(place)
+    return q, u, np.zeros(model.equations.z.shape[0])
 
 
 def recorded_speed(motion: LegMotion) -> Float[np.ndarray, "t 3"]:
@@ -211,13 +218,29 @@ def recorded_speed(motion: LegMotion) -> Float[np.ndarray, "t 3"]:
     return np.asarray(make_interp_spline(motion.time, motion.values[:, 3:6], k=SMOOTH)(motion.time, 1))
 
 
-def _told(
-    model: StanceModel, found: SimulatedMotion, w: Float[np.ndarray, "t w"], p: Float[np.ndarray, " p"]
-) -> dict[str, Float[np.ndarray, "t _"]]:
-    n = len(found.time)
-    values = np.array(model.outputs.map(n)(found.q.T, found.u.T, found.z.T, w.T, np.repeat(p[:, None], n, axis=1))).T
+@dataclass(frozen=True, eq=False)
+class ToldStates:
+    """The keel's frame in the ground over some states, its rate, and the load on the socket [N m, N]."""
+
+    poses: RigidTransform
+    rate: Float[np.ndarray, "t 4 4"]
+    socket: Float[np.ndarray, "t 6"]
+
+
+def told_at(
+    model: StanceModel,
+    q: Float[np.ndarray, "n t"],
+    u: Float[np.ndarray, "n t"],
+    z: Float[np.ndarray, "k t"],
+    w: Float[np.ndarray, "w t"],
+    p: Float[np.ndarray, "p t"],
+) -> ToldStates:
+    """Of states, inputs and parameters, each in a column."""
+    values = np.array(model.outputs.map(q.shape[1])(q, u, z, w, p)).T
     ends = np.cumsum([0, *OUTPUTS.values()])
-    return {name: values[:, ends[k] : ends[k + 1]] for k, name in enumerate(OUTPUTS)}
+    told = {name: values[:, ends[k] : ends[k + 1]] for k, name in enumerate(OUTPUTS)}
+    turn = Rotation.from_matrix(told["rotation"].reshape(-1, 3, 3))
+    return ToldStates(RigidTransform.from_components(told["place"], turn), _rate(told), told["socket"])
 
 
 def _rate(told: dict[str, Float[np.ndarray, "t _"]]) -> Float[np.ndarray, "t 4 4"]:

@@ -40,8 +40,8 @@ class SimulatedMotion:
         Values and rates [rad, m, s].
     z
         Memory of the laws.
-    steps, refused
-        Steps taken and tried in vain.
+    ends, refused
+        Where the steps taken end [s], and how many were tried in vain.
     error
         Sum of the estimated errors of the steps, by coordinate [rad, m]: what the end is off by if nothing damps or
         amplifies them.
@@ -54,10 +54,15 @@ class SimulatedMotion:
     q: Float[np.ndarray, "t n"]
     u: Float[np.ndarray, "t n"]
     z: Float[np.ndarray, "t k"]
-    steps: int
+    ends: Float[np.ndarray, " s"]
     refused: int
     error: Vector
     by_parameter: Float[np.ndarray, "t x p"]
+
+    @property
+    def steps(self) -> int:
+        """Steps taken."""
+        return len(self.ends)
 
 
 class Stepper:
@@ -173,7 +178,7 @@ class Stepper:
             by = CubicHermiteSpline(times, np.array(turns), np.array(turn_rates))(time).swapaxes(1, 2)
         else:
             by = np.zeros((len(time), len(x), 0))
-        return SimulatedMotion(time, self.equations.names, q, u, z, len(times) - 1, refused, error, by)
+        return SimulatedMotion(time, self.equations.names, q, u, z, np.array(times[1:]), refused, error, by)
 
     def _looped(
         self,
@@ -190,7 +195,7 @@ class Stepper:
             raise ArithmeticError(f"no step is short enough at {found.reached:g} s")
         q, u, z = found.states[:, :n], found.states[:, n : 2 * n], found.states[:, 2 * n :]
         none = np.zeros((len(time), len(x), 0))
-        return SimulatedMotion(time, self.equations.names, q, u, z, found.steps, found.refused, found.error, none)
+        return SimulatedMotion(time, self.equations.names, q, u, z, found.ends, found.refused, found.error, none)
 
 
 def _check(equations: Equations, time: Vector, p: Vector, inputs: Inputs | None) -> None:

@@ -16,6 +16,8 @@ from geocontact.dynamics.recorded_inputs import RecordedInputs
 
 Vector = Float[np.ndarray, " _"]
 REACHED, TOO_SHORT, NO_MEMORY = range(3)
+ROOM = 10000
+"""Steps whose ends are kept; a motion of more of them is run again with more room."""
 
 SOURCE = r"""
 #include <math.h>
@@ -67,9 +69,9 @@ static long between(long nx, double t0, double t1, const double *x0, const doubl
 
 int simulate(const double *breaks, const double *coefficients, const long *sizes, const double *numbers,
              const double *start, const double *p, const double *time, double *out, double *error, long *counts,
-             double *reached) {
+             double *reached, double *ends) {
   long pieces = sizes[0], inputs = sizes[1], powers = sizes[2], nx = sizes[3], n = sizes[4], wanted = sizes[5];
-  long steps = sizes[6], taken = 0, refused = 0, done = 0, known = 0;
+  long steps = sizes[6], room = sizes[7], taken = 0, refused = 0, done = 0, known = 0;
   double tolerance = numbers[0], longest = numbers[2], safe = numbers[3], shrink = numbers[4], grow = numbers[5];
   double smallest = numbers[6], order = numbers[7];
   course c = {breaks, coefficients, pieces, inputs, powers, 0};
@@ -109,6 +111,7 @@ int simulate(const double *breaks, const double *coefficients, const long *sizes
       now = end - there > smallest * span ? there : end;
       known = 1;
       for (long i = 0; i < n; i++) error[i] += fabs(off[i]);
+      if (taken < room) ends[taken] = now;
       taken++;
       memcpy(given, later, inputs * sizeof(double));
       memcpy(slope, later_slope, inputs * sizeof(double));
@@ -149,11 +152,11 @@ class StepControl:
 
 @dataclass(frozen=True)
 class Looped:
-    """States at the wanted times, summed errors, steps taken and refused, and how it ended at what time [s]."""
+    """States at the wanted times, summed errors, ends of steps [s], steps refused, how it ended at what time [s]."""
 
     states: Float[np.ndarray, "t x"]
     error: Vector
-    steps: int
+    ends: Float[np.ndarray, " s"]
     refused: int
     end: int
     reached: float
@@ -173,8 +176,8 @@ class StepLoop:
     def __init__(self, library: Path, states: int, coordinates: int) -> None:
         self._run = ctypes.CDLL(str(library)).simulate
         self._run.restype = ctypes.c_int
-        self._run.argtypes = [ctypes.c_void_p] * 11
-        self.states, self.coordinates = states, coordinates
+        self._run.argtypes = [ctypes.c_void_p] * 12
+        self.states, self.coordinates, self.room = states, coordinates, ROOM
 
     def run(
         self,
@@ -187,11 +190,11 @@ class StepLoop:
         """Motion from a state at `time[0]` to `time[-1]`."""
         given = inputs or RecordedInputs(np.zeros(1), np.zeros((0, 0, 1)))
         pieces, count, powers = given.coefficients.shape
-        sizes = [pieces, count, powers, self.states, self.coordinates, len(time), control.steps or 0]
+        sizes = [pieces, count, powers, self.states, self.coordinates, len(time), control.steps or 0, self.room]
         c = control
         numbers = [c.tolerance, c.first, c.longest, c.safe, c.shrink, c.grow, c.smallest, float(c.order)]
         out, error = np.empty((len(time), self.states)), np.empty(self.coordinates)
-        counts, reached = np.zeros(2, ctypes.c_long), np.zeros(1)
+        counts, reached, ends = np.zeros(2, ctypes.c_long), np.zeros(1), np.empty(self.room)
         arrays = [
             np.ascontiguousarray(given.breaks, float),
             np.ascontiguousarray(given.coefficients, float),
@@ -204,8 +207,13 @@ class StepLoop:
             error,
             counts,
             reached,
+            ends,
         ]
         end = self._run(*(each.ctypes.data for each in arrays))
         if end == NO_MEMORY:
             raise MemoryError("no memory for a step")
-        return Looped(out, error, int(counts[0]), int(counts[1]), end, float(reached[0]))
+        taken = int(counts[0])
+        if taken > self.room:
+            self.room = 2 * taken
+            return self.run(start, time, inputs, parameters, control)
+        return Looped(out, error, ends[:taken].copy(), int(counts[1]), end, float(reached[0]))

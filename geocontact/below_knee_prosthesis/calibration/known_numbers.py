@@ -7,13 +7,17 @@ number.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, Protocol, runtime_checkable
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 
-from geocontact.below_knee_prosthesis.calibration.sole_residuals import PAUSE, SoleResiduals
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.below_knee_prosthesis.calibration.sole_residuals import PAUSE
+from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
+from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion
 from geocontact.identify.identifiability import Identifiability, identifiability
 from geocontact.identify.noise.autocorrelation import Autocorrelation, autocorrelation_of, sandwich
 
@@ -69,7 +73,31 @@ class Knowledge:
     half: Float[np.ndarray, " p"]
 
 
-def knowledge(residuals: SoleResiduals, z: Float[np.ndarray, " p"], level: float = 0.95) -> Knowledge:
+@runtime_checkable
+class StanceResiduals(Protocol):
+    """Of stances, by the logarithms of a sole's numbers: `SoleResiduals`, `WholeResiduals`."""
+
+    @property
+    def zones(self) -> ZoneParameters:
+        """Whose numbers are sought."""
+
+    def values(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " p"]:
+        """The numbers."""
+
+    def of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
+        """Predicted less measured over the noise."""
+
+    def slope_of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "n p"]:
+        """Its derivatives."""
+
+    def channel_by_channel(self) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
+        """Times and places of the data's residuals."""
+
+    def slid(self, z: Float[np.ndarray, " p"]) -> Iterable[tuple[RecordedStance, KeelMotion]]:
+        """Each stance, and the keel along it."""
+
+
+def knowledge(residuals: StanceResiduals, z: Float[np.ndarray, " p"], level: float = 0.95) -> Knowledge:
     """At the logarithms that a calibration found, with intervals of probability `level`."""
     zones, values = residuals.zones, residuals.values(z)
     off, slope = residuals.of_data(z), residuals.slope_of_data(z)
@@ -92,12 +120,11 @@ def knowledge(residuals: SoleResiduals, z: Float[np.ndarray, " p"], level: float
     return Knowledge(tuple(rows), identifiability(names, slope[:, alive]), memory, half)
 
 
-def slipping_zones(residuals: SoleResiduals, z: Float[np.ndarray, " p"]) -> Bool[np.ndarray, " zones"]:
+def slipping_zones(residuals: StanceResiduals, z: Float[np.ndarray, " p"]) -> Bool[np.ndarray, " zones"]:
     """Whether each zone slips in earnest in any of the stances, in their order."""
     chosen = list(residuals.zones.sole.spheres.zones.values())
     lasting = np.zeros(len(chosen))
-    for place, stance in enumerate(residuals.stances):
-        motion, _ = residuals.motion(z, place)
+    for stance, motion in residuals.slid(z):
         step = float(np.median(np.diff(stance.time)))
         speed, pressing = np.linalg.norm(motion.sliding, axis=2), motion.loads.pressing
         for k, of in enumerate(chosen):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -114,14 +114,28 @@ class SoleResiduals:
 
     def channel_by_channel(self) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
         """Times of the data's residuals in that order [s], a pause after each channel, and the residuals' places."""
-        times, places, first, late = [], [], 0, 0.0
+        return by_channel(
+            [stance.time for stance in self.stances], [self.measured(k) for k in range(len(self.stances))]
+        )
+
+    def slid(self, z: Float[np.ndarray, " p"]) -> Iterator[tuple[RecordedStance, KeelMotion]]:
+        """Each stance, and the keel along it."""
         for place, stance in enumerate(self.stances):
-            there = np.isfinite(self.measured(place))
-            number = np.full(there.shape, -1)
-            number[there] = first + np.arange(int(there.sum()))
-            first += int(there.sum())
-            for column, on in zip(number.T, there.T, strict=True):
-                times.append(stance.time[on] - stance.time[0] + late)
-                places.append(column[on])
-                late += PAUSE * float(stance.time[-1] - stance.time[0])
-        return np.concatenate(times), np.concatenate(places)
+            yield stance, self.motion(z, place)[0]
+
+
+def by_channel(
+    times: Sequence[Float[np.ndarray, " t"]], measured: Sequence[Float[np.ndarray, "t c"]]
+) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
+    """Times of what was measured, channel by channel [s], a pause after each, and its places frame by frame."""
+    found, places, first, late = [], [], 0, 0.0
+    for time, of in zip(times, measured, strict=True):
+        there = np.isfinite(of)
+        number = np.full(there.shape, -1)
+        number[there] = first + np.arange(int(there.sum()))
+        first += int(there.sum())
+        for column, on in zip(number.T, there.T, strict=True):
+            found.append(time[on] - time[0] + late)
+            places.append(column[on])
+            late += PAUSE * float(time[-1] - time[0])
+    return np.concatenate(found), np.concatenate(places)

@@ -119,15 +119,15 @@ def _pressed(
     comes to which is put down. The foremost spheres keep their place along the ground.
     """
     share = np.concatenate([[-0.1], np.linspace(0.0, 1.0, count + 1)[1:]])
-    depth = (deepest[:, None] * share).ravel()
-    turn = Rotation.from_euler("z", np.repeat(pitch, len(share))[:, None])
-    spheres, still = keel.sole.spheres, np.zeros((len(depth), 3))
+    turn, spheres = Rotation.from_euler("z", pitch[:, None]), keel.sole.spheres
     held = spheres.centre[int(np.argmax(spheres.centre[:, 0]))]
-    poses = terrain.standing(RigidTransform.from_components(still, turn), held)
+    poses = terrain.standing(RigidTransform.from_components(np.zeros((len(pitch), 3)), turn), held)
     place = poses.translation.copy()
-    place[:, 1] = _touching(keel, poses, terrain) - depth
-    poses = RigidTransform.from_components(place, turn)
-    return keel.solve(poses, terrain.ground), poses, (len(pitch), len(share))
+    place[:, 1] = _touching(keel, poses, terrain)
+    place = np.repeat(place, len(share), axis=0)
+    place[:, 1] -= (deepest[:, None] * share).ravel()
+    pressed = RigidTransform.from_components(place, turn[np.repeat(np.arange(len(pitch)), len(share))])
+    return keel.solve(pressed, terrain.ground), pressed, (len(pitch), len(share))
 
 
 def _touching(keel: QuasiStaticKeel, poses: RigidTransform, terrain: Terrain) -> Float[np.ndarray, " t"]:

@@ -19,7 +19,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.keel import newton_kernel
 from geocontact.below_knee_prosthesis.keel.balance_kernel import balance
-from geocontact.below_knee_prosthesis.keel.in_keel import InKeel, Planes, planes_under, seen_by_keel
+from geocontact.below_knee_prosthesis.keel.in_keel import InKeel, Planes, plane_under, planes_under, seen_by_keel
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.on_tree import joint_numbers, rubbing_numbers
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
@@ -114,13 +114,13 @@ class QuasiStaticKeel:
         """
         if (rate is None) != (time is None):
             raise ValueError("rates of the poses and times are given both or neither")
+        if isinstance(ground, HalfSpace):
+            return self._on_planes(poses, plane_under(ground, poses), rate, time, gravity, start)
         spheres = self.sole.spheres
         centre = np.stack([poses.apply(each).reshape(-1, 3) for each in spheres.centre], axis=1)
         under = planes_under(ground, centre)
         for _ in range(ROUNDS):
             found = self._on_planes(poses, under, rate, time, gravity, start)
-            if isinstance(ground, HalfSpace):
-                return found
             under = planes_under(ground, found.loads.centre)
             height = np.einsum("tni,tni->tn", found.loads.centre, under.normal) - under.level
             off = np.abs(spheres.radius - found.loads.depth - height)
@@ -138,8 +138,9 @@ class QuasiStaticKeel:
         gravity: tuple[float, float, float],
         start: Float[np.ndarray, " m"] | None,
     ) -> KeelMotion:
-        seen = seen_by_keel(poses, under, gravity, rate)
-        frames, count = len(seen.planes), len(self.sole.spheres)
+        count = len(self.sole.spheres)
+        seen = seen_by_keel(poses, under, gravity, rate, count)
+        frames = len(seen.planes)
         per_time = np.zeros(frames) if time is None else np.concatenate([[0.0], 1.0 / np.diff(time)])
         joints = self.keel.joints + int(self.torsion)
         angles, left = np.empty((frames, joints)), np.empty(frames)
@@ -174,9 +175,9 @@ class QuasiStaticKeel:
 
         Friction with both coefficients of the law.
         """
-        under = planes_under(ground, poses.as_matrix().reshape(-1, 4, 4)[:, None, :3, 3])
-        seen, joints = seen_by_keel(poses, under.for_each(self.sole.spheres), DOWNWARDS, rate), angles.shape[1]
-        told = np.empty((len(angles), len(self.sole.spheres), TOLD))
+        count, joints = len(self.sole.spheres), angles.shape[1]
+        seen = seen_by_keel(poses, plane_under(ground, poses), DOWNWARDS, rate, count)
+        told = np.empty((len(angles), count, TOLD))
         torque, slope, memory = np.empty(joints), np.empty((joints, joints)), np.zeros((2, joints))
         arrays = self.arrays(static=False, falling=True)
         for i, (y, u) in enumerate(zip(angles, speeds, strict=True)):

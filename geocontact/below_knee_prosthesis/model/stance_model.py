@@ -73,12 +73,15 @@ class StanceModel:
         Coordinates `PLACE`, `SOCKET`, keel; inputs of `leg_motion.driving_inputs`; parameters of `stance_numbers`.
     outputs
         (q, u, z, w, p) to `OUTPUTS`.
+    on_sole
+        Force of the ground on the foot [N] and its moment about the ground's origin [N m], in symbols.
     stepper
         For motion.
     """
 
     equations: Equations
     outputs: Function
+    on_sole: SX
     stepper: Stepper
 
 
@@ -127,6 +130,13 @@ def stance_numbers(
     }
     sizes = _sizes(keel, len(under))
     return np.concatenate([np.ravel(np.asarray(parts[name], float)) for name in sizes])
+
+
+def sole_places(keel: Keel, ground: HalfSpace | Stairs = FLOOR) -> range:
+    """Where stiffness, damping, static and kinetic friction are in `stance_numbers`, each by zone."""
+    sizes = _sizes(keel, len(_ground_numbers(ground)))
+    first = sum(size for name, size in list(sizes.items())[: list(sizes).index("sole")])
+    return range(first, first + sizes["sole"])
 
 
 def _ground_numbers(ground: HalfSpace | Stairs) -> list[float]:
@@ -179,9 +189,10 @@ def _made(
     at = [tree.names.index(name) for name in SOCKET]
     held = [bushing_force(tree.q[i], tree.u[i], of["bushing"][k], of["bushing"][6 + k]) for k, i in enumerate(at)]
     along |= {name: -force for name, force in zip(SOCKET, held, strict=True)}
+    loads = _on_ground(tree, keel, sole, of["sole"], shared, under)
     equations = equations_of_motion(
         tree,
-        loads=_on_ground(tree, keel, sole, of["sole"], shared, under),
+        loads=loads,
         along=along,
         memory=memory,
         prescribed=BEARING,
@@ -191,7 +202,8 @@ def _made(
     frame = tree.bodies["foot"]
     told = vertcat(frame.rotation.T.reshape((9, 1)), frame.place, frame.spin, frame.speed, *held)
     outputs = Function("outputs", equations.state, [densify(told)])
-    return StanceModel(equations, outputs, Stepper(equations, machine_code=machine_code))
+    on_sole = sum((vertcat(*each) for each in loads.values()), SX(6, 1))
+    return StanceModel(equations, outputs, on_sole, Stepper(equations, machine_code=machine_code))
 
 
 def _tree(keel: Keel, of: dict[str, SX]) -> Tree:

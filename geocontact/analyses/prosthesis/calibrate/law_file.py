@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
+from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
 
 HEAD = """\
 # Force law of the sole, calibrated on one stance; SI units. Numbers marked unknown were never loaded, those marked
@@ -12,7 +13,7 @@ HEAD = """\
 """
 
 
-def law_toml(found: SoleCalibration) -> str:
+def law_toml(found: SoleCalibration | WholeCalibration) -> str:
     """Text of the file."""
     law = found.law
     lines = [HEAD, f"n = {law.exponent!r}", f"delta_full = {law.full_depth!r}", f"v_th = {law.threshold_speed!r}"]

@@ -48,15 +48,22 @@ class ProsthesisCalibrateOptions(Options):
         Ground reactions in the markers' axes (.mot, .sto, .c3d).
     plate
         Name or number of the plate under the prosthetic foot.
+    other_plate
+        Name or number of the plate under the other foot: for `full`, where its force stands for the other leg.
 
     The search
     ----------
+    full
+        Go on with the whole model of the stance from what was found along the recorded poses: with the leg's inertia,
+        the socket and the free pelvis. The trial needs the markers of pelvis and thigh too.
     starts
         Starts spread over the bounds, beside the usual numbers.
     seed
         Of these starts.
     level
         Probability of the intervals.
+    machine_code
+        Compile the equations of `full` first: the first run takes a minute longer, every one after it is faster.
 
     What was recorded with which error
     ----------------------------------
@@ -92,9 +99,12 @@ class ProsthesisCalibrateOptions(Options):
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
     law: Path | None = None
     plate: str | None = None
+    other_plate: str | None = None
+    full: bool = False
     starts: int = 8
     seed: int = 0
     level: Annotated[Fraction, Spelled(default="0.95")] = 0.95
+    machine_code: bool = False
     force_noise: Annotated[float, NOISE] = 3.0
     height_error: Annotated[Length, SHIFT, Spelled(default="0.5mm")] = 0.5e-3
     pitch_error: Annotated[Degrees, TILT, Spelled(default=0.2)] = PITCH
@@ -113,3 +123,15 @@ class ProsthesisCalibrateOptions(Options):
             raise InputError("", "`level`", f"{self.level:g} is not between 0 and 1", "give for example 0.95")
         if self.force_noise <= 0.0:
             raise InputError("", "`force_noise`", "0 N gives samples no limit to their weight", "give for example 3")
+        self._refuse_half_of_the_full_model()
+
+    def _refuse_half_of_the_full_model(self) -> None:
+        if self.full and self.other_plate is None:
+            what = "the force under the other foot is not known: the pelvis, free to fall, would"
+            raise InputError("", "`other_plate`", what, "name the plate under the other foot, or leave `full` out")
+        if not self.full and (self.other_plate is not None or self.machine_code):
+            name = "`machine_code`" if self.other_plate is None else "`other_plate`"
+            raise InputError("", name, "it is of no use along recorded poses", "give `full` as well")
+        if self.full and self.plate == self.other_plate:
+            what = f"{self.plate} is named for both feet"
+            raise InputError("", "`plate`", what, "each foot needs a plate of its own")

@@ -21,12 +21,19 @@ from geocontact.view.page.write import write_page
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-FIGURE = "Grey the plate, coloured the foot with the numbers below, along the recorded poses."
-MODEL = [
+FIGURE = "Grey the plate, coloured the foot with the numbers below."
+POSES = [
     "The keel is in equilibrium in every frame: its inertia is left out.",
     "The foot may slip beside its recorded speed, within its error, so that the force along the floor is the plate's.",
     "Friction is therefore told only where the foot slips in earnest.",
     "Poses are taken as they were recorded; what their errors do to each sample is in its weight.",
+]
+WALKED = [
+    "The stance is simulated: inertia, socket and the free pelvis act, and the force is what comes of the start.",
+    'The search began with the numbers in the column "along poses", found with a keel without inertia.',
+    "Angles are taken as they were recorded; what errors of the start, of hip and of knee do is in the weights.",
+]
+READ = [
     "Known: the data at least halve the width of what was believed beforehand. Believed: they do not.",
     "Unknown: the stance never loaded the zone, and the value is the usual one.",
     "Intervals count that residuals remember from frame to frame; they hold for this model, not beyond it.",
@@ -40,6 +47,7 @@ def write_calibration_page(
     stance: RecordedStance,
     predicted: Float[ndarray, "t 4"],
     numbers: pd.DataFrame,
+    walked: bool,
 ) -> int:
     """Write the self-contained page; returns its size in bytes."""
     curves = [
@@ -59,7 +67,7 @@ def write_calibration_page(
         frame_table("Numbers of the zones", numbers, 3),
         inputs_table(record.inputs),
         options_table(record),
-        Words("What the numbers mean", MODEL),
+        Words("What the numbers mean", (WALKED if walked else POSES) + READ),
     ]
     page = Page(
         title="Calibrated sole of a prosthetic foot",

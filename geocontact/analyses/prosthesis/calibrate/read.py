@@ -5,19 +5,34 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypedDict
 
+import numpy as np
+
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.foot_law import foot_with_law
-from geocontact.analyses.prosthesis.plausible_plate import require_one_clock, require_under_foot
+from geocontact.analyses.prosthesis.plausible_plate import require_one_clock, require_under_foot, require_weight
 from geocontact.analyses.prosthesis.recorded_files import plate_under_foot, right_markers
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import Errors, RecordedStance
 from geocontact.below_knee_prosthesis.calibration.stance_from_markers import recorded_heights, stance_from_markers
+from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedStance
 from geocontact.below_knee_prosthesis.clocks import clock_offset
+from geocontact.below_knee_prosthesis.from_markers.sides import of_side
 from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
+from geocontact.below_knee_prosthesis.from_markers.walking import walked
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg import Person
+from geocontact.below_knee_prosthesis.model.leg import Leg, Person
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.simulate import Push
+from geocontact.data.errors import InputError
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.io.mocap.force_plates import plate_named, read_force_plates
+
+ANGLES_CUTOFF = 6.0
+"""Hz; of the markers that tell the leg's angles, as `prosthesis simulate` has it."""
+LATE = 0.02
+"""s; by which recordings may be shorter than needed."""
 
 
 class Filtered(TypedDict):
@@ -29,10 +44,11 @@ class Filtered(TypedDict):
 
 @dataclass(frozen=True, eq=False)
 class FootOnPlate:
-    """A foot and its stance, as of a right leg."""
+    """A foot and its stance, as of a right leg; with the leg's motion for the whole model."""
 
     foot: VariableStiffnessFoot
     stance: RecordedStance
+    walked: WalkedStance | None
 
 
 def read(o: ProsthesisCalibrateOptions, record: Record) -> FootOnPlate:
@@ -57,4 +73,24 @@ def read(o: ProsthesisCalibrateOptions, record: Record) -> FootOnPlate:
     time, height = recorded_heights(seen, leg, foot.sole.spheres, **filtered)
     require_one_clock(o.plates, "`plate`", name, clock_offset(time, height, plate.time, plate.force[:, 1]))
     require_under_foot(o.plates, name, stance.centre)
-    return FootOnPlate(foot, stance)
+    return FootOnPlate(foot, stance, _walked(o, record, seen, leg, stance) if o.full else None)
+
+
+def _walked(
+    o: ProsthesisCalibrateOptions, record: Record, seen: MarkerTrajectories, leg: Leg, stance: RecordedStance
+) -> WalkedStance:
+    """Of the stance: InputError where markers of pelvis and thigh, or the other plate, do not tell enough of it."""
+    found = walked(seen, leg, cutoff=ANGLES_CUTOFF, gap_limit=o.gap_limit)
+    other = plate_named(read_force_plates(o.plates), o.other_plate, o.plates, "`other_plate`")
+    require_weight(o.plates, "`other_plate`", other.name, other.wrench.force[:, 1], o.mass * GRAVITY)
+    motion, time = found.motion, stance.time
+    if motion.time[0] > time[0] - LATE or motion.time[-1] < time[-1]:
+        what = f"markers are from {motion.time[0]:.2f} to {motion.time[-1]:.2f} s, the stance from {time[0]:.2f} to"
+        raise InputError(
+            o.markers, "", f"{what} {time[-1]:.2f} s", "markers must begin before touch-down and end after it"
+        )
+    if other.time[0] > motion.time[0] + LATE or other.time[-1] < motion.time[-1] - LATE:
+        what = f"plates are from {other.time[0]:.2f} to {other.time[-1]:.2f} s, markers from {motion.time[0]:.2f} to"
+        raise InputError(o.plates, "", f"{what} {motion.time[-1]:.2f} s", "both need one clock")
+    record.warn("the hip's centre is that of a regression")
+    return WalkedStance(stance, motion, Push(other.time, of_side(np.nan_to_num(other.wrench.force), o.side)))

@@ -18,6 +18,7 @@ from geocontact.analyses.prosthesis.calibrate.page import write_calibration_page
 from geocontact.analyses.result import Result
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
 from geocontact.identify.signals.agreement import Agreement
 from geocontact.io.text.results import write_table
 
@@ -36,9 +37,12 @@ class ProsthesisCalibrateResult(Result):
     stance
         As it was recorded.
     calibration
-        What was found.
+        What was found along the recorded poses.
+    whole
+        What was found from there on the whole model, where that was asked for.
     predicted
-        Force in the ground's frame [N] and centre of pressure from the heel (share of the foot) with the numbers found.
+        Force in the ground's frame [N] and centre of pressure from the heel (share of the foot) with the numbers found
+        last, by the model that found them.
     slip
         Along the floor, beside the recorded speed [m/s].
     vertical, centre
@@ -48,10 +52,16 @@ class ProsthesisCalibrateResult(Result):
     options: ProsthesisCalibrateOptions
     stance: RecordedStance
     calibration: SoleCalibration
+    whole: WholeCalibration | None
     predicted: Float[ndarray, "t 4"]
     slip: Float[ndarray, "t 2"]
     vertical: Agreement
     centre: Agreement
+
+    @property
+    def last(self) -> SoleCalibration | WholeCalibration:
+        """What was found last."""
+        return self.calibration if self.whole is None else self.whole
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`numbers`, `stance`."""
@@ -69,8 +79,11 @@ class ProsthesisCalibrateResult(Result):
                 "upper": each.upper,
                 "verdict": each.verdict,
             }
-            for each in self.calibration.knowledge.numbers
+            for each in self.last.knowledge.numbers
         ]
+        if self.whole is not None:
+            for row, before in zip(rows, self.calibration.knowledge.numbers, strict=True):
+                row |= {"along poses": before.value, "along poses verdict": before.verdict}
         return {"numbers": pd.DataFrame(rows), "stance": pd.DataFrame(columns)}
 
     def figure(self) -> Figure:
@@ -81,10 +94,11 @@ class ProsthesisCalibrateResult(Result):
         """Tables, law, figure, page."""
         for name, rows in self.tables().items():
             write_table(rows, folder, name)
-        (folder / LAW).write_text(law_toml(self.calibration), encoding="utf-8", newline="\n")
+        (folder / LAW).write_text(law_toml(self.last), encoding="utf-8", newline="\n")
         save_both(self.figure(), folder, "stance")
         self.write_page(folder / "report.html")
 
     def write_page(self, file: Path) -> None:
         """Curves, numbers, inputs."""
-        write_calibration_page(file, self.record, self.figure(), self.stance, self.predicted, self.tables()["numbers"])
+        numbers, walked = self.tables()["numbers"], self.whole is not None
+        write_calibration_page(file, self.record, self.figure(), self.stance, self.predicted, numbers, walked)

@@ -10,7 +10,8 @@ from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrate
 from geocontact.analyses.prosthesis.calibrate.read import FootOnPlate
 from geocontact.analyses.prosthesis.calibrate.result import ProsthesisCalibrateResult
 from geocontact.analyses.run_record import Record
-from geocontact.below_knee_prosthesis.calibration.calibrate import calibrate
+from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
+from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration, calibrate_whole
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import BELIEVED
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import agreement
@@ -28,9 +29,12 @@ def run(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> Pr
     except ArithmeticError as error:
         remedy = "check height and pitch of the foot; the sole must press and not sink"
         raise InputError(o.markers, "", str(error), remedy) from error
-    keel = found.foot.at(stance.fulcrum)
+    whole = _whole(given, found, o, record)
     motion, slip = found.residuals.motion(found.logarithms, 0)
-    predicted = stance.predicted(keel, motion)
+    predicted = stance.predicted(found.foot.at(stance.fulcrum), motion)
+    if whole is not None:
+        one = whole.residuals.wholes[0]
+        predicted, slip = one.channels(one.shown(whole.foot)), 0.0 * slip
     step = float(np.median(np.diff(stance.time)))
     model, measured = predicted / stance.weight, stance.measured / stance.weight
     result = ProsthesisCalibrateResult(
@@ -38,6 +42,7 @@ def run(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> Pr
         options=o,
         stance=stance,
         calibration=found,
+        whole=whole,
         predicted=predicted,
         slip=slip,
         vertical=agreement(model[:, 1], measured[:, 1], step, 0.0),
@@ -49,8 +54,23 @@ def run(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> Pr
     return result
 
 
+def _whole(
+    given: FootOnPlate, found: SoleCalibration, o: ProsthesisCalibrateOptions, record: Record
+) -> WholeCalibration | None:
+    """On the whole model, where that is asked for."""
+    if given.walked is None:
+        return None
+    try:
+        with record.listener.stages("calibrating on the whole model"):
+            return calibrate_whole(
+                [given.walked], given.foot, found.logarithms, level=o.level, machine_code=o.machine_code
+            )
+    except ArithmeticError as error:
+        raise InputError(o.markers, "", str(error), "check `mass`, `side` and `axes`, or leave `full` out") from error
+
+
 def _say(r: ProsthesisCalibrateResult) -> None:
-    record, found = r.record, r.calibration
+    record, found = r.record, r.last
     verdicts = Counter(number.verdict for number in found.knowledge.numbers)
     unknown = [number.name for number in found.knowledge.numbers if number.verdict == "unknown"]
     if unknown:
@@ -58,11 +78,20 @@ def _say(r: ProsthesisCalibrateResult) -> None:
     if not found.converged:
         record.warn("the search stopped before it settled; give more `starts`")
     apart = found.knowledge.told_apart
+    along = f"is met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s beside the recorded speed"
+    if r.whole is not None:
+        off = (r.predicted - r.stance.measured)[:, 0] / r.stance.weight
+        along = f"fore and aft within {100.0 * float(np.sqrt(np.mean(off**2))):.1f} % of body weight"
     record.say(
         f"vertical force within {100.0 * r.vertical.rmsd:.1f} % of body weight (R² {r.vertical.r2:.3f}), centre of "
         f"pressure within {100.0 * r.centre.rmsd:.1f} % of the foot (R² {r.centre.r2:.2f}); the force along the floor "
-        f"is met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s beside the recorded speed"
+        f"{along}"
     )
+    if r.whole is not None:
+        record.say(
+            f"on the whole model the cost falls from {r.whole.begun:.0f}, at the numbers along the recorded poses, to "
+            f"{r.whole.cost:.0f}"
+        )
     record.say(
         f"{verdicts['known']} of {len(found.knowledge.numbers)} numbers are known, {verdicts['believed']} are little "
         f"better than believed beforehand, {verdicts['unknown']} unknown; {apart.verdict} "
@@ -76,6 +105,6 @@ def _say(r: ProsthesisCalibrateResult) -> None:
         "centre_rmse_of_foot": r.centre.rmsd,
         "centre_r2": r.centre.r2,
         "condition": apart.condition,
-        "solved": found.solved,
+        "solved": found.residuals.solved,
         "numbers": {number.name: number.value for number in found.knowledge.numbers},
     }

@@ -1,0 +1,82 @@
+"""The sole's numbers on the whole model: from those of the keel without inertia, by exact derivatives.
+
+Socket, inertia and the pelvis' free place act here, so that the force is what the simulation shows of the stance rather
+than what the recorded poses press. Damped Gauss-Newton steps from the calibration along recorded poses, with the same
+beliefs beforehand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.below_knee_prosthesis.calibration.known_numbers import Knowledge, knowledge
+from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedStance
+from geocontact.below_knee_prosthesis.calibration.whole_residuals import WholeResiduals
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.identify.optimise.bounded_gauss_newton import least
+from geocontact.loads.sphere_set import SoleLaw
+
+ROUNDS = 20
+"""Simulations of the stances in the search, derivatives not counted."""
+WORTH = 0.5
+"""Cost that is not worth another step."""
+
+
+@dataclass(frozen=True, eq=False)
+class WholeCalibration:
+    """What was found.
+
+    Parameters
+    ----------
+    foot
+        With the law that was found.
+    logarithms
+        Of the numbers over the usual ones.
+    begun, cost
+        Half the sum of squares at the numbers that it began with and at those found, beliefs included.
+    converged
+        Whether the search ended by itself.
+    """
+
+    residuals: WholeResiduals
+    foot: VariableStiffnessFoot
+    logarithms: Float[np.ndarray, " p"]
+    begun: float
+    cost: float
+    converged: bool
+    knowledge: Knowledge
+
+    @property
+    def law(self) -> SoleLaw:
+        """With the numbers that were found."""
+        return self.foot.law
+
+
+def calibrate_whole(
+    stances: Sequence[WalkedStance],
+    foot: VariableStiffnessFoot,
+    begun: Float[np.ndarray, " p"],
+    *,
+    level: float = 0.95,
+    machine_code: bool = True,
+) -> WholeCalibration:
+    """Around the law of `foot`, from the logarithms that a calibration along the recorded poses found about it.
+
+    ArithmeticError where the stances cannot be simulated with these.
+    """
+    residuals = WholeResiduals(stances, foot, begun, machine_code=machine_code)
+    reach, off = residuals.zones.reach, residuals(begun)
+    search = least(residuals, residuals.slope, begun, -reach, reach, ROUNDS, WORTH)
+    return WholeCalibration(
+        residuals,
+        residuals.at(search.x),
+        search.x,
+        0.5 * float(off @ off),
+        search.cost,
+        search.finished,
+        knowledge(residuals, search.x, level),
+    )
