@@ -2,7 +2,7 @@
 
 The values of each draw that are as good as its best, within a hundredth of the outcome, make an interval, for each
 response of the person. It is an answer where it is narrower than most of the range; where the value has no effect on
-the aim, or the two responses call for different values, there is none. What a band cannot tell from nothing is not
+the aim, or the responses call for different values, there is none. What a band cannot tell from nothing is not
 called a difference.
 """
 
@@ -51,7 +51,7 @@ class FootChoice:
     told
         Whether there is one.
     best, lower, upper
-        Over both responses; the whole range where there is no answer.
+        Over all responses; the whole range where there is no answer.
     gain
         By response: how much nearer to the aim than the present value the best one is, median and interval, in the
         outcome's unit; empty where there is no answer.
@@ -75,7 +75,7 @@ class FootChoice:
 
 def choose(
     values: Float[np.ndarray, " n"],
-    drawn: Float[np.ndarray, "d two n"],
+    drawn: Float[np.ndarray, "d responses n"],
     sense: Sense,
     target: float | None,
     present: float,
@@ -106,7 +106,7 @@ def choose(
         return silent("no value has any effect")
     lower, upper = min(side.lower for side in telling.values()), max(side.upper for side in telling.values())
     if upper - lower > WIDE * (whole[1] - whole[0]):
-        return silent("what is best hangs on whether the person keeps angles or torque")
+        return silent("what is best hangs on whether the person keeps angles or torques")
     best = float(np.mean([side.best for side in telling.values()]))
     gain = {
         name: _gain(values, drawn[:, k], sense, target, (present, best), level)
@@ -114,7 +114,7 @@ def choose(
         if name in telling
     }
     idle = [name for name in sides if name not in telling]
-    why = f"with {idle[0]} it has no effect" if idle else "whether angles or torque are kept"
+    why = f"with {' and '.join(idle)} it has no effect" if idle else "whether angles or torques are kept"
     return FootChoice(sides, True, best, lower, upper, gain, why)
 
 
