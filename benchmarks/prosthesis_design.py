@@ -1,4 +1,4 @@
-"""Planted best fulcrums: `python -m benchmarks.prosthesis_design [--persons 50] [--feet 6] [--walks 4] [--workers 2] [--minutes M]`.
+"""Planted best fulcrums: `python -m benchmarks.prosthesis_design [--persons 50] [--feet 6] [--walks 4] [--minutes M]`.
 
 Invented persons walk on a finer foot (12 joints, 72 spheres) whose numbers differ from the usual ones by as much as is
 said to be known of them, and answer to another fulcrum somewhere between keeping angles and keeping torque. For each,
@@ -215,7 +215,7 @@ def main() -> None:
     parser.add_argument("--feet", type=int, default=6)
     parser.add_argument("--walks", type=int, default=4)
     parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--minutes", type=float, default=np.inf, help="after which no more persons are begun")
+    parser.add_argument("--minutes", type=float, help="after which no more persons are begun")
     asked = parser.parse_args()
     tasks = [
         (k, known, asked.feet, asked.walks)
@@ -224,7 +224,7 @@ def main() -> None:
     ]
     tasks.sort(key=lambda each: (each[0] + 0.5) / (asked.persons if each[1] == "known" else asked.blind))
     found: list[Planted] = []
-    until = time.monotonic() + 60.0 * asked.minutes
+    until = np.inf if asked.minutes is None else time.monotonic() + 60.0 * asked.minutes
     for task, became in each(planted, tasks, asked.workers):
         if isinstance(became, BaseException):
             print(f"person {task[0]}, {task[1]}: {became}")

@@ -30,6 +30,8 @@ Vary = Literal["fulcrum", "alignment", "stiffness"]
 Response = Literal["angles kept", "torque kept", "joint torques kept"]
 RESPONSES: tuple[Response, ...] = ("angles kept", "torque kept", "joint torques kept")
 """Of the person: angles of all joints, the ankle's torque without inertia, torques of hip and knee with it."""
+JUDGED = RESPONSES[:2]
+"""Those that a best value has to hold for; the third is told beside it."""
 AIMS: tuple[Aim, ...] = tuple(MEASURES)
 
 

@@ -55,9 +55,10 @@ def test_a_level_stretch_is_not_a_choice_within_it() -> None:
 
 
 def test_responses_that_call_for_different_values_give_no_answer() -> None:
-    apart = np.stack([drawn(0.072, 0.002), drawn(0.11, 0.002, 2), drawn(0.145, 0.002, 1)], axis=1)
+    apart = np.stack([drawn(0.072, 0.002), drawn(0.145, 0.002, 1), drawn(0.11, 0.002, 2)], axis=1)
     found = choose(VALUES, apart, "nearest", 1.0, 0.1, 0.95)
-    assert not found.told and "angles or torques" in found.why
+    assert not found.told and "angles or torque" in found.why
+    assert found.sides["joint torques kept"].best == pytest.approx(0.11, abs=2e-3)
 
 
 def test_the_present_value_may_be_as_good() -> None:

@@ -107,6 +107,9 @@ def _say(r: ProsthesisDesignResult) -> None:
             f"{choice.why}"
         )
         record.say(_beside_present(choice, measure.unit, shown(knob.present)))
+        other = choice.sides["joint torques kept"]
+        own = f"{shown(other.best)} ({shown(other.lower)} to {shown(other.upper)})"
+        record.say(f"with the torques of hip and knee kept: {own if other.verdict == 'told' else other.verdict}")
     for response, rows in r.sweep.differences().items():
         record.say(f"{response}, {shown(knob.settings[-1])} in place of {shown(knob.settings[0])}: {'; '.join(rows)}")
     ends = r.sweep.ends
