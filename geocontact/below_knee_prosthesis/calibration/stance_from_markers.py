@@ -24,6 +24,8 @@ from geocontact.loads.sphere_set import SphereSet
 RATE, AROUND = 200.0, 0.04
 """Hz, and s before and after the stance that are taken along."""
 USUAL = Errors()
+FAR = 0.03
+"""m; markers of a segment that are further from where they are while standing are others."""
 SMOOTH = 5
 """Degree of the splines through the markers."""
 
@@ -101,4 +103,9 @@ def _body_poses(
         raise InputError(seen.source, "", str(error), "fill the gaps, or give another `gap_limit`") from error
     dense = make_interp_spline(even, smooth, k=SMOOTH)(time).reshape(len(time), -1, 3)
     by_name = {marker.name: marker.location for marker in leg.markers}
-    return segment_poses(dense, np.array([by_name[name] for name in names]))[0]
+    found, _, off = segment_poses(dense, np.array([by_name[name] for name in names]))
+    middle = float(np.nanmedian(off))
+    if middle > FAR:
+        what = f"markers {', '.join(names)} are {1e3 * middle:.0f} mm from the standing ones in the median"
+        raise InputError(seen.source, "", what, "the same person and markers? are left and right exchanged?")
+    return found
