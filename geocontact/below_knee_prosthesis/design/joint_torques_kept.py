@@ -48,7 +48,7 @@ FOLDED = np.radians(10.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Recorded:
+class RecordedLeg:
     """The motion on the present foot at twice as many times as there are steps.
 
     Parameters
@@ -73,7 +73,7 @@ class Recorded:
 
 
 @dataclass(frozen=True, eq=False)
-class Moved:
+class MovedLeg:
     """What became of each foot, at the steps.
 
     Parameters
@@ -102,7 +102,7 @@ class Moved:
         return np.asarray(self.time[first] - self.time[0])
 
 
-def recorded_motion(foot: FootMap, task: FootTask) -> Recorded:
+def recorded_motion(foot: FootMap, task: FootTask) -> RecordedLeg:
     """Of the leg on the present foot, which bears the recorded load and rolls without slipping."""
     leg, count = task.leg, int(np.ceil((task.time[-1] - task.time[0]) / STEP))
     time = np.linspace(task.time[0], task.time[-1], 2 * count + 1)
@@ -121,7 +121,7 @@ def recorded_motion(foot: FootMap, task: FootTask) -> Recorded:
     origin, _ = point_of_shank(leg, q, u, np.zeros(2))
     force = force_along(leg, q, channels[:, 1:PLACES], np.column_stack([forward, load]))
     driven = np.einsum("tij,tj->ti", mass_matrix(leg, q), a) + bias(leg, q, u) - force
-    return Recorded(time, q, u, a, driven, speed, channels[:, 0] - origin[:, 1])
+    return RecordedLeg(time, q, u, a, driven, speed, channels[:, 0] - origin[:, 1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,7 +144,7 @@ class OtherFeet:
         Factor on `STIFFNESS`; with 0 torques alone are kept.
     """
 
-    recorded: Recorded
+    recorded: RecordedLeg
     feet: FeetOnGround
     leg: SagittalLeg
     turn: Float[np.ndarray, " n"]
@@ -153,7 +153,7 @@ class OtherFeet:
     forward: Float[np.ndarray, " t"]
     tracking: float
 
-    def moved(self) -> Moved:
+    def moved(self) -> MovedLeg:
         """From the recorded state on ground that is as high as the first load needs, by Runge and Kutta's rule."""
         r, n = self.recorded, len(self.turn)
         count, h = len(r.time) // 2 + 1, r.time[2] - r.time[0]
@@ -169,7 +169,7 @@ class OtherFeet:
             third = self._rate(2 * k + 1, state + 0.5 * h * second, floor)[0]
             fourth = self._rate(2 * k + 2, state + h * third, floor)[0]
             state = state + h / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
-        return Moved(r.time[::2], found, load, forward)
+        return MovedLeg(r.time[::2], found, load, forward)
 
     @property
     def mass(self) -> float:
