@@ -1,4 +1,4 @@
-"""Planted best fulcrums: `python -m benchmarks.prosthesis_design [--persons 50] [--feet 6] [--walks 4] [--workers 2]`.
+"""Planted best fulcrums: `python -m benchmarks.prosthesis_design [--persons 50] [--feet 6] [--walks 4] [--minutes M]`.
 
 Invented persons walk on a finer foot (12 joints, 72 spheres) whose numbers differ from the usual ones by as much as is
 said to be known of them, and answer to another fulcrum somewhere between keeping angles and keeping torque. For each,
@@ -29,6 +29,7 @@ from geocontact.below_knee_prosthesis.design.foot_map import foot_map, needed
 from geocontact.below_knee_prosthesis.design.foot_task import LOADED, FootTask
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, outcomes
+from geocontact.below_knee_prosthesis.design.sagittal_leg import sagittal_leg
 from geocontact.below_knee_prosthesis.design.stance_again import RecordedTrial, TrialErrors, task_again
 from geocontact.below_knee_prosthesis.from_markers.marker_names import STANDING
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
@@ -100,28 +101,32 @@ def planted(task: tuple[int, str, int, int]) -> Planted:
     return Planted(number, known, best, present, choices, time.process_time() - start)
 
 
-def _walk(leg: Leg, fulcrum: float, rng: np.random.Generator) -> tuple[FootTask, RigidTransform, np.ndarray]:
-    """The true stance, and poses of the keel over the whole trial without the true height."""
+def _walk(leg: Leg, fulcrum: float, rng: np.random.Generator) -> tuple[FootTask, dict[str, RigidTransform], np.ndarray]:
+    """The true stance, and poses of pelvis, thigh and keel over the whole trial without the true height."""
     lasting = float(rng.normal(0.71, 0.03))
     one = course(leg, vsf_foot(), fulcrum, lasting, phase=float(0.2 * rng.standard_normal()))
     motion, weight = one.motion, leg.person.mass * GRAVITY
-    poses = recorded_tree(leg).poses(motion.values)["shank"] * RigidTransform.from_components(leg.keel, leg.turn)
+    bodies = recorded_tree(leg).poses(motion.values)
+    poses = bodies["shank"] * RigidTransform.from_components(leg.keel, leg.turn)
+    up = (bodies["thigh"].translation - bodies["shank"].translation)[:, :2]
     force = weight * reactions(motion.time, lasting)[0]
     kept = force[:, 1] > LOADED * weight
     place, axis = leg.turn.inv(), poses.rotation.apply([1.0, 0.0, 0.0])
     exact = FootTask(
         time=motion.time[kept],
         pitch=np.arcsin(axis[kept, 1]),
+        thigh=np.arctan2(-up[kept, 0], up[kept, 1]),
         load=force[kept, 1],
         forward=force[kept, 0],
         falling=0.3,
         ankle=place.apply(leg.ankle - leg.keel),
         bushing=place.apply(leg.bushing - leg.keel),
         knee=place.apply(-leg.keel),
+        leg=sagittal_leg(leg, vsf_foot().keel),
         leg_length=leg.thigh + leg.shank,
         weight=weight,
     )
-    return exact, poses, motion.time
+    return exact, {"pelvis": bodies["pelvis"], "thigh": bodies["thigh"], "shank": poses}, motion.time
 
 
 def _responding(new, exact: FootTask, before, share: float) -> CarriedLoad:
@@ -133,7 +138,7 @@ def _responding(new, exact: FootTask, before, share: float) -> CarriedLoad:
 def _recorded(
     leg: Leg,
     person: Walker,
-    poses: RigidTransform,
+    bodies: dict[str, RigidTransform],
     time_: np.ndarray,
     height: np.ndarray,
     exact: FootTask,
@@ -142,16 +147,16 @@ def _recorded(
     rng: np.random.Generator,
 ) -> RecordedTrial:
     """What cameras and a plate see of it; the foot stood not quite flat."""
-    shift = poses.translation.copy()
-    shift[:, 1] = height
-    keel = RigidTransform.from_components(shift, poses.rotation)
+    up = np.column_stack([0.0 * height, height - bodies["shank"].translation[:, 1], 0.0 * height])
+    raised = {body: RigidTransform.from_translation(up) * own for body, own in bodies.items()}
+    keel = raised["shank"]
     places = marker_places(leg, vsf_foot().keel.length)
     tilt = Rotation.from_euler("z", float(errors.pitch * rng.standard_normal()))
     seen = np.zeros((len(time_), len(STANDING), 3))
     for body, of in places.items():
         for name, place in of.items():
             own = tilt.apply(leg.turn.inv().apply(place - leg.keel)) if body == "shank" else place
-            seen[:, STANDING.index(name)] = keel.apply(own) + rng.normal(0.0, CAMERA_NOISE, (len(time_), 3))
+            seen[:, STANDING.index(name)] = raised[body].apply(own) + rng.normal(0.0, CAMERA_NOISE, (len(time_), 3))
     still = standing_places(leg, places, rng)
     gain = 1.0 + errors.gain * rng.standard_normal()
     load = np.zeros((len(time_), 3))
@@ -195,7 +200,8 @@ def told(found: list[Planted]) -> dict[str, Any]:
             spoken = [one for one in own if one.choices[aim].told]
             hit = sum(one.found(aim) for one in spoken)
             width = np.median([1e3 * (one.choices[aim].upper - one.choices[aim].lower) for one in spoken] or [np.nan])
-            figures[known]["aims"][aim] = {"told": len(spoken), "within": hit, "width_mm": float(width)}
+            shown = float(width) if spoken else None
+            figures[known]["aims"][aim] = {"told": len(spoken), "within": hit, "width_mm": shown}
             words = f"told {len(spoken)}, of them within {hit}"
             print(f"  {aim:14s} {words:28s} interval {width:5.1f} mm (median), cannot tell {len(own) - len(spoken)}")
     return figures
@@ -209,19 +215,24 @@ def main() -> None:
     parser.add_argument("--feet", type=int, default=6)
     parser.add_argument("--walks", type=int, default=4)
     parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--minutes", type=float, help="after which no more persons are begun")
     asked = parser.parse_args()
     tasks = [
         (k, known, asked.feet, asked.walks)
         for known, n in (("known", asked.persons), ("blind", asked.blind))
         for k in range(n)
     ]
+    tasks.sort(key=lambda each: (each[0] + 0.5) / (asked.persons if each[1] == "known" else asked.blind))
     found: list[Planted] = []
+    until = np.inf if asked.minutes is None else time.monotonic() + 60.0 * asked.minutes
     for task, became in each(planted, tasks, asked.workers):
         if isinstance(became, BaseException):
             print(f"person {task[0]}, {task[1]}: {became}")
             continue
         found.append(became)
         print(f"person {task[0]}, {task[1]}: planted {1e3 * became.fulcrum:.0f} mm, {_words(became)}", flush=True)
+        if time.monotonic() > until:
+            break
     write_results("prosthesis_design", vars(asked), told(found))
 
 

@@ -24,6 +24,8 @@ from geocontact.loads.sphere_set import SphereSet
 RATE, AROUND = 200.0, 0.04
 """Hz, and s before and after the stance that are taken along."""
 USUAL = Errors()
+FAR = 0.03
+"""m; markers of a segment that are further from where they are while standing are others."""
 SMOOTH = 5
 """Degree of the splines through the markers."""
 
@@ -77,7 +79,20 @@ def keel_poses(
     seen: MarkerTrajectories, leg: Leg, time: Float[np.ndarray, " t"], cutoff: float | None, gap_limit: float
 ) -> RigidTransform:
     """Poses of the keel's frame at some times [s], as the markers on the socket tell them; InputError where not."""
-    names = BODIES["shank"]
+    return _body_poses(seen, leg, "shank", time, cutoff, gap_limit) * RigidTransform.from_components(leg.keel, leg.turn)
+
+
+def hip_centres(
+    seen: MarkerTrajectories, leg: Leg, time: Float[np.ndarray, " t"], cutoff: float | None, gap_limit: float
+) -> Float[np.ndarray, "t 3"]:
+    """Centre of the hip at some times [m], as the markers on the pelvis tell it; InputError where they do not."""
+    return np.asarray(_body_poses(seen, leg, "pelvis", time, cutoff, gap_limit).apply(leg.hip))
+
+
+def _body_poses(
+    seen: MarkerTrajectories, leg: Leg, body: str, time: Float[np.ndarray, " t"], cutoff: float | None, gap_limit: float
+) -> RigidTransform:
+    names = BODIES[body]
     missing = [name for name in names if name not in seen.names]
     if missing:
         raise InputError(seen.source, "", f"no marker {', '.join(missing)}", MAP)
@@ -88,5 +103,9 @@ def keel_poses(
         raise InputError(seen.source, "", str(error), "fill the gaps, or give another `gap_limit`") from error
     dense = make_interp_spline(even, smooth, k=SMOOTH)(time).reshape(len(time), -1, 3)
     by_name = {marker.name: marker.location for marker in leg.markers}
-    shank = segment_poses(dense, np.array([by_name[name] for name in names]))[0]
-    return shank * RigidTransform.from_components(leg.keel, leg.turn)
+    found, _, off = segment_poses(dense, np.array([by_name[name] for name in names]))
+    middle = float(np.nanmedian(off))
+    if middle > FAR:
+        what = f"markers {', '.join(names)} are {1e3 * middle:.0f} mm from the standing ones in the median"
+        raise InputError(seen.source, "", what, "the same person and markers? are left and right exchanged?")
+    return found

@@ -3,8 +3,8 @@
 People neither keep their angles on another foot nor their torques; what they do is taken to lie between. With the
 angles kept the socket turns as recorded and the leg, free upwards, finds the height at which the load is carried. With
 the torque kept the foot turns until the load acts about the ankle with the moment that it had on the recorded foot.
-Both are quasi-static: the recorded load is kept, which with a pelvis that is free upwards is nearly so; the dynamics of
-kept torques in all joints are not in it.
+Both are quasi-static: the recorded load is kept, which with a pelvis that is free upwards is nearly so. Torques kept in
+hip and knee are `joint_torques_kept`.
 """
 
 from __future__ import annotations
@@ -60,9 +60,17 @@ class CarriedLoad:
         return self.moment(self.task.ankle)
 
 
+def carried(foot: FootMap, task: FootTask, tilt: Float[np.ndarray, " t"], kept: float) -> CarriedLoad:
+    """The foot turned by that much against the stance [rad], toes up."""
+    channels = foot.at(task.pitch + tilt, task.load)
+    return CarriedLoad(
+        task, foot, tilt, channels[:, 0], channels[:, 1:PLACES], channels[:, PLACES:], foot.stored(channels), kept
+    )
+
+
 def with_angles_kept(foot: FootMap, task: FootTask) -> CarriedLoad:
     """The socket turns as recorded."""
-    return _told(foot, task, np.zeros(len(task.time)), 1.0)
+    return carried(foot, task, np.zeros(len(task.time)), 1.0)
 
 
 def with_torque_kept(foot: FootMap, task: FootTask, moment: Float[np.ndarray, " t"]) -> CarriedLoad:
@@ -80,14 +88,7 @@ def with_torque_kept(foot: FootMap, task: FootTask, moment: Float[np.ndarray, " 
     before, after = off[rows, at], off[rows, at + 1]
     between = np.clip(before / np.where(before == after, 1.0, before - after), 0.0, 1.0)
     found = np.where(reached, tilt[at] + STEP * between, tilt[np.argmin(np.abs(off), axis=1)])
-    return _told(foot, task, found, float(reached.mean()))
-
-
-def _told(foot: FootMap, task: FootTask, tilt: Float[np.ndarray, " t"], kept: float) -> CarriedLoad:
-    channels = foot.at(task.pitch + tilt, task.load)
-    return CarriedLoad(
-        task, foot, tilt, channels[:, 0], channels[:, 1:PLACES], channels[:, PLACES:], foot.stored(channels), kept
-    )
+    return carried(foot, task, found, float(reached.mean()))
 
 
 def _moment(

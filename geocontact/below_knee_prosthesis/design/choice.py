@@ -2,8 +2,8 @@
 
 The values of each draw that are as good as its best, within a hundredth of the outcome, make an interval, for each
 response of the person. It is an answer where it is narrower than most of the range; where the value has no effect on
-the aim, or the two responses call for different values, there is none. What a band cannot tell from nothing is not
-called a difference.
+the aim, or the two that are judged call for different values, there is none. Torques kept in hip and knee have a
+verdict of their own beside it. What a band cannot tell from nothing is not called a difference.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.interpolate import PchipInterpolator
 
-from geocontact.below_knee_prosthesis.design.knob import RESPONSES, Response
+from geocontact.below_knee_prosthesis.design.knob import JUDGED, RESPONSES, Response
 from geocontact.below_knee_prosthesis.design.outcomes import Sense
 
 FINE = 401
@@ -51,7 +51,7 @@ class FootChoice:
     told
         Whether there is one.
     best, lower, upper
-        Over both responses; the whole range where there is no answer.
+        Over the responses that are judged; the whole range where there is no answer.
     gain
         By response: how much nearer to the aim than the present value the best one is, median and interval, in the
         outcome's unit; empty where there is no answer.
@@ -75,7 +75,7 @@ class FootChoice:
 
 def choose(
     values: Float[np.ndarray, " n"],
-    drawn: Float[np.ndarray, "d two n"],
+    drawn: Float[np.ndarray, "d responses n"],
     sense: Sense,
     target: float | None,
     present: float,
@@ -93,14 +93,15 @@ def choose(
         Probability of the intervals.
     """
     sides = {name: _side(values, drawn[:, k], sense, target, level) for k, name in enumerate(RESPONSES)}
-    telling = {name: side for name, side in sides.items() if side.verdict == "told"}
+    judged = {name: sides[name] for name in JUDGED}
+    telling = {name: side for name, side in judged.items() if side.verdict == "told"}
     whole = float(values[0]), float(values[-1])
 
     def silent(why: str) -> FootChoice:
         return FootChoice(sides, False, float("nan"), *whole, {}, why)
 
-    if any(side.verdict == "cannot tell" for side in sides.values()):
-        blind = " and ".join(name for name, side in sides.items() if side.verdict == "cannot tell")
+    if any(side.verdict == "cannot tell" for side in judged.values()):
+        blind = " and ".join(name for name, side in judged.items() if side.verdict == "cannot tell")
         return silent(f"with {blind} most of the range may be best")
     if not telling:
         return silent("no value has any effect")
@@ -111,10 +112,10 @@ def choose(
     gain = {
         name: _gain(values, drawn[:, k], sense, target, (present, best), level)
         for k, name in enumerate(RESPONSES)
-        if name in telling
+        if name in telling or (name not in judged and sides[name].verdict == "told")
     }
-    idle = [name for name in sides if name not in telling]
-    why = f"with {idle[0]} it has no effect" if idle else "whether angles or torque are kept"
+    idle = [name for name in judged if name not in telling]
+    why = f"with {' and '.join(idle)} it has no effect" if idle else "whether angles or torque are kept"
     return FootChoice(sides, True, best, lower, upper, gain, why)
 
 

@@ -39,7 +39,7 @@ class Draws:
         Draws in which the keel had no equilibrium, and which are left out.
     """
 
-    drawn: Float[np.ndarray, "d two n aims"]
+    drawn: Float[np.ndarray, "d responses n aims"]
     lost: int
 
 

@@ -63,7 +63,10 @@ class FootMap:
 def foot_map(
     keel: QuasiStaticKeel, pitch: Float[np.ndarray, " p"], most: Float[np.ndarray, " p"], terrain: Terrain = LEVEL
 ) -> FootMap:
-    """At increasing pitches [rad] against the ground, each up to a load [N]; above it the table stays at what it is.
+    """At increasing pitches [rad] against the ground, each up to a load [N].
+
+    Above it the table stays at what it is, but for the height, which falls on as it did.
+
 
     ArithmeticError where the foot does not reach a load, or the keel has no equilibrium on the way.
     """
@@ -78,7 +81,17 @@ def foot_map(
         known = np.isfinite(of).all(axis=1) & (pressing > 0.0)
         for channel in range(table.shape[2]):
             table[k, :, channel] = np.interp(load, pressing[known], of[known, channel])
+        _further(table[k, :, 0], load, pressing[known][-1])
     return FootMap(keel, pitch, load, table)
+
+
+def _further(height: Float[np.ndarray, " l"], load: Float[np.ndarray, " l"], last: float) -> None:
+    """Heights beyond the last load that was reached go on along a straight line."""
+    known = int(np.searchsorted(load, last, side="right")) - 1
+    if 1 <= known < len(load) - 1:
+        height[known + 1 :] = height[known] + (load[known + 1 :] - load[known]) * (
+            (height[known] - height[known - 1]) / (load[known] - load[known - 1])
+        )
 
 
 def needed(

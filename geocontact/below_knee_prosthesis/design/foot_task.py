@@ -13,6 +13,8 @@ from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.below_knee_prosthesis.design.sagittal_leg import SagittalLeg, sagittal_leg
+from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.model.leg import Leg
 
 LOADED = 0.08
@@ -31,6 +33,8 @@ class FootTask:
         Of the frames [s].
     pitch
         Of the keel's straight axis against the floor, toes up [rad].
+    thigh
+        Turn of the thigh in the same plane, from upright, to the left where x points to the right [rad].
     load, forward
         Of the ground on the foot, upwards and forwards along the foot [N].
     falling
@@ -39,6 +43,8 @@ class FootTask:
         In the keel's frame [m].
     knee
         Origin of the shank in the keel's frame [m].
+    leg
+        Its masses and lengths.
     leg_length
         From the hip to the sole of a straight leg [m].
     weight
@@ -47,12 +53,14 @@ class FootTask:
 
     time: Float[np.ndarray, " t"]
     pitch: Float[np.ndarray, " t"]
+    thigh: Float[np.ndarray, " t"]
     load: Float[np.ndarray, " t"]
     forward: Float[np.ndarray, " t"]
     falling: float
     ankle: Float[np.ndarray, " 3"]
     bushing: Float[np.ndarray, " 3"]
     knee: Float[np.ndarray, " 3"]
+    leg: SagittalLeg
     leg_length: float
     weight: float
 
@@ -67,13 +75,19 @@ class FootTask:
             pitch=self.pitch + angle,
             bushing=self.ankle + back.apply(self.bushing - self.ankle),
             knee=self.ankle + back.apply(self.knee - self.ankle),
+            leg=self.leg.aligned(angle, self.ankle[:2]),
         )
 
 
-def foot_task(stance: RecordedStance, leg: Leg, below: float) -> FootTask:
+def foot_task(stance: RecordedStance, hip: Float[np.ndarray, "t 3"], leg: Leg, keel: Keel, below: float) -> FootTask:
     """From a recorded stance; ValueError where it carries nothing.
 
-    `below` is the height of the keel's axis above the sole [m].
+    Parameters
+    ----------
+    hip
+        Its centre at the stance's times [m].
+    below
+        Height of the keel's axis above the sole [m].
     """
     loaded = np.flatnonzero(stance.force[:, 1] > LOADED * stance.weight)
     if not len(loaded):
@@ -83,15 +97,18 @@ def foot_task(stance: RecordedStance, leg: Leg, below: float) -> FootTask:
     axis = stance.poses.rotation[kept].apply([1.0, 0.0, 0.0])
     level = axis[:, ::2] / np.linalg.norm(axis[:, ::2], axis=1, keepdims=True)
     place = leg.turn.inv()
+    up = hip[kept] - stance.poses[kept].apply(place.apply(-leg.keel))
     return FootTask(
         time=stance.time[kept],
         pitch=np.arcsin(np.clip(axis[:, 1], -1.0, 1.0)),
+        thigh=np.arctan2(-np.einsum("ti,ti->t", level, up[:, ::2]), up[:, 1]),
         load=stance.force[kept, 1],
         forward=np.einsum("ti,ti->t", level, stance.force[kept, ::2]),
         falling=max(float(-stance.rate[int(loaded[0]), 1, 3]), 0.0),
         ankle=place.apply(leg.ankle - leg.keel),
         bushing=place.apply(leg.bushing - leg.keel),
         knee=place.apply(-leg.keel),
+        leg=sagittal_leg(leg, keel),
         leg_length=leg.thigh + leg.shank + float(leg.ankle[1] - leg.keel[1]) + below,
         weight=stance.weight,
     )

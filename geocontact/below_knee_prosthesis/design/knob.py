@@ -12,19 +12,26 @@ from jaxtyping import Float
 from geocontact.below_knee_prosthesis.design.carried_load import (
     REACH,
     CarriedLoad,
+    carried,
     with_angles_kept,
     with_torque_kept,
 )
+from geocontact.below_knee_prosthesis.design.feet_on_ground import feet_on_ground
 from geocontact.below_knee_prosthesis.design.foot_map import FootMap, foot_map, needed
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
+from geocontact.below_knee_prosthesis.design.joint_torques_kept import OtherFeet, curve, recorded_motion, stacked
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, outcomes
 from geocontact.below_knee_prosthesis.design.terrain import LEVEL, Terrain
 from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.stance_errors import at_times
 
 Vary = Literal["fulcrum", "alignment", "stiffness"]
-Response = Literal["angles kept", "torque kept"]
-RESPONSES: tuple[Response, ...] = ("angles kept", "torque kept")
+Response = Literal["angles kept", "torque kept", "joint torques kept"]
+RESPONSES: tuple[Response, ...] = ("angles kept", "torque kept", "joint torques kept")
+"""Of the person: angles of all joints, the ankle's torque without inertia, torques of hip and knee with it."""
+JUDGED = RESPONSES[:2]
+"""Those that a best value has to hold for; the third is told beside it."""
 AIMS: tuple[Aim, ...] = tuple(MEASURES)
 
 
@@ -76,16 +83,35 @@ class Knob:
         return VariableStiffnessFoot(keel, foot.sole, foot.law).at(fulcrum)
 
     def carried(self, maps: Sequence[FootMap], task: FootTask) -> Mapping[Response, tuple[CarriedLoad, ...]]:
-        """The foot along the stance at each value, for both responses of the person."""
+        """The foot along the stance at each value, for each response of the person."""
         moment, met = with_angles_kept(maps[-1], task).ankle_moment, self.terrain.met(task)
         tasks = [met.aligned(value) if self.vary == "alignment" else met for value in self.settings]
         pairs = list(zip(maps[:-1], tasks, strict=True))
         return {
             "angles kept": tuple(with_angles_kept(*each) for each in pairs),
             "torque kept": tuple(with_torque_kept(*each, moment) for each in pairs),
+            "joint torques kept": self._moved(maps, task, tasks),
         }
 
-    def measured(self, maps: Sequence[FootMap], task: FootTask) -> Float[np.ndarray, "two n aims"]:
+    def other_feet(self, maps: Sequence[FootMap], task: FootTask, tracking: float = 1.0) -> OtherFeet:
+        """What the leg stands on at each value with its joint torques kept."""
+        turn = self.settings if self.vary == "alignment" else np.zeros(len(self.settings))
+        legs = [task.leg.aligned(float(angle), task.ankle[:2]) for angle in turn]
+        recorded, met = recorded_motion(maps[-1], task), self.terrain.met(task)
+        forward = curve(recorded.time, met.time, met.forward)
+        feet, start = feet_on_ground(maps[:-1]), float(met.load[0])
+        return OtherFeet(recorded, feet, stacked(legs), turn, self.terrain.slope, start, forward, tracking)
+
+    def _moved(self, maps: Sequence[FootMap], task: FootTask, tasks: Sequence[FootTask]) -> tuple[CarriedLoad, ...]:
+        moved = self.other_feet(maps, task).moved()
+        found = []
+        for k, (foot, own) in enumerate(zip(maps[:-1], tasks, strict=True)):
+            columns = np.column_stack([moved.off[:, k, 3], moved.load[:, k], moved.forward[:, k]])
+            tilt, load, forward = at_times(own.time, moved.time, columns).T
+            found.append(carried(foot, replace(own, load=load, forward=forward), tilt, 1.0))
+        return tuple(found)
+
+    def measured(self, maps: Sequence[FootMap], task: FootTask) -> Float[np.ndarray, "responses n aims"]:
         """Outcomes by response, value and `AIMS`."""
         found = self.carried(maps, task)
         rows = [[[outcomes(each)[aim] for aim in AIMS] for each in found[response]] for response in RESPONSES]

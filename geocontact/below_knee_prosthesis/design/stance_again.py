@@ -8,7 +8,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.calibration.stance_from_markers import stance_from_markers
+from geocontact.below_knee_prosthesis.calibration.stance_from_markers import hip_centres, stance_from_markers
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask, foot_task
 from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
 from geocontact.below_knee_prosthesis.keel.keel import Keel
@@ -62,7 +62,8 @@ class RecordedTrial:
         turn = Rotation.from_euler("z", tilt)
         middle = np.array([MIDDLE, 0.0, 0.0])
         poses = stance.poses * RigidTransform.from_components(middle - turn.apply(middle), turn)
-        return foot_task(replace(stance, poses=poses), leg, self.below)
+        hip = hip_centres(self.walking, leg, stance.time, self.cutoff, self.gap_limit)
+        return foot_task(replace(stance, poses=poses), hip, leg, self.keel, self.below)
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from tests.cli.calls import MESHES
+from tests.analyses.prosthesis.spoilt_trial import renamed_markers
+from tests.cli.calls import MESHES, call
 
 TRIAL = MESHES / "gait_P1_medium_1"
 GIVEN: dict[str, Any] = {
@@ -39,6 +40,21 @@ def test_refused(changed: dict[str, Any], words: str) -> None:
             gc.prosthesis.design(TRIAL / "walking.trc", **(GIVEN | changed))
 
 
+@pytest.mark.parametrize(
+    ("exchanged", "words"),
+    [
+        ({"RASI": "LASI", "LASI": "RASI", "RPSI": "LPSI", "LPSI": "RPSI"}, "left and right exchanged"),
+        ({"LPSI": "other"}, "no marker LPSI"),
+    ],
+)
+def test_pelvis_that_tells_no_hip_is_refused_in_one_line(exchanged: dict[str, str], words: str, tmp_path: Path) -> None:
+    walking = renamed_markers(tmp_path, "walking.trc", exchanged)
+    typed = (f"--{name}={value}" for name, value in (GIVEN | {"out": tmp_path / "out"}).items())
+    refused = call("prosthesis", "design", walking, *typed)
+    assert refused.code == 2 and len(refused.complaints) == 1 and words in refused.err
+    assert not (tmp_path / "out").exists()
+
+
 @pytest.mark.slow
 def test_shipped_trial_to_files(tmp_path: Path) -> None:
     """Of a sole that is known: the radius is told, and what has no effect is not."""
@@ -57,5 +73,9 @@ def test_shipped_trial_to_files(tmp_path: Path) -> None:
     assert np.all(np.diff(energy) < 0.0)
     moment = sweep.loc[("torque kept", "ankle_moment"), "median"].to_numpy(float)
     assert np.ptp(moment) < 0.02 * moment.mean()
+    ends = found.table("ranges").set_index("outcome").loc["energy"]
+    assert (ends["least"].to_numpy(float) <= energy + 1e-12).all() and (ends["most"].to_numpy(float) >= energy).all()
+    assert found.held[1] > max(found.held[0], found.held[2])  # torques alone, nearest to the present foot
+    assert any("a weak spring at hip and knee" in each for each in found.warnings)
     found.write(tmp_path / "out")
     assert (tmp_path / "out" / "report.html").is_file()

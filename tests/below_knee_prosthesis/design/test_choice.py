@@ -18,7 +18,7 @@ def drawn(at: float, spread: float, seed: int = 0) -> Float[np.ndarray, "d n"]:
 
 
 def test_the_interval_is_that_of_the_place() -> None:
-    both = np.stack([drawn(0.11, 0.004), drawn(0.112, 0.004, 1)], axis=1)
+    both = np.stack([drawn(0.11, 0.004), drawn(0.112, 0.004, 1), drawn(0.111, 0.004, 2)], axis=1)
     found = choose(VALUES, both, "nearest", 1.0, 0.14, 0.95)
     assert found.told and found.better
     assert found.best == pytest.approx(0.111, abs=2e-3)
@@ -30,38 +30,39 @@ def test_the_interval_is_that_of_the_place() -> None:
 
 
 def test_what_is_not_known_is_not_told() -> None:
-    wide = np.stack([drawn(0.11, 0.04), drawn(0.11, 0.04, 1)], axis=1)
+    wide = np.stack([drawn(0.11, 0.04), drawn(0.11, 0.04, 1), drawn(0.11, 0.04, 2)], axis=1)
     found = choose(VALUES, wide, "nearest", 1.0, 0.14, 0.95)
     assert not found.told and np.isnan(found.best) and not found.better
     assert (found.lower, found.upper) == (VALUES[0], VALUES[-1])
 
 
 def test_a_value_without_effect_has_no_best() -> None:
-    level = np.ones((60, 2, 9)) * np.random.default_rng(0).normal(50.0, 5.0, (60, 1, 1))
+    level = np.ones((60, 3, 9)) * np.random.default_rng(0).normal(50.0, 5.0, (60, 1, 1))
     found = choose(VALUES, level, "least", None, 0.1, 0.95)
     assert not found.told and found.why == "no value has any effect"
-    half = np.stack([drawn(0.11, 0.004), level[:, 1]], axis=1)
+    half = np.stack([drawn(0.11, 0.004), level[:, 1], drawn(0.11, 0.004, 1)], axis=1)
     only = choose(VALUES, half, "nearest", 1.0, 0.14, 0.95)
     assert only.told and "torque kept it has no effect" in only.why
-    assert set(only.gain) == {"angles kept"}
+    assert set(only.gain) == {"angles kept", "joint torques kept"}
 
 
 def test_a_level_stretch_is_not_a_choice_within_it() -> None:
     """An outcome that hardly changes beyond 0.09 m: whatever each draw's least is there, no value is better."""
     rng = np.random.default_rng(2)
-    level = np.where(VALUES < 0.09, 2.0, 1.0) + 1e-4 * rng.standard_normal((60, 2, 9))
+    level = np.where(VALUES < 0.09, 2.0, 1.0) + 1e-4 * rng.standard_normal((60, 3, 9))
     found = choose(VALUES, level, "nearest", 1.0, 0.07, 0.95)
     assert not found.told and "most of the range" in found.why
 
 
 def test_responses_that_call_for_different_values_give_no_answer() -> None:
-    apart = np.stack([drawn(0.072, 0.002), drawn(0.145, 0.002, 1)], axis=1)
+    apart = np.stack([drawn(0.072, 0.002), drawn(0.145, 0.002, 1), drawn(0.11, 0.002, 2)], axis=1)
     found = choose(VALUES, apart, "nearest", 1.0, 0.1, 0.95)
     assert not found.told and "angles or torque" in found.why
+    assert found.sides["joint torques kept"].best == pytest.approx(0.11, abs=2e-3)
 
 
 def test_the_present_value_may_be_as_good() -> None:
-    both = np.stack([drawn(0.11, 0.01), drawn(0.11, 0.01, 1)], axis=1)
+    both = np.stack([drawn(0.11, 0.01), drawn(0.11, 0.01, 1), drawn(0.11, 0.01, 2)], axis=1)
     found = choose(VALUES, both, "nearest", 1.0, 0.112, 0.95)
     assert found.told and not found.better
 

@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.figure_files import drawing
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.analyses.prosthesis.compare.tables import UNITS, by_setting
+from geocontact.analyses.prosthesis.compare.tables import UNITS, by_setting, curves_of, plain_curves
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.evaluation.judged_stance import JudgedStance
+from geocontact.below_knee_prosthesis.evaluation.trivial_predictors import ANOTHER, MEAN
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
 from geocontact.view.page.tables import frame_table, inputs_table
 from geocontact.view.page.write import write_page
@@ -33,6 +35,8 @@ SHOWN = {
     "cop_ground": "Centre of pressure from heel to toe, share of the foot",
     "ankle_moment": "Ankle moment over body mass",
 }
+STROKES = ("model", "plate", MEAN, ANOTHER)
+"""Numbers of their colours and dashes: one thing looks alike in all panels."""
 WITHOUT = [
     "Both predictors without a model know when the stance on the plate begins and ends; the simulation has to find it.",
     "Mean of the others: of the same person's other trials at any setting; of all others where there are none.",
@@ -57,7 +61,7 @@ def write_comparison_page(
         Picture("Ensembles by setting", FIGURE, drawing(figure), wide=True),
         frame_table("Means by setting, beside predictors without a model", tables["summary"], 3),
         frame_table("Stances", tables["trials"], 3),
-        *(_panel(name, title, stances) for name, title in SHOWN.items()),
+        *comparison_panels(stances),
         frame_table("Errors of each stance", tables["errors"], 3),
         inputs_table(record.inputs),
         options_table(record),
@@ -76,14 +80,30 @@ def write_comparison_page(
     return write_page(page, path)
 
 
-def _panel(name: str, title: str, stances: Sequence[JudgedStance]) -> Curves:
-    curves = []
-    for k, (setting, own) in enumerate(by_setting(stances).items()):
-        for label, values in (
-            (f"{setting}, model", [one.simulated(name) for one in own]),
-            (f"{setting}, plate", [one.measured(name) for one in own]),
-        ):
-            mean, sd = np.mean(values, axis=0), np.std(values, axis=0)
-            lower, upper = (mean - sd, mean + sd) if len(own) > 1 else (None, None)
-            curves.append(Curve(label, mean, lower, upper, 2 * k + int(label.endswith("plate"))))
-    return Curves(title, UNITS.get(name, "-"), curves)
+def comparison_panels(stances: Sequence[JudgedStance]) -> list[Curves]:
+    """Of each quantity and setting: plate and model with a band of one standard deviation, both predictors."""
+    return [
+        _panel(f"{title}: {setting}", name, own, plain_curves(stances, name))
+        for name, title in SHOWN.items()
+        for setting, own in by_setting(stances).items()
+    ]
+
+
+def _panel(
+    title: str,
+    name: str,
+    own: Sequence[JudgedStance],
+    plain: Mapping[str, Mapping[str, Float[np.ndarray, " s"]]],
+) -> Curves:
+    found = []
+    for label, curves in (
+        ("model", [one.simulated(name) for one in own]),
+        ("plate", [one.measured(name) for one in own]),
+        *((label, curves_of(plain, own, label)) for label in (MEAN, ANOTHER)),
+    ):
+        if not curves:
+            continue
+        mean, sd = np.mean(curves, axis=0), np.std(curves, axis=0)
+        lower, upper = (mean - sd, mean + sd) if len(own) > 1 and label in ("model", "plate") else (None, None)
+        found.append(Curve(label, mean, lower, upper, STROKES.index(label)))
+    return Curves(title, UNITS.get(name, "-"), found)

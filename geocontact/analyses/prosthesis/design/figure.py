@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 HEIGHT = 0.1
 """Of the drawing [m]."""
+HUES = (PALETTE[0], PALETTE[1], PALETTE[3])
+"""Blue, orange and pink, of the responses."""
 
 
 @in_style
@@ -28,15 +30,15 @@ def design_figure(
     ends: Knob,
     shapes: Mapping[Response, tuple[CarriedLoad, ...]],
 ) -> Figure:
-    """Blue with the angles kept, orange with the torque; grey the present value, green the interval of the best."""
+    """One colour for each response of the person; grey the present value, green the interval of the best."""
     figure, axes = panels(2, 3, DOUBLE, HEIGHT)
     factor, bands = SHOWN[sweep.knob.vary][0], sweep.bands
     for k, answer in enumerate(answers):
         panel, measure = axes[k], MEASURES[AIMS[k]]
         for j, response in enumerate(RESPONSES):
             median, lower, upper = bands[:, j, :, k]
-            panel.plot(sweep.shown, median, color=PALETTE[j], ls=LINES[j], label=response)
-            panel.fill_between(sweep.shown, lower, upper, color=PALETTE[j], alpha=0.2, lw=0)
+            panel.plot(sweep.shown, median, color=HUES[j], ls=LINES[j], label=response)
+            panel.fill_between(sweep.shown, lower, upper, color=HUES[j], alpha=0.2, lw=0)
         panel.axvline(factor * sweep.knob.present, color=GREY, lw=0.7)
         if answer.choice.told:
             panel.axvspan(factor * answer.choice.lower, factor * answer.choice.upper, color=PALETTE[2], alpha=0.2, lw=0)

@@ -24,7 +24,7 @@ class ProsthesisDesignOptions(Options):
     Parameters
     ----------
     markers
-        Walking trial (.trc, .c3d, .csv) with the markers of socket, adapter and heel.
+        Walking trial (.trc, .c3d, .csv) with the markers of pelvis, socket, adapter and heel.
 
     The person
     ----------

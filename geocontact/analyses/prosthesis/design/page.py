@@ -24,16 +24,20 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FIGURE = (
-    "Blue with the person's angles kept, orange with the ankle's torque kept; bands over the draws. A grey line is the "
-    "present value, green the interval of the best one."
+    "Blue with the person's angles kept, orange with the ankle's torque kept, pink with the torques of hip and knee; "
+    "bands over the draws. A grey line is the present value, green the interval of the best one."
 )
 LIMITS = [
     (
         "What a person does on another foot is not known. With angles kept the socket turns as recorded; with torque "
-        "kept the foot turns until the ankle has the moment of the recorded foot. What people do is taken to lie "
-        "between."
+        "kept the foot turns until the ankle has the moment of the recorded foot; in both the load over time is the "
+        "recorded one, and nothing has inertia. With joint torques kept, hip and knee have the torques of the recorded "
+        "foot, and leg and load follow by forward dynamics. What people do is taken to lie between."
     ),
-    "The load over time is the recorded one, and nothing has inertia: kept torques of hip and knee are not simulated.",
+    (
+        "Joint torques alone do not hold a leg on another foot: a spring of 2 N m/rad per kg of body mass and a damper "
+        "at hip and knee, invented numbers, hold it near the recorded angles."
+    ),
     (
         "Bands hold what is not known of the sole, rounding of the keel's compressions, the count of spheres in the "
         "model, errors of markers and plate. How a person differs from step to step is not in them."
@@ -62,6 +66,7 @@ def write_design_page(
     sections: list[Section] = [
         Picture("Outcomes and roll-over shapes", FIGURE, drawing(figure), wide=True),
         frame_table("What is best, and whether that can be told", tables["answers"], 3),
+        frame_table("Between which ends each outcome lies, whatever the person keeps", tables["ranges"], 3),
         *curves,
         inputs_table(record.inputs),
         options_table(record),

@@ -37,6 +37,8 @@ class ProsthesisDesignResult(Result):
         First, present and last value, and the foot along the stance at each, with the numbers as they are.
     task
         What the foot carries.
+    held
+        How long joint torques alone hold the leg at each of the ends [s].
     """
 
     options: ProsthesisDesignOptions
@@ -45,11 +47,13 @@ class ProsthesisDesignResult(Result):
     ends: Knob
     shapes: Mapping[Response, tuple[CarriedLoad, ...]]
     task: FootTask
+    held: tuple[float, ...]
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`answers`, `sweep`, `shapes`."""
+        """`answers`, `ranges`, `sweep`, `shapes`."""
         return {
             "answers": answers_table(self.answers, self.sweep.knob.vary),
+            "ranges": self.sweep.ranges(),
             "sweep": self.sweep.table(),
             "shapes": self._shapes(),
         }

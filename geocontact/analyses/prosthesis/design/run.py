@@ -45,7 +45,9 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
                 seed=o.seed,
                 step=step,
             )
-        shapes = _ends(knob).carried(_ends(knob).maps(given.foot, task), task)
+        maps = _ends(knob).maps(given.foot, task)
+        shapes = _ends(knob).carried(maps, task)
+        held = _ends(knob).other_feet(maps, task, tracking=0.0).moved().held
     except (ArithmeticError, ValueError) as error:
         if isinstance(error, InputError):
             raise
@@ -54,11 +56,18 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
     sweep = Sweep(knob, found.drawn, o.level)
     answers = tuple(_answer(sweep, task, o, k) for k in range(len(AIMS)))
     result = ProsthesisDesignResult(
-        record=record, options=o, sweep=sweep, answers=answers, ends=_ends(knob), shapes=shapes, task=task
+        record=record,
+        options=o,
+        sweep=sweep,
+        answers=answers,
+        ends=_ends(knob),
+        shapes=shapes,
+        task=task,
+        held=tuple(held.tolist()),
     )
     if found.lost:
         record.warn(f"{found.lost} of {o.feet} drawn feet found no equilibrium and are left out")
-    record.warn("torque kept means the ankle's, without inertia: torques kept in all joints are not simulated")
+    record.warn(_words_of_torques(result))
     record.warn("bands are of one trial: how a person differs from step to step is not in them")
     if terrain != LEVEL:
         record.warn(f"judged {words(terrain)}: the stance was recorded on a floor, its load and its turns are kept")
@@ -98,8 +107,14 @@ def _say(r: ProsthesisDesignResult) -> None:
             f"{choice.why}"
         )
         record.say(_beside_present(choice, measure.unit, shown(knob.present)))
+        other = choice.sides["joint torques kept"]
+        own = f"{shown(other.best)} ({shown(other.lower)} to {shown(other.upper)})"
+        record.say(f"with the torques of hip and knee kept: {own if other.verdict == 'told' else other.verdict}")
     for response, rows in r.sweep.differences().items():
         record.say(f"{response}, {shown(knob.settings[-1])} in place of {shown(knob.settings[0])}: {'; '.join(rows)}")
+    ends = r.sweep.ends
+    record.results["design_values"] = plain(r.sweep.shown.tolist())
+    record.results["torques_alone_hold_s"] = plain(r.held)
     record.results["design"] = plain(
         {
             each.aim: {
@@ -108,10 +123,23 @@ def _say(r: ProsthesisDesignResult) -> None:
                 "lower": each.choice.lower,
                 "upper": each.choice.upper,
                 "better_than_present": each.choice.better,
+                "least": ends[0, :, k].tolist(),
+                "most": ends[1, :, k].tolist(),
             }
-            for each in r.answers
+            for k, each in enumerate(r.answers)
         }
     )
+
+
+def _words_of_torques(r: ProsthesisDesignResult) -> str:
+    knob, lasting = r.ends, r.task.time[-1] - r.task.time[0]
+    factor, unit = SHOWN[knob.vary]
+    far = [(value, time) for value, time in zip(knob.settings, r.held, strict=True) if time < lasting]
+    held = ", ".join(
+        f"{time:.2f} s at {factor * value:.{DIGITS[knob.vary]}f}{unit and ' '}{unit}" for value, time in far
+    )
+    alone = f"torques alone hold the leg for {held}, of {lasting:.2f} s" if far else "torques alone hold the leg here"
+    return f"joint torques kept: a weak spring at hip and knee goes with them ({alone})"
 
 
 def _beside_present(choice: FootChoice, unit: str, present: str) -> str:

@@ -38,11 +38,11 @@ class Sweep:
     """
 
     knob: Knob
-    drawn: Float[np.ndarray, "d two n aims"]
+    drawn: Float[np.ndarray, "d responses n aims"]
     level: float
 
     @property
-    def bands(self) -> Float[np.ndarray, "three two n aims"]:
+    def bands(self) -> Float[np.ndarray, "three responses n aims"]:
         """Median, lower and upper end."""
         ends = [0.5, 0.5 * (1.0 - self.level), 0.5 * (1.0 + self.level)]
         return np.asarray(np.quantile(self.drawn, ends, axis=0))
@@ -70,6 +70,33 @@ class Sweep:
                             "upper": upper,
                         }
                     )
+        return pd.DataFrame(rows)
+
+    @property
+    def ends(self) -> Float[np.ndarray, "two n aims"]:
+        """Least and most of the medians over the responses of the person."""
+        median = self.bands[0]
+        return np.stack([median.min(axis=0), median.max(axis=0)])
+
+    def ranges(self) -> pd.DataFrame:
+        """Long: between which ends an outcome lies at each value, with the responses that make them."""
+        rows, (median, lower, upper) = [], self.bands
+        for k, aim in enumerate(AIMS):
+            for i, value in enumerate(self.shown):
+                least, most = int(median[:, i, k].argmin()), int(median[:, i, k].argmax())
+                rows.append(
+                    {
+                        f"{self.knob.vary} [{UNITS[self.knob.vary]}]": float(value),
+                        "outcome": aim,
+                        "unit": MEASURES[aim].unit,
+                        "least": float(median[least, i, k]),
+                        "with": RESPONSES[least],
+                        "most": float(median[most, i, k]),
+                        "with it": RESPONSES[most],
+                        "lower": float(lower[:, i, k].min()),
+                        "upper": float(upper[:, i, k].max()),
+                    }
+                )
         return pd.DataFrame(rows)
 
     def differences(self) -> dict[str, list[str]]:
