@@ -36,7 +36,7 @@ def planted(subject: Subject) -> Float[np.ndarray, " p"]:
             b = bodies[joint.child]
             about = b.inertia[2, 2] + b.mass * float(b.centre @ b.centre)
             found += [b.mass, *(b.mass * b.centre[:2]).tolist(), float(about)]
-    return np.r_[found, np.column_stack([VISCOUS, COULOMB]).ravel()]
+    return np.asarray(np.r_[found, np.column_stack([VISCOUS, COULOMB]).ravel()])
 
 
 def synthetic_unloaded(

@@ -21,7 +21,7 @@ from geocontact.io.text.results import write_table
 from geocontact.standing_up.chain import JOINTS
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from geocontact.standing_up.exoskeleton_torque import UNITS, ExoskeletonDynamics, human_torque
-from geocontact.view.page.content import Picture
+from geocontact.view.page.content import Picture, Section
 from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
@@ -120,7 +120,7 @@ class StandingDeviceResult(Result):
 
     def write_page(self, file: Path) -> None:
         """Fit over time, parameters, inputs."""
-        sections = [
+        sections: list[Section] = [
             Picture("Torques of the motors without a person", "Grey as recorded.", drawing(self.figure()), wide=True),
             frame_table("Dynamic parameters", self.table("parameters"), 4),
         ]

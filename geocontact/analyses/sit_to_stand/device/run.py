@@ -25,7 +25,7 @@ def run(given: DeviceRecordings, o: StandingDeviceOptions, record: Record) -> St
     inner = of.inner(o.cutoff)
 
     def through(values: Float[np.ndarray, "t ..."]) -> Float[np.ndarray, "s ..."]:
-        return of.smooth(values, o.cutoff)[inner]
+        return np.asarray(of.smooth(values, o.cutoff)[inner])
 
     dynamics = identified(given.subject, of.q, of.u, of.a, of.motors, through=through, independent=left)
     spread = float(np.std(of.motors, axis=0).max())

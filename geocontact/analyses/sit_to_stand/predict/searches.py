@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -54,7 +55,7 @@ def predicted(
         for k, trial in enumerate(trials, 1):
             for predictor in GIVEN.items():
                 where = f"trial {k} of {len(trials)}, {trial.name} {predictor[0]}"
-                one = _predicted(model, given, trial, predictor, o, lambda told, at=where: stage(f"{at}, {told}"))
+                one = _predicted(model, given, trial, predictor, o, partial(_at, stage, where))
                 predictions.append(one)
                 asked.stop |= one.ending.startswith(INTERRUPTED)
                 if asked.stop:
@@ -64,6 +65,10 @@ def predicted(
             keep(predictions)
     _doubt(record, predictions, len(trials))
     return tuple(predictions)
+
+
+def _at(stage: Callable[[str], None], where: str, told: str) -> None:
+    stage(f"{where}, {told}")
 
 
 def complete(predictions: Sequence[PredictedTrial], trials: int) -> bool:
