@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from geocontact.analyses.sit_to_stand.synthetic_files import synthetic_files
+from geocontact.analyses.sit_to_stand.synthetic_files import synthetic_files, unloaded_files
+from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.synthetic_study import synthetic_study
 
 FOLDERS = {
@@ -16,15 +17,18 @@ FOLDERS = {
     "standing_up_held_out": {"exoskeleton": True, "held_out": True, "seed": 35},
 }
 """What is made, by folder."""
+ALONE = "standing_up_exoskeleton"
+"""Folder of the exoskeleton that moves alone."""
 
 
 def standing_files() -> dict[str, bytes]:
     """The studies, by name."""
-    return {
+    files = {
         f"{folder}/{name}": text.encode("ascii")
         for folder, what in FOLDERS.items()
         for name, text in synthetic_files(synthetic_study(**what)).items()
     }
+    return files | {f"{ALONE}/{name}": text.encode("ascii") for name, text in unloaded_files(Subject()).items()}
 
 
 def main() -> None:

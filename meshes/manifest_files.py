@@ -25,6 +25,7 @@ FOLDER_KINDS = {
     "functional": "markers",
     "plates": "recording",
     "study": "study",
+    "unloaded": "recording",
     "T1": "recording",
     "T2": "recording",
     "T3": "recording",

@@ -34,6 +34,7 @@ KINDS = {
     "standing_predict": "standing_predict",
     "standing_compare": "standing_compare",
     "standing_design": "standing_design",
+    "standing_device": "standing_device",
     "prosthesis_simulate": "prosthesis_simulate",
     "prosthesis_calibrate": "prosthesis_calibrate",
     "prosthesis_compare": "prosthesis_compare",

@@ -12,12 +12,13 @@ both, rigidly coupled, asks for less that of the exoskeleton.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from geocontact.data.multibody.model import GROUND
 from geocontact.standing_up.chain import Subject
@@ -27,13 +28,18 @@ if TYPE_CHECKING:
     from casadi import Function
 
 FRICTIONS = ("viscous", "Coulomb")
+UNITS = (*(("kg", "kg m", "kg m", "kg m^2") * 3), *(("N m s/rad", "N m") * 3))
+"""Of the parameters, in their order."""
 OF_A_BODY = ("mass", "first moment along x", "first moment along y", "inertia")
 TURNS = float(np.radians(1.0))
 """Rate at which Coulomb friction is at three quarters of its size [rad/s]: tanh instead of a step."""
 UNTOLD = 1e-9
 """Singular value, of the largest, below which a motion tells nothing of a combination."""
+ALONE = 1e-6
+"""Part of a parameter's direction that may lie in what a motion tells nothing of."""
 
 Table = Float[np.ndarray, "t 3"]
+Rows = Float[np.ndarray, "_ ..."]
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +50,8 @@ class ExoskeletonDynamics:
     ----------
     names, values, deviations
         In SI; standard deviations are those of what the motion tells, by the residual of the fit.
+    alone
+        Of each parameter, whether the motion tells it by itself and not only in combinations.
     rank
         Combinations that are told.
     residual
@@ -54,6 +62,7 @@ class ExoskeletonDynamics:
     names: tuple[str, ...]
     values: Float[np.ndarray, " p"]
     deviations: Float[np.ndarray, " p"]
+    alone: Bool[np.ndarray, " p"]
     rank: int
     residual: float
 
@@ -72,21 +81,43 @@ class ExoskeletonDynamics:
         return np.asarray(motors - self.friction(u))
 
 
-def identified(subject: Subject, q: Table, u: Table, a: Table, motors: Table) -> ExoskeletonDynamics:
-    """By linear least squares from an unloaded motion; the subject says how long the exoskeleton's parts are."""
-    matrix = regressor(subject, q, u, a).reshape(-1, len(_names()))
-    size = np.linalg.norm(matrix, axis=0)
-    scaled = matrix / np.where(size > 0.0, size, 1.0)
+def identified(
+    subject: Subject,
+    q: Table,
+    u: Table,
+    a: Table,
+    motors: Table,
+    *,
+    through: Callable[[Rows], Rows] = np.asarray,
+    independent: float = 1.0,
+) -> ExoskeletonDynamics:
+    """By linear least squares from an unloaded motion.
+
+    Parameters
+    ----------
+    subject
+        Says how long the exoskeleton's parts are.
+    through
+        What both sides of the equations go through over time, such as a low-pass filter: friction changes at once where
+        a hinge turns back, and the filtered torque does not.
+    independent
+        Part of the samples that are independent then.
+    """
+    matrix = through(regressor(subject, q, u, a)).reshape(-1, len(_names()))
+    motors, size = through(motors), np.linalg.norm(matrix, axis=0)
+    size = np.where(size > UNTOLD * size.max(), size, np.inf)  # what does not act on the motors is rounding there
+    scaled = matrix / size
     left, sharp, right = np.linalg.svd(scaled, full_matrices=False)
     told = sharp > UNTOLD * sharp[0]
     back = right[told].T / sharp[told]
     values = back @ (left[:, told].T @ motors.ravel())
     off = motors.ravel() - scaled @ values
     variance = float(off @ off) / (len(off) - int(told.sum()))
-    unit = np.where(size > 0.0, size, 1.0)
-    deviations = np.sqrt(variance * np.sum(back**2, axis=1)) / unit
+    deviations = np.sqrt(variance / independent * np.sum(back**2, axis=1)) / size
     residual = float(np.sqrt(np.mean(off**2)))
-    return ExoskeletonDynamics(subject, _names(), values / unit, deviations, int(told.sum()), residual)
+    alone = np.sum(right[told] ** 2, axis=0) > 1.0 - ALONE
+    rank = int(told.sum())
+    return ExoskeletonDynamics(subject, _names(), values / size, deviations, alone, rank, residual)
 
 
 def human_torque(together: Table, exoskeleton: Table) -> Table:

@@ -36,6 +36,7 @@ JOBS: tuple[Job, ...] = (
     gc.sit_to_stand.calibrate,
     gc.sit_to_stand.compare,
     gc.sit_to_stand.design,
+    gc.sit_to_stand.device,
     gc.sit_to_stand.predict,
     gc.diagnose,
     gc.discriminability,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.standing_up.assistance.assisted_model import SHARE, assisted_model
 from geocontact.standing_up.assistance.design import KNEE, NAMES, STRAP, HelpTask, designed
-from geocontact.standing_up.assistance.movement import Movements
+from geocontact.standing_up.assistance.movement import Movement, Movements
 from geocontact.standing_up.exoskeleton import STRAP_PLANTED
 from geocontact.standing_up.feet import EVERY_PLANTED
 from tests.cli.calls import MESHES
@@ -27,6 +28,36 @@ def movements() -> Movements:
     given = standing_trials(Path(MESHES) / "standing_up_held_out" / "study.toml", "study", Record("x", {}))
     options = SolverOptions("radau", 3, 1, 1e-9)
     return Movements(assisted_model(given.subject), given.subject, given.trials, options, 8.0)
+
+
+def test_every_set_of_parameters_has_its_own_limit() -> None:
+    """Four sets that are nearly one: the knee of the worst is on the limit, and the price is that of this set.
+
+    A smooth worst of them would be up to 4^(1/24), 6 %, below it. The strap is least with no share, the knee asks for
+    one: 100 (1 - share) + 0.1 k, and the strap rises by 50 N a share.
+    """
+    share = NAMES.index("share")
+
+    class Line(Movement):
+        def __init__(self, sizes: np.ndarray, slopes: np.ndarray) -> None:
+            object.__setattr__(self, "asked", SimpleNamespace(sizes=sizes, slopes=slopes))
+
+    class Lines(Movements):
+        def __init__(self) -> None: ...
+
+        def at(self, p: np.ndarray, *, slopes: bool = True) -> Movement:
+            of = np.zeros((4, len(p)))
+            of[STRAP, share], of[KNEE, share] = 50.0, -100.0
+            knee = 100.0 * (1.0 - p[share]) + 0.1 * p[0]
+            return Line(np.array([10.0 + 50.0 * p[share], knee, 1.0, 1.0]), of)
+
+    sets = np.zeros((4, len(P)))
+    sets[:, 0], sets[:, share] = np.arange(4.0), 0.5
+    best = designed(Lines(), sets, HelpTask(("share",), "strap", 80.0))
+    knees = [each.asked.sizes[KNEE] for each in best.movements]
+    assert best.met and max(knees) == pytest.approx(80.0, abs=0.02)
+    np.testing.assert_allclose(best.p[:, share], 0.203, atol=2e-4)
+    assert best.price == pytest.approx(0.5, rel=0.1)
 
 
 @pytest.mark.slow

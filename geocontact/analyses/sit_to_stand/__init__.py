@@ -11,8 +11,9 @@ if TYPE_CHECKING:
     from geocontact.analyses.sit_to_stand.calibrate.job import calibrate
     from geocontact.analyses.sit_to_stand.compare.job import compare
     from geocontact.analyses.sit_to_stand.design.job import design
+    from geocontact.analyses.sit_to_stand.device.job import device
     from geocontact.analyses.sit_to_stand.predict.job import predict
 
-__all__ = ["calibrate", "compare", "design", "predict"]
+__all__ = ["calibrate", "compare", "design", "device", "predict"]
 
 sys.modules[__name__].__class__ = PackageOfJobs

@@ -7,7 +7,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from geocontact.standing_up.synthetic_study import SyntheticStudy
+from geocontact.standing_up.synthetic_unloaded import synthetic_unloaded
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
 SITTING, PUSHING = 0.3, 0.2
@@ -28,6 +31,16 @@ def synthetic_files(study: SyntheticStudy) -> dict[str, str]:
         if trial.torque is not None and trial.strap is not None:
             files |= _worn(trial, names, time, sitting)
     return files
+
+
+def unloaded_files(subject: Subject) -> dict[str, str]:
+    """Text of `unloaded_coordinates.sto` and `unloaded_motors.sto` by name."""
+    time, q, motors = synthetic_unloaded(subject)
+    angles, torques = ({"time": time} | dict(zip(EXO_JOINTS, of.T, strict=True)) for of in (np.degrees(q), motors))
+    return {
+        "unloaded_coordinates.sto": _storage("synthetic exoskeleton alone, coordinates", angles, 4, "yes"),
+        "unloaded_motors.sto": _storage("synthetic exoskeleton alone, motors", torques, 3, "no"),
+    }
 
 
 def _worn(

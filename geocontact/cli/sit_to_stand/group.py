@@ -11,3 +11,4 @@ sit_to_stand.command("geocontact.cli.sit_to_stand.calibrate:calibrate", name="ca
 sit_to_stand.command("geocontact.cli.sit_to_stand.predict:predict", name="predict")
 sit_to_stand.command("geocontact.cli.sit_to_stand.design:design", name="design")
 sit_to_stand.command("geocontact.cli.sit_to_stand.compare:compare", name="compare")
+sit_to_stand.command("geocontact.cli.sit_to_stand.device:device", name="device")

@@ -5,8 +5,9 @@ so that the derivative of what is asked is that of the whole solution, by the op
 search is sequential quadratic programming (Kraft (1988), DFVLR-FB 88-28) on these exact slopes.
 
 At the best d the slope of the aim is held by that of the limit and by what can be built:
-J_d + λ c_d = 0 along every d that is on no bound. By the envelope theorem the least aim changes with any number y that
-is not sought as J_y + λ c_y, and with the limit as -λ.
+J_d + Σ λ_s c_s,d = 0 along every d that is on no bound, with a λ for each set of parameters s that is on the limit. By
+the envelope theorem the least aim changes with any number y that is not sought as J_y + Σ λ_s c_s,y, and with the limit
+as -Σ λ_s.
 """
 
 from __future__ import annotations
@@ -84,7 +85,7 @@ class HelpDesign:
     ending
         In words.
     price
-        λ: how much less the aim would be for 1 N m more at the knee.
+        λ, the sum over the sets: how much less the aim would be for 1 N m more at the knee.
     on_end
         Of what is sought: whether it is on an end of its room.
     slopes
@@ -108,7 +109,9 @@ class HelpDesign:
 
 
 def designed(movements: Movements, sets: Float[np.ndarray, "s p"], task: HelpTask, iterations: int = 60) -> HelpDesign:
-    """For all sets of parameters at once: aim and knee are the smooth worst of them. Ctrl-C keeps the last iterate.
+    """For all sets of parameters at once: the aim is the smooth worst of them, the limit holds for each.
+
+    Ctrl-C keeps the last iterate.
 
     Parameters
     ----------
@@ -138,8 +141,8 @@ def designed(movements: Movements, sets: Float[np.ndarray, "s p"], task: HelpTas
     unit = max(float(np.abs(worst(start, aim)[1][task.index] * room).max()), 1e-9) / FIRST
     limit: Any = {
         "type": "ineq",
-        "fun": lambda d: 1.0 - worst(d, KNEE)[0] / task.knee,
-        "jac": lambda d: -worst(d, KNEE)[1][task.index] * room / task.knee,
+        "fun": lambda d: 1.0 - _each(at(d), KNEE)[0] / task.knee,
+        "jac": lambda d: -_each(at(d), KNEE)[1][:, task.index] * room / task.knee,
     }
     done, message, best = False, STOPPED, start
     try:
@@ -157,14 +160,15 @@ def designed(movements: Movements, sets: Float[np.ndarray, "s p"], task: HelpTas
         best = np.frombuffer(list(known)[-1])
     best = np.clip(best, 0.0, 1.0)
     at_end = (best <= NEAR) | (best >= 1.0 - NEAR)
-    (_, of_aim), (knee, of_knee) = worst(best, aim), worst(best, KNEE)
+    (_, of_aim), (knees, of_knees) = worst(best, aim), _each(at(best), KNEE)
     inside = np.array(task.index)[~at_end]
-    price = _price(of_aim[inside], of_knee[inside]) if knee >= task.knee * (1.0 - MET) else 0.0
-    met = bool(knee <= task.knee * (1.0 + MET))
+    prices = _prices(of_aim[inside], of_knees[:, inside], knees >= task.knee * (1.0 - MET))
+    price = float(prices.sum())
+    met = bool(knees.max() <= task.knee * (1.0 + MET))
     stopped = message == STOPPED
     ending = "found" if done and met else message if stopped else f"not found: {message}"
     rows = with_design(sets, task, low + room * best)
-    slopes = of_aim + price * of_knee
+    slopes = of_aim + prices @ of_knees
     return HelpDesign(task, rows, at(best), met and done, ending, price, at_end, slopes, stopped)
 
 
@@ -175,17 +179,27 @@ def with_design(sets: Float[np.ndarray, "s p"], task: HelpTask, searched: Vector
     return rows
 
 
-def _price(of_aim: Vector, of_knee: Vector) -> float:
-    """λ of J_d + λ c_d = 0 by least squares; 0 where nothing is free to move."""
-    length = float(of_knee @ of_knee)
-    return max(0.0, -float(of_aim @ of_knee) / length) if length > 0.0 else 0.0
+def _prices(of_aim: Vector, of_knees: Float[np.ndarray, "s d"], on_limit: Bool[np.ndarray, " s"]) -> Vector:
+    """λ of J_d + Σ λ_s c_s,d = 0 by least squares, none negative; 0 off the limit or where nothing is free to move."""
+    from scipy.optimize import nnls
+
+    prices = np.zeros(len(of_knees))
+    if on_limit.any() and len(of_aim):
+        prices[on_limit] = nnls(of_knees[on_limit].T, -of_aim)[0]
+    return prices
+
+
+def _each(movements: Sequence[Movement], measure: int) -> tuple[Vector, Float[np.ndarray, "s p"]]:
+    """One measure of every set, and its slopes."""
+    sizes = np.array([one.asked.sizes[measure] for one in movements])
+    return sizes, np.stack([one.asked.slopes[measure] for one in movements])
 
 
 def _worst(each: Sequence[Movement], measure: int) -> tuple[float, Vector]:
     """Smooth maximum over the sets, and its slope."""
-    values = np.array([one.asked.sizes[measure] for one in each])
+    values, slopes = _each(each, measure)
     most = float(values.max())
     norm = most * float(np.sum((values / most) ** ORDER)) ** (1.0 / ORDER)
     pull = (values / norm) ** (ORDER - 1)
-    slope: Vector = pull @ np.stack([one.asked.slopes[measure] for one in each])
+    slope: Vector = pull @ slopes
     return norm, slope

@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import warnings
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.sit_to_stand.predict import searches
+from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
+from geocontact.analyses.sit_to_stand.predict.predicted_trial import ALL
+from geocontact.analyses.sit_to_stand.predict.read import read
+from geocontact.analyses.sit_to_stand.predict.run import run
+from geocontact.standing_up.phase_c import TRACKS_C
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.standing_up.trivial_trials import mean_trial
+from tests.analyses.sit_to_stand.ctrl_c import Interrupting
 from tests.cli.calls import MESHES
 
 WORN, ALONE, HELD_OUT = (MESHES / f"standing_up{kind}" / "study.toml" for kind in ("_exoskeleton", "", "_held_out"))
@@ -61,6 +70,44 @@ def test_mean_of_trials_is_over_parts_of_the_movement() -> None:
     np.testing.assert_allclose(mean.q[:, 0], 2.0 * np.linspace(0.0, 1.0, 11), atol=1e-12)
     assert mean.strap is not None and mean.torque is None
     np.testing.assert_allclose(mean.strap, 2.0 * np.linspace(0.0, 1.0, 11), atol=1e-12)
+
+
+def test_ctrl_c_keeps_what_there_is_and_a_trial_is_written_when_it_is_done(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Pressed in the second of three trials: the first is in the folder by then, the third is never begun."""
+    text = HELD_OUT.read_text()
+    head, trial = text.split("[[trials]]")
+    study = tmp_path / "study.toml"
+    for file in HELD_OUT.parent.glob("P1_*"):
+        (tmp_path / file.name).symlink_to(file)
+    study.write_text("[[trials]]".join([head, *(trial.replace('"P1"', f'"P{k}"') for k in (1, 2, 3))]))
+    monkeypatch.setattr(searches, "GIVEN", {ALL: TRACKS_C})
+    out = tmp_path / "pred"
+    seen: list[set[str]] = []
+
+    class Watching(Interrupting):
+        @contextmanager
+        def stages(self, label: str):  # type: ignore[no-untyped-def]
+            with super().stages(label) as told:
+
+                def watched(stage: str) -> None:
+                    if stage.startswith("trial 2 of 3") and not seen:
+                        seen.append({file.name for file in out.glob("*")})
+                    told(stage)
+
+                yield watched
+
+    o = StandingPredictOptions(study, parameters=TRUTH, against=WORN, nodes=12.0)
+    record = Record("sit-to-stand predict", {}, listener=Watching("trial 2 of 3, P2 all given, iteration 3"), out=out)
+    result = run(read(o, record), o, record)
+    assert {"errors.csv", "certificate.csv", "trial_P1.csv", "solution_P1.sto"} <= seen[0]
+    assert "run.json" not in seen[0] and "trial_P2.csv" not in seen[0]
+    assert [one.trial.recorded.name for one in result.predictions] == ["P1", "P2"]
+    assert not result.accepted and not result.predictions[1].solved
+    assert "interrupted: 1 of 3 trials have every predictor; the last search was P2 all given" in record.warnings
+    assert any(line.startswith("P2 all given ended without an answer: interrupted") for line in record.warnings)
+    assert set(result.table("errors")["trial"]) == {"P1", "P2"}
 
 
 @pytest.mark.slow

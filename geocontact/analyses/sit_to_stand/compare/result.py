@@ -14,8 +14,9 @@ from geocontact.analyses.result import Result
 from geocontact.analyses.sit_to_stand.compare.figure import compared_figure
 from geocontact.analyses.sit_to_stand.compare.options import StandingCompareOptions
 from geocontact.analyses.sit_to_stand.compare.page import write_compared_page
+from geocontact.analyses.sit_to_stand.predict.predicted_trial import ALL, PredictedTrial
 from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
-from geocontact.analyses.sit_to_stand.predict.result import ALL, PredictedTrial
+from geocontact.analyses.sit_to_stand.predict.searches import complete
 from geocontact.analyses.sit_to_stand.standing_tables import certificate_rows
 from geocontact.io.text.results import write_table
 from geocontact.standing_up.trials import StandingTrial
@@ -46,9 +47,8 @@ class StandingCompareResult(Result):
 
     @property
     def accepted(self) -> bool:
-        """Whether every motion is certified."""
-        seen = [one.trial.judged.certificate for one in self.predictions]
-        return all(each is not None and each.converged for each in seen)
+        """Whether every trial is predicted, and every motion certified."""
+        return complete(self.predictions, len(self.given.trials.trials))
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`comparison` and `certificate`."""

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
 import pandas as pd
 
 from geocontact.analyses.page_words import counted
+from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.compare.options import StandingCompareOptions
 from geocontact.analyses.sit_to_stand.compare.result import StandingCompareResult
+from geocontact.analyses.sit_to_stand.predict.predicted_trial import ALL, MEAN, PredictedTrial, trials_begun
 from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
-from geocontact.analyses.sit_to_stand.predict.result import ALL, MEAN
-from geocontact.analyses.sit_to_stand.predict.run import GIVEN, predicted
+from geocontact.analyses.sit_to_stand.predict.searches import GIVEN, predicted
 from geocontact.analyses.sit_to_stand.trial_result import channels
 from geocontact.identify.signals.agreement import agreement
+from geocontact.io.text.results import write_table
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.standing_up.trivial_trials import mean_trial, nearest_trial
 
@@ -23,22 +25,46 @@ NEAREST = "nearest of the calibration"
 
 def run(given: HeldOutTrials, o: StandingCompareOptions, record: Record) -> StandingCompareResult:
     """Predictions of phase C with all or parts of what is given, and two predictors without a model."""
-    predictions = predicted(given, o, record)
-    rows: list[dict[str, object]] = []
-    trivial: dict[str, dict[str, StandingTrial]] = {}
-    for trial in given.trials.trials:
+
+    def keep(predictions: Sequence[PredictedTrial]) -> None:
+        if record.out is not None:
+            with written_whole(record.out) as draft:
+                write_table(_compared(given, predictions, _trivial(given, predictions)), draft, "comparison")
+
+    predictions = predicted(given, o, record, keep)
+    trivial = _trivial(given, predictions)
+    for trial in trials_begun(predictions):
         near = nearest_trial(given.known.trials, trial)
-        others = {MEAN: mean_trial(given.known.trials, trial.time), NEAREST: mean_trial([near], trial.time)}
-        trivial[trial.name] = others
         record.say(f"{trial.name}: nearest by its first and last posture is {near.name}")
-        models = {one.name: one.trial.model for one in predictions if one.trial.recorded.name == trial.name}
-        for predictor, model in (models | others).items():
-            rows += _rows(trial, model, predictor, given)
+    errors = _compared(given, predictions, trivial)
     result = StandingCompareResult(
-        record=record, options=o, given=given, predictions=predictions, trivial=trivial, errors=pd.DataFrame(rows)
+        record=record, options=o, given=given, predictions=predictions, trivial=trivial, errors=errors
     )
     _say(result)
     return result
+
+
+def _trivial(given: HeldOutTrials, predictions: Sequence[PredictedTrial]) -> dict[str, dict[str, StandingTrial]]:
+    """Predictors without a model, by trial and name."""
+    known, found = given.known.trials, {}
+    for trial in trials_begun(predictions):
+        near = nearest_trial(known, trial)
+        found[trial.name] = {MEAN: mean_trial(known, trial.time), NEAREST: mean_trial([near], trial.time)}
+    return found
+
+
+def _compared(
+    given: HeldOutTrials,
+    predictions: Sequence[PredictedTrial],
+    trivial: Mapping[str, Mapping[str, StandingTrial]],
+) -> pd.DataFrame:
+    """One row for each trial, predictor and channel."""
+    rows: list[dict[str, object]] = []
+    for trial in trials_begun(predictions):
+        models = {one.name: one.trial.model for one in predictions if one.trial.recorded.name == trial.name}
+        for predictor, model in {**models, **trivial[trial.name]}.items():
+            rows += _rows(trial, model, predictor, given)
+    return pd.DataFrame(rows)
 
 
 def _rows(
@@ -61,7 +87,7 @@ def _say(r: StandingCompareResult) -> None:
         each = own.groupby("predictor", sort=False)["rmsd"].max()
         unit = str(own["unit"].iloc[0]).replace("deg", "°")
         words = ", ".join(f"{name} {value:.3g} {unit}" for name, value in each.items())
-        record.say(f"{quantity}, largest RMSD of {counted(len(r.given.trials.trials), 'trial')}: {words}")
+        record.say(f"{quantity}, largest RMSD of {counted(len(r.trivial), 'trial')}: {words}")
         record.results[quantity] = {str(name): float(value) for name, value in each.items()}
     best = errors[errors["predictor"] == ALL].set_index(["trial", "quantity"])["rmsd"]
     others = errors[errors["predictor"].isin([MEAN, NEAREST])].groupby(["trial", "quantity"])["rmsd"].min()

@@ -16,7 +16,9 @@ from geocontact.analyses.sit_to_stand.exports import write_motion
 from geocontact.analyses.sit_to_stand.predict.figure import strap_figure
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.predict.page import write_prediction_page
+from geocontact.analyses.sit_to_stand.predict.predicted_trial import ALL, MEAN, PredictedTrial
 from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
+from geocontact.analyses.sit_to_stand.predict.searches import complete
 from geocontact.analyses.sit_to_stand.standing_tables import certificate_rows, errors_table, trial_table
 from geocontact.analyses.sit_to_stand.trial_result import DEGREE, TrialResult
 from geocontact.io.text.results import write_table
@@ -27,30 +29,7 @@ from geocontact.standing_up.trials import StandingTrial
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-ALL, MEAN = "all given", "mean of the calibration"
 COMPARED = ("coordinates", "force", "centre", "torque", "strap")
-
-
-@dataclass(frozen=True, eq=False)
-class PredictedTrial:
-    """One trial by one predictor.
-
-    Parameters
-    ----------
-    name
-        Of the predictor.
-    ending
-        How the search ended, in words.
-    seconds
-        CPU time.
-    """
-
-    name: str
-    trial: TrialResult
-    solved: bool
-    ending: str
-    iterations: int
-    seconds: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -77,9 +56,8 @@ class StandingPredictResult(Result):
 
     @property
     def accepted(self) -> bool:
-        """Whether every motion is certified."""
-        seen = [one.trial.judged.certificate for one in self.predictions]
-        return all(each is not None and each.converged for each in seen)
+        """Whether every trial is predicted, and every motion certified."""
+        return complete(self.predictions, len(self.given.trials.trials))
 
     @property
     def errors(self) -> pd.DataFrame:
@@ -136,13 +114,17 @@ class StandingPredictResult(Result):
 
     def write_files(self, folder: Path) -> None:
         """Tables, trajectories, figure, page."""
+        self.write_numbers(folder)
+        save_both(self.figure(), folder, "strap")
+        self.write_page(folder / "report.html")
+
+    def write_numbers(self, folder: Path) -> None:
+        """Tables and trajectories of the trials that there are."""
         for name, rows in self.tables().items():
             write_table(rows, folder, name)
         for one in self.predictions:
             if one.name == ALL:
                 write_motion(folder, self.given.trials.subject, one.trial, self.given.values, one.solved)
-        save_both(self.figure(), folder, "strap")
-        self.write_page(folder / "report.html")
 
     def write_page(self, file: Path) -> None:
         """Moving chains with forces, curves, errors by predictor, inputs."""

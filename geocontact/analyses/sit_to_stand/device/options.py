@@ -1,0 +1,62 @@
+"""What the exoskeleton's own dynamics may be asked for."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated
+
+from geocontact.analyses.options import Fraction, Options, Requires, Spelled
+from geocontact.data.errors import InputError
+from geocontact.data.plausible import HZ, Plausible
+from geocontact.data.units import m
+
+TALL = Plausible("the height of a person", m, (0.8, 2.5))
+CUTOFF = Plausible("the cut-off of angles and torques", HZ, (0.5, 100.0), (2.0, 20.0))
+
+
+@dataclass(frozen=True)
+class StandingDeviceOptions(Options):
+    """Identify the dynamic parameters of a leg exoskeleton from a motion without a person, and its torque in a trial.
+
+    Parameters
+    ----------
+    unloaded
+        Angles exo_ankle, exo_knee and exo_hip while the exoskeleton moves alone, its foot plate on the ground
+        (.sto, .mot).
+    motors
+        Torques of its motors meanwhile, columns of the same names, of both legs [N m].
+    height
+        Of the person whom it is set to, which says how long its parts are [m].
+    cutoff
+        Of angles and torques alike [Hz].
+    level
+        Probability of the intervals.
+
+    A trial
+    -------
+    trial
+        Coordinates of a trial with a person (.sto, .mot).
+    trial_motors
+        Torques of the motors in it [N m].
+    together
+        forces.csv of `geocontact id` of that trial, of person and exoskeleton rigidly coupled: the person's torques are
+        these less the exoskeleton's.
+    """
+
+    over_time = True
+
+    unloaded: Path
+    _: KW_ONLY
+    motors: Path
+    height: Annotated[float, TALL] = 1.75
+    cutoff: Annotated[float, CUTOFF] = 6.0
+    level: Annotated[Fraction, Spelled(default="0.95")] = 0.95
+    trial: Annotated[Path | None, Requires("trial_motors")] = None
+    trial_motors: Annotated[Path | None, Requires("trial")] = None
+    together: Annotated[Path | None, Requires("trial")] = None
+
+    def refuse_impossible(self) -> None:
+        """A probability that is none."""
+        if not 0.0 < self.level < 1.0:
+            raise InputError("", "`level`", f"{self.level:g} is not between 0 and 1", "give for example 0.95")
