@@ -8,7 +8,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedStance
-from geocontact.below_knee_prosthesis.calibration.whole_calibration import WORTH, calibrate_whole
+from geocontact.below_knee_prosthesis.calibration.whole_calibration import WORTH, WholeCalibration, calibrate_whole
 from geocontact.below_knee_prosthesis.calibration.whole_residuals import WholeResiduals
 from geocontact.below_knee_prosthesis.calibration.whole_stance import WholeStance
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
@@ -55,9 +55,21 @@ def test_derivatives_are_those_of_differences(landing: WalkedStance) -> None:
     assert size[1] > 50.0
 
 
+@pytest.fixture(scope="module")
+def found(landing: WalkedStance) -> WholeCalibration:
+    return calibrate_whole([landing], vsf_foot(), np.zeros(15), machine_code=False)
+
+
 @pytest.mark.slow
-def test_planted_numbers_come_back(landing: WalkedStance) -> None:
-    found = calibrate_whole([landing], vsf_foot(), np.zeros(15), machine_code=False)
+@pytest.mark.xfail(strict=True, reason="stiffness of the heel's middle: -0.05 with an interval of 0.21, planted -0.30")
+def test_planted_numbers_lie_in_their_intervals(found: WholeCalibration) -> None:
+    known = np.array([each.verdict != "unknown" for each in found.knowledge.numbers])
+    off = np.abs(found.logarithms - PLANTED)
+    assert (off[known] < found.knowledge.half[known]).all()
+
+
+@pytest.mark.slow
+def test_planted_numbers_come_back(found: WholeCalibration) -> None:
     assert found.cost < 0.2 * found.begun
     assert found.logarithms[0] == pytest.approx(PLANTED[0], abs=0.1)
     off = found.residuals(PLANTED)
