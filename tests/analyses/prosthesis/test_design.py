@@ -40,18 +40,11 @@ def test_refused(changed: dict[str, Any], words: str) -> None:
             gc.prosthesis.design(TRIAL / "walking.trc", **(GIVEN | changed))
 
 
-@pytest.mark.parametrize(
-    ("exchanged", "words"),
-    [
-        ({"RASI": "LASI", "LASI": "RASI", "RPSI": "LPSI", "LPSI": "RPSI"}, "left and right exchanged"),
-        ({"LPSI": "other"}, "no marker LPSI"),
-    ],
-)
-def test_pelvis_that_tells_no_hip_is_refused_in_one_line(exchanged: dict[str, str], words: str, tmp_path: Path) -> None:
-    walking = renamed_markers(tmp_path, "walking.trc", exchanged)
+def test_pelvis_that_tells_no_hip_is_refused_in_one_line(tmp_path: Path) -> None:
+    walking = renamed_markers(tmp_path, "walking.trc", {"LPSI": "other"})
     typed = (f"--{name}={value}" for name, value in (GIVEN | {"out": tmp_path / "out"}).items())
     refused = call("prosthesis", "design", walking, *typed)
-    assert refused.code == 2 and len(refused.complaints) == 1 and words in refused.err
+    assert refused.code == 2 and len(refused.complaints) == 1 and "no marker LPSI" in refused.err
     assert not (tmp_path / "out").exists()
 
 
