@@ -74,7 +74,7 @@ def test_real_tables_agree_with_opensim(data_dir: Path, opensim: Elsewhere) -> N
 
 
 def test_stale_column_count_is_said(data_dir: Path) -> None:
-    with pytest.warns(InputWarning, match="line 3: header says 'nColumns=40' but there are 32 column labels"):
+    with pytest.warns(InputWarning, match="line 3: header says 'nColumns=40' but 32 column labels follow"):
         read_table(data_dir / "opensim_walk/coordinates.sto")
 
 
