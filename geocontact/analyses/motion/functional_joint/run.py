@@ -17,6 +17,8 @@ from geocontact.dynamics.segment_poses import segment_poses
 
 SKIN = 0.01
 """m; markers of a segment that are farther from a rigid one move on the skin or were exchanged."""
+APART = 0.02
+"""m; halves of a trial that give the joint farther apart do not tell it; the number is a convention of this command."""
 LOOSE = 0.5
 """Looseness of an axis from which on a point fits as well."""
 FRAME = "axes of the markers as written, while standing or in the first whole frame; origin: the mean of its markers"
@@ -98,6 +100,9 @@ def _tell(record: Record, o: JointOptions, pair: MovedPair, points: JointPoints,
     record.say(f"{len(pair.time)} frames, {np.degrees(turned(pair)):.0f} deg of turn: {off}{both}")
     if np.isnan(halves):
         record.warn(f"{o.trial}: half of the trial does not tell the {kind}: how far it can be trusted stays open")
+    elif halves > APART:
+        what = f"two halves of the trial give the {kind} {1e3 * halves:.0f} mm apart"
+        record.warn(f"{o.trial}: {what}: {MOVE}")
 
 
 def _beside(shown: MarkerTrajectories, o: JointOptions, first: Segment, points: JointPoints) -> MarkerTrajectories:
