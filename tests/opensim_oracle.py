@@ -286,11 +286,16 @@ def accelerations(file: Path, names: Sequence[str], q: np.ndarray, u: np.ndarray
 
 
 def run_inverse_kinematics(setup: Path) -> None:
-    """OpenSim's own tool from its set-up file."""
+    """OpenSim's own tool on a set-up file, from its folder, where results go too."""
+    from contextlib import chdir
+
     import opensim
 
     opensim.Logger.setLevelString("Off")
-    opensim.InverseKinematicsTool(str(setup)).run()
+    with chdir(setup.parent):
+        tool = opensim.InverseKinematicsTool(setup.name)
+        tool.setResultsDir(".")
+        tool.run()
 
 
 def run_scaling(setup: Path) -> None:
