@@ -31,15 +31,14 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=HERE / "results")
     options = parser.parse_args()
     pin()
-    from benchmarks.machine import machine, versions
+    from benchmarks.machine import stamp
 
     options.out.mkdir(parents=True, exist_ok=True)
     file = options.out / "standing_up.json"
     report: dict[str, Any] = json.loads(file.read_text("utf-8")) if file.is_file() else {}
-    report |= {"machine": machine(), "versions": versions({"casadi", "numpy", "scipy"})}
     for part in options.parts:
         began = time.process_time()
-        report[part] = PARTS[part](options)
+        report[part] = PARTS[part](options) | stamp({"casadi", "numpy", "scipy"})
         report[part]["cpu seconds of it all"] = time.process_time() - began
         file.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
         print(json.dumps({part: report[part]}, indent=2), flush=True)
