@@ -107,7 +107,8 @@ def _kept(kept: Path, kind: str, k: int) -> StandingTrial:
     file = kept / f"{kind.replace(' ', '_')}_{k}.npz"
     if not file.is_file():
         file.parent.mkdir(parents=True, exist_ok=True)
-        np.savez_compressed(file, **vars(stood_up(PLANTED_EFFECTS[kind].strap, k)))
+        made = vars(stood_up(PLANTED_EFFECTS[kind].strap, k))
+        np.savez_compressed(file, **{name: each for name, each in made.items() if isinstance(each, np.ndarray)})
     with np.load(file) as found:
         return StandingTrial(**{**found, "name": TRIALS[k]})
 
