@@ -101,18 +101,17 @@ def channels_of(
 def chair_load(file: Path, chair: ForcePlate, time: Times) -> Table:
     """Force forwards and up [N] and moment about the ground's origin [N m] on the person, low-passed, (t, 3).
 
-    300 N that are let go in 0.3 s are off by 1 N at most for it.
+    300 N that are let go within 0.3 s from the first sample on are off by 1 N at most for it.
     """
-    wrench, step = chair.wrench.moved_to(np.zeros(3)), float(np.median(np.diff(chair.time)))
+    wrench = chair.at(np.clip(time, *chair.time[[0, -1]]))
     load = np.nan_to_num(np.column_stack([wrench.force[:, :2], wrench.moment[:, 2]]))
-    remedy = "resample the plates evenly, at 50 Hz or more"
-    if np.abs(np.diff(chair.time) - step).max() > 2.0 * UNEVEN * step:
-        raise InputError(file, chair.name, "is not evenly spaced, as the filter of a chair's force needs it", remedy)
+    step, remedy = float(np.median(np.diff(time))), "resample the coordinates evenly, at 50 Hz or more"
+    if np.abs(np.diff(time) - step).max() > 2.0 * UNEVEN * step:
+        raise InputError(file, chair.name, "is wanted at times that are not even, as a filter needs them", remedy)
     try:
-        smooth = zero_lag(load, step, CHAIR_CUTOFF)
+        return zero_lag(load, step, CHAIR_CUTOFF)
     except ValueError as error:
         raise InputError(file, chair.name, str(error), remedy) from error
-    return np.column_stack([np.interp(time, chair.time, column) for column in smooth.T])
 
 
 def site_force(files: Sequence[Path], record: Record, role: str, site: str, time: Times) -> Times:
