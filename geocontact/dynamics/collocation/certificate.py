@@ -144,7 +144,7 @@ def _after_intervals(again: Resimulation) -> Float[np.ndarray, "m s"]:
 
 
 def _window(again: Resimulation, seconds: float, n: int) -> float:
-    """Largest departure of a coordinate over so many seconds from any node, by steps far finer than what is let pass."""
+    """Largest departure of a coordinate over so many seconds from any node; steps are far finer than what passes."""
     breaks, largest, coarser = again.motion.breaks, 0.0, replace(again, tolerance=COARSER)
     for begin, start in zip(breaks[:-1], again.states()[:-1], strict=True):
         time = np.linspace(begin, min(begin + seconds, breaks[-1]), 21)
