@@ -1,7 +1,8 @@
 """Where the time of a predicted trial goes, synthetic: `python -m benchmarks.standing_predict`.
 
-The shipped trial that was not used, by every predictor of `geocontact sit-to-stand predict` with its usual options:
-CPU seconds of the search, in it those of the functions' construction, and of the certificate; and whether a search that starts on the first predictor's answer is shorter.
+The shipped trial that was not used, by every predictor of `geocontact sit-to-stand predict` with its usual options: CPU
+seconds of the search, in it those of the functions' construction, and of the certificate; and whether a search that
+starts on the first predictor's answer is shorter.
 """
 
 from __future__ import annotations
