@@ -160,11 +160,12 @@ def row_of_planted(one: dict[str, Any]) -> tuple[str, str, str]:
 def test_the_strap_s_planted_effects() -> None:
     page, told = "theory/sit_to_stand_gap.md", results("standing_gap")
     for kind, one in told["answers"].items():
-        said, likely, _, error, full, seconds = row(page, kind)
+        held_out, said, likely, _, error, full, seconds = row(page, kind)
         assert said.startswith(one["verdict"]) and all(name.replace("_", " ") in said for name in one["named"])
         assert near(likely, max(one["probabilities"].values())) and near(seconds, one["seconds"]["diagnosis"])
         assert error == "-" or near(error.split("%")[0], one["gap"]["thigh_force"]["reduction"], 100.0), error
         term = next(iter(one["full_model"].values()))
+        assert int(held_out) == len(term["before"]["solved"]) - 1
         for cell, when in zip(full.split(" → "), ("before", "after"), strict=False):
             assert near(cell, term[when]["mat_N"]), full
     for kind, off in told["left_out"].items():
