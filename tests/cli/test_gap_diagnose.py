@@ -22,9 +22,11 @@ from tests.systems.examples import ELBOW_VALUES
 from tests.unchecked import unchecked
 
 TABLES = {"diagnosis.json", "run.json", "gap_map.csv", "ranking.csv", "held_out.csv", "trials.csv"}
-FIGURES = {f"{name}.{ending}" for name in ("gap_map", "ranking", "gap_residuals") for ending in ("png", "svg")}
+FIGURES = {
+    f"{name}.{ending}" for name in ("gap_map", "reductions", "ranking", "gap_residuals") for ending in ("png", "svg")
+}
 KEYS = ["case", "system", "verdict", "effects", "probabilities", "ambiguity", "absorbed", "where", "gap", "parameters"]
-KEYS += ["next_experiment", "faults", "remarks", "seconds", "version"]
+KEYS += ["partial", "next_experiment", "faults", "remarks", "seconds", "version"]
 CHANNEL = ["rmse_before", "rmse_after", "noise_floor", "reduction", "ci95", "unexplained"]
 
 
