@@ -74,8 +74,10 @@ def draws(
 
     ArithmeticError where more than half of the drawn feet have no equilibrium.
     """
-    rng, family, found, lost = np.random.default_rng(seed), finer_feet(foot), [], 0
-    turned, beside = [replace(knob, turned=angle) for angle in alignments], []
+    rng, family, lost = np.random.default_rng(seed), finer_feet(foot), 0
+    found: list[Float[np.ndarray, "responses n aims"]] = []
+    beside: list[list[Float[np.ndarray, "judged n aims"]]] = []
+    turned = [replace(knob, turned=angle) for angle in alignments]
     widest = max((knob, *turned), key=lambda each: float(np.abs(each.alignments).max()))
     for k in range(feet):
         other = drawn_foot(family[k % len(family)], sd, keel, rng)

@@ -31,7 +31,7 @@ STEPS: dict[Vary, float] = {"fulcrum": 0.010, "alignment": float(np.radians(1.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Sensitivity:
+class FootSensitivity:
     """Of the outcomes to one number.
 
     Parameters
@@ -59,23 +59,24 @@ class Unknown:
 
 def sensitivities(
     foot: VariableStiffnessFoot, task: FootTask, fulcrum: float, terrain: Terrain, unknown: Unknown
-) -> tuple[Sensitivity, ...]:
+) -> tuple[FootSensitivity, ...]:
     """On the foot as it is; ArithmeticError as `foot_map`."""
 
     def at(other: VariableStiffnessFoot, carried: FootTask) -> Float[np.ndarray, " aims"]:
         one = Knob("fulcrum", np.array([fulcrum]), fulcrum, terrain)
-        return one.measured_still(one.maps(other, carried), carried)[0, 0]
+        return np.asarray(one.measured_still(one.maps(other, carried), carried)[0, 0])
 
     found = [_of_choice(vary, foot, task, fulcrum, terrain) for vary in STEPS]
     found.append(_factor("bending of the keel", KEEL, lambda by: at(_bent(foot, by), task)))
     zones = ZoneParameters(foot.sole, foot.law)
-    for own, name, sd in zip(np.eye(len(zones.names)), zones.names, unknown.sole, strict=True):
+    for k, (name, sd) in enumerate(zip(zones.names, unknown.sole, strict=True)):
         if name.startswith("stiffness."):
-            found.append(_factor(name, float(sd), lambda by, own=own: at(_pressed(foot, zones, by * own), task)))
+            ends = [at(_pressed(foot, zones, k, by), task) for by in (float(sd), -float(sd))]
+            found.append(FootSensitivity(name, float(np.exp(sd)), "factor", {RECORDED: 0.5 * (ends[0] - ends[1])}))
     few, more, _ = (at(each, task) for each in finer_feet(foot))
-    found.append(Sensitivity("48 spheres in place of 24", 2.0, "factor", {RECORDED: more - few}))
+    found.append(FootSensitivity("48 spheres in place of 24", 2.0, "factor", {RECORDED: more - few}))
     turns = [at(foot, replace(task, pitch=task.pitch + by)) for by in (unknown.pitch, -unknown.pitch)]
-    found.append(Sensitivity("pitch", unknown.pitch, "rad", {RECORDED: 0.5 * (turns[0] - turns[1])}))
+    found.append(FootSensitivity("pitch", unknown.pitch, "rad", {RECORDED: 0.5 * (turns[0] - turns[1])}))
     loaded = np.log1p(unknown.gain)
     found.append(_factor("load", float(loaded), lambda by: at(foot, replace(task, load=np.exp(by) * task.load))))
     return tuple(found)
@@ -83,7 +84,7 @@ def sensitivities(
 
 def _of_choice(
     vary: Vary, foot: VariableStiffnessFoot, task: FootTask, fulcrum: float, terrain: Terrain
-) -> Sensitivity:
+) -> FootSensitivity:
     """A step up and down as far as the range lets it, told for the whole step."""
     step, present = STEPS[vary], Knob(vary, np.zeros(1), fulcrum).present
     ends = np.array([present - step, present + step])
@@ -92,12 +93,12 @@ def _of_choice(
     knob = Knob(vary, ends, fulcrum, terrain)
     low, high = np.moveaxis(knob.measured(knob.maps(foot, task), task), 1, 0)
     change = (high - low) * step / float(ends[1] - ends[0])
-    return Sensitivity(vary, step, UNITS[vary], dict(zip(RESPONSES, change, strict=True)))
+    return FootSensitivity(vary, step, UNITS[vary], dict(zip(RESPONSES, change, strict=True)))
 
 
-def _factor(name: str, by: float, outcome: Callable[[float], Float[np.ndarray, " aims"]]) -> Sensitivity:
+def _factor(name: str, by: float, outcome: Callable[[float], Float[np.ndarray, " aims"]]) -> FootSensitivity:
     """Of a number whose logarithm changes by that much."""
-    return Sensitivity(name, float(np.exp(by)), "factor", {RECORDED: 0.5 * (outcome(by) - outcome(-by))})
+    return FootSensitivity(name, float(np.exp(by)), "factor", {RECORDED: 0.5 * (outcome(by) - outcome(-by))})
 
 
 def _bent(foot: VariableStiffnessFoot, by: float) -> VariableStiffnessFoot:
@@ -105,5 +106,7 @@ def _bent(foot: VariableStiffnessFoot, by: float) -> VariableStiffnessFoot:
     return VariableStiffnessFoot(keel, foot.sole, foot.law)
 
 
-def _pressed(foot: VariableStiffnessFoot, zones: ZoneParameters, by: Float[np.ndarray, " p"]) -> VariableStiffnessFoot:
-    return VariableStiffnessFoot(foot.keel, foot.sole, zones.law(zones.values_of(foot.law) * np.exp(by)))
+def _pressed(foot: VariableStiffnessFoot, zones: ZoneParameters, k: int, by: float) -> VariableStiffnessFoot:
+    values = zones.values_of(foot.law).copy()
+    values[k] *= np.exp(by)
+    return VariableStiffnessFoot(foot.keel, foot.sole, zones.law(values))

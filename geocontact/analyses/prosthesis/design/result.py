@@ -21,7 +21,7 @@ from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import Knob, Response
 from geocontact.below_knee_prosthesis.design.outcomes import shank_path
-from geocontact.below_knee_prosthesis.design.sensitivities import Sensitivity
+from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity
 from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ class ProsthesisDesignResult(Result):
     shapes: Mapping[Response, tuple[CarriedLoad, ...]]
     task: FootTask
     held: tuple[float, ...]
-    hangs_on: tuple[Sensitivity, ...]
+    hangs_on: tuple[FootSensitivity, ...]
     together: Together | None = None
 
     def tables(self) -> dict[str, pd.DataFrame]:

@@ -9,7 +9,7 @@ import pandas as pd
 
 from geocontact.below_knee_prosthesis.design.knob import AIMS
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES
-from geocontact.below_knee_prosthesis.design.sensitivities import Sensitivity, Unit
+from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity, Unit
 
 SHOWN: dict[Unit, tuple[float, str]] = {
     "m": (1e3, "mm"),
@@ -19,7 +19,7 @@ SHOWN: dict[Unit, tuple[float, str]] = {
 }
 
 
-def sensitivities_table(found: Sequence[Sensitivity]) -> pd.DataFrame:
+def sensitivities_table(found: Sequence[FootSensitivity]) -> pd.DataFrame:
     """Long: one row for each number, response and outcome."""
     rows = []
     for each in found:
