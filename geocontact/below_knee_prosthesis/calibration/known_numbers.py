@@ -28,7 +28,7 @@ EARNEST, LASTING, BEARING = 2.5, 0.05, 0.05
 """A zone slips in earnest: faster than so many errors of the recorded speed, for at least so long [s] in sum, while it
 bears that share of body weight. Below, friction is what the search for the slip makes of it."""
 DEAD = 1e-9
-"""FootSensitivity, over the largest, of a number that has no effect."""
+"""Sensitivity, over the largest, of a number that has no effect."""
 
 
 @dataclass(frozen=True)
