@@ -1,8 +1,8 @@
-"""Profiles of a calibrated sole's numbers: `python -m benchmarks.prosthesis_profiles [P1 ...]`.
+"""Profiles of a calibrated sole's numbers: `python -m benchmarks.prosthesis_profiles [P1 ...] [--all]`.
 
-The sole of a participant is calibrated on medium_1 along the recorded poses. Then each of the fifteen numbers is held
-at both ends of its interval of 95 % while the other fourteen are found again, and the sum of squares, beliefs
-included, rises. Were the model linear in the numbers' logarithms it would rise by the square of the distance over half
+The sole of a participant is calibrated on medium_1 along the recorded poses. Then each number that is known, with
+`--all` each of the fifteen, is held at both ends of its interval of 95 % while the others are found again, and the sum
+of squares, beliefs included, rises. Were the model linear in the numbers' logarithms it would rise by the square of the distance over half
 the interval (one at an end that the bounds of the search have not cut off); `of_parabola` is the rise over that. Below
 one the profile is flatter and the interval too narrow on that side, above one too wide. All data are synthetic.
 benchmarks/results/prosthesis_profiles.json, written as numbers are done.
@@ -59,6 +59,7 @@ def main() -> None:
     """Print and write."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("persons", nargs="*", default=["P1"])
+    parser.add_argument("--all", action="store_true")
     asked = parser.parse_args()
     figures: dict[str, Any] = {}
     for person in (each for each in PARTICIPANTS if each.name in asked.persons):
@@ -68,7 +69,9 @@ def main() -> None:
         slope = found.residuals.slope(found.logarithms)
         covariance = np.linalg.inv(slope.T @ slope)
         figures[person.name] = {"cost": found.cost, "numbers": []}
-        for k in range(len(covariance)):
+        for k, number in enumerate(found.knowledge.numbers):
+            if number.verdict != "known" and not asked.all:
+                continue
             row = ends(found, k, covariance)
             figures[person.name]["numbers"].append(row)
             told = [f"{side} {row[side]['of_parabola']:.2f}" for side in ("lower", "upper") if side in row]
