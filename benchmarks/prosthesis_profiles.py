@@ -2,9 +2,10 @@
 
 The sole of a participant is calibrated on medium_1 along the recorded poses. Then each number that is known, with
 `--all` each of the fifteen, is held at both ends of its interval of 95 % while the others are found again, and the sum
-of squares, beliefs included, rises. Were the model linear in the numbers' logarithms it would rise by the square of the distance over half
-the interval (one at an end that the bounds of the search have not cut off); `of_parabola` is the rise over that. Below
-one the profile is flatter and the interval too narrow on that side, above one too wide. All data are synthetic.
+of squares, beliefs included, rises. Were the model linear in the numbers' logarithms it would rise by the square of the
+distance over half the interval (one at an end that the bounds of the search have not cut off); `of_parabola` is the
+rise over that. Below one the profile is flatter and the interval too narrow on that side, above one too wide. All data
+are synthetic.
 benchmarks/results/prosthesis_profiles.json, written as numbers are done.
 """
 
