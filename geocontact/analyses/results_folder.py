@@ -11,16 +11,27 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from geocontact.analyses.page_words import counted
 from geocontact.analyses.stale_results import RUN, left_over
 from geocontact.data.errors import InputError
 
 _drafts: set[Path] = set()
+_written: list[Path] = []
 
 
 def discard_drafts() -> None:
     """Remove what is half-written."""
     for draft in tuple(_drafts):
         shutil.rmtree(draft, ignore_errors=True)
+
+
+def what_stays() -> str:
+    """What an interrupted run leaves: nothing, or what it wrote whole before, such as the first trials of several."""
+    folders = list(dict.fromkeys(_written))
+    if not folders:
+        return "nothing was written"
+    others = f" and {counted(len(folders) - 1, 'folder')} more" if len(folders) > 1 else ""
+    return f"what was finished is in {folders[-1]}{others}"
 
 
 class Scratch:
@@ -75,6 +86,7 @@ def written_whole(out: Path, overwrite: bool = True) -> Iterator[Path]:
         for file, target in zip(files, targets, strict=True):
             target.parent.mkdir(parents=True, exist_ok=True)
             os.replace(file, target)
+        _written.append(out)
         for file in old:
             file.unlink(missing_ok=True)
         for folder in sorted({p for file in old for p in file.parents if out in p.parents}, reverse=True):

@@ -11,7 +11,7 @@ from io import TextIOWrapper
 
 from cyclopts import App, CycloptsError, MissingArgumentError
 
-from geocontact.analyses.results_folder import discard_drafts
+from geocontact.analyses.results_folder import discard_drafts, what_stays
 from geocontact.cli.opensim_setup import with_setup
 from geocontact.cli.suggestions import help_of, mistyped
 from geocontact.data.errors import InputError
@@ -82,7 +82,7 @@ def run(tokens: Sequence[str], debug: bool = False) -> int:
     except InputError as error:
         return _fail(str(error), USAGE_ERROR, debug)
     except KeyboardInterrupt:
-        return _fail("interrupted; nothing was written", 130, debug)
+        return _fail(f"interrupted; {what_stays()}", 130, debug)
     except BrokenPipeError:
         return FAILURE
     except OSError as error:
@@ -103,7 +103,7 @@ def _words(error: MissingArgumentError) -> str:
 def _terminated(*_: object) -> None:
     """End at once and leave nothing behind; an exception could be lost in compiled code."""
     discard_drafts()
-    os.write(2, b"terminated; nothing was written\n")
+    os.write(2, f"terminated; {what_stays()}\n".encode(errors="replace"))
     os._exit(143)
 
 

@@ -52,7 +52,7 @@ def measured_factor(
     return float(np.mean(ratios))
 
 
-def scaled(model: Multibody, factors: Factors, mass: float | None = None) -> Multibody:
+def scaled(model: Multibody, factors: Factors, mass: float | None = None, *, by_volume: bool = False) -> Multibody:
     """The model with its bodies scaled: joints, markers and mass centres move with them.
 
     Shifts along the axes of a joint that are no coordinate by themselves scale with the body that they are expressed in
@@ -65,11 +65,10 @@ def scaled(model: Multibody, factors: Factors, mass: float | None = None) -> Mul
     mass
         Of the whole [kg], shared among the bodies as before; without it masses are as they were. ValueError where the
         bodies have none.
+    by_volume
+        Masses grow with the product of the factors of their body, before they share `mass`: OpenSim's
+        `preserve_mass_distribution` false.
     """
-    total = sum(body.mass for body in model.bodies)
-    if mass is not None and not total > 0.0:
-        raise ValueError("the bodies have no mass that could be shared")
-    heavier = 1.0 if mass is None else mass / total
     ones = np.ones(3)
 
     def of(name: str) -> Float[np.ndarray, " 3"]:
@@ -78,7 +77,12 @@ def scaled(model: Multibody, factors: Factors, mass: float | None = None) -> Mul
     unknown = set(factors) - {body.name for body in model.bodies}
     if unknown:
         raise ValueError(f"there is no body {min(unknown)}")
-    bodies = tuple(_body(body, of(body.name), heavier) for body in model.bodies)
+    dense = {body.name: float(np.prod(of(body.name))) if by_volume else 1.0 for body in model.bodies}
+    total = sum(dense[body.name] * body.mass for body in model.bodies)
+    if mass is not None and not total > 0.0:
+        raise ValueError("the bodies have no mass that could be shared")
+    heavier = 1.0 if mass is None else mass / total
+    bodies = tuple(_body(body, of(body.name), heavier * dense[body.name]) for body in model.bodies)
     joints = tuple(_joint(joint, of) for joint in model.joints)
     markers = tuple(replace(m, location=m.location * of(m.body)) for m in model.markers)
     couplers = tuple(

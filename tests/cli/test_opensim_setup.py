@@ -28,7 +28,8 @@ ID = """<OpenSimDocument Version="40000"><InverseDynamicsTool name="leg"><model_
 <lowpass_cutoff_frequency_for_coordinates>-1</lowpass_cutoff_frequency_for_coordinates>
 <output_gen_force_file>theirs.sto</output_gen_force_file></InverseDynamicsTool></OpenSimDocument>"""
 IK = """<OpenSimDocument Version="40000"><InverseKinematicsTool name="leg"><model_file>leg.osim</model_file>
-<marker_file>walk.trc</marker_file><time_range>-Inf Inf</time_range><coordinate_file>Unassigned</coordinate_file>
+<marker_file>walk.trc</marker_file><output_motion_file>theirs.mot</output_motion_file>
+<time_range>-Inf Inf</time_range><coordinate_file>Unassigned</coordinate_file>
 <IKTaskSet file="tasks.xml"/></InverseKinematicsTool></OpenSimDocument>"""
 TASKS = """<OpenSimDocument Version="40000"><IKTaskSet><objects>{}</objects></IKTaskSet></OpenSimDocument>"""
 SCALE = """<OpenSimDocument Version="40000"><ScaleTool name="leg"><mass>30</mass>
@@ -75,6 +76,21 @@ def test_moments_are_those_of_opensims_own_tool(tmp_path: Path, opensim: Elsewhe
         assert np.abs(ours.column(name) - wanted).max() < 1e-3 * np.abs(wanted).max(), name
 
 
+@pytest.mark.parametrize("span", ["0.1037 0.5037", "0.103 0.497", "-1 0.4999999", "0.0999999 99"])
+def test_a_range_takes_the_frames_that_opensim_takes(tmp_path: Path, opensim: Elsewhere, span: str) -> None:
+    """Whose two tools take other ones: markers the nearest frames, coordinates the last ones that are not later."""
+    swinging(tmp_path)
+    (tmp_path / "id.xml").write_text(ID.format(exclude="stops").replace(" 0.1 0.5 ", span))
+    (tmp_path / "ik.xml").write_text(IK.replace("-Inf Inf", span))
+    opensim(opensim_oracle.run_inverse_dynamics, tmp_path / "id.xml", tmp_path / "theirs")
+    opensim(opensim_oracle.run_inverse_kinematics, tmp_path / "ik.xml")
+    theirs = read_table(tmp_path / "theirs" / "theirs.sto").time, read_table(tmp_path / "theirs.mot").time
+    for command, wanted in zip(("id", "ik"), theirs, strict=True):
+        told = with_setup([command, "--setup", str(tmp_path / f"{command}.xml")])
+        (time,) = [token for token in told if token.startswith("--time=")]
+        assert [float(end) for end in time.partition("=")[2].split(":")] == pytest.approx(wanted[[0, -1]], abs=1e-9)
+
+
 def test_a_set_up_is_what_its_options_are(tmp_path: Path) -> None:
     """Paths are relative to its folder; what is typed counts instead of what it says."""
     swinging(tmp_path)
@@ -88,21 +104,26 @@ def test_a_set_up_is_what_its_options_are(tmp_path: Path) -> None:
 
 
 def test_a_model_is_scaled_as_its_set_up_says(tmp_path: Path) -> None:
-    """Factors by hand come after measurements, axis by axis; what is not heeded is told."""
+    """Factors by hand come after measurements, axis by axis; sizes from a trial of their own, masses by volume."""
     _, model, time, values = legs.planted(tmp_path)
     larger = scaled(model, {"femur_r": 1.1 * np.ones(3)})
     legs.trc_file(tmp_path, legs.markers_of(larger, time[:3], 0.0 * values[:3] + 0.05))
     tasks = "".join(task(m.name, 1.0) for m in model.markers)
-    (tmp_path / "scale.xml").write_text(SCALE.format(tasks))
+    (tmp_path / "measured.trc").write_bytes((tmp_path / "walk.trc").read_bytes())
+    legs.trc_file(tmp_path, legs.markers_of(model, time[:3], 0.0 * values[:3] + 0.05))
+    own = SCALE.replace("walk.trc</marker_file><preserve", "measured.trc</marker_file><preserve")
+    (tmp_path / "scale.xml").write_text(own.format(tasks))
     result = done(call("scale", "--setup", tmp_path / "scale.xml", "--out", tmp_path / "s", folder=tmp_path / "s"))
-    assert "masses by volume is not heeded" in result.err
     assert result.record()["results"]["factors"] == {
         "femur_r": pytest.approx(1.1, abs=1e-6),
         "tibia_r x": 0.9,
         "tibia_r y": 0.95,
         "tibia_r z": 0.9,
     }
-    assert sum(b.mass for b in read_multibody(tmp_path / "s" / "scaled.osim").bodies) == pytest.approx(30.0)
+    made = {b.name: b.mass for b in read_multibody(tmp_path / "s" / "scaled.osim").bodies}
+    grown = {"pelvis": 1.0, "femur_r": 1.1**3, "tibia_r": 0.9 * 0.95 * 0.9, "foot_r": 1.0}
+    wanted = {b.name: b.mass * grown[b.name] for b in model.bodies}
+    assert made == pytest.approx({name: 30.0 * m / sum(wanted.values()) for name, m in wanted.items()})
 
 
 def test_the_set_ups_written_give_opensim_the_same_angles_and_moments(tmp_path: Path, opensim: Elsewhere) -> None:
@@ -184,6 +205,15 @@ def test_forces_and_points_in_bodies_are_those_of_opensim(
         assert np.abs(ours.column(name) - wanted).max() < 1e-3 * np.abs(wanted).max(), name
 
 
+def test_axes_beside_loads_in_bodies_are_refused(tmp_path: Path) -> None:
+    swinging(tmp_path)
+    both = "".join(f"<{each}_expressed_in_body>tibia_r</{each}_expressed_in_body>" for each in ("force", "point"))
+    text = (tmp_path / "loads.xml").read_text().replace("</applied_to_body>", f"</applied_to_body>{both}")
+    (tmp_path / "loads.xml").write_text(text)
+    told = call("id", "--setup", tmp_path / "id.xml", "--axes", "x,z,-y", "--out", tmp_path / "o")
+    assert told.code == 2 and "--axes: has no effect: all loads are expressed in bodies" in told.err
+
+
 def test_a_force_that_opensim_cannot_leave_out_is_told(tmp_path: Path) -> None:
     swinging(tmp_path)
     leg = ("--model", tmp_path / "leg.osim", "--loads", tmp_path / "loads.xml", "--out", tmp_path / "id")
@@ -192,13 +222,16 @@ def test_a_force_that_opensim_cannot_leave_out_is_told(tmp_path: Path) -> None:
     assert not any("groups of forces" in w for w in done(call("id", tmp_path / "walk.mot", *leg)).warnings)
 
 
-def test_a_set_up_of_scaling_gives_opensim_the_same_model(tmp_path: Path, opensim: Elsewhere) -> None:
+@pytest.mark.parametrize("masses", [(), ("--mass-by-volume",)])
+def test_a_set_up_of_scaling_gives_opensim_the_same_model(
+    tmp_path: Path, opensim: Elsewhere, masses: tuple[str, ...]
+) -> None:
     _, model, time, values = legs.planted(tmp_path)
     larger = scaled(model, {"femur_r": 1.1 * np.ones(3)})
     legs.trc_file(tmp_path, legs.markers_of(larger, time[:3], 0.0 * values[:3] + 0.05))
     sizes = ("--scale", "femur_r=femur_r0/femur_r2,femur_r1/femur_r3", "--scale", "tibia_r:y=0.95", "--mass", "30")
     out = tmp_path / "s"
-    done(call("scale", tmp_path / "walk.trc", "--model", tmp_path / "leg.osim", *sizes, "--out", out))
+    done(call("scale", tmp_path / "walk.trc", "--model", tmp_path / "leg.osim", *sizes, *masses, "--out", out))
     opensim(opensim_oracle.run_scaling, out / "setup_scale.xml")
     ours, theirs = (read_multibody(out / name) for name in ("scaled.osim", "opensim_scaled.osim"))
     for own, other in zip(ours.bodies, theirs.bodies, strict=True):
@@ -246,7 +279,7 @@ def test_sizes_are_asked_for_as_opensim_takes_them(tmp_path: Path) -> None:
     off = SCALE.replace("<ModelScaler>", "<ModelScaler><apply>false</apply>")
     unordered = SCALE.replace("<scaling_order> measurements manualScale</scaling_order>", "")
     assert not {"scale", "mass"} & dict(_scale_options(tmp_path, off)).keys() and "scale" in dict(whole)
-    assert dict(_scale_options(tmp_path, unordered)).keys() == dict(whole).keys() - {"scale"}
+    assert dict(_scale_options(tmp_path, unordered)).keys() == dict(whole).keys() - {"scale", "sizes"}
     with pytest.raises(InputError, match=r"sizes\.xml: holds no <ScaleSet>"):
         _scale_options(tmp_path, SCALE.replace("<ScaleSet>", '<ScaleSet file="sizes.xml">'))
 
@@ -258,13 +291,32 @@ def test_numbers_of_a_set_up_are_not_rounded(tmp_path: Path) -> None:
     assert float(told["mass"]) == 62.1234567 and float(told["time"].split(":")[1]) == 101.2345678
 
 
-def test_a_time_range_for_sizes_alone_is_told(tmp_path: Path) -> None:
-    """OpenSim measures in one part of the trial and places markers in another."""
-    (tmp_path / "scale.xml").write_text(SCALE.replace("<preserve", "<time_range>0 0.01</time_range><preserve"))
-    assert (
-        "a time range of its own for the sizes of bodies"
-        in read_tool_setup(tmp_path / "scale.xml", "ScaleTool").unheeded
+def test_sizes_have_a_trial_and_times_of_their_own(tmp_path: Path) -> None:
+    """OpenSim measures in one part of a trial and places markers in another; all of it where no range is given."""
+    narrow = SCALE.replace("<preserve", "<time_range>0 0.01</time_range><preserve")
+    walk = str(tmp_path / "walk.trc")
+    assert {("sizes", walk), ("sizes-time", "0.0:0.01")} < set(_scale_options(tmp_path, narrow))
+    assert ("sizes", walk) in _scale_options(tmp_path, SCALE) and "sizes-time" not in dict(
+        _scale_options(tmp_path, SCALE)
     )
+    alike = SCALE.replace("<preserve", "<time_range>0 0.02</time_range><preserve")
+    assert not {"sizes", "sizes-time"} & dict(_scale_options(tmp_path, alike)).keys()
+
+
+def test_masses_follow_volumes_unless_a_set_up_keeps_their_shares(tmp_path: Path) -> None:
+    """OpenSim's default is not to keep them."""
+    assert "mass-by-volume" in dict(_scale_options(tmp_path, SCALE))
+    shares = "<preserve_mass_distribution>{}</preserve_mass_distribution>".format
+    assert "mass-by-volume" in dict(_scale_options(tmp_path, SCALE.replace(shares("false"), "")))
+    assert "mass-by-volume" not in dict(_scale_options(tmp_path, SCALE.replace(shares("false"), shares("true"))))
+
+
+def test_a_trial_for_sizes_without_measurements_is_refused(tmp_path: Path) -> None:
+    _, model, time, values = legs.planted(tmp_path)
+    legs.trc_file(tmp_path, legs.markers_of(model, time[:3], values[:3]))
+    leg = ("--model", tmp_path / "leg.osim", "--scale", "femur_r=1.1", "--out", tmp_path / "o")
+    told = call("scale", tmp_path / "walk.trc", *leg, "--sizes", tmp_path / "walk.trc")
+    assert told.code == 2 and "--sizes: has no effect: no body is measured" in told.err
 
 
 def test_a_weight_of_constraints_is_told_where_there_are_some(tmp_path: Path) -> None:

@@ -11,9 +11,10 @@ from pathlib import Path
 
 import pytest
 
+from geocontact.analyses import results_folder
 from geocontact.analyses.area import run as area_analysis
 from geocontact.analyses.area.distance_file import DistanceMaps
-from geocontact.cli import show
+from geocontact.cli import main, show
 from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, ROOT, SPHERE, area, done, gait, inventory, poses, process
 from tests.contract import FILES
 
@@ -107,7 +108,26 @@ def test_a_terminated_run_leaves_nothing_behind(tmp_path: Path) -> None:
     _, said = child.communicate(timeout=120)
     assert child.returncode not in (0, None)
     assert "Traceback" not in said and len(said.splitlines()) == 1, said
+    assert said == "terminated; nothing was written\n"
     assert inventory(place) == {}
+
+
+def test_an_interrupted_run_tells_what_it_had_finished(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Of several trials those that were done before stay, and the line says where."""
+    monkeypatch.setattr(results_folder, "_written", [])
+
+    def two_of_three(*_: object, **__: object) -> None:
+        for name in ("first", "second"):
+            with results_folder.written_whole(tmp_path / name) as draft:
+                (draft / "table.csv").write_text("1")
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(main, "app", two_of_three)
+    monkeypatch.setattr(main, "_load_what_is_listed", lambda _: None)
+    assert main.run(["area"]) == 130
+    assert capsys.readouterr().err == f"interrupted; what was finished is in {tmp_path / 'second'} and 1 folder more\n"
 
 
 def test_module_and_script_are_the_same_program() -> None:

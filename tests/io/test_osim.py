@@ -303,6 +303,10 @@ BAD = {
         PIN4.replace("/bodyset/p<", "/bodyset/q<"),
         "frame '/bodyset/q' of /jointset/j/p_offset is neither",
     ),
+    "other kind of frame": (
+        PIN4.replace("/bodyset/p<", "s<").replace("</Model>", '<x><StationDefinedFrame name="s"/></x></Model>'),
+        "frame 's' of /jointset/j/p_offset is a StationDefinedFrame; bodies and PhysicalOffsetFrames are supported",
+    ),
     "circle": (PIN4.replace("../../../bodyset/c/c_fixed", "../c_offset"), "refer to each other in a circle"),
     "no socket": (PIN4.replace("socket_child_frame", "socket_x"), "PinJoint j: no <socket_child_frame>"),
     "other kind of joint": (

@@ -57,10 +57,16 @@ THINGS = """<ForceSet name="forceset"><objects>
 <PathActuator name="pull"><GeometryPath name="path"><PathPointSet><objects>
 <PathPoint name="p"><socket_parent_frame>/jointset/ankle_r/ankle_r_in</socket_parent_frame>
 <location>0.1 0.1 0.1</location></PathPoint></objects></PathPointSet></GeometryPath></PathActuator>
+<FunctionBasedBushingForce name="between"><frames><PhysicalOffsetFrame name="side"><socket_parent>/bodyset/tibia_r/inner
+</socket_parent><translation>0.1 0.1 0.1</translation></PhysicalOffsetFrame></frames></FunctionBasedBushingForce>
 <BushingForce name="pad"><body_1>pelvis</body_1><body_2>tibia_r</body_2><location_body_2>0.1 0.1 0.1</location_body_2>
 </BushingForce></objects></ForceSet><ContactGeometrySet name="cg"><objects><ContactSphere name="heel">
 <socket_frame>/bodyset/tibia_r</socket_frame><location>0 0 0</location><radius>0.03</radius></ContactSphere></objects>
 </ContactGeometrySet>"""
+FRAME = """<PhysicalOffsetFrame name="{}"><socket_parent>{}</socket_parent><translation>0.1 0.1 0.1</translation>
+<orientation>0 0 0.5</orientation>{}</PhysicalOffsetFrame>"""
+BALL = "<attached_geometry><Sphere><scale_factors>1 1 1</scale_factors></Sphere></attached_geometry>"
+INSIDE = f"<components>{FRAME.format('outer', '..', BALL)}{FRAME.format('inner', '../outer', '')}</components>"
 WRAP = """<WrapObjectSet><objects><WrapCylinder name="w"><translation>0 0 0</translation></WrapCylinder></objects>
 </WrapObjectSet>"""
 
@@ -69,11 +75,16 @@ def test_what_hangs_on_frames_of_bodies_is_scaled_and_what_stays_is_told(tmp_pat
     """Places as OpenSim 4.6 scales them: by the body that a point's frame is fixed to, along the frame's axes."""
     source = tmp_path / "leg.osim"
     text = (MESHES / "leg.osim").read_text(encoding="utf-8").replace("</JointSet>", "</JointSet>" + THINGS)
-    source.write_text(text.replace('<Body name="tibia_r">', '<Body name="tibia_r">' + WRAP), encoding="utf-8")
+    source.write_text(text.replace('<Body name="tibia_r">', '<Body name="tibia_r">' + WRAP + INSIDE), encoding="utf-8")
     factors = {"tibia_r": FACTORS}
     with pytest.warns(InputWarning, match="not scaled: wrapping surfaces, contact geometry"):
         write_scaled_model(source, tmp_path / "out.osim", scaled(read_multibody(source), factors), factors)
     model = read_model(tmp_path / "out.osim")
+    names = {e.get("name"): e for e in model.iter() if e.get("name") in ("outer", "inner", "side")}
+    for name, child in (("outer", "translation"), ("inner", "translation"), ("side", "translation")):
+        np.testing.assert_allclose(numbers_of("", names[name], child, 3), 0.1 * FACTORS, rtol=1e-12, err_msg=name)
+    (ball,) = model.iter("Sphere")
+    np.testing.assert_allclose(numbers_of("", ball, "scale_factors", 3), FACTORS, rtol=1e-12)
     for kind, child in (("PathPoint", "location"), ("BushingForce", "location_body_2")):
         (found,) = model.iter(kind)
         np.testing.assert_allclose(numbers_of("", found, child, 3), 0.1 * FACTORS, rtol=1e-12)

@@ -74,7 +74,8 @@ def write_scaled_model(
 
     _bodies(file, model, scaled, of)
     frames = Frames(file, model)
-    _frames(file, model, scaled, of)
+    _frames(file, frames, of)
+    _joints_of_old(file, model, of)
     _shifts(file, model, scaled, of)
     _couplers(file, model, scaled, factors)
     _pairs(file, model, frames, of)
@@ -111,21 +112,24 @@ def _bodies(file: str, model: Element, scaled: Multibody, of: FactorOf) -> None:
             _times(file, mesh, "scale_factors", of(body.name))
 
 
-def _frames(file: str, model: Element, scaled: Multibody, of: FactorOf) -> None:
-    """Offset frames that hang on bodies (OpenSim 4), and where joints are in both bodies (OpenSim 3)."""
-    names = {GROUND, *(body.name for body in scaled.bodies)}
-    inside = {id(f): body.get("name", "") for body in model.iter("Body") for f in body.findall("components/*")}
-    for frame in model.iter("PhysicalOffsetFrame"):
-        socket = socket_of(frame, "parent")
-        body = inside.get(id(frame), "") if socket in ("", "..") else basename(socket)
-        if body in names:
-            _times(file, frame, "translation", of(body))
+def _frames(file: str, frames: Frames, of: FactorOf) -> None:
+    """Offset frames and what is drawn in them (OpenSim 4): by the body that they are fixed to, along their own axes."""
+    for path, frame in frames.elements.items():
+        if frame.tag == "PhysicalOffsetFrame":
+            by = of(frames.in_body(path)[0])
+            _times(file, frame, "translation", by)
+            for mesh in frame.findall("attached_geometry/*"):
+                _times(file, mesh, "scale_factors", by)
+
+
+def _joints_of_old(file: str, model: Element, of: FactorOf) -> None:
+    """Where joints and bushings are in their bodies (OpenSim 3)."""
     for element in model.findall("BodySet/objects/Body"):
         for joint in element.findall("Joint/*"):
             _times(file, joint, "location_in_parent", of(text_of(joint, "parent_body")))
             _times(file, joint, "location", of(element.get("name", "")))
     for bushing in (e for e in model.iter() if e.tag.endswith("BushingForce")):
-        for k in "12":  # OpenSim 3
+        for k in "12":
             _times(file, bushing, f"location_body_{k}", of(text_of(bushing, f"body_{k}")))
 
 

@@ -146,6 +146,9 @@ def offset(orientation: Float[np.ndarray, " 3"], translation: Float[np.ndarray, 
     return RigidTransform.from_components(translation, Rotation.from_euler("XYZ", orientation))
 
 
+_OTHER_FRAMES = ("StationDefinedFrame", "OffsetFrame")
+
+
 class Frames:
     """Bodies of a model and the offset frames fixed to them, by OpenSim's component path.
 
@@ -160,6 +163,7 @@ class Frames:
         self.elements: dict[str, Element] = {}
         for path, element in _components(model):
             self.elements.setdefault(path, element)
+        self._unread = {e.get("name", ""): f"a {e.tag[:40]}" for e in model.iter() if e.tag in _OTHER_FRAMES}
         if not {"/ground", "/bodyset/ground"} & set(self.elements):
             self.elements["/ground"] = Element("Ground", name="ground")
 
@@ -172,9 +176,8 @@ class Frames:
         same = [known for known in self.elements if known.rsplit("/", 1)[-1] == name]
         bodies = [known for known in same if known.startswith(("/bodyset/", "/ground")) and known.count("/") < 3]
         if len(bodies or same) != 1:
-            what = (
-                f"frame '{socket[:80]}' of {owner} is {'ambiguous' if same else 'neither a body nor an offset frame'}"
-            )
+            kind = "ambiguous" if same else self._unread.get(name, "neither a body nor an offset frame")
+            what = f"frame '{socket[:80]}' of {owner} is {kind}"
             raise InputError(self.file, "", what, "bodies and PhysicalOffsetFrames are supported")
         return (bodies or same)[0]
 
@@ -213,5 +216,5 @@ def _components(model: Element) -> Iterator[tuple[str, Element]]:
             elif name and child.tag in ("Body", "Ground", "PhysicalOffsetFrame"):
                 yield f"{owner}/{name}", child
                 pending.append((f"{owner}/{name}", child, depth + 1))
-            elif name and child.tag.endswith(("Joint", "BushingForce")):
+            elif name:
                 pending.append((f"{owner}/{name}", child, depth + 1))

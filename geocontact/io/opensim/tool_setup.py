@@ -86,16 +86,22 @@ def _scale(file: str, tool: Element) -> ToolSetup:
     places = placer.find("apply") is None or is_true(file, placer, "apply")
     recording = _needed(file, placer if places or _told(placer, "marker_file") else scaler, "marker_file")
     options += [("tasks", _tasks(file, placer)), *_time(file, placer)]
-    unheeded = []
-    if _told(scaler, "marker_file") and _needed(file, scaler, "marker_file") != recording:
-        unheeded.append("a trial of its own for the sizes of bodies")
-    if scales and _time(file, scaler) != _time(file, placer):
-        unheeded.append("a time range of its own for the sizes of bodies")
-    if text_of(scaler, "preserve_mass_distribution", "true").lower() == "false":
-        unheeded.append("masses by volume")
+    if any(name == "scale" and "/" in text for name, text in options):
+        options += _measuring(file, scaler, placer, recording)
+    if scales and not is_true(file, scaler, "preserve_mass_distribution"):
+        options.append(("mass-by-volume", ""))
     if not places:
         options.append(("keep-markers", ""))
-    return ToolSetup(recording, tuple(options), tuple(unheeded))
+    return ToolSetup(recording, tuple(options))
+
+
+def _measuring(file: str, scaler: Element, placer: Element, recording: Path) -> list[tuple[str, str]]:
+    """Trial and times of the sizes of bodies, where they are not those of the static pose."""
+    own = _needed(file, scaler, "marker_file") if _told(scaler, "marker_file") else recording
+    times = _time(file, scaler)
+    if own == recording and times == _time(file, placer):
+        return []
+    return [("sizes", str(own)), *(("sizes-time", span) for _, span in times)]
 
 
 def _sizes(file: str, scaler: Element) -> list[str]:

@@ -91,6 +91,7 @@ def write_scale_setup(
     span: Ends,
     *,
     mass: float | None,
+    by_volume: bool,
     place: bool,
     out: str,
 ) -> None:
@@ -102,6 +103,8 @@ def write_scale_setup(
         Markers in place of the model's (.xml).
     mass
         Of all bodies together [kg], shared as in the model; None to leave them.
+    by_volume
+        Whether bodies become heavier as their volume grows before that.
     place
         Whether markers move to where they were seen.
     out
@@ -120,7 +123,7 @@ def write_scale_setup(
         scaler,
         marker_file=markers,
         time_range=_span(span),
-        preserve_mass_distribution="true",
+        preserve_mass_distribution=str(not by_volume).lower(),
         output_model_file=out if not place else "",
     )
     _texts(placer, apply=str(place).lower())

@@ -40,6 +40,8 @@ def loads_on_bodies(
         return {}
     plates = read_force_plates(file)
     record.add_input("plates", file, plates=len(plates))
+    if o.axes is not None and all(load.moves for load in loads):
+        raise InputError(file, "`axes`", "has no effect: all loads are expressed in bodies", "leave it out")
     found: dict[str, Wrench] = {}
     for load in loads:
         names = tuple(body.name for body in model.bodies)

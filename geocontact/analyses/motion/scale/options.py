@@ -30,6 +30,13 @@ class ScaleOptions(Options):
         Names of recorded markers as the model calls them: RHEE=R.Heel,LHEE=L.Heel, or a file with a pair in each line.
     mass
         Of the subject [kg], shared among the bodies as in the model.
+    mass_by_volume
+        Bodies become heavier as their volume grows, before the subject's mass is shared; otherwise sizes leave masses
+        as they are.
+    sizes
+        Trial in which distances of markers are measured (.trc, .c3d, .csv), in place of the static trial.
+    sizes_time
+        First and last time [s] of measuring distances, in place of those of standing still.
     keep_markers
         Leave markers where scaling puts them; otherwise they are moved to where they were seen in the static trial,
         but for those that the model calls fixed.
@@ -48,6 +55,9 @@ class ScaleOptions(Options):
     marker_set: Path | None = None
     markers_map: str | None = None
     mass: Annotated[float | None, MASS] = None
+    mass_by_volume: bool = False
+    sizes: Path | None = None
+    sizes_time: TimeSpan | None = None
     keep_markers: bool = False
     tasks: Path | None = None
     axes: Expression | None = None

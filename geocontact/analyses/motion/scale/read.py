@@ -13,6 +13,7 @@ from geocontact.analyses.motion.markers import markers_given, with_marker_set
 from geocontact.analyses.motion.scale.factors import factors_told
 from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_tasks import MarkerTasks
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
@@ -42,8 +43,22 @@ def read(o: ScaleOptions, record: Record) -> Standing:
     whole = renamed(record, markers_given(o.static, o.axes, o.time), model, o.markers_map)
     seen = _standing(record, whole)
     record.add_input("static", o.static, frames=len(whole), markers=len(seen.names))
-    factors = factors_told(model, whole, o.scale)
+    factors = factors_told(model, _measured(o, record, model, whole), o.scale)
     return Standing(model, whole, seen, factors, marker_tasks(record, model, seen, o.tasks))
+
+
+def _measured(o: ScaleOptions, record: Record, model: Multibody, standing: MarkerTrajectories) -> MarkerTrajectories:
+    """Trial and times of the distances of markers."""
+    if o.sizes is None and o.sizes_time is None:
+        return standing
+    if not any("/" in text for text in o.scale):
+        named = "`sizes`" if o.sizes is not None else "`sizes_time`"
+        raise InputError("", named, "has no effect: no body is measured", "name pairs of markers with `scale`")
+    file, time = o.sizes or o.static, o.sizes_time if o.sizes_time is not None or o.sizes is not None else o.time
+    seen = renamed(record, markers_given(file, o.axes, time), model, o.markers_map)
+    if o.sizes is not None:
+        record.add_input("`sizes`", o.sizes, frames=len(seen), markers=len(seen.names))
+    return seen
 
 
 def _standing(record: Record, seen: MarkerTrajectories) -> MarkerTrajectories:

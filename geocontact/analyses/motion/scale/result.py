@@ -88,6 +88,7 @@ class ScaleResult(Result):
             standing.tasks,
             (float(standing.recorded.time[0]), float(standing.recorded.time[-1])),
             mass=o.mass,
+            by_volume=o.mass_by_volume,
             place=not o.keep_markers,
             out="opensim_scaled.osim",
         )

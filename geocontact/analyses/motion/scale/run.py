@@ -25,7 +25,7 @@ from geocontact.dynamics.tree import tree_of
 def run(given: Standing, o: ScaleOptions, record: Record) -> ScaleResult:
     """Sizes and mass, the static pose, and markers where they were seen in it."""
     try:
-        made = scaled(given.model, given.factors, o.mass)
+        made = scaled(given.model, given.factors, o.mass, by_volume=o.mass_by_volume)
     except ValueError as error:
         raise InputError(o.model, "", str(error), "correct the model") from error
     try:
