@@ -140,6 +140,7 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
         ),
         next_experiment=then,
         partial=part,
+        behind=behind(found) if said.effects else {},
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
     curves, models = held_out(problem, errors, named), ranking(found, said.probabilities)
@@ -159,6 +160,17 @@ def ranking(found: Attribution, probabilities: Mapping[str, float]) -> tuple[Ran
         probability = probabilities.get(one.names[0], 0.0) if first else None
         rows.append(Ranked(one.label, " + ".join(one.names), gain, calibration, probability))
     return tuple(sorted(rows, key=lambda row: -row.gain))
+
+
+def behind(found: Attribution) -> dict[str, float]:
+    """By how many nats each effect that is in question and not named is behind what is.
+
+    The evidence of its best model alone, over all trials, before prices; 0 where that is no less.
+    """
+    said = found.answer
+    rivals = [name for name in said.ambiguity if name not in said.effects]
+    best = {name: max((c.nats for c in found.contenders if c.names == (name,)), default=None) for name in rivals}
+    return {name: max(said.chosen.nats - nats, 0.0) for name, nats in best.items() if nats is not None}
 
 
 def objection(found: Attribution) -> tuple[str, ...]:

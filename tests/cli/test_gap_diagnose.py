@@ -29,7 +29,19 @@ TABLES = {"diagnosis.json", "run.json", "gap_map.csv", "ranking.csv", "held_out.
 FIGURES = {
     f"{name}.{ending}" for name in ("gap_map", "reductions", "ranking", "gap_residuals") for ending in ("png", "svg")
 }
-KEYS = ["case", "system", "verdict", "effects", "probabilities", "ambiguity", "absorbed", "where", "gap", "parameters"]
+KEYS = [
+    "case",
+    "system",
+    "verdict",
+    "effects",
+    "probabilities",
+    "ambiguity",
+    "behind",
+    "absorbed",
+    "where",
+    "gap",
+    "parameters",
+]
 KEYS += ["partial", "next_experiment", "faults", "remarks", "seconds", "version"]
 CHANNEL = ["rmse_before", "rmse_after", "noise_floor", "reduction", "ci95", "unexplained"]
 

@@ -157,10 +157,10 @@ class Diagnosis:
     """The answer to a gap case, as in diagnosis.json.
 
     `probabilities` is a distribution over single answers (effects, "none", "unknown"), `ambiguity` the effects that
-    these data cannot tell apart, or, where nothing is named, that gain and may not be named, the best first; `absorbed`
-    those that would be invisible here, `partial` what known effects explain of a gap that is otherwise unknown,
-    `next_experiment` what to record so that it can be identified; None where
-    nothing is in question, or nothing that is simulated tells enough.
+    these data cannot tell apart, or, where nothing is named, that gain and may not be named, the best first; `behind`
+    by how many nats the evidence of each of them that is not named is behind what is; `absorbed` those that would be
+    invisible here, `partial` what known effects explain of a gap that is otherwise unknown, `next_experiment` what to
+    record so that it can be identified; None where nothing is in question, or nothing that is simulated tells enough.
     """
 
     case: str
@@ -179,6 +179,7 @@ class Diagnosis:
     remarks: tuple[str, ...] = field(default=())
     next_experiment: NextExperiment | None = None
     partial: Partial | None = None
+    behind: Mapping[str, float] = field(default_factory=dict)
 
     def as_dict(self) -> dict[str, Any]:
         """Plain dicts, lists, strings, numbers and None, ready for JSON."""
@@ -189,6 +190,7 @@ class Diagnosis:
             "effects": list(self.effects),
             "probabilities": dict(self.probabilities),
             "ambiguity": list(self.ambiguity),
+            "behind": dict(self.behind),
             "absorbed": list(self.absorbed),
             "where": [
                 {"channel": w.channel, "phase": list(w.phase), "share": w.share, "p_value": w.p_value}

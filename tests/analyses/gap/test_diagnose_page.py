@@ -16,7 +16,7 @@ from geocontact.analyses.gap.words import percent
 from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.cell import Cell
 from geocontact.data.gap.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Partial, Where
-from geocontact.gap.diagnose import Findings
+from geocontact.gap.diagnose import Findings, behind
 from geocontact.gap.partial_answer import partial
 from geocontact.view.curves.text import number
 from geocontact.view.page.content import Curves, Page, Picture, Table, Words
@@ -197,6 +197,14 @@ def test_what_an_effect_explains_is_told_unless_a_rule_speaks_against_it(told: T
     assert partial(replace(found, contenders=())) is None
 
 
+def test_rivals_are_behind_by_the_difference_of_their_evidence(told: Told) -> None:
+    found = told[1].attribution
+    both = replace(found, answer=replace(found.answer, ambiguity=("damping", "dry_friction", "nobody")))
+    gains = {row.label: row.gain for row in told[1].ranking}
+    best = max(gain for label, gain in gains.items() if label.startswith("dry_friction.") and "+" not in label)
+    assert behind(both) == {"dry_friction": pytest.approx(gains["damping"] - best)}
+
+
 # Words of each verdict, on answers made by hand.
 
 GAP = {"force": ChannelGap(2.1, 0.31, 0.22, 0.85, (0.80, 0.89), 0.03)}
@@ -228,6 +236,8 @@ def test_the_sentence_of_the_issue() -> None:
 def test_what_cannot_be_told_apart_is_said() -> None:
     _, second = said(ambiguity=("damping", "filter_lag", "relaxation"))
     assert second == "these data cannot tell damping from filter_lag or relaxation"
+    _, second = said(ambiguity=("damping", "filter_lag", "relaxation"), behind={"filter_lag": 1.24})
+    assert second == "these data cannot tell damping from filter_lag (1.2 nats behind) or relaxation"
 
 
 def test_two_effects_are_missing_together() -> None:

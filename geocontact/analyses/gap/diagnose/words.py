@@ -76,7 +76,8 @@ def _explained(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     said = ["; ".join(parts)]
     rivals = [name for name in d.ambiguity if name not in d.effects]
     if rivals:
-        said.append(f"these data cannot tell {names(d.effects)} from {names(rivals, 'or')}")
+        apart = [f"{name} ({d.behind[name]:.1f} nats behind)" if name in d.behind else name for name in rivals]
+        said.append(f"these data cannot tell {names(d.effects)} from {names(apart, 'or')}")
     return said + _absorbed(d)
 
 
