@@ -40,8 +40,8 @@ HELD = {
     "clamped": "<clamped>true</clamped>",
     "prescribed": f"<prescribed_function>{NOTHING}</prescribed_function><prescribed>true</prescribed>",
 }
-LIMIT = """<ForceSet><objects><CoordinateLimitForce name="stop"><coordinate>knee</coordinate><upper_limit>20</upper_limit>
-<upper_stiffness>2</upper_stiffness><lower_limit>-10</lower_limit><lower_stiffness>3</lower_stiffness>
+LIMIT = """<ForceSet><objects><CoordinateLimitForce name="stop"><coordinate>knee</coordinate>
+<upper_limit>20</upper_limit><upper_stiffness>2</upper_stiffness><lower_limit>-10</lower_limit><lower_stiffness>3</lower_stiffness>
 <damping>0.1</damping><transition>5</transition></CoordinateLimitForce></objects></ForceSet>"""
 ENDS = "<socket_frame1>/bodyset/pelvis</socket_frame1><socket_frame2>/bodyset/tibia</socket_frame2>"
 AXES = ("1 0 0", "0 1 0", "0 0 1")
