@@ -1,0 +1,58 @@
+"""Workers of a study: processes on this machine, or those of an existing Dask cluster."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from typing import Any
+
+from geocontact.analyses.workers import cores
+from geocontact.data.errors import InputError
+from geocontact.study.options import CohortOptions
+
+INSTALL = "pip install 'geocontact[cohort]'"
+PATIENCE = 30.0  # s; for a scheduler to answer
+SETTINGS: dict[str, Any] = {
+    "distributed.scheduler.allowed-failures": 10,  # a trial counts its workers itself, and only those that were at it
+    "distributed.worker.daemon": True,  # workers end with this process, however it ends
+    "distributed.logging": {"distributed": "critical"},
+    "distributed.admin.system-monitor.gil.enabled": False,
+}
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
+
+
+@contextmanager
+def workers_of(o: CohortOptions) -> Iterator[Any]:
+    """A `distributed.Client` of the workers; they are ended with the block where they were started for it."""
+    try:
+        dask, distributed = import_module("dask"), import_module("distributed")
+    except ImportError as error:
+        raise InputError("", "cohort", f"needs {error.name}, which is not installed", INSTALL) from error
+    with dask.config.set(SETTINGS):
+        if not o.local:
+            with _existing(o, distributed) as client:
+                yield client
+            return
+        with (
+            distributed.LocalCluster(
+                n_workers=o.workers or cores(),
+                threads_per_worker=1,
+                processes=True,
+                memory_limit=o.memory or "auto",
+                dashboard_address=None,
+                env=ONE_THREAD,
+                silence_logs="CRITICAL",
+            ) as cluster,
+            distributed.Client(cluster, set_as_default=False) as client,
+        ):
+            yield client
+
+
+def _existing(o: CohortOptions, distributed: Any) -> Any:
+    remedy = "check the address, and that the scheduler runs the same version of Dask"
+    try:
+        return distributed.Client(o.scheduler, timeout=PATIENCE, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        what = f"no scheduler answers at {o.scheduler} ({type(error).__name__})"
+        raise InputError("", "`scheduler`", what, remedy) from error

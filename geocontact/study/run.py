@@ -1,0 +1,104 @@
+"""Evaluate what is missing of a study, and tell what became of every trial."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Iterator
+from contextlib import chdir
+from dataclasses import dataclass
+from pathlib import Path
+
+from geocontact.analyses import source_digest
+from geocontact.analyses.catalogue import job_named
+from geocontact.analyses.page_words import counted
+from geocontact.analyses.results_folder import Scratch
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.study.address import Digests, address_of, options_of
+from geocontact.study.cluster import workers_of
+from geocontact.study.dispatch import outcomes
+from geocontact.study.options import CohortOptions
+from geocontact.study.read import PlannedStudy
+from geocontact.study.result import CohortResult, StudiedTrial
+from geocontact.study.store import RESULTS, Store
+from geocontact.study.trial_run import DONE, STOPPED, WRONG, Outcome, Task
+from geocontact.study.trials import StudyTrial
+
+
+@dataclass(frozen=True)
+class _Planned:
+    """A trial, its address, "" where its options cannot be, and what is known of it before it runs."""
+
+    trial: StudyTrial
+    address: str
+    known: Outcome | None
+
+
+def run(planned: PlannedStudy, o: CohortOptions, record: Record) -> CohortResult:
+    """Results of all trials that can be evaluated; InputError where none can be."""
+    scratch = None if record.out is not None else Scratch()
+    out = record.out if record.out is not None else scratch.folder if scratch is not None else Path()
+    store = Store(out.resolve() / RESULTS)
+    store.begin()
+    try:
+        plan = _plan(planned, store)
+        became = _evaluated(planned, plan, store, o, record)
+    finally:
+        store.end()
+    trials = tuple(StudiedTrial(one.trial, one.address, became[k]) for k, one in enumerate(plan))
+    for one in trials:
+        if one.outcome.state != DONE:
+            record.listener.fail(f"{one.trial.name}: {one.outcome.line}")
+    done = [one for one in trials if one.outcome.state == DONE]
+    if not done:
+        raise InputError(o.study, "", f"none of the {len(trials)} trials could be evaluated", "see the lines above")
+    new = sum(one.known is None for one in plan)
+    record.results["trials"] = {"all": len(trials), "done": len(done)}
+    record.say(
+        f"{len(done)} of {counted(len(trials), 'trial')} of {planned.file.analysis} evaluated, {new} of them now"
+    )
+    return CohortResult(record=record, planned=planned, trials=trials, store=store, scratch=scratch)
+
+
+def _plan(planned: PlannedStudy, store: Store) -> list[_Planned]:
+    job, digests, home = job_named(planned.file.analysis), Digests(), planned.file.home
+    found = []
+    for trial in planned.trials:
+        try:
+            with chdir(home):
+                options = options_of(job.options, trial.options)
+                options.refuse_missing_files()
+            address = address_of(job.command, options, home, digests)
+        except InputError as error:
+            found.append(_Planned(trial, "", Outcome(WRONG, str(error))))
+            continue
+        there = store.holds(address, home, digests)
+        if not there:
+            store.forget(address)
+        found.append(_Planned(trial, address, Outcome(DONE) if there else None))
+    return found
+
+
+def _evaluated(
+    planned: PlannedStudy, plan: list[_Planned], store: Store, o: CohortOptions, record: Record
+) -> list[Outcome]:
+    """What became of each trial of the plan; only what is missing is evaluated."""
+    run_id, sources = secrets.token_hex(8), source_digest.digest()
+    missing = {one.address: one.trial for one in plan if one.known is None}
+    tasks = [
+        Task(planned.file.analysis, trial.options, planned.file.home, store, address, sources, run_id)
+        for address, trial in missing.items()
+    ]
+    became = dict(_outcomes(tasks, o, record))
+    return [one.known or became[one.address] for one in plan]
+
+
+def _outcomes(tasks: list[Task], o: CohortOptions, record: Record) -> Iterator[tuple[str, Outcome]]:
+    if not tasks:
+        return
+    with workers_of(o) as client, record.listener.progress("trials", len(tasks)) as step:
+        for task, outcome in outcomes(client, tasks):
+            if outcome.state == STOPPED:
+                raise OSError(f"{outcome.line}; what is done is kept: run it again when that is mended")
+            yield task.address, outcome
+            step()
