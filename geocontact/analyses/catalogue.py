@@ -1,4 +1,4 @@
-"""Every analysis by the name of its command."""
+"""Every analysis by the name of its command, and own ones by where they are: "package.module:OBJECT"."""
 
 from __future__ import annotations
 
@@ -50,11 +50,26 @@ PLACES = {
 
 def job_named(name: str) -> Job[Any, Any]:
     """The analysis of a command; InputError where there is none of that name."""
+    if ":" in name:
+        return _own(name)
     if name not in PLACES:
         near = get_close_matches(name, PLACES, n=1)
         raise InputError("", "", f"there is no analysis {name!r}", f"did you mean {near[0]!r}?" if near else _names())
     place, _, attribute = PLACES[name].partition(":")
     found: Job[Any, Any] = getattr(import_module(f"geocontact.analyses.{place}"), attribute)
+    return found
+
+
+def _own(name: str) -> Job[Any, Any]:
+    """An analysis of somebody else's module, which is imported."""
+    place, _, attribute = name.partition(":")
+    try:
+        found = getattr(import_module(place), attribute)
+    except (ImportError, AttributeError, ValueError) as error:
+        what = f"no analysis at {name!r} ({type(error).__name__}: {error})"
+        raise InputError("", "", what, "put its folder into PYTHONPATH, on the workers too") from error
+    if not isinstance(found, Job):
+        raise InputError("", "", f"{name!r} is a {type(found).__name__}", "name a geocontact.analyses.job.Job")
     return found
 
 

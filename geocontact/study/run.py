@@ -54,9 +54,8 @@ def run(planned: PlannedStudy, o: CohortOptions, record: Record) -> CohortResult
         raise InputError(o.study, "", f"none of the {len(trials)} trials could be evaluated", "see the lines above")
     new = sum(one.known is None for one in plan)
     record.results["trials"] = {"all": len(trials), "done": len(done)}
-    record.say(
-        f"{len(done)} of {counted(len(trials), 'trial')} of {planned.file.analysis} evaluated, {new} of them now"
-    )
+    all_of_them = f"{len(done)} of {counted(len(trials), 'trial')} of {planned.file.analysis}"
+    record.say(f"{all_of_them} have results, {new} of them new")
     return CohortResult(record=record, planned=planned, trials=trials, store=store, scratch=scratch)
 
 
