@@ -14,15 +14,20 @@ from geocontact.analyses.page_words import counted
 from geocontact.analyses.results_folder import Scratch
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
+from geocontact.io.text.units import split_header
 from geocontact.study.address import Digests, address_of, options_of
 from geocontact.study.cluster import workers_of
+from geocontact.study.curves import STEPS, StudyCurves, curves_of
 from geocontact.study.dispatch import outcomes
 from geocontact.study.options import CohortOptions
 from geocontact.study.read import PlannedStudy
 from geocontact.study.result import CohortResult, StudiedTrial
 from geocontact.study.store import RESULTS, Store
+from geocontact.study.tables import differences_of, outlier_table
 from geocontact.study.trial_run import DONE, STOPPED, WRONG, Outcome, Task
 from geocontact.study.trials import StudyTrial
+
+LEVEL = 0.05
 
 
 @dataclass(frozen=True)
@@ -56,7 +61,26 @@ def run(planned: PlannedStudy, o: CohortOptions, record: Record) -> CohortResult
     record.results["trials"] = {"all": len(trials), "done": len(done)}
     all_of_them = f"{len(done)} of {counted(len(trials), 'trial')} of {planned.file.analysis}"
     record.say(f"{all_of_them} have results, {new} of them new")
-    return CohortResult(record=record, planned=planned, trials=trials, store=store, scratch=scratch)
+    curves = curves_of(planned.file, [(one.trial, one.address) for one in done], store)
+    _say(curves, record)
+    return CohortResult(record=record, planned=planned, trials=trials, store=store, curves=curves, scratch=scratch)
+
+
+def _say(curves: tuple[StudyCurves, ...], record: Record) -> None:
+    """What conditions differ in, and which trials lie apart."""
+    for one, first, second, found in differences_of(curves):
+        name = f"{split_header(one.column)[0]}, {first} against {second}"
+        where = STEPS[found.p <= LEVEL]
+        subjects = counted(found.subjects, "subject")
+        if found.smallest > LEVEL:
+            record.say(f"{name}: {subjects} cannot show a difference, the smallest p is {found.smallest:.2g}")
+        elif len(where):
+            record.say(f"{name}: p is at most 5 % at {len(where)} of 101 places, {where[0]:g} to {where[-1]:g} %")
+        else:
+            record.say(f"{name}: no difference shown by {subjects}, the smallest p is {found.p.min():.2g}")
+    apart = outlier_table(curves)
+    for name in dict.fromkeys(apart["name"]):
+        record.warn(f"{name} lies apart from the other trials of its condition")
 
 
 def _plan(planned: PlannedStudy, store: Store) -> list[_Planned]:

@@ -49,7 +49,9 @@ def test_only_what_is_missing_is_evaluated_again(tmp_path: Path, scheduler: str)
     (tmp_path / "B.txt").write_text("7", encoding="utf-8")
     assert ", 1 of them new" in cohort(file, out, scheduler).out and tables(out) != first
     (tmp_path / "B.txt").write_text("2", encoding="utf-8")
-    assert ", 0 of them new" in cohort(file, out, scheduler).out and tables(out) == first, "the old results are still there"
+    assert ", 0 of them new" in cohort(file, out, scheduler).out and tables(out) == first, (
+        "the old results are still there"
+    )
 
 
 def test_a_file_that_only_another_file_names_counts_too(tmp_path: Path, scheduler: str) -> None:
