@@ -52,6 +52,7 @@ class QuickResult(Result):
 
     def write_files(self, folder: Path) -> None:
         write_table(self.table_, folder, "sine")
+        self.write_page(folder / "report.html")
 
     def write_page(self, file: Path) -> None:
         file.write_text("<p>sine</p>", encoding="utf-8")
@@ -112,3 +113,18 @@ def tables(out: Path) -> dict[str, bytes]:
 def told(out: Path) -> dict[str, Any]:
     """`run.json`."""
     return json.loads((out / "run.json").read_text(encoding="utf-8"))
+
+
+def compared(folder: Path) -> Path:
+    """Six subjects, two trials of each in two conditions, the second one larger; F's last trial is odd."""
+    gains = {"slow": 0, "fast": 2}
+    numbers = {
+        f"{subject}_{condition}_{trial}": str(20 + k % 3 + more + 40 * (f"{subject}{condition}{trial}" == "Ffast2"))
+        for k, subject in enumerate("ABCDEF")
+        for condition, more in gains.items()
+        for trial in (1, 2)
+    }
+    file = study(folder, numbers)
+    text = file.read_text(encoding="utf-8").replace("{subject}.txt", "{subject}_{condition}_{trial}.txt")
+    file.write_text(text, encoding="utf-8")
+    return file

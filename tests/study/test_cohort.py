@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -11,7 +12,7 @@ import pytest
 from scipy.io import netcdf_file
 
 from tests.cli.calls import Call, call
-from tests.study.quick import study, tables, told
+from tests.study.quick import compared, study, tables, told
 
 NUMBERS = {"A": "1", "B": "2", "C": "3"}
 
@@ -102,3 +103,19 @@ def test_results_are_those_of_one_by_one(tmp_path: Path, scheduler: str, monkeyp
     for name, folder in zip(manifest["name"], manifest["folder"], strict=True):
         quick(f"{name}.txt").write(tmp_path / name)
         assert (tmp_path / name / "sine.csv").read_bytes() == (out / folder / "sine.csv").read_bytes()
+
+
+def test_conditions_are_compared_and_the_page_leads_to_every_trial(tmp_path: Path, scheduler: str) -> None:
+    out = tmp_path / "out"
+    done = cohort(compared(tmp_path), out, scheduler)
+    assert done.code == 0 and done.warnings == ["F fast 2 lies apart from the other trials of its condition"]
+    assert "force, fast against slow: p is at most 5 % at 100 of 101 places, 1 to 100 %" in done.out
+    values = done.table("values.csv")
+    largest = values[(values["value"] == "largest") & (values["condition"] == "slow")]["mean"].item()
+    assert largest == pytest.approx(21.0 * np.sin(1.0), rel=1e-9)
+    differences = done.table("differences.csv")
+    assert differences["p [-]"][1:].to_numpy() == pytest.approx(2 / 64) and differences["p [-]"][0] == 1.0
+    assert r"icc\_agreement [-]" in (out / "agreement.tex").read_text(encoding="utf-8")
+    page = (out / "report.html").read_text(encoding="utf-8")
+    links = re.findall(r'<a href="(results/[0-9a-f]{32}/report\.html)">', page)
+    assert len(links) == 24 and all((out / link).is_file() for link in links)
