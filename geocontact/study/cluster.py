@@ -40,7 +40,7 @@ def workers_of(o: CohortOptions) -> Iterator[Any]:
                 threads_per_worker=1,
                 processes=True,
                 memory_limit=o.memory or "auto",
-                dashboard_address=None,
+                dashboard_address="127.0.0.1:0",
                 env=ONE_THREAD,
                 silence_logs="CRITICAL",
             ) as cluster,

@@ -105,6 +105,7 @@ class CohortResult(Result):
                 **{name: one.trial.factors.get(name, "") for name in names},
                 "state": one.outcome.state,
                 "folder": f"{RESULTS}/{one.address}" if one.outcome.state == DONE else "",
+                "warnings [-]": len(self.store.told(one.address)["warnings"]) if one.outcome.state == DONE else 0,
                 "words": one.outcome.line,
             }
             for one in self.trials

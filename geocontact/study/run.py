@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import secrets
+import time
 from collections.abc import Iterator
 from contextlib import chdir
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from geocontact.analyses import source_digest
 from geocontact.analyses.catalogue import job_named
@@ -120,8 +122,17 @@ def _outcomes(tasks: list[Task], o: CohortOptions, record: Record) -> Iterator[t
     if not tasks:
         return
     with workers_of(o) as client, record.listener.progress("trials", len(tasks)) as step:
+        started, spent = time.perf_counter(), 0.0
         for task, outcome in outcomes(client, tasks):
             if outcome.state == STOPPED:
                 raise OSError(f"{outcome.line}; what is done is kept: run it again when that is mended")
             yield task.address, outcome
+            spent += outcome.seconds
             step()
+        record.results["work"] = {"seconds": round(time.perf_counter() - started, 3), "workers": _count(client)}
+        record.results["one_by_one"] = {"seconds": round(spent, 3)}
+
+
+def _count(client: Any) -> int:
+    """Threads of all workers."""
+    return int(sum(client.nthreads().values()))

@@ -13,6 +13,6 @@ distributed = pytest.importorskip("distributed", reason="needs the extra `cohort
 def scheduler() -> Iterator[str]:
     """Address of a scheduler with two workers, as of a cluster that is there already."""
     with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs="CRITICAL"
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", silence_logs="CRITICAL"
     ) as cluster:
         yield cluster.scheduler_address
