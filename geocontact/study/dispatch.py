@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import time
+from collections.abc import Callable, Iterator, Sequence
 from importlib import import_module
+from itertools import islice
 from typing import Any
 
 from geocontact.study.store import MOST_ENDED
@@ -11,44 +13,62 @@ from geocontact.study.trial_run import FAILED, SET_ASIDE, Outcome, Task, run_tri
 
 AHEAD = 2
 """Trials that are given out for each thread of the workers: one runs, one waits."""
+COUNTED = 1.0  # s; so often the workers are counted, for they come and go on a cluster
+GONE = "what is done is kept: run it again"
 
 
 def outcomes(client: Any, tasks: Sequence[Task]) -> Iterator[tuple[Task, Outcome]]:
-    """Every task with its outcome, in the order in which they end.
+    """Every task with its outcome, in the order in which they end; OSError where the scheduler is lost.
 
-    What is given out at a time does not depend on the number of tasks. A task that was not at work when its worker
-    ended is given out again.
+    What is given out at a time hangs on the number of workers and not on that of tasks. A task that was not at work
+    when its worker ended is given out again.
     """
-    waiting = iter(tasks)
-    running = {}
-    completed = import_module("distributed").as_completed(with_results=False, loop=client.loop)
+    wait = import_module("distributed").wait
+    threads, waiting = _threads(client), iter(tasks)
+    running: dict[Any, Task] = {}
 
-    def give_out(task: Task) -> None:
-        future = client.submit(run_trial, task, pure=False, retries=0)
-        running[future.key] = task
-        completed.add(future)
+    def give_out(some: Iterator[Task]) -> None:
+        running.update({client.submit(run_trial, task, pure=False, retries=0): task for task in some})
 
-    for task in _first(waiting, AHEAD * max(1, sum(client.nthreads().values()))):
-        give_out(task)
-    for future in completed:
-        task = running.pop(future.key)
-        error = future.exception()
-        if _killed(error) and task.store.starts(task.run, task.address) < MOST_ENDED:
-            give_out(task)
-            continue
-        yield task, _outcome(future.result() if error is None else error)
-        future.release()
-        for another in _first(waiting, 1):
-            give_out(another)
+    give_out(islice(waiting, AHEAD * threads()))
+    while running:
+        for future in _ended(wait, list(running)):
+            task, error = running.pop(future), future.exception()
+            if _killed(error) and task.store.starts(task.run, task.address) < MOST_ENDED:
+                give_out(iter([task]))
+            else:
+                yield task, _outcome(future.result() if error is None else error)
+        give_out(islice(waiting, max(0, AHEAD * threads() - len(running))))
+
+
+def _ended(wait: Callable[..., Any], futures: list[Any]) -> list[Any]:
+    """Those that have ended, none after a while without any."""
+    try:
+        done = wait(futures, timeout=COUNTED, return_when="FIRST_COMPLETED").done
+    except TimeoutError:
+        done = set()
+    except Exception as error:
+        if "Cancelled" not in type(error).__name__:
+            raise
+        raise OSError(f"the scheduler is gone; {GONE}") from error
+    return [future for future in futures if future in done]
+
+
+def _threads(client: Any) -> Callable[[], int]:
+    """How many threads the workers have, at least one; asked for no more often than once a second."""
+    known, asked = 1, -1e9
+
+    def threads() -> int:
+        nonlocal known, asked
+        if time.monotonic() - asked > COUNTED:
+            known, asked = max(1, sum(client.nthreads().values())), time.monotonic()
+        return known
+
+    return threads
 
 
 def _killed(error: object) -> bool:
     return type(error).__name__ == "KilledWorker"
-
-
-def _first(tasks: Iterator[Task], count: int) -> Iterator[Task]:
-    for _, task in zip(range(count), tasks, strict=False):
-        yield task
 
 
 def _outcome(became: Outcome | BaseException) -> Outcome:

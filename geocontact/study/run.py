@@ -13,7 +13,7 @@ from typing import Any
 from geocontact.analyses import source_digest
 from geocontact.analyses.catalogue import job_named
 from geocontact.analyses.page_words import counted
-from geocontact.analyses.results_folder import Scratch
+from geocontact.analyses.results_folder import Scratch, is_kept
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.io.text.units import split_header
@@ -128,6 +128,8 @@ def _outcomes(tasks: list[Task], o: CohortOptions, record: Record) -> Iterator[t
                 raise OSError(f"{outcome.line}; what is done is kept: run it again when that is mended")
             yield task.address, outcome
             spent += outcome.seconds
+            if outcome.state == DONE:
+                is_kept(task.store.folder)
             step()
         record.results["work"] = {"seconds": round(time.perf_counter() - started, 3), "workers": _count(client)}
         record.results["one_by_one"] = {"seconds": round(spent, 3)}
