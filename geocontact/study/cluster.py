@@ -42,6 +42,7 @@ def workers_of(o: CohortOptions) -> Iterator[Any]:
                 memory_limit=o.memory or "auto",
                 dashboard_address="127.0.0.1:0",
                 env=ONE_THREAD,
+                preload=["geocontact.study.worker_setup"],
                 silence_logs="CRITICAL",
             ) as cluster,
             distributed.Client(cluster, set_as_default=False) as client,

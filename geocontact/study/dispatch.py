@@ -8,22 +8,22 @@ from importlib import import_module
 from itertools import islice
 from typing import Any
 
+from geocontact.data.errors import InputError
 from geocontact.study.store import MOST_ENDED
 from geocontact.study.trial_run import FAILED, SET_ASIDE, Outcome, Task, run_trial
 
 AHEAD = 2
 """Trials that are given out for each thread of the workers: one runs, one waits."""
 COUNTED = 1.0  # s; so often the workers are counted, for they come and go on a cluster
-GONE = "what is done is kept: run it again"
+GONE = "the scheduler is gone; what is done is kept: run it again"
 
 
 def outcomes(client: Any, tasks: Sequence[Task]) -> Iterator[tuple[Task, Outcome]]:
-    """Every task with its outcome, in the order in which they end; OSError where the scheduler is lost.
+    """Every task with its outcome, in the order in which they end; InputError where the scheduler is lost.
 
     What is given out at a time hangs on the number of workers and not on that of tasks. A task that was not at work
     when its worker ended is given out again.
     """
-    wait = import_module("distributed").wait
     threads, waiting = _threads(client), iter(tasks)
     running: dict[Any, Task] = {}
 
@@ -32,7 +32,7 @@ def outcomes(client: Any, tasks: Sequence[Task]) -> Iterator[tuple[Task, Outcome
 
     give_out(islice(waiting, AHEAD * threads()))
     while running:
-        for future in _ended(wait, list(running)):
+        for future in _ended(client, list(running)):
             task, error = running.pop(future), future.exception()
             if _killed(error) and task.store.starts(task.run, task.address) < MOST_ENDED:
                 give_out(iter([task]))
@@ -41,16 +41,18 @@ def outcomes(client: Any, tasks: Sequence[Task]) -> Iterator[tuple[Task, Outcome
         give_out(islice(waiting, max(0, AHEAD * threads() - len(running))))
 
 
-def _ended(wait: Callable[..., Any], futures: list[Any]) -> list[Any]:
+def _ended(client: Any, futures: list[Any]) -> list[Any]:
     """Those that have ended, none after a while without any."""
+    wait = import_module("distributed").wait
     try:
-        done = wait(futures, timeout=COUNTED, return_when="FIRST_COMPLETED").done
+        with client.as_current():
+            done = wait(futures, timeout=COUNTED, return_when="FIRST_COMPLETED").done
     except TimeoutError:
         done = set()
     except Exception as error:
-        if "Cancelled" not in type(error).__name__:
+        if "Cancelled" not in type(error).__name__ and not isinstance(error, OSError):
             raise
-        raise OSError(f"the scheduler is gone; {GONE}") from error
+        raise InputError("", "`scheduler`", GONE) from error
     return [future for future in futures if future in done]
 
 
@@ -61,7 +63,10 @@ def _threads(client: Any) -> Callable[[], int]:
     def threads() -> int:
         nonlocal known, asked
         if time.monotonic() - asked > COUNTED:
-            known, asked = max(1, sum(client.nthreads().values())), time.monotonic()
+            try:
+                known, asked = max(1, sum(client.nthreads().values())), time.monotonic()
+            except OSError as error:
+                raise InputError("", "`scheduler`", GONE) from error
         return known
 
     return threads
