@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
@@ -16,7 +17,6 @@ PATIENCE = 30.0  # s; for a scheduler to answer
 SETTINGS: dict[str, Any] = {
     "distributed.scheduler.allowed-failures": 10,  # a trial counts its workers itself, and only those that were at it
     "distributed.worker.daemon": True,  # workers end with this process, however it ends
-    "distributed.logging": {"distributed": "critical"},
     "distributed.admin.system-monitor.gil.enabled": False,
 }
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
@@ -29,6 +29,7 @@ def workers_of(o: CohortOptions) -> Iterator[Any]:
         dask, distributed = import_module("dask"), import_module("distributed")
     except ImportError as error:
         raise InputError("", "cohort", f"needs {error.name}, which is not installed", INSTALL) from error
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters of it is told in one line
     with dask.config.set(SETTINGS):
         if not o.local:
             with _existing(o, distributed) as client:

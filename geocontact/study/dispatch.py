@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import time
 from collections.abc import Callable, Iterator, Sequence
 from importlib import import_module
 from itertools import islice
 from typing import Any
 
-from geocontact.data.errors import InputError
 from geocontact.study.store import MOST_ENDED
 from geocontact.study.trial_run import FAILED, SET_ASIDE, Outcome, Task, run_trial
 
@@ -19,7 +19,7 @@ GONE = "the scheduler is gone; what is done is kept: run it again"
 
 
 def outcomes(client: Any, tasks: Sequence[Task]) -> Iterator[tuple[Task, Outcome]]:
-    """Every task with its outcome, in the order in which they end; InputError where the scheduler is lost.
+    """Every task with its outcome, in the order in which they end; OSError where the scheduler is lost.
 
     What is given out at a time hangs on the number of workers and not on that of tasks. A task that was not at work
     when its worker ended is given out again.
@@ -52,8 +52,12 @@ def _ended(client: Any, futures: list[Any]) -> list[Any]:
     except Exception as error:
         if "Cancelled" not in type(error).__name__ and not isinstance(error, OSError):
             raise
-        raise InputError("", "`scheduler`", GONE) from error
+        raise _lost(client) from error
     return [future for future in futures if future in done]
+
+
+def _lost(client: Any) -> OSError:
+    return OSError(errno.ECONNABORTED, GONE, str(client.scheduler.address) if client.scheduler else "scheduler")
 
 
 def _threads(client: Any) -> Callable[[], int]:
@@ -66,7 +70,7 @@ def _threads(client: Any) -> Callable[[], int]:
             try:
                 known, asked = max(1, sum(client.nthreads().values())), time.monotonic()
             except OSError as error:
-                raise InputError("", "`scheduler`", GONE) from error
+                raise _lost(client) from error
         return known
 
     return threads

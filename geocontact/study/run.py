@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import secrets
 import time
 from collections.abc import Iterator
@@ -49,6 +50,8 @@ def run(planned: PlannedStudy, o: CohortOptions, record: Record) -> CohortResult
     store.begin()
     try:
         plan = _plan(planned, store)
+        if any(one.known is not None and one.known.state == DONE for one in plan):
+            is_kept(store.folder)
         became = _evaluated(planned, plan, store, o, record)
     finally:
         store.end()
@@ -125,7 +128,8 @@ def _outcomes(tasks: list[Task], o: CohortOptions, record: Record) -> Iterator[t
         started, spent = time.perf_counter(), 0.0
         for task, outcome in outcomes(client, tasks):
             if outcome.state == STOPPED:
-                raise OSError(f"{outcome.line}; what is done is kept: run it again when that is mended")
+                line = f"{outcome.line}; what is done is kept: run it again when that is mended"
+                raise OSError(errno.EIO, line, str(task.store.folder))
             yield task.address, outcome
             spent += outcome.seconds
             if outcome.state == DONE:

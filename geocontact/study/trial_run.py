@@ -86,7 +86,7 @@ def run_trial(task: Task) -> Outcome:
             outcome = _outcome(task)
             ended()
         except OSError as error:
-            return _written_nowhere(error, task)
+            return Outcome(STOPPED, str(error.strerror or error))
     return Outcome(outcome.state, outcome.line, time.perf_counter() - started)
 
 
@@ -128,10 +128,6 @@ def _evaluate(task: Task, out: Path) -> None:
     draft = out / f"{TOLD}.part"
     draft.write_text(json.dumps(told, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     os.replace(draft, out / TOLD)
-
-
-def _written_nowhere(error: OSError, task: Task) -> Outcome:
-    return Outcome(STOPPED, f"{task.store.folder}: {error.strerror or error}")
 
 
 _sources = cache(source_digest.digest)
