@@ -19,6 +19,7 @@ SETTINGS: dict[str, Any] = {
     "distributed.worker.daemon": True,  # workers end with this process, however it ends
     "distributed.admin.system-monitor.gil.enabled": False,
 }
+LOGGERS = tuple(f"distributed{part}" for part in ("", ".client", ".core", ".nanny", ".scheduler", ".worker"))
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 
 
@@ -29,7 +30,8 @@ def workers_of(o: CohortOptions) -> Iterator[Any]:
         dask, distributed = import_module("dask"), import_module("distributed")
     except ImportError as error:
         raise InputError("", "cohort", f"needs {error.name}, which is not installed", INSTALL) from error
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters of it is told in one line
+    for name in LOGGERS:  # what matters of it is told in one line
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     with dask.config.set(SETTINGS):
         if not o.local:
             with _existing(o, distributed) as client:

@@ -33,11 +33,15 @@ def outcomes(client: Any, tasks: Sequence[Task]) -> Iterator[tuple[Task, Outcome
     give_out(islice(waiting, AHEAD * threads()))
     while running:
         for future in _ended(client, list(running)):
-            task, error = running.pop(future), future.exception()
-            if _killed(error) and task.store.starts(task.run, task.address) < MOST_ENDED:
+            task = running.pop(future)
+            try:
+                became = future.exception() or future.result()
+            except OSError as error:  # of the connection: a trial that cannot write says so in its outcome
+                raise _lost(client) from error
+            if _killed(became) and task.store.starts(task.run, task.address) < MOST_ENDED:
                 give_out(iter([task]))
             else:
-                yield task, _outcome(future.result() if error is None else error)
+                yield task, _outcome(became)
         give_out(islice(waiting, max(0, AHEAD * threads() - len(running))))
 
 
