@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib import import_module
 from typing import Any
 
 from geocontact.analyses.workers import cores
@@ -27,9 +26,11 @@ ONE_THREAD = {"OMP_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1", "OPENBLAS_NUM_TH
 def workers_of(o: CohortOptions) -> Iterator[Any]:
     """A `distributed.Client` of the workers; they are ended with the block where they were started for it."""
     try:
-        dask, distributed = import_module("dask"), import_module("distributed")
+        import dask
+        import distributed as library
     except ImportError as error:
         raise InputError("", "cohort", f"needs {error.name}, which is not installed", INSTALL) from error
+    distributed: Any = library  # its annotations do not say how it is called
     for name in LOGGERS:  # what matters of it is told in one line
         logging.getLogger(name).setLevel(logging.CRITICAL)
     with dask.config.set(SETTINGS):

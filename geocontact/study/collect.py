@@ -12,19 +12,19 @@ import pyarrow.parquet as pq
 
 from geocontact.io.results.ragged_netcdf import RaggedTable, write_ragged
 from geocontact.study.store import Store
-from geocontact.study.trials import StudyTrial
+from geocontact.study.trials import CohortTrial
 
 NAME = "name"
 ROWS = 1 << 16
 """Rows that are written at a time, at least."""
-Kept = tuple[StudyTrial, str]
+Kept = tuple[CohortTrial, str]
 
 
 @dataclass(frozen=True)
 class Part:
     """The table of one trial: where it is, how many rows it has."""
 
-    trial: StudyTrial
+    trial: CohortTrial
     file: Path
     rows: int
 
@@ -68,7 +68,7 @@ def _common(one: pa.DataType, other: pa.DataType) -> pa.DataType:
     return pa.float64() if numbers else pa.string()
 
 
-def _labels(trial: StudyTrial) -> dict[str, str]:
+def _labels(trial: CohortTrial) -> dict[str, str]:
     """Name and factors, as text: what one trial has as a number another may have as a word."""
     return {NAME: trial.name, **{name: str(value) for name, value in trial.factors.items()}}
 

@@ -14,7 +14,7 @@ from geocontact.data.errors import InputError
 from geocontact.io.results.netcdf import coordinates_of, over_time
 from geocontact.study.store import Store
 from geocontact.study.study_file import StudyFile
-from geocontact.study.trials import StudyTrial
+from geocontact.study.trials import CohortTrial
 
 STEPS = np.linspace(0.0, 100.0, 101)
 """Places on the curves [%]."""
@@ -59,7 +59,7 @@ class StudyCurves:
         return {subject: self.matrix[own].mean(axis=0) for subject, own in places.items()}
 
 
-def curves_of(study: StudyFile, done: Sequence[tuple[StudyTrial, str]], store: Store) -> tuple[StudyCurves, ...]:
+def curves_of(study: StudyFile, done: Sequence[tuple[CohortTrial, str]], store: Store) -> tuple[StudyCurves, ...]:
     """Curves of the columns that [summary] names, or of the first few; none where no table is over time."""
     asked = study.summary
     name = asked.table or _first_over_time(done, store)
@@ -81,7 +81,7 @@ def curves_of(study: StudyFile, done: Sequence[tuple[StudyTrial, str]], store: S
     return tuple(StudyCurves(column, names, subjects, conditions, values[:, k]) for k, column in enumerate(columns))
 
 
-def _first_over_time(done: Sequence[tuple[StudyTrial, str]], store: Store) -> str:
+def _first_over_time(done: Sequence[tuple[CohortTrial, str]], store: Store) -> str:
     for trial_and_address in done[:1]:
         place = store.place(trial_and_address[1])
         for name in store.told(trial_and_address[1])["tables"]:
@@ -120,11 +120,11 @@ def _first_of_each(table: pd.DataFrame, over: str) -> dict[str, object]:
     return {name: table[name].iloc[0] for name in others}
 
 
-def _who(study: StudyFile, trials: Sequence[StudyTrial]) -> tuple[str, ...]:
+def _who(study: StudyFile, trials: Sequence[CohortTrial]) -> tuple[str, ...]:
     return tuple(str(trial.factors.get(study.summary.subject, trial.name)) for trial in trials)
 
 
-def _what(study: StudyFile, trials: Sequence[StudyTrial]) -> tuple[str, ...]:
+def _what(study: StudyFile, trials: Sequence[CohortTrial]) -> tuple[str, ...]:
     """The condition, and the values of swept options: "fast, threshold 4"."""
     found = []
     for trial in trials:

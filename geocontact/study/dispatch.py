@@ -5,12 +5,11 @@ from __future__ import annotations
 import errno
 import time
 from collections.abc import Callable, Iterator, Sequence
-from importlib import import_module
 from itertools import islice
 from typing import Any
 
 from geocontact.study.store import MOST_ENDED
-from geocontact.study.trial_run import FAILED, SET_ASIDE, Outcome, Task, run_trial
+from geocontact.study.trial_run import FAILED, SET_ASIDE, TrialOutcome, TrialTask, run_trial
 
 AHEAD = 2
 """Trials that are given out for each thread of the workers: one runs, one waits."""
@@ -18,16 +17,16 @@ COUNTED = 1.0  # s; so often the workers are counted, for they come and go on a 
 GONE = "the scheduler is gone; what is done is kept: run it again"
 
 
-def outcomes(client: Any, tasks: Sequence[Task]) -> Iterator[tuple[Task, Outcome]]:
+def outcomes(client: Any, tasks: Sequence[TrialTask]) -> Iterator[tuple[TrialTask, TrialOutcome]]:
     """Every task with its outcome, in the order in which they end; OSError where the scheduler is lost.
 
     What is given out at a time hangs on the number of workers and not on that of tasks. A task that was not at work
     when its worker ended is given out again.
     """
     threads, waiting = _threads(client), iter(tasks)
-    running: dict[Any, Task] = {}
+    running: dict[Any, TrialTask] = {}
 
-    def give_out(some: Iterator[Task]) -> None:
+    def give_out(some: Iterator[TrialTask]) -> None:
         running.update({client.submit(run_trial, task, pure=False, retries=0): task for task in some})
 
     give_out(islice(waiting, AHEAD * threads()))
@@ -47,7 +46,9 @@ def outcomes(client: Any, tasks: Sequence[Task]) -> Iterator[tuple[Task, Outcome
 
 def _ended(client: Any, futures: list[Any]) -> list[Any]:
     """Those that have ended, none after a while without any."""
-    wait = import_module("distributed").wait
+    from distributed import wait as untyped
+
+    wait: Any = untyped
     try:
         with client.as_current():
             done = wait(futures, timeout=COUNTED, return_when="FIRST_COMPLETED").done
@@ -84,9 +85,9 @@ def _killed(error: object) -> bool:
     return type(error).__name__ == "KilledWorker"
 
 
-def _outcome(became: Outcome | BaseException) -> Outcome:
-    if isinstance(became, Outcome):
+def _outcome(became: TrialOutcome | BaseException) -> TrialOutcome:
+    if isinstance(became, TrialOutcome):
         return became
     if _killed(became):
-        return Outcome(SET_ASIDE, f"its worker was killed {MOST_ENDED} times: out of memory, or a crash")
-    return Outcome(FAILED, " ".join(f"{type(became).__name__}: {became}".split()))
+        return TrialOutcome(SET_ASIDE, f"its worker was killed {MOST_ENDED} times: out of memory, or a crash")
+    return TrialOutcome(FAILED, " ".join(f"{type(became).__name__}: {became}".split()))

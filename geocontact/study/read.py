@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from geocontact.analyses.run_record import Record
 from geocontact.study.options import CohortOptions
 from geocontact.study.study_file import StudyFile, read_study_file
-from geocontact.study.trials import StudyTrial, trials_of
+from geocontact.study.trials import CohortTrial, trials_of
 
 
 @dataclass(frozen=True)
@@ -15,7 +15,7 @@ class PlannedStudy:
     """The description, and the trials that it comes to."""
 
     file: StudyFile
-    trials: tuple[StudyTrial, ...]
+    trials: tuple[CohortTrial, ...]
 
 
 def read(o: CohortOptions, record: Record) -> PlannedStudy:

@@ -20,8 +20,8 @@ from geocontact.study.page import REPORT, study_figure, study_page
 from geocontact.study.read import PlannedStudy
 from geocontact.study.store import RESULTS, Store
 from geocontact.study.tables import agreement_table, difference_table, ensemble_table, outlier_table, value_table
-from geocontact.study.trial_run import DONE, WRONG, Outcome
-from geocontact.study.trials import StudyTrial
+from geocontact.study.trial_run import DONE, WRONG, TrialOutcome
+from geocontact.study.trials import CohortTrial
 from geocontact.view.page.write import write_page
 
 if TYPE_CHECKING:
@@ -37,9 +37,9 @@ WRONG_CODE, FAILED_CODE = 2, 1
 class StudiedTrial:
     """A trial, the address of its results, and what became of it."""
 
-    trial: StudyTrial
+    trial: CohortTrial
     address: str
-    outcome: Outcome
+    outcome: TrialOutcome
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)

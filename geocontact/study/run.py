@@ -27,8 +27,8 @@ from geocontact.study.read import PlannedStudy
 from geocontact.study.result import CohortResult, StudiedTrial
 from geocontact.study.store import RESULTS, Store
 from geocontact.study.tables import differences_of, outlier_table
-from geocontact.study.trial_run import DONE, STOPPED, WRONG, Outcome, Task
-from geocontact.study.trials import StudyTrial
+from geocontact.study.trial_run import DONE, STOPPED, WRONG, TrialOutcome, TrialTask
+from geocontact.study.trials import CohortTrial
 
 LEVEL = 0.05
 
@@ -37,9 +37,9 @@ LEVEL = 0.05
 class _Planned:
     """A trial, its address, "" where its options cannot be, and what is known of it before it runs."""
 
-    trial: StudyTrial
+    trial: CohortTrial
     address: str
-    known: Outcome | None
+    known: TrialOutcome | None
 
 
 def run(planned: PlannedStudy, o: CohortOptions, record: Record) -> CohortResult:
@@ -98,30 +98,30 @@ def _plan(planned: PlannedStudy, store: Store) -> list[_Planned]:
                 options.refuse_missing_files()
             address = address_of(job.command, options, home, digests)
         except InputError as error:
-            found.append(_Planned(trial, "", Outcome(WRONG, str(error))))
+            found.append(_Planned(trial, "", TrialOutcome(WRONG, str(error))))
             continue
         there = store.holds(address, home, digests)
         if not there:
             store.forget(address)
-        found.append(_Planned(trial, address, Outcome(DONE) if there else None))
+        found.append(_Planned(trial, address, TrialOutcome(DONE) if there else None))
     return found
 
 
 def _evaluated(
     planned: PlannedStudy, plan: list[_Planned], store: Store, o: CohortOptions, record: Record
-) -> list[Outcome]:
+) -> list[TrialOutcome]:
     """What became of each trial of the plan; only what is missing is evaluated."""
     run_id, sources = secrets.token_hex(8), source_digest.digest()
     missing = {one.address: one.trial for one in plan if one.known is None}
     tasks = [
-        Task(planned.file.analysis, trial.options, planned.file.home, store, address, sources, run_id)
+        TrialTask(planned.file.analysis, trial.options, planned.file.home, store, address, sources, run_id)
         for address, trial in missing.items()
     ]
     became = dict(_outcomes(tasks, o, record))
     return [one.known or became[one.address] for one in plan]
 
 
-def _outcomes(tasks: list[Task], o: CohortOptions, record: Record) -> Iterator[tuple[str, Outcome]]:
+def _outcomes(tasks: list[TrialTask], o: CohortOptions, record: Record) -> Iterator[tuple[str, TrialOutcome]]:
     if not tasks:
         return
     with workers_of(o) as client, record.listener.progress("trials", len(tasks)) as step:

@@ -32,7 +32,7 @@ _one_at_a_time = threading.Lock()  # the working folder and what catches warning
 
 
 @dataclass(frozen=True)
-class Task:
+class TrialTask:
     """What a worker is told.
 
     Parameters
@@ -63,7 +63,7 @@ class Task:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class TrialOutcome:
     """What became of a trial: one of the words above, and a line where it is not done; seconds that it took."""
 
     state: str
@@ -71,26 +71,26 @@ class Outcome:
     seconds: float = 0.0
 
 
-def run_trial(task: Task) -> Outcome:
+def run_trial(task: TrialTask) -> TrialOutcome:
     """Evaluate a trial; results are in their place when this returns `DONE`."""
     import time
 
     started = time.perf_counter()
     if task.sources != _sources():
-        return Outcome(STOPPED, "a worker has other sources of geocontact; install the same version there")
+        return TrialOutcome(STOPPED, "a worker has other sources of geocontact; install the same version there")
     if task.store.starts(task.run, task.address) >= MOST_ENDED:
-        return Outcome(SET_ASIDE, f"its worker was killed {MOST_ENDED} times: out of memory, or a crash")
+        return TrialOutcome(SET_ASIDE, f"its worker was killed {MOST_ENDED} times: out of memory, or a crash")
     with _one_at_a_time:
         try:
             ended = task.store.starting(task.run, task.address)
             outcome = _outcome(task)
             ended()
         except OSError as error:
-            return Outcome(STOPPED, str(error.strerror or error))
-    return Outcome(outcome.state, outcome.line, time.perf_counter() - started)
+            return TrialOutcome(STOPPED, str(error.strerror or error))
+    return TrialOutcome(outcome.state, outcome.line, time.perf_counter() - started)
 
 
-def _outcome(task: Task) -> Outcome:
+def _outcome(task: TrialTask) -> TrialOutcome:
     draft = task.store.folder / WORK / secrets.token_hex(8)
     try:
         draft.mkdir()
@@ -98,21 +98,21 @@ def _outcome(task: Task) -> Outcome:
             _evaluate(task, draft / "out")
         task.store.keep(draft / "out", task.address)
     except InputError as error:
-        return Outcome(WRONG, str(error))
+        return TrialOutcome(WRONG, str(error))
     except MemoryError:
-        return Outcome(FAILED, "not enough memory")
+        return TrialOutcome(FAILED, "not enough memory")
     except Exception as error:
         if isinstance(error, OSError) and error.errno in NO_ROOM:
             raise
         last = traceback.extract_tb(error.__traceback__)[-1]
         line = f"{type(error).__name__}: {error} ({Path(last.filename).name} {last.lineno})"
-        return Outcome(FAILED, " ".join(line.split()))
+        return TrialOutcome(FAILED, " ".join(line.split()))
     finally:
         shutil.rmtree(draft, ignore_errors=True)
-    return Outcome(DONE)
+    return TrialOutcome(DONE)
 
 
-def _evaluate(task: Task, out: Path) -> None:
+def _evaluate(task: TrialTask, out: Path) -> None:
     job = job_named(task.analysis)
     options = options_of(job.options, task.options)
     options.refuse_missing_files()

@@ -20,7 +20,7 @@ Factors = dict[str, Value]
 
 
 @dataclass(frozen=True)
-class StudyTrial:
+class CohortTrial:
     """One trial: its name, what it differs in from others, and the options of its analysis as typed."""
 
     name: str
@@ -28,7 +28,7 @@ class StudyTrial:
     options: Mapping[str, Any]
 
 
-def trials_of(study: StudyFile) -> list[StudyTrial]:
+def trials_of(study: StudyFile) -> list[CohortTrial]:
     """All trials, files in the order of their paths, lists as they are written, the first outermost."""
     rows: list[Factors] = [{}]
     for source, more in _sources(study):
@@ -91,7 +91,7 @@ def _varied(study: StudyFile, rows: Iterable[Factors]) -> Iterator[tuple[Factors
                     yield {**row, **varied}, dict(zip(study.sweep, swept, strict=True))
 
 
-def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> StudyTrial | None:
+def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> CohortTrial | None:
     """The trial of a row; None where it is left out."""
     given, swept = row
     reserved = next((name for name in (*given, *swept) if name in RESERVED and name != FILE), None)
@@ -106,7 +106,7 @@ def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> StudyTrial | None:
     if twice is not None:
         raise InputError(study.path, f"[sweep] {twice}", "is in [options] too", "give it once")
     name = " ".join(str(value) for value in factors.values()) or study.path.stem
-    return StudyTrial(name, factors, {**options, **swept})
+    return CohortTrial(name, factors, {**options, **swept})
 
 
 def _filled(study: StudyFile, name: str, value: Any, factors: Factors) -> Any:

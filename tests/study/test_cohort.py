@@ -85,13 +85,13 @@ def test_a_trial_that_cannot_be_evaluated_is_one_line(
 
 
 def test_no_room_ends_the_study_and_loses_nothing(tmp_path: Path, scheduler: str) -> None:
-    file, out = study(tmp_path, {"A": "1", "B": "2 full", "C": "3"}), tmp_path / "out"
+    file, out = study(tmp_path, {**dict.fromkeys("ABCDEF", "1"), "G": "2 full"}), tmp_path / "out"
     ended = cohort(file, out, scheduler)
     assert ended.code == 1 and len(ended.complaints) == 1
     assert ended.complaints[0].startswith(f"{out / 'results'}: No space left on device; what is done is kept")
-    (tmp_path / "B.txt").write_text("2", encoding="utf-8")
+    (tmp_path / "G.txt").write_text("2", encoding="utf-8")
     done = cohort(file, out, scheduler)
-    assert done.code == 0 and "3 of 3" in done.out and ", 3 of them new" not in done.out
+    assert done.code == 0 and "7 of 7" in done.out and ", 7 of them new" not in done.out
 
 
 def test_results_are_those_of_one_by_one(tmp_path: Path, scheduler: str, monkeypatch: pytest.MonkeyPatch) -> None:

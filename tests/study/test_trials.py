@@ -8,10 +8,10 @@ import pytest
 
 from geocontact.data.errors import InputError
 from geocontact.study.study_file import read_study_file
-from geocontact.study.trials import StudyTrial, trials_of
+from geocontact.study.trials import CohortTrial, trials_of
 
 
-def trials(folder: Path, text: str) -> list[StudyTrial]:
+def trials(folder: Path, text: str) -> list[CohortTrial]:
     (folder / "study.toml").write_text(f'analysis = "area"\n{text}', encoding="utf-8")
     return trials_of(read_study_file(folder / "study.toml"))
 
