@@ -167,10 +167,11 @@ def inverse_kinematics(
     times: Sequence[float],
     names: Sequence[str],
     accuracy: float = 1e-5,
+    constraints: float = float("inf"),
 ) -> tuple[float, np.ndarray]:
     """CPU seconds of its solver for these frames, the first among them, and the coordinates it finds, (t, n).
 
-    `accuracy` is the tool's own unless told.
+    `accuracy` is the tool's own unless told; `constraints` is the weight of the model's constraints.
     """
     import time
 
@@ -189,7 +190,7 @@ def inverse_kinematics(
         one = opensim.CoordinateReference(name, opensim.Constant(value))
         one.setWeight(weight)
         coordinates.push_back(one)
-    solver = opensim.InverseKinematicsSolver(model, seen, coordinates)
+    solver = opensim.InverseKinematicsSolver(model, seen, coordinates, constraints)
     solver.setAccuracy(accuracy)
     found = np.zeros((len(times), len(names)))
     began = time.process_time()

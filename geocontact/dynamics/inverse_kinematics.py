@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.interpolate import CubicSpline
-from scipy.linalg import LinAlgError, cho_factor, cho_solve
+from scipy.linalg.lapack import dpotrf, dpotrs
 
 from geocontact.data.multibody.marker_tasks import MarkerTasks
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
@@ -217,12 +217,10 @@ class _Kept:
         inner = curvature[np.ix_(free, free)]
         scale = float(np.max(np.abs(np.diag(inner)), initial=1.0))
         while True:
-            try:
-                raised = inner + damping * scale * np.eye(len(inner))
-                self.factor = cho_factor(raised, lower=True, check_finite=False)
+            self.factor, bad = dpotrf(inner + damping * scale * np.eye(len(inner)), lower=True)
+            if not bad:
                 return
-            except LinAlgError:
-                damping = max(WILDER * damping, DAMPED)
+            damping = max(WILDER * damping, DAMPED)
 
     def holds(self, free: Bool[np.ndarray, " n"], there: Bool[np.ndarray, " m"]) -> bool:
         """Whether the same coordinates are free and the same markers there."""
@@ -231,5 +229,6 @@ class _Kept:
     def step(self, gradient: Vector) -> Vector:
         """What to go back by [rad, m]."""
         found = np.zeros(len(gradient))
-        found[self.free] = cho_solve(self.factor, gradient[self.free], check_finite=False)
+        if self.free.any():
+            found[self.free] = dpotrs(self.factor, gradient[self.free], lower=True)[0]
         return found

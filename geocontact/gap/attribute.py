@@ -176,7 +176,8 @@ def _contest(
     possible = ranking(base, gaining, shares, variants, {c.label for c in gaining if rules.ruled_out(c)})
     little = {label for label, why in objections.items() if why == TOO_LITTLE}
     unnamed, known = _believed(rules, base, remaining["none"]), most_of(possible, little)
-    said = with_refused(answer(held, unnamed, strange, left + strange, known), possible)
+    share = max((each.share for each in odd), default=0.0)
+    said = with_refused(answer(held, unnamed, strange, left + strange, known, share), possible)
     remaining |= {best.label: rest}
     if data_error is not None:
         said = with_mistake(said, data_error.candidate.name)

@@ -24,7 +24,8 @@ from geocontact.gap.experiment.proposal import first_of, next_experiment
 from geocontact.gap.identifiability.non_identifiable import non_identifiable
 from geocontact.gap.localise.gap_map import gap_map, windows
 from geocontact.gap.localise.on_surface import on_surface
-from geocontact.gap.reduction.error_reduction import error_reduction, error_reduction_of
+from geocontact.gap.partial_answer import nearest, partial
+from geocontact.gap.reduction.error_reduction import error_reduction_of
 from geocontact.gap.reduction.held_out import held_out
 from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
 from geocontact.gap.reduction.raw_input_errors import raw_input_errors
@@ -114,6 +115,7 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
             for w in windows(problem, found.clean, found.base.judged, after, found.data_error, as_came)
         )
     )
+    part = partial(found) if said.verdict == "unknown" else None
     diagnosis = Diagnosis(
         case=case.name,
         system=case.system,
@@ -133,10 +135,12 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
             *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
             *(f"{each.words} in {channel}" for channel, each in found.heavy.items()),
             *objection(found),
-            *(nearest(found) if said.verdict == "unknown" else ()),
+            *(nearest(found) if said.verdict == "unknown" and part is None else ()),
             *(on_bounds(said.chosen, found.base, errors.fitted, errors.values) if said.effects else ()),
         ),
         next_experiment=then,
+        partial=part,
+        behind=behind(found) if said.effects else {},
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
     curves, models = held_out(problem, errors, named), ranking(found, said.probabilities)
@@ -156,6 +160,17 @@ def ranking(found: Attribution, probabilities: Mapping[str, float]) -> tuple[Ran
         probability = probabilities.get(one.names[0], 0.0) if first else None
         rows.append(Ranked(one.label, " + ".join(one.names), gain, calibration, probability))
     return tuple(sorted(rows, key=lambda row: -row.gain))
+
+
+def behind(found: Attribution) -> dict[str, float]:
+    """By how many nats each effect that is in question and not named is behind what is.
+
+    The evidence of its best model alone, over all trials, before prices; 0 where that is no less.
+    """
+    said = found.answer
+    rivals = [name for name in said.ambiguity if name not in said.effects]
+    best = {name: max((c.nats for c in found.contenders if c.names == (name,)), default=None) for name in rivals}
+    return {name: max(said.chosen.nats - nats, 0.0) for name, nats in best.items() if nats is not None}
 
 
 def objection(found: Attribution) -> tuple[str, ...]:
@@ -182,18 +197,6 @@ def on_bounds(chosen: Contender, base: Contender, values: dict[str, float], alon
         elif on_it and p.name in driven:
             told.append(f"with {names} the base parameter {p.name} ends on its bound, {values[p.name]:.3g} {p.unit}")
     return tuple(told)
-
-
-def nearest(found: Attribution) -> tuple[str, ...]:
-    """In words what the model that gains most would do, where nothing was named although it gains something."""
-    best = max(found.contenders, key=lambda one: one.nats, default=found.base)
-    gain = best.nats - found.base.nats
-    if gain < SURE:
-        return ()
-    shrunk = error_reduction(found.problem, found.clean, best.judged, True, found.data_error)
-    parts = ", ".join(f"{100.0 * s.reduction:.0f} % of the error of {name}" for name, s in shrunk.items())
-    only = ", with an amplitude on the bound of what is physical" if best.cut_short else ""
-    return (f"nearest of the known effects: {best.label}, which gains {gain:.0f} nats and would remove {parts}{only}",)
 
 
 def estimates(judged: Judged, told: dict[str, float]) -> dict[str, Estimate]:

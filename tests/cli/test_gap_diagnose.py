@@ -8,6 +8,7 @@ import re
 import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,16 +16,33 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from geocontact.analyses.gap.diagnose.kept_cases import kept
+from geocontact.analyses.gap.diagnose.options import ManyOptions
 from geocontact.analyses.json_file import plain
+from geocontact.analyses.run_again import read_run
 from tests.cli.calls import Call, call, done, inventory, process
 from tests.cli.gap_cases import damped_elbow, in_degrees_and_kilonewtons, known, reordered, spoilt
 from tests.systems.examples import ELBOW_VALUES
 from tests.unchecked import unchecked
 
 TABLES = {"diagnosis.json", "run.json", "gap_map.csv", "ranking.csv", "held_out.csv", "trials.csv"}
-FIGURES = {f"{name}.{ending}" for name in ("gap_map", "ranking", "gap_residuals") for ending in ("png", "svg")}
-KEYS = ["case", "system", "verdict", "effects", "probabilities", "ambiguity", "absorbed", "where", "gap", "parameters"]
-KEYS += ["next_experiment", "faults", "remarks", "seconds", "version"]
+FIGURES = {
+    f"{name}.{ending}" for name in ("gap_map", "reductions", "ranking", "gap_residuals") for ending in ("png", "svg")
+}
+KEYS = [
+    "case",
+    "system",
+    "verdict",
+    "effects",
+    "probabilities",
+    "ambiguity",
+    "behind",
+    "absorbed",
+    "where",
+    "gap",
+    "parameters",
+]
+KEYS += ["partial", "next_experiment", "faults", "remarks", "seconds", "version"]
 CHANNEL = ["rmse_before", "rmse_after", "noise_floor", "reduction", "ci95", "unexplained"]
 
 
@@ -160,6 +178,33 @@ def test_names_order_and_units_do_not_change_the_answer(answer: dict[str, Any], 
         assert same[key] == other[key]
     for first, second in zip(numbers(same), numbers(other), strict=True):
         assert first == pytest.approx(second, rel=1e-5, abs=1e-9)
+
+
+@pytest.mark.slow
+def test_a_run_goes_on_where_it_was_stopped(many: Many, tmp_path: Path) -> None:
+    """Cases that are finished are kept byte by byte; one whose results were touched comes anew."""
+    out = tmp_path / "out"
+    shutil.copytree(many.folder, out)
+    cases = tmp_path / "cases"
+    shutil.copytree(many.folder.parent / "cases", cases)
+    told = read_run(out / "degrees")
+    assert kept(many.folder.parent / "cases" / "degrees", out / "degrees", ManyOptions(cases, many=True), "") is None
+    before = json.loads((out / "elbow_7" / "run.json").read_bytes())["results"]
+    known = partial(kept, o=ManyOptions(cases, many=True, bare=True), sources=before["sources"])
+    home = many.folder.parent / "cases"
+    first = known(home / "elbow_7", out / "elbow_7")
+    assert first is not None and dict(first.row)["effects"] == "damping" and first.line.startswith("damping is missing")
+    assert known(cases / "elbow_7", out / "elbow_7") is None, "another case"
+    assert kept(home / "elbow_7", out / "elbow_7", ManyOptions(home, many=True, bare=True), "other sources") is None
+    assert kept(home / "elbow_7", out / "elbow_7", ManyOptions(home, many=True), before["sources"]) is None, "options"
+    (out / "turned" / "ranking.csv").write_text("touched")
+    assert known(home / "turned", out / "turned") is None and told.command == "gap diagnose"
+    again = process("gap", "diagnose", home, "--many", "--bare", "--workers", 2, "--resume", "--out", out)
+    assert again.returncode == 2 and "3 of 5 cases as an earlier run left them" in again.stdout
+    for name in SAME:
+        same = (out / name / "run.json").read_bytes() == (many.folder / name / "run.json").read_bytes()
+        assert same == (name != "turned"), name
+    assert pd.read_csv(out / "summary.csv")["effects"].tolist() == ["damping"] * len(SAME)
 
 
 @pytest.mark.slow

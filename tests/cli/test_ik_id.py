@@ -438,7 +438,10 @@ def test_a_subject_that_moves_is_no_static_trial(tmp_path: Path) -> None:
 
 
 def test_a_joint_on_a_frame_of_a_body_is_scaled_or_refused(tmp_path: Path) -> None:
-    """A frame that the body owns moves with it; one that hangs on such a frame is refused."""
+    """A frame that the body owns moves with it, and one that hangs on such a frame.
+
+    Turned against each other and longer along one axis only they are refused: OpenSim lengthens each along its own.
+    """
     frame = '<PhysicalOffsetFrame name="spot"><socket_parent>..</socket_parent><translation>0 -0.4 0</translation>'
     owned = legs.OSIM.replace(
         '<Body name="femur_r">', f'<Body name="femur_r"><components>{frame}</PhysicalOffsetFrame></components>'
@@ -460,7 +463,13 @@ def test_a_joint_on_a_frame_of_a_body_is_scaled_or_refused(tmp_path: Path) -> No
         '<translation>0 -0.1 0</translation></PhysicalOffsetFrame>\n<PhysicalOffsetFrame name="knee_r_out">',
     )
     (tmp_path / "away.osim").write_text(away, encoding="utf-8")
-    result = call("scale", static, "--model", tmp_path / "away.osim", "--out", tmp_path / "t", *PAIRS)
+    done(call("scale", static, "--model", tmp_path / "away.osim", "--out", tmp_path / "u", *PAIRS))
+    knee = next(j for j in read_multibody(tmp_path / "u" / "scaled.osim").joints if j.name == "knee_r")
+    np.testing.assert_allclose(knee.parent_offset.translation, [0.0, -0.55, 0.0], atol=1e-6)
+    turned = away.replace("<translation>0 -0.4 0<", "<orientation>0 0 0.5</orientation><translation>0 -0.4 0<")
+    (tmp_path / "turned.osim").write_text(turned, encoding="utf-8")
+    longer = ("--scale", "femur_r:y=1.1", "--out", tmp_path / "t")
+    result = call("scale", static, "--model", tmp_path / "turned.osim", *longer)
     assert result.code == 2 and "hangs on frames in a way that is not scaled" in result.err
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import casadi
 import numpy as np
 import pytest
 
+from benchmarks.full_body import write_full_body
 from geocontact.data.multibody.joint import Coordinate
 from geocontact.data.multibody.marker_tasks import MarkerTasks
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
@@ -15,6 +17,7 @@ from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics
 from geocontact.dynamics.marker_fit import MarkerFit
 from geocontact.dynamics.tree import Tree, tree_of
+from geocontact.io.opensim.osim_multibody import read_multibody
 from tests.dynamics.models import all_kinds
 
 FRAMES = 40
@@ -120,6 +123,32 @@ def test_a_locked_coordinate_stays_at_its_default(tree: Tree) -> None:
     found = inverse_kinematics(locked, seen, EVEN)
     assert found.settled.all()
     np.testing.assert_array_equal(found.values[:, tree.names.index("a")], 0.2)
+
+
+def test_what_no_marker_tells_costs_no_steps(tmp_path: Path) -> None:
+    """Hands and toes of a whole body without markers: named, at their default, and the search as short as with them."""
+    tree = tree_of(read_multibody(write_full_body(tmp_path / "body.osim")))
+    swing = 0.3 * np.sin(np.linspace(0.0, 0.5, 8)[:, None] + np.arange(len(tree.names)))
+    values = tree.model.coupled(swing)
+    seen = MarkerTrajectories(
+        np.arange(8) / 100.0, tree.model.marker_places(values), tuple(m.name for m in tree.model.markers)
+    )
+    found = inverse_kinematics(tree, seen, MarkerTasks({m.name: 1.0 for m in tree.model.markers}))
+    lost = {f"{name}_{side}" for name in ("mtp_angle", "wrist_flex", "wrist_dev") for side in "rl"}
+    told = found.determined.all(axis=0)
+    assert {name for name, each in zip(tree.names, told, strict=True) if not each} == lost
+    np.testing.assert_allclose(found.values[:, told], values[:, told], atol=1e-7)
+    assert not found.values[:, ~told].any() and found.steps[1:].mean() < 8.0
+
+
+def test_nothing_moves_where_all_coordinates_are_locked(tree: Tree) -> None:
+    _, seen = planted(tree)
+    model = tree.model
+    for name in tree.names:
+        model = with_coordinate(model, name, locked=True)
+    found = inverse_kinematics(tree_of(model), seen, EVEN)
+    assert found.settled.all()
+    np.testing.assert_array_equal(found.values, np.tile([c.default for c in model.coordinates], (len(found.values), 1)))
 
 
 def test_weights_say_which_marker_gives_way(tree: Tree) -> None:

@@ -28,7 +28,7 @@ from geocontact.gap.selection.clipping import ClippedChannel, clipped_channels
 from geocontact.gap.selection.evidence import Judged, judged
 from geocontact.gap.selection.model_comparison import Contender, base_contender, pairs, singles
 from geocontact.gap.selection.model_discrepancy import discrepancy_basis
-from geocontact.gap.selection.residual_anomalies import recorder_remarks, residual_anomalies
+from geocontact.gap.selection.residual_anomalies import lines, recorder_remarks, residual_anomalies
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
 from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.systems.catalogue import system_of
@@ -161,6 +161,14 @@ def odd(change: Change | None, after: Change | None = None, duration: float = 24
     problem = problem_of(case, system_of(case))
     base = base_contender(problem).judged
     return {each.words: each.nats for check in (residual_anomalies, recorder_remarks) for each in check(problem, base)}
+
+
+def share_of_line(change: Change) -> float:
+    """Part of the squared residual of the base model that the surest line makes up."""
+    case = elbow_case(seed=8, duration=24.0, change=change)
+    problem = problem_of(case, system_of(case))
+    found = lines(problem, base_contender(problem).judged)
+    return max(found, key=lambda each: each.nats).share
 
 
 def paired() -> tuple[list[tuple[str, ...]], list[float]]:

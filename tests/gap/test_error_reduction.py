@@ -87,3 +87,11 @@ def test_a_reduction_is_stated_with_its_interval(problem: Problem) -> None:
     assert found.reduction == pytest.approx(1.0 - found.rmse_after / found.rmse_before, abs=0.15)
     nothing = error_reduction(problem, problem, base_contender(problem).judged, False)["force"]
     assert (nothing.low, nothing.reduction, nothing.high) == (0.0, 0.0, 0.0)
+
+
+def test_what_held_out_trials_show_is_inside_the_interval(problem: Problem, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also where the best fit says otherwise, as it does where something else is missing as well."""
+    judged = named(problem, "damping")
+    monkeypatch.setattr("geocontact.gap.reduction.error_reduction._gone", lambda *_: (1e-9, 1e-9))
+    found = error_reduction(problem, problem, judged, True)["force"]
+    assert found.reduction < 0.1 and found.high == pytest.approx(1.0 - found.rmse_after / found.rmse_before)

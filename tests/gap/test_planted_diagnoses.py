@@ -29,7 +29,7 @@ def answered(system: str, kind: str, place: int) -> tuple[Label, Diagnosis]:
     [
         ("foot", "single", 14, {"crosstalk"}),
         ("knee", "pair", 0, {"saturation", "axis_migration"}),
-        ("shoulder", "single", 15, {"event_load"}),
+        pytest.param("shoulder", "single", 15, {"event_load"}, marks=pytest.mark.long),
         ("sit_to_stand", "single", 6, {"sensor_drift"}),
     ],
 )

@@ -10,7 +10,7 @@ from geocontact.data.trial import Trial
 from geocontact.gap.inputs.spectrum import switches
 from geocontact.gap.selection.residual_anomalies import moving
 from tests.elsewhere import Elsewhere
-from tests.gap.cases import Tremor, held, in_steps, knock, odd, rung
+from tests.gap.cases import Tremor, held, in_steps, knock, odd, rung, share_of_line
 
 
 def test_noise_is_not_odd(elsewhere: Elsewhere) -> None:
@@ -21,6 +21,12 @@ def test_a_tremor_is_a_line_at_its_frequency(elsewhere: Elsewhere) -> None:
     words, nats = max(elsewhere(odd, Tremor(0.25, 7.0)).items(), key=lambda each: each[1])
     assert nats > 20.0
     assert float(words.split()[3]) == pytest.approx(7.0, abs=0.3)
+
+
+@pytest.mark.parametrize(("size", "low", "high"), [(0.25, 0.4, 0.6), (3.0, 0.98, 1.0)])
+def test_a_line_makes_up_a_share_of_the_error(elsewhere: Elsewhere, size: float, low: float, high: float) -> None:
+    """Of 0.17 N, root mean square, of everything else: half, or nearly all."""
+    assert low < elsewhere(share_of_line, Tremor(size, 7.0)) < high
 
 
 def test_a_slow_tremor_is_a_line_too(elsewhere: Elsewhere) -> None:

@@ -75,8 +75,14 @@ MADE = {
 """What makes files that a reader would have recorded."""
 
 WITH_BLOCKS = [page for page in DOCUMENTS if shell_blocks(page)]
-LASTING = {"docs/how-to/knee_chain.md", "docs/how-to/gap.md", "docs/how-to/sit_to_stand_design.md"}
-"""Pages whose commands take a minute or more."""
+LASTING = {
+    "docs/how-to/knee_chain.md",
+    "docs/how-to/gap.md",
+    "docs/how-to/prosthesis.md",
+    "docs/how-to/sit_to_stand.md",
+    "docs/how-to/sit_to_stand_design.md",
+}
+"""Pages whose commands take a minute or more of one core."""
 
 
 def lasting(page: Path) -> tuple[pytest.MarkDecorator, ...]:

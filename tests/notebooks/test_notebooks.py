@@ -270,6 +270,7 @@ def test_shoulder_says_what_the_commands_say(run, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.filterwarnings("default")  # of the notebook machinery itself
 def test_prosthesis_says_what_the_commands_say(run, tmp_path):
     said = run(ROOT / "notebooks" / "prosthesis.ipynb")

@@ -106,6 +106,30 @@ class DataErrorFound:
 
 
 @dataclass(frozen=True)
+class Partial:
+    """What known effects explain where something unknown remains beside them.
+
+    Parameters
+    ----------
+    effects
+        One or two.
+    gain_nats
+        Gain of evidence over the base model.
+    removed
+        By channel, the part of its error that they remove on trials that were not used, and its 95 % interval.
+    """
+
+    effects: tuple[str, ...]
+    gain_nats: float
+    removed: Mapping[str, tuple[float, tuple[float, float]]]
+
+    def as_dict(self) -> dict[str, Any]:
+        """As in diagnosis.json."""
+        removed = {name: {"reduction": part, "ci95": list(ci95)} for name, (part, ci95) in self.removed.items()}
+        return {"effects": list(self.effects), "gain_nats": self.gain_nats, "removed": removed}
+
+
+@dataclass(frozen=True)
 class NextExperiment:
     """What to record next.
 
@@ -133,9 +157,10 @@ class Diagnosis:
     """The answer to a gap case, as in diagnosis.json.
 
     `probabilities` is a distribution over single answers (effects, "none", "unknown"), `ambiguity` the effects that
-    these data cannot tell apart, or, where nothing is named, that gain and may not be named, the best first; `absorbed`
-    those that would be invisible here, `next_experiment` what to record so that it can be identified; None where
-    nothing is in question, or nothing that is simulated tells enough.
+    these data cannot tell apart, or, where nothing is named, that gain and may not be named, the best first; `behind`
+    by how many nats the evidence of each of them that is not named is behind what is; `absorbed` those that would be
+    invisible here, `partial` what known effects explain of a gap that is otherwise unknown, `next_experiment` what to
+    record so that it can be identified; None where nothing is in question, or nothing that is simulated tells enough.
     """
 
     case: str
@@ -153,6 +178,8 @@ class Diagnosis:
     faults: tuple[DataErrorFound, ...] = ()
     remarks: tuple[str, ...] = field(default=())
     next_experiment: NextExperiment | None = None
+    partial: Partial | None = None
+    behind: Mapping[str, float] = field(default_factory=dict)
 
     def as_dict(self) -> dict[str, Any]:
         """Plain dicts, lists, strings, numbers and None, ready for JSON."""
@@ -163,6 +190,7 @@ class Diagnosis:
             "effects": list(self.effects),
             "probabilities": dict(self.probabilities),
             "ambiguity": list(self.ambiguity),
+            "behind": dict(self.behind),
             "absorbed": list(self.absorbed),
             "where": [
                 {"channel": w.channel, "phase": list(w.phase), "share": w.share, "p_value": w.p_value}
@@ -185,6 +213,7 @@ class Diagnosis:
                 name: {"value": e.value, "ci95": list(e.ci95), "unit": e.unit, "identifiable": e.identifiable}
                 for name, e in self.parameters.items()
             },
+            "partial": None if self.partial is None else self.partial.as_dict(),
             "next_experiment": None if self.next_experiment is None else self.next_experiment.as_dict(),
             "faults": [
                 {"effect": f.effect, "channel": f.channel, "factor": f.factor, "trials": list(f.trials)}

@@ -10,7 +10,8 @@ the one error beyond the other, which may be less than nothing. Then
     reduction = 1 - rmse_after / rmse_before = 1 - (1 + g²/a²)^(-1/2).
 
 The interval comes from the spread of g²/a²: parameters and the form of the effect, which is never exactly that of the
-candidate (from the fit), trials that differ in motion and in their deviations.
+candidate (from the fit), trials that differ in motion and in their deviations. What the held-out trials show is always
+inside: where what is named is not all that is missing, the best fit is not the truth, and the curves are right.
 """
 
 from __future__ import annotations
@@ -108,7 +109,9 @@ def error_reduction_of(
         share = None
         if error >= TELLING * floor:
             share = min(max(left - floor, 0.0) / (left + gone - floor), 1.0) if left + gone > floor else 0.0
-        found[name] = ErrorReduction(error**0.5, stays**0.5, floor**0.5, float(middle), float(low), float(high), share)
+        seen = 1.0 - (stays / error) ** 0.5 if error > 0.0 else 0.0
+        low, high = min(float(low), seen), max(float(high), seen)
+        found[name] = ErrorReduction(error**0.5, stays**0.5, floor**0.5, float(middle), low, high, share)
     return found
 
 

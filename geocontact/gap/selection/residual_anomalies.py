@@ -35,11 +35,22 @@ COARSE, SURELY = 0.33, 12.0  # steps, in noise levels, that are coarse, and how 
 
 @dataclass(frozen=True)
 class ResidualAnomaly:
-    """In words what is odd, where, and how sure that is [nats]."""
+    """Something odd.
+
+    Parameters
+    ----------
+    words
+        What it is.
+    nats
+        How sure it is.
+    share
+        Of the squared residual of its channel that it makes up; 0 of what is of the recorder.
+    """
 
     words: str
     channel: str
     nats: float
+    share: float = 0.0
 
 
 def residual_anomalies(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
@@ -98,7 +109,8 @@ def lines(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
         peak = int(np.argmax(doubt))
         nats = -float(gamma.logsf(doubt[peak], len(series))) - float(np.log(len(grid)))
         hertz = grid[peak] / problem.system.scale.step
-        found.append(ResidualAnomaly(f"a line at {hertz:.3g} Hz", name, max(nats, 0.0)))
+        share = share_of_band(problem, judged, c, float(grid[peak]), 0.0)
+        found.append(ResidualAnomaly(f"a line at {hertz:.3g} Hz", name, max(nats, 0.0), share))
     return found
 
 
@@ -137,7 +149,7 @@ def ringing(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
     found = []
     rows = innovations(problem, judged)
     for c, name in enumerate(problem.system.outputs):
-        best, hertz = 0.0, 0.0
+        best, at_best, narrow = 0.0, 0.0, 0.0
         for width in PACKETS:
             spectra = [_packets(trial[c], width) for trial in rows if len(trial[c]) >= 4 * width]
             if not spectra:
@@ -153,9 +165,27 @@ def ringing(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
             nats = -f.logsf(ratio, freedom, freedom * frames // 2) - np.log(ratio.size * len(PACKETS))
             frame, at = np.unravel_index(int(np.argmax(nats)), nats.shape)
             if nats[frame, at] > best:
-                best, hertz = float(nats[frame, at]), (at + CYCLES) / (width * problem.system.scale.step)
-        found.append(ResidualAnomaly(f"ringing at {hertz:.3g} Hz at the same phase of every trial", name, best))
+                best, at_best, narrow = float(nats[frame, at]), (at + CYCLES) / width, 1.0 / width
+        words = f"ringing at {at_best / problem.system.scale.step:.3g} Hz at the same phase of every trial"
+        found.append(ResidualAnomaly(words, name, best, share_of_band(problem, judged, c, at_best, narrow)))
     return found
+
+
+def share_of_band(problem: Problem, judged: Judged, c: int, centre: float, half: float) -> float:
+    """Part of the squared residual of a channel, all trials together, within `half` of a frequency [cycles per sample].
+
+    Of the residual as it is, its mean with it; with `half` 0 within a trial's resolution.
+    """
+    inside = whole = 0.0
+    for residual, present in zip(judged.model.residuals, problem.recorded.present, strict=True):
+        x = residual[present[:, c], c]
+        if len(x) < SHORTEST:
+            continue
+        power = 2.0 * np.abs(np.fft.rfft(x)) ** 2 / len(x)
+        near = np.abs(np.arange(len(power)) / len(x) - centre) <= max(half, 1.5 / len(x))
+        near[0] = False
+        inside, whole = inside + float(power[near].sum()), whole + float(x @ x)
+    return inside / whole if whole > 0.0 else 0.0
 
 
 def _packets(values: Float[np.ndarray, " n"], width: int) -> Float[np.ndarray, "m f"]:

@@ -117,7 +117,9 @@ def ranking(
     return Ranking(base, living, gains)
 
 
-def answer(held: Ranking, unnamed: float, strange: float, rest: float, little: float = 0.0) -> Answer:
+def answer(
+    held: Ranking, unnamed: float, strange: float, rest: float, little: float = 0.0, share: float = 0.0
+) -> Answer:
     """The verdict; FloatingPointError where what is given is not a number.
 
     Parameters
@@ -133,13 +135,17 @@ def answer(held: Ranking, unnamed: float, strange: float, rest: float, little: f
         is there without it as well: no more of it is believed than what it gains over the base.
     little
         What a known effect gains that is too small to be named [nats]. What it explains is nothing unknown.
+    share
+        Of a channel's squared error that what is odd makes up. What is odd counts where that is more than `LEFT_OVER`,
+        whatever else gains, or where it is as much as that of the gain.
     """
     base, living, gains = held.base, held.living, held.gains
-    unnamed, strange = unnamed - little, 0.0 if strange <= LEFT_OVER * little else strange
+    minor = share <= LEFT_OVER
+    unnamed, strange = unnamed - little, 0.0 if minor and strange <= LEFT_OVER * little else strange
     rest = min(rest, max(unnamed, 0.0) + strange)
     unnamed = (1.0 - ANY_FORM) * max(unnamed - STRANGER, 0.0)
     named = max([*gains.values(), 0.0])
-    unnamed += 0.0 if strange <= LEFT_OVER * named else strange
+    unnamed += 0.0 if minor and strange <= LEFT_OVER * named else strange
     most = max(named, unnamed)
     tolerance = 1.0 + FORM * most
     weights: dict[tuple[str, ...], float] = {("none",): np.exp((SURE - most) / tolerance)}

@@ -253,6 +253,9 @@ class Page:
         by pointing at them.
     choices
         Other readings of the same result.
+    answers
+        Pictures from the one of the first screen on that show the answer together: the first on the left, the others
+        beside it.
     """
 
     title: str
@@ -268,6 +271,7 @@ class Page:
     total: int | None = None
     plays: bool = True
     choices: Choices | None = None
+    answers: int = 1
 
     def __post_init__(self) -> None:
         frames = len(self.time)
@@ -275,6 +279,8 @@ class Page:
             raise ValueError(f"start_frame is {self.start_frame}, expected one of the {frames} frames")
         if not np.isfinite(self.time).all():
             raise ValueError("time must be finite in every frame")
+        if self.answers > 1 and not all(isinstance(self.sections[k], Picture) for k in self.leads):
+            raise ValueError(f"answers: the {self.answers} sections that show the answer are not all pictures")
         self._check_numbers()
         if sum(isinstance(section, Scene) for section in self.sections) > 1:
             raise ValueError("a page holds one Scene; put the bodies into it or write two pages")
@@ -285,13 +291,13 @@ class Page:
                 raise ValueError(f"{name}: {length} frames, expected the {frames} of the page's time")
 
     @property
-    def lead(self) -> int | None:
-        """Place of the section that shows the answer on the first screen; None where there is no picture."""
+    def leads(self) -> range:
+        """Places of the sections that show the answer on the first screen; none where there is no picture."""
         for kinds in (Scene, (Curves, Plan, Intervals, Picture)):
             for k, section in enumerate(self.sections):
                 if isinstance(section, kinds):
-                    return k
-        return None
+                    return range(k, k + self.answers)
+        return range(0)
 
     def placed(self) -> list[tuple[str, int, int | None, Section]]:
         """Every section with its name on the page, its place, and the choice it belongs to (None: any)."""

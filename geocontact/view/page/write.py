@@ -80,7 +80,7 @@ def page_html(page: Page) -> str:
     script, style = bundled("page.js"), bundled("style.css")
     packed = payload(page)
     placed = [
-        PlacedSection(name, KINDS[type(section)], section, "" if choice is None else str(choice), k == page.lead)
+        PlacedSection(name, KINDS[type(section)], section, "" if choice is None else str(choice), k in page.leads)
         for name, k, choice, section in page.placed()
     ]
     shown_here = [each for each in placed if not each.empty]

@@ -15,8 +15,10 @@ from geocontact.analyses.gap.diagnose.words import states, verdict_sentences
 from geocontact.analyses.gap.words import percent
 from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.cell import Cell
-from geocontact.data.gap.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
-from geocontact.gap.diagnose import Findings
+from geocontact.data.gap.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Partial, Where
+from geocontact.gap.diagnose import Findings, behind
+from geocontact.gap.partial_answer import partial
+from geocontact.view.curves.text import number
 from geocontact.view.page.content import Curves, Page, Picture, Table, Words
 from geocontact.view.page.write import page_html
 from tests.cli.gap_cases import diagnosed_elbow
@@ -59,6 +61,28 @@ def test_the_answer_stands_at_the_top(told: Told, page: Page) -> None:
     assert f"damping {d.probabilities['damping']:.2f}" in said["Probabilities"]
 
 
+def test_pictures_answer_before_any_curve(page: Page) -> None:
+    """Where, how far, how sure, on the first screen; the curves of trials after that."""
+    assert page.leads == range(3) and all(isinstance(page.sections[k], Picture) for k in page.leads)
+    html = page_html(page)
+    places = [
+        html.index(f'id="section-{k}"') for k in range(len(page.sections)) if isinstance(page.sections[k], Curves)
+    ]
+    assert max(html.index(f'id="section-{k}"') for k in page.leads) < min(places)
+
+
+def test_errors_are_drawn_before_and_after_with_their_interval(told: Told) -> None:
+    d = told[1].diagnosis
+    axes = gap_figures(told[1])["reductions"].axes[0]
+    gap = d.gap["force"]
+    before, after = (bar.get_width() for bar in axes.patches)
+    assert before == pytest.approx(100.0) and after == pytest.approx(100.0 * gap.rmse_after / gap.rmse_before)
+    whisker, *_ = (line for line in axes.lines if line.get_marker() == "|")
+    ends = [100.0 * (1.0 - gap.ci95[1]), 100.0 * (1.0 - gap.ci95[0])]
+    assert whisker.get_xdata() == pytest.approx(ends)
+    assert [text.get_text() for text in axes.texts] == [f"{number(e)} N" for e in (gap.rmse_before, gap.rmse_after)]
+
+
 def test_curves_are_measured_base_and_with_the_effect_of_each_held_out_trial(told: Told, page: Page) -> None:
     panels = [s for s in page.sections if isinstance(s, Curves)]
     titles = [f"force, held-out trial {name}" for name in ("t03", "t04")]
@@ -99,7 +123,12 @@ def test_the_ranking_gives_each_single_answer_its_probability_once(told: Told) -
 
 def test_pictures_are_drawn_into_the_page_and_described(page: Page) -> None:
     pictures = [s for s in page.sections if isinstance(s, Picture)]
-    assert [p.title for p in pictures] == ["Where the gap is", "What explains it", "What is left over"]
+    assert [p.title for p in pictures] == [
+        "Where the gap is",
+        "How far it shrinks",
+        "How sure that is",
+        "What is left over",
+    ]
     html = page_html(page)
     for picture, data in zip(pictures, re.findall(r'src="data:image/svg\+xml;base64,([^"]+)"', html), strict=True):
         assert base64.b64decode(data) == picture.svg and b"<svg" in picture.svg
@@ -153,6 +182,29 @@ def test_axes_have_units(told: Told) -> None:
     }
 
 
+def test_what_an_effect_explains_is_told_unless_a_rule_speaks_against_it(told: Told) -> None:
+    """Were this gap called unknown: the part that is stated of the effect that is named."""
+    found, gap = told[1].attribution, told[1].diagnosis.gap["force"]
+    part = partial(found)
+    assert part is not None and part.effects == ("damping",) and part.gain_nats > 100.0
+    assert part.removed["force"] == (pytest.approx(gap.reduction), pytest.approx(gap.ci95))
+    assert part.as_dict()["removed"]["force"]["reduction"] == pytest.approx(gap.reduction)
+    second = partial(
+        replace(found, objections={one.label: "why" for one in found.contenders if "damping" in one.names})
+    )
+    assert second is not None and "damping" not in second.effects and second.gain_nats < part.gain_nats
+    assert partial(replace(found, objections={one.label: "why" for one in found.contenders})) is None
+    assert partial(replace(found, contenders=())) is None
+
+
+def test_rivals_are_behind_by_the_difference_of_their_evidence(told: Told) -> None:
+    found = told[1].attribution
+    both = replace(found, answer=replace(found.answer, ambiguity=("damping", "dry_friction", "nobody")))
+    gains = {row.label: row.gain for row in told[1].ranking}
+    best = max(gain for label, gain in gains.items() if label.startswith("dry_friction.") and "+" not in label)
+    assert behind(both) == {"dry_friction": pytest.approx(gains["damping"] - best)}
+
+
 # Words of each verdict, on answers made by hand.
 
 GAP = {"force": ChannelGap(2.1, 0.31, 0.22, 0.85, (0.80, 0.89), 0.03)}
@@ -184,6 +236,8 @@ def test_the_sentence_of_the_issue() -> None:
 def test_what_cannot_be_told_apart_is_said() -> None:
     _, second = said(ambiguity=("damping", "filter_lag", "relaxation"))
     assert second == "these data cannot tell damping from filter_lag or relaxation"
+    _, second = said(ambiguity=("damping", "filter_lag", "relaxation"), behind={"filter_lag": 1.24})
+    assert second == "these data cannot tell damping from filter_lag (1.2 nats behind) or relaxation"
 
 
 def test_two_effects_are_missing_together() -> None:
@@ -213,6 +267,17 @@ def test_two_effects_are_missing_together() -> None:
 )
 def test_other_verdicts(verdict: str, ambiguity: tuple[str, ...], words: list[str]) -> None:
     assert said(verdict=verdict, effects=(), ambiguity=ambiguity) == words
+
+
+def test_what_is_explained_in_part_is_said() -> None:
+    """Channels whose error shrinks, the most first."""
+    removed = {"force": (0.7, (0.62, 0.78)), "exo": (-0.1, (-0.3, 0.1)), "cop_x": (0.8, (0.7, 0.9))}
+    first, *_ = said(verdict="unknown", effects=(), partial=Partial(("dry_friction",), 80.0, removed))
+    assert first == (
+        "there is a gap in force (phase 42–61 %, fast part of beta); dry_friction explains 80 % [70, 90] of the error "
+        "of cop_x, 70 % [62, 78] of that of force on trials not used, and something else remains that no known effect "
+        "explains"
+    )
 
 
 def test_a_mistake_in_the_data_is_not_called_missing() -> None:

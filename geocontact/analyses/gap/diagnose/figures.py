@@ -18,6 +18,7 @@ from geocontact.view.curves.diagnosis.gap_map import gap_map_figure
 from geocontact.view.curves.diagnosis.gap_residuals import PHASE, gap_residuals
 from geocontact.view.curves.diagnosis.gap_surface import gap_surface_figure
 from geocontact.view.curves.diagnosis.ranking import ranking_figure
+from geocontact.view.curves.diagnosis.reductions import reductions_figure
 from geocontact.view.curves.quantity import Quantity
 
 if TYPE_CHECKING:
@@ -52,9 +53,10 @@ def map_figure(findings: Findings) -> Figure:
 
 
 def gap_figures(findings: Findings) -> dict[str, Figure]:
-    """Map, ranking, residuals, cells of each mat, and before and after for each channel where something was named."""
+    """Map, errors, ranking, residuals, cells of each mat, and curves of each channel where something was named."""
     found = {
         "gap_map": map_figure(findings),
+        "reductions": _reductions(findings),
         "ranking": ranking_figure(findings.ranking),
         "gap_residuals": _residuals(findings),
     }
@@ -63,6 +65,12 @@ def gap_figures(findings: Findings) -> dict[str, Figure]:
         drawn = _before_after(findings, c)
         found |= {} if drawn is None else {f"before_after_{_file_name(name, c)}": drawn}
     return found
+
+
+def _reductions(findings: Findings) -> Figure:
+    d = findings.diagnosis
+    effect = effect_words(findings) if any(t.named is not None for t in findings.held_out) else ""
+    return reductions_figure(d.gap, [quantity_of(findings, name) for name in d.gap], effect)
 
 
 def _residuals(findings: Findings) -> Figure:

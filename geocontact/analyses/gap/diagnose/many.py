@@ -13,13 +13,15 @@ from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 
+from geocontact.analyses.gap.diagnose.kept_cases import SAID, SOURCES, kept, row, run_of
 from geocontact.analyses.gap.diagnose.many_result import FAILED, SUMMARY, ManyResult, Outcome
 from geocontact.analyses.gap.diagnose.options import ManyOptions
 from geocontact.analyses.gap.diagnose.read import read
-from geocontact.analyses.gap.diagnose.result import DiagnoseResult
 from geocontact.analyses.gap.diagnose.run import run
+from geocontact.analyses.page_words import counted
 from geocontact.analyses.results_folder import Scratch, written_whole
 from geocontact.analyses.run_record import Record
+from geocontact.analyses.source_digest import digest as sources_digest
 from geocontact.analyses.stale_results import RUN
 from geocontact.analyses.table_forms import TableForms
 from geocontact.analyses.workers import each
@@ -58,16 +60,33 @@ def run_many(folders: list[Path], o: ManyOptions, record: Record) -> ManyResult:
 
 def _all(folders: list[Path], draft: Path, o: ManyOptions, record: Record) -> list[Outcome]:
     """Outcomes in the order of the folders."""
-    found = {}
-    options, run_id = dict(record.options), str(record.results["run"])
-    work = partial(outcome, draft=draft, o=o, options=options, run_id=run_id, forms=record.forms)
-    with record.listener.progress("cases", len(folders)) as step:
-        for folder, became in each(work, folders, o.workers):
+    sources = sources_digest()
+    found = _finished(folders, draft, o, record, sources) if o.resume else {}
+    marks = {"run": str(record.results["run"]), SOURCES: sources}
+    work = partial(outcome, draft=draft, o=o, options=dict(record.options), marks=marks, forms=record.forms)
+    todo = [folder for folder in folders if folder.name not in found]
+    with record.listener.progress("cases", len(todo)) as step:
+        for folder, became in each(work, todo, o.workers):
             found[folder.name] = one = _outcome_of(folder, became, draft, record)
             if one.code == 0 and record.out is not None:
                 _keep(draft / one.name, record.out / one.name)
             step()
     return [found[folder.name] for folder in folders]
+
+
+def _finished(folders: list[Path], draft: Path, o: ManyOptions, record: Record, sources: str) -> dict[str, Outcome]:
+    """What an earlier run had finished, by name; InputError where nothing is written and there can be nothing."""
+    if record.out is None:
+        raise InputError("", "`resume`", "has no effect: nothing is written", "leave it out")
+    found = {}
+    for folder in folders:
+        one = kept(folder, record.out / folder.name, o, sources)
+        if one is not None:
+            shutil.copytree(record.out / folder.name, draft / folder.name)
+            found[folder.name] = one
+            record.results["run"] = run_of(record.out / folder.name)  # this one goes on with it
+    record.say(f"{len(found)} of {counted(len(folders), 'case')} as an earlier run left them")
+    return found
 
 
 def _keep(done: Path, place: Path) -> None:
@@ -84,7 +103,12 @@ def _outcome_of(folder: Path, became: Outcome | BaseException, draft: Path, reco
 
 
 def outcome(
-    folder: Path, draft: Path, o: ManyOptions, options: Mapping[str, object], run_id: str, forms: TableForms
+    folder: Path,
+    draft: Path,
+    o: ManyOptions,
+    options: Mapping[str, object],
+    marks: Mapping[str, str],
+    forms: TableForms,
 ) -> Outcome:
     """Diagnosis of one case into draft/<case>; what is wrong is told, not raised.
 
@@ -92,16 +116,16 @@ def outcome(
     ----------
     options
         As they were given for all cases.
-    run_id
-        Marks the results of one run.
+    marks
+        Results of every case: which run it was, and of which sources.
     forms
         Further forms of the tables.
     """
     place = draft / folder.name
     one = ManyOptions(folder, many=True, bare=o.bare, workers=o.workers, run_simulator=o.run_simulator)
-    record = Record("gap diagnose", {**options, "case": folder}, one.in_si(), results={"run": run_id}, forms=forms)
+    record = Record("gap diagnose", {**options, "case": folder}, one.in_si(), results=dict(marks), forms=forms)
 
-    def kept(code: int, line: str) -> Outcome:
+    def failed(code: int, line: str) -> Outcome:
         shutil.rmtree(place, ignore_errors=True)
         return Outcome(folder.name, code, line, tuple(record.warnings))
 
@@ -111,25 +135,11 @@ def outcome(
         place.mkdir()
         with record.catching_warnings():
             result = run(read(one, record), one, record)
+            record.results[SAID] = result.sentences[0]
             result.put(place)
     except InputError as error:
-        return kept(WRONG, str(error))
+        return failed(WRONG, str(error))
     except Exception as error:  # the others shall be diagnosed all the same
         last = traceback.extract_tb(error.__traceback__)[-1]
-        return kept(FAILED, f"{folder}: {type(error).__name__}: {error} ({Path(last.filename).name} {last.lineno})")
-    return Outcome(folder.name, 0, result.sentences[0], result.warnings, _row(result))
-
-
-def _row(result: DiagnoseResult) -> tuple[tuple[str, str | float], ...]:
-    d = result.diagnosis
-    answer = d.effects or {"no_gap": ("none",), "unknown": ("unknown",)}.get(d.verdict, ())
-    return (
-        ("case", d.case),
-        ("system", d.system),
-        ("verdict", d.verdict),
-        ("effects", " + ".join(d.effects)),
-        ("ambiguity", " ".join(d.ambiguity)),
-        ("probability [-]", float(sum(d.probabilities.get(name, 0.0) for name in answer))),
-        ("largest_reduction [-]", max((g.reduction for g in d.gap.values()), default=0.0)),
-        ("seconds [s]", round(d.seconds, 3)),
-    )
+        return failed(FAILED, f"{folder}: {type(error).__name__}: {error} ({Path(last.filename).name} {last.lineno})")
+    return Outcome(folder.name, 0, result.sentences[0], result.warnings, row(result.diagnosis.as_dict()))

@@ -43,6 +43,8 @@ class ManyOptions(DiagnoseOptions):
         `case` is a folder of cases: every sub-folder with a case.toml is diagnosed into a sub-folder of its name.
     bare
         Write tables, diagnosis.json and run.json only: no page, no figures.
+    resume
+        With `many`, keep what an earlier run into `out` had finished, where case, options and version are the same.
     workers
         Processes with `many`; as many as there are cores by default. Results do not depend on it.
     run_simulator
@@ -51,6 +53,7 @@ class ManyOptions(DiagnoseOptions):
 
     _: KW_ONLY
     many: bool = False
+    resume: Annotated[bool, Requires("many")] = False
     workers: Annotated[int | None, Requires("many")] = None
 
     def refuse_impossible(self) -> None:

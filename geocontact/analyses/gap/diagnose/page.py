@@ -1,4 +1,4 @@
-"""The page of a gap diagnosis: verdict, where, before and after on held-out trials, ranking, what cannot be told."""
+"""The page of a gap diagnosis: what, where, how far and how sure at the top; curves of held-out trials after that."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from geocontact.analyses.gap.diagnose.page_tables import (
     ranking_table,
     trials_table,
 )
-from geocontact.analyses.gap.diagnose.words import place, verdict_sentences
+from geocontact.analyses.gap.diagnose.words import in_part, place, verdict_sentences
 from geocontact.analyses.gap.words import names, percent
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.data.gap.case import GapCase
@@ -37,7 +37,6 @@ FRAMES = 201
 PANELS = 12  # held-out trials times channels; more are left to the tables
 STROKES = {"measured": 0, "base model": 1}
 """Colours that hold in all panels; the model with the effect has the next."""
-WIDE = ("gap_map", "gap_residuals")  # drawings as wide as the page
 WORDS = {"explained": "explained", "no_gap": "no gap", "unknown": "unknown", "unresolved": "unresolved"}
 MAP = (
     "Share of each channel's squared residual over the phase of the trial, over inputs, their rates and the load (cut "
@@ -51,11 +50,16 @@ RESIDUALS = (
 SURFACE_WORDS = (
     "Part of each cell of the mat in the load that the base model expects, and in the gap on held-out trials."
 )
+REDUCTIONS = (
+    "Root mean square error of each channel on trials that no parameter was fitted to; the whisker is the 95 % "
+    "interval of what stays on fresh trials of the same kind, the dashed line the noise floor."
+)
 CAPTIONS = {
     "gap_map": ("Where the gap is", MAP),
-    "ranking": ("What explains it", RANKING),
-    "gap_residuals": ("What is left over", RESIDUALS),
+    "reductions": ("How far it shrinks", REDUCTIONS),
+    "ranking": ("How sure that is", RANKING),
 }
+LEFT_OVER = {"gap_residuals": ("What is left over", RESIDUALS)}
 CHOSEN = (
     "Probabilities weigh the effects that the vocabulary has for this system, none, and anything unknown; an effect is "
     "named because it predicts these trials best, not because it was seen."
@@ -80,7 +84,7 @@ def gap_page(
     case, findings
         What was diagnosed, and what was found.
     figures
-        From `figures.gap_figures`; those that `CAPTIONS` names are shown, and those of surfaces.
+        From `figures.gap_figures`; those that `CAPTIONS` and `LEFT_OVER` name are shown, and those of surfaces.
     provenance
         Further tables: inputs with hashes, options, versions.
     warnings
@@ -89,10 +93,12 @@ def gap_page(
     d = findings.diagnosis
     phase = np.linspace(0.0, 1.0, FRAMES)
     panels, missing = _panels(findings, phase)
-    sections: list[Section] = [*panels, _readout(findings, phase)]
     sentences = verdict_sentences(d, findings.cells)
+    surfaces = {name: ("Where on the surface", SURFACE_WORDS) for name in figures if name.startswith(SURFACE)}
+    sections: list[Section] = [*_pictures(figures, CAPTIONS)]
     sections += [Words("Verdict", [f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences])]
-    sections += [*_pictures(figures)]
+    sections += [*_pictures(figures, surfaces)]
+    sections += [*panels, _readout(findings, phase), *_pictures(figures, LEFT_OVER)]
     sections += [gap_table(findings), ranking_table(findings)]
     sections += [trials_table(findings)] if findings.trials else []
     sections += [parameters_table(d), cells_table(findings)]
@@ -109,13 +115,14 @@ def gap_page(
         start_frame=round(0.5 * sum(window) * (FRAMES - 1)),
         sections=tuple(sections),
         plays=False,
+        answers=sum(name in figures for name in CAPTIONS),
     )
 
 
-def _pictures(figures: Mapping[str, Figure]) -> list[Picture]:
-    shown = [Picture(*CAPTIONS[name], _svg(figures[name]), wide=name in WIDE) for name in CAPTIONS if name in figures]
-    surfaces = [figure for name, figure in figures.items() if name.startswith(SURFACE)]
-    return [*shown, *(Picture("Where on the surface", SURFACE_WORDS, _svg(each), wide=True) for each in surfaces)]
+def _pictures(figures: Mapping[str, Figure], captions: Mapping[str, tuple[str, str]]) -> list[Picture]:
+    """Those that there are, in the order of their captions."""
+    shown = [name for name in captions if name in figures]
+    return [Picture(*captions[name], _svg(figures[name]), wide=name not in CAPTIONS) for name in shown]
 
 
 def _subtitle(case: GapCase, d: Diagnosis) -> str:
@@ -139,6 +146,8 @@ def _facts(findings: Findings) -> list[tuple[str, str]]:
             low, high = gap.ci95
             reduction = f"{percent(gap.reduction)} % [{percent(low)}, {percent(high)}] of the error of "
             lines.append(("Adding it removes", f"{reduction}{d.where[0].channel} on trials not used"))
+    if d.partial is not None:
+        lines.append(("Explained in part", in_part(d.partial)))
     alive = ", ".join(f"{name} {value:.2f}" for name, value in _likeliest(d) if value >= 0.005)
     lines.append(("Probabilities", alive))
     if len(d.ambiguity) > max(len(d.effects), 1):

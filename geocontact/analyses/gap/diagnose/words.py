@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from geocontact.analyses.gap.words import names, percent, proposal_words
 from geocontact.data.gap.cell import BAND, FAST_PHASE, Cell
-from geocontact.data.gap.diagnosis import CellsHeld, ChannelGap, Diagnosis, Where
+from geocontact.data.gap.diagnosis import CellsHeld, ChannelGap, Diagnosis, Partial, Where
 
 SIGNIFICANT = 0.05  # family-wise
 TELLING = 0.35  # share of a channel's gap along one axis that a part of its range must hold to be named
@@ -76,7 +76,8 @@ def _explained(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     said = ["; ".join(parts)]
     rivals = [name for name in d.ambiguity if name not in d.effects]
     if rivals:
-        said.append(f"these data cannot tell {names(d.effects)} from {names(rivals, 'or')}")
+        apart = [f"{name} ({d.behind[name]:.1f} nats behind)" if name in d.behind else name for name in rivals]
+        said.append(f"these data cannot tell {names(d.effects)} from {names(apart, 'or')}")
     return said + _absorbed(d)
 
 
@@ -85,7 +86,11 @@ def _named(some: Sequence[str], what: str) -> list[str]:
 
 
 def _removed(gap: ChannelGap) -> str:
-    return f"{percent(gap.reduction)} % [{percent(gap.ci95[0])}, {percent(gap.ci95[1])}]"
+    return _percent(gap.reduction, gap.ci95)
+
+
+def _percent(part: float, ci95: tuple[float, float]) -> str:
+    return f"{percent(part)} % [{percent(ci95[0])}, {percent(ci95[1])}]"
 
 
 def _no_gap(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
@@ -94,8 +99,23 @@ def _no_gap(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
 
 def _unknown(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     where = f" in {place(d.where[0], cells)}" if d.where else ""
-    said = [f"there is a gap{where} and none of the known effects explains it"]
+    explained = " and none of the known effects explains it"
+    if d.partial is not None:
+        explained = f"; {in_part(d.partial)}, and something else remains that no known effect explains"
+    said = [f"there is a gap{where}{explained}"]
     return [*said, *_not_ruled_out(d), *_absorbed(d)]
+
+
+def in_part(partial: Partial) -> str:
+    """What known effects explain, the most first: "slip explains 70 % [62, 78] of the error of force…"."""
+    shares = [(name, part, ci95) for name, (part, ci95) in partial.removed.items() if part > 0.0]
+    shares.sort(key=lambda each: -each[1])
+    parts = [
+        f"{_percent(part, ci95)} of {'that' if k else 'the error'} of {name}"
+        for k, (name, part, ci95) in enumerate(shares)
+    ]
+    some = f"{names(partial.effects)} {'explains' if len(partial.effects) == 1 else 'explain'}"
+    return f"{some} {', '.join(parts)} on trials not used"
 
 
 def _not_ruled_out(d: Diagnosis) -> list[str]:

@@ -24,6 +24,7 @@ WIDE = ("phase", FAST_PHASE)  # axes with a row of their own
 ENERGIES = (BAND, FAST_PHASE)  # axes of what has no sign
 MARKS = {1: "+", -1: "−", 0: "•"}  # measured above, below the prediction; no sign
 SLENDER = 14  # times as long as it is wide the colour scale is, for each row of strips
+ROUNDING = 1e-9  # of the span of an axis that is rounding
 LIGHT = 0.55  # of the colour scale, from which marks are white
 
 
@@ -88,9 +89,13 @@ def _strip(panel: Axes, cells: Sequence[Cell], channels: Sequence[str]) -> AxesI
     last = max((cell.high for cell in cells), default=0.0)
     edges = [*lows, last]
     shown = range(0, len(edges), max(1, (len(edges) - 1) // (5 if len(edges) > 10 else 3)))
-    panel.set_xticks([k - 0.5 for k in shown], [_edge(edges[k]) for k in shown])
+    span = float(np.ptp([edge for edge in edges if np.isfinite(edge)]))
+    panel.set_xticks([k - 0.5 for k in shown], [_edge(edges[k], span) for k in shown])
     return picture
 
 
-def _edge(value: float) -> str:
-    return "∞" if np.isinf(value) else f"{value:.3g}".replace("-", "−")
+def _edge(value: float, span: float) -> str:
+    """What is nothing beside the span of all edges is printed as 0."""
+    if np.isinf(value):
+        return "∞"
+    return f"{0.0 if abs(value) < ROUNDING * span else value:.3g}".replace("-", "−")

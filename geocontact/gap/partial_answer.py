@@ -1,0 +1,40 @@
+"""What known effects explain of a gap, where they do not explain all of it."""
+
+from __future__ import annotations
+
+from geocontact.data.gap.diagnosis import Partial
+from geocontact.gap.attribute import Attribution
+from geocontact.gap.reduction.error_reduction import error_reduction
+from geocontact.gap.selection.verdict import PAIR, SURE
+
+
+def partial(found: Attribution) -> Partial | None:
+    """What the effect that gains most explains of a gap that is not all explained by it; two, where a second one adds
+    as much as it must to be named.
+
+    Not one that a rule speaks against, nor one whose amplitude is on the bound of what is physical. None where nobody
+    gains more than luck may, and where no channel's error shrinks on held-out trials.
+    """
+    free = [one for one in found.contenders if one.label not in found.objections and not one.cut_short]
+    alone = max((one for one in free if len(one.names) == 1), key=lambda one: one.nats, default=found.base)
+    both = max(free, key=lambda one: one.nats, default=found.base)
+    needed = SURE + PAIR * max(alone.nats - found.base.nats, 0.0)
+    best = both if both.nats - alone.nats > needed else alone
+    gain = best.nats - found.base.nats
+    if gain < SURE:
+        return None
+    shrunk = error_reduction(found.problem, found.clean, best.judged, True, found.data_error)
+    removed = {name: (s.reduction, (s.low, s.high)) for name, s in shrunk.items()}
+    return Partial(best.names, gain, removed) if any(part > 0.0 for part, _ in removed.values()) else None
+
+
+def nearest(found: Attribution) -> tuple[str, ...]:
+    """In words what the model that gains most would do, where nothing was named although it gains something."""
+    best = max(found.contenders, key=lambda one: one.nats, default=found.base)
+    gain = best.nats - found.base.nats
+    if gain < SURE:
+        return ()
+    shrunk = error_reduction(found.problem, found.clean, best.judged, True, found.data_error)
+    parts = ", ".join(f"{100.0 * s.reduction:.0f} % of the error of {name}" for name, s in shrunk.items())
+    only = ", with an amplitude on the bound of what is physical" if best.cut_short else ""
+    return (f"nearest of the known effects: {best.label}, which gains {gain:.0f} nats and would remove {parts}{only}",)
