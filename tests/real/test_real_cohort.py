@@ -1,4 +1,4 @@
-"""Studies of real recordings: the subtalar joints of two people, and the knee implants of two."""
+"""Studies of real recordings: the subtalar joints of two people, and a knee implant at two thresholds."""
 
 from __future__ import annotations
 
@@ -48,3 +48,30 @@ def test_subtalar_joints_of_two_people_over_stance(data_dir: Path, tmp_path: Pat
     assert len(area) == 101 and (area["subjects [-]"] == 2).all()
     ends = table.groupby("subject")["area_fixed [mm^2]"].first().mean()
     assert area["mean"].iloc[0] == pytest.approx(ends, rel=1e-9)
+
+
+KNEE = """
+analysis = "area"
+[options]
+moving = "{data}/stl/Femoral Component contact.stl"
+fixed = "{data}/stl/Tibial Insert contact.stl"
+unit = "m"
+motion = "{data}/fluoroscopy/Fluoroscopic Gait Data.sto"
+map = "rx=knee_flex_r,ry=knee_add_r,rz=knee_rot_r,tx=knee_ant_r,ty=knee_sup_r,tz=knee_lat_r"
+angles = "rad"
+[sweep]
+threshold = [2, 4]
+"""
+
+
+@pytest.mark.slow
+def test_a_knee_implant_at_two_thresholds(data_dir: Path, tmp_path: Path) -> None:
+    """101 frames of DM; the area below 2 mm is a part of that below 4 mm, and each threshold has its mean curve."""
+    study = written(tmp_path / "knee.toml", KNEE.format(data=data_dir / "gc6_dm_knee"))
+    out = tmp_path / "out"
+    made = done(call("cohort", study, "--workers", "1", "--out", out, folder=out))
+    table = pd.read_parquet(out / "tables" / "area.parquet")
+    narrow, wide = (table[table["threshold"] == each]["area_fixed [mm^2]"].to_numpy() for each in ("2", "4"))
+    assert len(narrow) == len(wide) == 101 and (narrow < wide).all() and (narrow > 0.3 * wide).all()
+    assert set(made.table("values.csv")["condition"]) == {"threshold 2", "threshold 4"}
+    assert made.table("trials.csv")["warnings [-]"].min() >= 2, "open surfaces are named for each trial"
