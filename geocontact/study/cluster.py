@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,6 +14,7 @@ from geocontact.study.options import CohortOptions
 
 INSTALL = "pip install 'geocontact[cohort]'"
 PATIENCE = 30.0  # s; for a scheduler to answer
+STARTS = 3
 SETTINGS: dict[str, Any] = {
     "distributed.scheduler.allowed-failures": 10,  # a trial counts its workers itself, and only those that were at it
     "distributed.worker.daemon": True,  # workers end with this process, however it ends
@@ -39,19 +41,30 @@ def workers_of(o: CohortOptions) -> Iterator[Any]:
                 yield client
             return
         with (
-            distributed.LocalCluster(
-                n_workers=o.workers or cores(),
-                threads_per_worker=1,
-                processes=True,
-                memory_limit=o.memory or "auto",
-                dashboard_address="127.0.0.1:0",
-                env=ONE_THREAD,
-                preload=["geocontact.study.worker_setup"],
-                silence_logs="CRITICAL",
-            ) as cluster,
+            _started(o, distributed) as cluster,
             distributed.Client(cluster, set_as_default=False) as client,
         ):
             yield client
+
+
+def _started(o: CohortOptions, distributed: Any, left: int = STARTS - 1) -> Any:
+    """A cluster of this machine; started again, `left` times, where one of its processes was lost at once."""
+    try:
+        return distributed.LocalCluster(
+            n_workers=o.workers or cores(),
+            threads_per_worker=1,
+            processes=True,
+            memory_limit=o.memory or "auto",
+            dashboard_address="127.0.0.1:0",
+            env=ONE_THREAD,
+            preload=["geocontact.study.worker_setup"],
+            silence_logs="CRITICAL",
+        )
+    except RuntimeError as error:
+        if left:
+            return _started(o, distributed, left - 1)
+        what = f"ended {STARTS} times while they were started; try fewer of them, or more memory"
+        raise OSError(errno.ECHILD, what, "processes of the study") from error
 
 
 def _existing(o: CohortOptions, distributed: Any) -> Any:

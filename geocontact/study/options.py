@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from geocontact.analyses.options import Options
 from geocontact.data.errors import InputError
 
 LOCAL = "local"
+SIZE = re.compile(r"[0-9]+(\.[0-9]+)? ?[kMGT]i?B")
 
 
 @dataclass(frozen=True)
@@ -49,5 +51,7 @@ class CohortOptions(Options):
             if not self.local and getattr(self, name) is not None:
                 what = "has no effect with `scheduler`: its workers were started with theirs"
                 raise InputError("", f"`{name}`", what, "leave it out")
+        if self.memory is not None and not SIZE.fullmatch(self.memory):
+            raise InputError("", "`memory`", f"{self.memory!r} is no size of memory", "write for example 4GB")
         if self.workers is not None and self.workers < 1:
             raise InputError("", "`workers`", f"{self.workers} is less than one process", "give 1 or more")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shutil
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -119,3 +120,27 @@ def test_conditions_are_compared_and_the_page_leads_to_every_trial(tmp_path: Pat
     page = (out / "report.html").read_text(encoding="utf-8")
     links = re.findall(r'<a href="(results/[0-9a-f]{32}/report\.html)">', page)
     assert len(links) == 24 and all((out / link).is_file() for link in links)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--memory", "lots"), "--memory: 'lots' is no size of memory; write for example 4GB"),
+        (("--workers", "0"), "--workers: 0 is less than one process"),
+        (("--scheduler", "here"), "--scheduler: 'here' is no address; write tcp://host:8786, or local"),
+        (("--scheduler", "tcp://h:1", "--workers", "2"), "--workers: has no effect with --scheduler"),
+    ],
+)
+def test_options_that_cannot_be_are_refused_before_any_work(
+    tmp_path: Path, options: tuple[str, ...], said: str
+) -> None:
+    refused = call("cohort", study(tmp_path, NUMBERS), *options, "--out", tmp_path / "out")
+    assert refused.code == 2 and refused.err.startswith(said) and not (tmp_path / "out").exists()
+
+
+def test_without_the_extra_it_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    refused = call("cohort", study(tmp_path, NUMBERS), "--out", tmp_path / "out")
+    assert refused.code == 2 and refused.err == (
+        "cohort: needs distributed, which is not installed; pip install 'geocontact[cohort]'\n"
+    )
