@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from geocontact.io.cases.gap_case import read_gap_case
     from geocontact.io.mesh.meshes import read_mesh
     from geocontact.io.motion.motion import read_motion
+    from geocontact.study.job import cohort
     from geocontact.systems.base import Base, require_numbers
     from geocontact.systems.catalogue import system_of
     from geocontact.systems.external.simulator import simulator_base
@@ -91,6 +92,7 @@ _PLACES = {
     "fit_shape": "analyses.shape.job",
     "load_cells": "analyses.loadcells.job",
     "modulus": "analyses.modulus.job",
+    "cohort": "study.job",
     "mat": "analyses.mat.job",
     "scale": "analyses.motion.scale.job",
     "functional_joint": "analyses.motion.functional_joint.job",
@@ -160,6 +162,7 @@ __all__ = [
     "centre_of_pressure",
     "chain",
     "cm",
+    "cohort",
     "deg",
     "diagnose",
     "discriminability",

@@ -25,7 +25,7 @@ from tests.scheduling import FileByFile, lasting_first
 
 ROOT = Path(__file__).resolve().parents[1]
 REAL = ROOT / "tests" / "real"
-ROOMS_OF_CALLS = {ROOT / "tests" / "analyses", ROOT / "tests" / "cli"}
+ROOMS_OF_CALLS = {ROOT / "tests" / "analyses", ROOT / "tests" / "cli", ROOT / "tests" / "study"}
 PER_CENT = "ignore:.*taken as per cent of a cycle:geocontact.data.errors.InputWarning"
 """Right of DM's fluoroscopy, whose time has no unit."""
 UNCHECKED = bool(os.environ.get("GEOCONTACT_UNCHECKED"))

@@ -11,6 +11,7 @@ from benchmarks.same_outputs.recording import ROOT, RUNS, Place, runs, wanted, w
 
 KINDS = {
     "area": "area_split",
+    "cohort": "cohort",
     "compare": "page_compare",
     "pressure": "page_pressure",
     "fit": "fit_profile",

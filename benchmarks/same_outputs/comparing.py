@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from itertools import takewhile, zip_longest
@@ -13,6 +14,8 @@ from benchmarks.same_outputs.content import RANDOM, WORDS, pair
 NUMBERS = (".csv", ".json", ".mot", ".sto", ".trc", ".osim", ".toml", ".npz", ".parquet", ".vtp", ".vtu", ".pvd")
 """Endings of files that must agree; of others (what was said, pages, figures) a difference is only told."""
 CALL, ABOUT, INPUTS = "call.json", "recording.json", "inputs"
+ADDRESSED = re.compile(r"/results/[0-9a-f]{32}/")
+"""Results of a study's trials: their folder hangs on the sources; the tables of all trials are compared."""
 WIDTH = 160
 
 
@@ -44,7 +47,8 @@ class Recording:
 
     def files(self, run: str) -> set[Path]:
         """Files of a run, as seen from the folder."""
-        return {file.relative_to(self.folder) for file in (self.folder / run).rglob("*") if file.is_file()}
+        found = {file.relative_to(self.folder) for file in (self.folder / run).rglob("*") if file.is_file()}
+        return {file for file in found if not ADDRESSED.search(file.as_posix())}
 
     def plain(self, line: str) -> str:
         """A line without the places of this recording and names that were drawn."""

@@ -13,14 +13,14 @@ from typing import Any
 import numpy as np
 
 STRIPPED = (
-    *("seconds", "seconds_most", "cpu_seconds", "date"),  # when, and how long it took
+    *("seconds", "workers", "seconds_most", "cpu_seconds", "date"),  # when, and how long it took
     *("frames_per_second", "samples_per_second_of_one_core"),
     *("geocontact", "versions", "machine", "platform", "run"),  # by what, and its random name
     *("argv", "files"),  # as typed; the files of a folder are compared themselves
 )
 """Keys of JSON objects that are left out."""
-STRIPPED_COLUMNS = ("cpu [s]", "wall [s]", "seconds [s]")
-"""Columns of tables that are left out."""
+STRIPPED_COLUMNS = ("cpu [s]", "wall [s]", "seconds [s]", "folder")
+"""Columns of tables that are left out; the last one names folders of a study's trials, which hang on the sources."""
 STRIPPED_WORDS = re.compile(r"compiling the distance kernels|per second of|seconds of one core|^Seed \d+, \d{4}-")
 """Lines of text that are left out: what hangs on the load of the machine, and dates."""
 RANDOM = re.compile(r"(?<=\.geocontact-)[0-9a-f]{16}|(?<=\b[mp])[0-9a-f]{10}\b|(?<=\bimage)[0-9a-f]{10}\b")

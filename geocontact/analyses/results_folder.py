@@ -34,6 +34,11 @@ def what_stays() -> str:
     return f"what was finished is in {folders[-1]}{others}"
 
 
+def is_kept(folder: Path) -> None:
+    """What lies in a folder stays when the run is ended now."""
+    _written.append(folder)
+
+
 class Scratch:
     """A folder for files that a result will write; it goes with the last reference to it, and when a run is ended.
 

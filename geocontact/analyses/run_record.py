@@ -105,7 +105,7 @@ class Record:
 
     def versions(self) -> dict[str, str]:
         """What it ran on."""
-        return {"python": platform.python_version(), "platform": platform.platform(), **_versions()}
+        return {"python": platform.python_version(), "platform": platform.platform(), **library_versions()}
 
     def write(self, *folders: Path) -> None:
         """Write `run.json` into each folder of results; they differ only in what lists the files beside it."""
@@ -139,7 +139,8 @@ def _plain(value: object) -> object:
     return str(value)
 
 
-def _versions() -> dict[str, str]:
+def library_versions() -> dict[str, str]:
+    """Versions of the libraries that results depend on."""
     found = {}
     for name in LIBRARIES:
         try:

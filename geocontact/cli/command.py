@@ -16,6 +16,7 @@ from geocontact.analyses.job import Call, execute
 from geocontact.analyses.options import Declared, Options, declared
 from geocontact.analyses.result import Result
 from geocontact.analyses.table_forms import AS_ALWAYS, TableForms
+from geocontact.analyses.typed_values import key, read
 from geocontact.cli.show import Terminal
 from geocontact.data.errors import InputError
 
@@ -157,20 +158,6 @@ def tell(result: Result, folder: Path, files: list[str]) -> None:
 def option(one: Declared) -> str:
     """Its name on the command line, without the dashes."""
     return one.spelled.name or one.name.replace("_", "-")
-
-
-def key(one: Declared) -> str:
-    """Its name in `run.json`."""
-    return one.spelled.key or one.name
-
-
-def read(one: Declared, value: Any) -> Any:
-    """What was typed, in SI."""
-    if one.typed is None or value is None:
-        return value
-    place, _, name = one.typed.read.rpartition(":")
-    function = getattr(import_module(f"geocontact.analyses.{place or 'quantities'}"), name)
-    return function(value, f"`{one.name}`")
 
 
 def _typed(known: tuple[Declared, ...], rest: str, arguments: tuple[Any, ...], typed: dict[str, Any]) -> dict[str, Any]:

@@ -94,6 +94,7 @@ FEATURES = (
         f"pip install open3d (Python < 3.13), and apt-get install {SYSTEM_GL} libusb-1.0-0 (trixie: also libidn2-0)",
     ),
     Feature("optimal control", "casadi", "body models", "import casadi", "pip install casadi"),
+    Feature("studies", "distributed", "cohort", "import distributed", "pip install 'geocontact[cohort]'"),
     Feature("motion capture", "ezc3d", ".c3d files", "import ezc3d", "pip install ezc3d"),
 )
 

@@ -30,6 +30,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 app.command("geocontact.cli.area:area", name="area")
+app.command("geocontact.cli.cohort:cohort", name="cohort")
 app.command("geocontact.cli.cop:cop", name="cop")
 app.command("geocontact.cli.demo:demo", name="demo")
 app.command("geocontact.cli.doctor:doctor", name="doctor")

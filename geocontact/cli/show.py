@@ -12,6 +12,13 @@ from geocontact.analyses.listener import Listener
 SILENCE = 2.5  # s; loading compiled kernels from the cache takes less
 
 
+def rate(per_second: float | None) -> str:
+    """ "12/s", "3.5/min"; nothing before it is known."""
+    if not per_second:
+        return ""
+    return f"{per_second:.3g}/s" if per_second >= 1.0 else f"{60.0 * per_second:.3g}/min"
+
+
 class Terminal(Listener):
     """Shows warnings and failures on stderr, and where that is a terminal how far the work is."""
 
@@ -42,9 +49,16 @@ class Terminal(Listener):
             yield lambda: None
             return
         from rich.console import Console
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, Task, TextColumn, TimeRemainingColumn
+        from rich.text import Text
 
-        columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+        class Rate(TextColumn):
+            """Steps per second, per minute where they are slow."""
+
+            def render(self, task: Task) -> Text:
+                return Text(rate(task.finished_speed or task.speed))
+
+        columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), Rate(""), TimeRemainingColumn())
         with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
             task = bar.add_task(label, total=total)
             yield lambda: bar.advance(task)

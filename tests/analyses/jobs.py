@@ -8,6 +8,7 @@ from geocontact.analyses.job import Job
 
 JOBS: tuple[Job, ...] = (
     gc.area,
+    gc.cohort,
     gc.pressure,
     gc.centre_of_pressure,
     gc.fit_shape,

@@ -25,7 +25,8 @@ from geocontact.analyses.options import (
     Typed,
     declared,
 )
-from geocontact.cli.command import option, read, speller
+from geocontact.analyses.typed_values import read
+from geocontact.cli.command import option, speller
 from geocontact.data.errors import InputError
 from tests.analyses.jobs import JOBS
 

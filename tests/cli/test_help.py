@@ -37,6 +37,7 @@ def test_help_takes_less_than_half_a_second_of_the_processor(arguments: str) -> 
 def test_help_names_the_commands_and_every_option_of_the_contract() -> None:
     commands = (
         "area",
+        "cohort",
         "cop",
         "demo",
         "doctor",

@@ -11,6 +11,25 @@ from benchmarks.same_outputs.inputs.text import table, written
 POSES = "time [s], tx [mm], ty [mm], tz [mm], qw, qx, qy, qz"
 
 
+STUDY = """\
+analysis = "area"
+files = "gait_{trial}.csv"
+
+[options]
+moving = "../meshes/femoral_component_right_coarse.stl"
+fixed = "../meshes/tibial_insert_right_coarse.stl"
+unit = "mm"
+motion = "{file}"
+
+[sweep]
+threshold = [1, 4]
+
+[[leave_out]]
+trial = "11"
+threshold = 1
+"""
+
+
 def make(home: Path, meshes: Path) -> None:
     """Some frames of the shipped cycle in every form that is read, and poses of a ball on a plate."""
     for name, frames in (("gait_a", (0, 30)), ("gait_b", (15, 60)), ("gait_11", range(0, 101, 10))):
@@ -22,6 +41,7 @@ def make(home: Path, meshes: Path) -> None:
     clinical(home / "clinical.csv", text.splitlines()[head:])
     pressed = "\n".join(f"{k},3,{20.0 - depth},-2,1,0,0,0" for k, depth in enumerate((0.3, 0.1, -0.5)))
     written(home / "ball.csv", f"{POSES}\n{pressed}\n")
+    written(home / "study.toml", STUDY)
     written(home / "place.txt", "1 0 0 0.5\n0 1 0 0.2\n0 0 1 -0.3\n0 0 0 1\n")
     written(home / "faces.txt", " ".join(map(str, range(0, 1500, 3))) + "\n")
     written(home / "measured.csv", "time [s], threshold [mm], area_fixed [mm^2]\n0.1,4,2200\n0.2,4,2300\n")

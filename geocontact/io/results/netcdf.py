@@ -7,7 +7,7 @@ integers of 64 bits. Names of attributes follow the CF conventions 1.11 (https:/
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -53,7 +53,7 @@ def write_netcdf(table: pd.DataFrame, file: Path, about: Mapping[str, str]) -> N
     """
     from scipy.io import netcdf_file
 
-    names = _variables(table)
+    names = variable_names(table.columns)
     axes = coordinates_of(table)
     with netcdf_file(str(file), "w", mmap=False, version=2) as out:
         for key, value in {"Conventions": "CF-1.11", **about}.items():
@@ -71,9 +71,9 @@ def write_netcdf(table: pd.DataFrame, file: Path, about: Mapping[str, str]) -> N
                 _write(out, names[column], column, table[column].to_numpy().reshape(shape), dimensions)
 
 
-def _variables(table: pd.DataFrame) -> dict[str, str]:
+def variable_names(columns: Iterable[object]) -> dict[str, str]:
     """Names of variables by column: without the unit, but for columns that only the unit tells apart."""
-    plain = {str(column): _NOT_IN_A_NAME.sub("_", split_header(str(column))[0]) for column in table.columns}
+    plain = {str(column): _NOT_IN_A_NAME.sub("_", split_header(str(column))[0]) for column in columns}
     count = pd.Series(list(plain.values())).value_counts()
     return {
         column: name if count[name] == 1 and name != ROW else _NOT_IN_A_NAME.sub("_", column)
@@ -84,7 +84,9 @@ def _variables(table: pd.DataFrame) -> dict[str, str]:
 def _write(out: Any, name: str, column: str, values: np.ndarray, dimensions: tuple[str, ...]) -> None:
     """A variable with its unit; text as characters, truth as 0 and 1."""
     if values.dtype.kind not in "fiub":
-        values = np.char.encode(np.array([_text(value) for value in values.ravel()]), "utf-8").reshape(values.shape)
+        values = np.char.encode(np.array([text_of_cell(value) for value in values.ravel()]), "utf-8").reshape(
+            values.shape
+        )
         width = max(values.dtype.itemsize, 1)
         length = f"{name}_characters"
         out.createDimension(length, width)
@@ -100,7 +102,8 @@ def _write(out: Any, name: str, column: str, values: np.ndarray, dimensions: tup
         variable.units = UNITS.get(unit, unit)
 
 
-def _text(value: object) -> str:
+def text_of_cell(value: object) -> str:
+    """A cell as text, "" where it is empty."""
     return value if isinstance(value, str) else "" if pd.isna(value) else str(value)  # type: ignore[call-overload]
 
 

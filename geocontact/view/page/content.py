@@ -15,6 +15,7 @@ from geocontact.view.page.linkage import Linkage
 from geocontact.view.page.plan import Length, Mark, Plan, Track
 from geocontact.view.page.scene import FaceMap, Scene, SceneBody
 
+_LINK = re.compile(r"([\w-][\w.-]*/)*[\w-][\w.-]*|", re.ASCII)
 DRAWN_IN = 12  # colours of a line drawing at most; more are those of a scale
 
 __all__ = [
@@ -137,12 +138,22 @@ class Readout:
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """A table of texts; `folded` ones, such as the inputs with their hashes, are opened by the reader."""
+    """A table of texts; `folded` ones, such as the inputs with their hashes, are opened by the reader.
+
+    `links` are paths from the page, one for each row, "" for none: the first cell leads there.
+    """
 
     title: str
     header: Sequence[str]
     rows: Sequence[Sequence[str]]
     folded: bool = False
+    links: Sequence[str] = ()
+
+    def __post_init__(self) -> None:
+        if self.links and len(self.links) != len(self.rows):
+            raise ValueError(f"{len(self.links)} links for {len(self.rows)} rows")
+        if odd := next((link for link in self.links if not _LINK.fullmatch(link)), None):
+            raise ValueError(f"{odd!r} is no path from the page")
 
 
 @dataclass(frozen=True, eq=False)

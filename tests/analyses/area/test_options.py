@@ -11,7 +11,8 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.area.options import AreaOptions, PressureOptions
 from geocontact.analyses.options import declared
-from geocontact.cli.command import option, read
+from geocontact.analyses.typed_values import read
+from geocontact.cli.command import option
 from geocontact.data.errors import InputError
 
 TESTS = Path(__file__).parents[2]

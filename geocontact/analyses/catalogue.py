@@ -1,0 +1,77 @@
+"""Every analysis by the name of its command, and own ones by where they are: "package.module:OBJECT"."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from importlib import import_module
+from typing import Any
+
+from geocontact.analyses.job import Job
+from geocontact.data.errors import InputError
+
+PLACES = {
+    "area": "area.job:area",
+    "cop": "cop.job:centre_of_pressure",
+    "elbow compare": "misalignment.compare.job:compare",
+    "elbow design": "misalignment.design.job:design",
+    "elbow fit": "misalignment.identify.job:identify",
+    "elbow population": "misalignment.population.job:population",
+    "elbow simulate": "misalignment.simulate.job:simulate",
+    "fit": "shape.job:fit_shape",
+    "gap benchmark": "gap.benchmark.job:benchmark",
+    "gap diagnose": "gap.diagnose.job:diagnose",
+    "gap discriminability": "gap.discriminability.job:discriminability",
+    "gap gather": "gap.gather.job:gather",
+    "gap inject": "gap.inject.job:inject",
+    "id": "motion.inverse_dynamics.job:inverse_dynamics",
+    "ik": "motion.inverse_kinematics.job:inverse_kinematics",
+    "joint": "motion.functional_joint.job:functional_joint",
+    "loadcells": "loadcells.job:load_cells",
+    "markers": "motion.virtual_markers.job:virtual_markers",
+    "mat": "mat.job:mat",
+    "modulus": "modulus.job:modulus",
+    "prosthesis calibrate": "prosthesis.calibrate.job:calibrate",
+    "prosthesis compare": "prosthesis.compare.job:compare",
+    "prosthesis design": "prosthesis.design.job:design",
+    "prosthesis scale": "prosthesis.scale.job:scale",
+    "prosthesis simulate": "prosthesis.simulate.job:simulate",
+    "scale": "motion.scale.job:scale",
+    "shoulder compare": "shoulder.compare.job:compare",
+    "shoulder optimise": "shoulder.optimise.job:optimise",
+    "shoulder simulate": "shoulder.simulate.job:simulate",
+    "shoulder study": "shoulder.study.job:study",
+    "sit-to-stand calibrate": "sit_to_stand.calibrate.job:calibrate",
+    "sit-to-stand compare": "sit_to_stand.compare.job:compare",
+    "sit-to-stand design": "sit_to_stand.design.job:design",
+    "sit-to-stand device": "sit_to_stand.device.job:device",
+    "sit-to-stand predict": "sit_to_stand.predict.job:predict",
+}
+
+
+def job_named(name: str) -> Job[Any, Any]:
+    """The analysis of a command; InputError where there is none of that name."""
+    if ":" in name:
+        return _own(name)
+    if name not in PLACES:
+        near = get_close_matches(name, PLACES, n=1)
+        raise InputError("", "", f"there is no analysis {name!r}", f"did you mean {near[0]!r}?" if near else _names())
+    place, _, attribute = PLACES[name].partition(":")
+    found: Job[Any, Any] = getattr(import_module(f"geocontact.analyses.{place}"), attribute)
+    return found
+
+
+def _own(name: str) -> Job[Any, Any]:
+    """An analysis of somebody else's module, which is imported."""
+    place, _, attribute = name.partition(":")
+    try:
+        found = getattr(import_module(place), attribute)
+    except (ImportError, AttributeError, ValueError) as error:
+        what = f"no analysis at {name!r} ({type(error).__name__}: {error})"
+        raise InputError("", "", what, "put its folder into PYTHONPATH, on the workers too") from error
+    if not isinstance(found, Job):
+        raise InputError("", "", f"{name!r} is a {type(found).__name__}", "name a geocontact.analyses.job.Job")
+    return found
+
+
+def _names() -> str:
+    return f"there are {', '.join(PLACES)}"

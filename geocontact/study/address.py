@@ -1,0 +1,120 @@
+"""The address of a trial's results: a digest of all that they depend on.
+
+It is made of the analysis, its options in SI, the content of the files that these name, the sources of the package
+and the versions of the libraries that compute. Files that an analysis finds by itself, such as those that a settings
+file names, are told in `run.json` and compared when results are used again.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import chdir
+from glob import glob, has_magic
+from pathlib import Path
+from typing import Any
+
+from geocontact.analyses import source_digest
+from geocontact.analyses.options import Options, declared
+from geocontact.analyses.run_record import library_versions
+from geocontact.analyses.stale_results import digest
+from geocontact.analyses.typed_values import key, read
+from geocontact.data.errors import InputError
+from geocontact.data.version import VERSION
+
+LENGTH = 32
+"""Hexadecimal digits of an address: 128 bits."""
+ONE_THREAD = "workers"
+"""Option of analyses that use several cores: in a study each trial has one, unless the study says otherwise."""
+
+
+class Digests:
+    """SHA-256 of files, each read once as long as its size and time stay."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[str, int, int], str] = {}
+
+    def of(self, file: Path) -> str:
+        """Of one file."""
+        state = file.stat()
+        place = (str(file.absolute()), state.st_size, state.st_mtime_ns)
+        if place not in self._known:
+            self._known[place] = digest(file)
+        return self._known[place]
+
+
+def options_of(options: type[Options], typed: Mapping[str, Any]) -> Options:
+    """Options from what a study says, by their names in run.json or in Python; paths from the present folder."""
+    known = {**{one.name: one for one in declared(options)}, **{key(one): one for one in declared(options)}}
+    given = {}
+    for name, value in typed.items():
+        one = known.get(name)
+        if one is None or not one.settable:
+            names = ", ".join(key(each) for each in known.values() if each.settable)
+            raise InputError("", f"`{name}`", "is no option of this analysis", f"there are {names}")
+        given[one.name] = read(one, _as_typed(value, one.typed is not None and one.typed.kind is str))
+    if ONE_THREAD in known and ONE_THREAD not in given:
+        given[ONE_THREAD] = 1
+    missing = next((one for one in known.values() if one.required and one.name not in given), None)
+    if missing is not None:
+        raise InputError("", f"`{missing.name}`", "is missing", "add it to [options]")
+    return options(**given)
+
+
+def _as_typed(value: Any, text: bool) -> Any:
+    """What would be typed: lists of numbers with commas, where text is read."""
+    if isinstance(value, list):
+        return ",".join(map(str, value)) if text else tuple(value)
+    return str(value) if text else value
+
+
+def address_of(command: str, options: Options, home: Path, digests: Digests) -> str:
+    """Address of results; paths of the options start from `home`, and count by name and content."""
+    with chdir(home):
+        files = {path.as_posix(): digests.of(path) for path in _files(options)}
+    told = {
+        "command": command,
+        "options": {name: _plain(value) for name, value in options.in_si().items()},
+        "files": files,
+        "geocontact": [VERSION, source_digest.digest()],
+        "libraries": library_versions(),
+    }
+    return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()[:LENGTH]
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, (list, tuple)):
+        return [_plain(each) for each in value]
+    if isinstance(value, Mapping):
+        return {str(name): _plain(each) for name, each in value.items()}
+    return value if isinstance(value, (str, int, float, bool)) or value is None else str(value)
+
+
+def _files(options: Options) -> Iterator[Path]:
+    """Files that options name, those in folders and those that patterns find among them."""
+    for one in declared(type(options)):
+        for text in _texts(getattr(options, one.name)):
+            for name in (text, text.partition(":")[0]):
+                yield from _below(name)
+
+
+def _texts(value: object) -> Iterator[str]:
+    if isinstance(value, (str, Path)):
+        yield str(value)
+    elif isinstance(value, tuple):
+        for each in value:
+            yield from _texts(each)
+
+
+def _below(name: str) -> Iterator[Path]:
+    try:
+        path = Path(name)
+        if path.is_file():
+            yield path
+        elif path.is_dir() and name:
+            yield from sorted(each for each in path.rglob("*") if each.is_file())
+        elif has_magic(name):
+            yield from (Path(each) for each in sorted(glob(name)) if Path(each).is_file())
+    except (OSError, ValueError):  # a text that no file can be named
+        return

@@ -1,0 +1,57 @@
+"""What a study may be asked for."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+
+from geocontact.analyses.options import Options
+from geocontact.data.errors import InputError
+
+LOCAL = "local"
+SIZE = re.compile(r"[0-9]+(\.[0-9]+)? ?[kMGT]i?B")
+
+
+@dataclass(frozen=True)
+class CohortOptions(Options):
+    """One analysis of many subjects, trials, conditions and settings; what is done already is not done again.
+
+    Parameters
+    ----------
+    study
+        Description of the study (.toml): the analysis, its options, and what its trials differ in.
+
+    Work
+    ----
+    scheduler
+        Address of a Dask scheduler, such as tcp://host:8786; local: this machine.
+    workers
+        Processes on this machine; as many as there are cores unless given.
+    memory
+        Memory that each process on this machine may take: 4GB; its share of the machine's unless given.
+    """
+
+    study: Path
+    _: KW_ONLY
+    scheduler: str = LOCAL
+    workers: int | None = None
+    memory: str | None = None
+
+    @property
+    def local(self) -> bool:
+        """Whether the work is done on this machine."""
+        return self.scheduler == LOCAL
+
+    def refuse_impossible(self) -> None:
+        """No process, an address that is none, and what an existing cluster decides itself."""
+        if not self.local and "://" not in self.scheduler:
+            raise InputError("", "`scheduler`", f"{self.scheduler!r} is no address", "write tcp://host:8786, or local")
+        for name in ("workers", "memory"):
+            if not self.local and getattr(self, name) is not None:
+                what = "has no effect with `scheduler`: its workers were started with theirs"
+                raise InputError("", f"`{name}`", what, "leave it out")
+        if self.memory is not None and not SIZE.fullmatch(self.memory):
+            raise InputError("", "`memory`", f"{self.memory!r} is no size of memory", "write for example 4GB")
+        if self.workers is not None and self.workers < 1:
+            raise InputError("", "`workers`", f"{self.workers} is less than one process", "give 1 or more")

@@ -1,0 +1,88 @@
+"""The page of a study: mean curves by condition, what differs, who lies apart, a link to each trial's page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import headline
+from geocontact.analyses.run_record import Record
+from geocontact.data.ensemble import mean_and_sd
+from geocontact.io.text.units import split_header
+from geocontact.study.curves import STEPS, StudyCurves
+from geocontact.view.curves.over_cycle import mean_over_cycle
+from geocontact.view.curves.quantity import CYCLE, Quantity
+from geocontact.view.curves.style import DOUBLE, PALETTE, in_style, panels
+from geocontact.view.page.content import Curve, Curves, Page, Section, Table
+from geocontact.view.page.tables import frame_table, inputs_table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+DRAWN = len(PALETTE)
+"""Conditions that curves are drawn of."""
+ROWS = 500
+"""Rows of the table of trials that the page shows; trials.csv has all."""
+REPORT = "report.html"
+
+
+def study_page(title: str, record: Record, curves: Sequence[StudyCurves], tables: Mapping[str, pd.DataFrame]) -> Page:
+    """The page, with curves that can be read by pointing at them."""
+    sections: list[Section] = [section for one in curves if (section := _panel(one)).curves]
+    for name, words in (
+        ("values", "Mean and largest value of the subjects"),
+        ("agreement", "Agreement of conditions"),
+        ("outliers", "Trials that lie apart"),
+    ):
+        if name in tables and len(tables[name]):
+            sections.append(frame_table(words, tables[name]))
+    sections += [_trials(tables["trials"]), inputs_table(record.inputs), options_table(record)]
+    return Page(
+        title,
+        f"geocontact {record.command}",
+        STEPS if curves else np.zeros(1),
+        "cycle [%]" if curves else "",
+        headline=headline(record.sentences),
+        reservations=tuple(record.warnings),
+        sections=tuple(sections),
+        plays=False,
+    )
+
+
+def _panel(one: StudyCurves) -> Curves:
+    name, unit = split_header(one.column)
+    drawn = []
+    for condition, values in _drawn(one).items():
+        mean, sd = mean_and_sd(values)
+        several = len(values) > 1
+        words = f"{condition} (n = {len(values)})"
+        drawn.append(Curve(words, mean, mean - sd if several else None, mean + sd if several else None))
+    return Curves(f"{name}: mean ± SD over subjects", unit or "-", drawn)
+
+
+def _drawn(one: StudyCurves) -> dict[str, np.ndarray]:
+    """Conditions that have a curve, not more than there are colours."""
+    there = {name: values[np.isfinite(values).all(axis=1)] for name, values in one.groups.items()}
+    return {name: there[name] for name in list(there)[:DRAWN] if len(there[name])}
+
+
+def _trials(manifest: pd.DataFrame) -> Table:
+    shown = manifest.iloc[:ROWS]
+    words = f"Trials, {ROWS} of {len(manifest)}" if len(manifest) > ROWS else "Trials"
+    told = frame_table(words, shown.drop(columns="folder"))
+    links = [f"{folder}/{REPORT}" if folder else "" for folder in shown["folder"]]
+    return Table(told.title, told.header, told.rows, links=links)
+
+
+@in_style
+def study_figure(curves: Sequence[StudyCurves]) -> Figure:
+    """Mean ± SD of every quantity and condition."""
+    figure, axes = panels(1, len(curves), DOUBLE, 0.06)
+    for one, own in zip(curves, axes, strict=True):
+        name, unit = split_header(one.column)
+        mean_over_cycle(STEPS, _drawn(one), Quantity(name.replace("_", " "), unit or "-"), own, CYCLE)
+    return figure

@@ -1,0 +1,1 @@
+"""Differences, agreement and reliability over subjects: arrays in, numbers out."""

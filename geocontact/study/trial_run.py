@@ -1,0 +1,133 @@
+"""One trial on a worker: its results go to their place, what goes wrong is told in one line."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import secrets
+import shutil
+import threading
+import traceback
+from collections.abc import Mapping
+from contextlib import chdir
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from geocontact.analyses import source_digest
+from geocontact.analyses.catalogue import job_named
+from geocontact.analyses.job import Call, execute
+from geocontact.analyses.listener import Listener
+from geocontact.analyses.table_forms import TableForms
+from geocontact.data.errors import InputError
+from geocontact.study.address import options_of
+from geocontact.study.store import MOST_ENDED, TOLD, WORK, Store
+
+DONE, WRONG, FAILED, SET_ASIDE, STOPPED = "done", "input error", "failed", "set aside", "stopped"
+"""What becomes of a trial; STOPPED concerns all: nothing can be written, or the worker has other sources."""
+NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EROFS)
+_one_at_a_time = threading.Lock()  # the working folder and what catches warnings are those of the whole process
+
+
+@dataclass(frozen=True)
+class TrialTask:
+    """What a worker is told.
+
+    Parameters
+    ----------
+    analysis
+        As its command is typed.
+    options
+        As a study says them.
+    home
+        Folder that paths start from.
+    store
+        Where results go.
+    address
+        Of these results.
+    sources
+        Digest of the package's sources, as where the study was started.
+    run
+        Marks one run of the study.
+    """
+
+    analysis: str
+    options: Mapping[str, Any]
+    home: Path
+    store: Store
+    address: str
+    sources: str
+    run: str
+
+
+@dataclass(frozen=True)
+class TrialOutcome:
+    """What became of a trial: one of the words above, and a line where it is not done; seconds that it took."""
+
+    state: str
+    line: str = ""
+    seconds: float = 0.0
+
+
+def run_trial(task: TrialTask) -> TrialOutcome:
+    """Evaluate a trial; results are in their place when this returns `DONE`."""
+    import time
+
+    started = time.perf_counter()
+    if task.sources != _sources():
+        return TrialOutcome(STOPPED, "a worker has other sources of geocontact; install the same version there")
+    if task.store.starts(task.run, task.address) >= MOST_ENDED:
+        return TrialOutcome(SET_ASIDE, f"its worker was killed {MOST_ENDED} times: out of memory, or a crash")
+    with _one_at_a_time:
+        try:
+            ended = task.store.starting(task.run, task.address)
+            outcome = _outcome(task)
+            ended()
+        except OSError as error:
+            return TrialOutcome(STOPPED, str(error.strerror or error))
+    return TrialOutcome(outcome.state, outcome.line, time.perf_counter() - started)
+
+
+def _outcome(task: TrialTask) -> TrialOutcome:
+    draft = task.store.folder / WORK / secrets.token_hex(8)
+    try:
+        draft.mkdir()
+        with chdir(task.home):
+            _evaluate(task, draft / "out")
+        task.store.keep(draft / "out", task.address)
+    except InputError as error:
+        return TrialOutcome(WRONG, str(error))
+    except MemoryError:
+        return TrialOutcome(FAILED, "not enough memory")
+    except Exception as error:
+        if isinstance(error, OSError) and error.errno in NO_ROOM:
+            raise
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        line = f"{type(error).__name__}: {error} ({Path(last.filename).name} {last.lineno})"
+        return TrialOutcome(FAILED, " ".join(line.split()))
+    finally:
+        shutil.rmtree(draft, ignore_errors=True)
+    return TrialOutcome(DONE)
+
+
+def _evaluate(task: TrialTask, out: Path) -> None:
+    job = job_named(task.analysis)
+    options = options_of(job.options, task.options)
+    options.refuse_missing_files()
+    call = Call(dict(task.options), Listener(), forms=TableForms(parquet=True))
+    result, _ = execute(job, options, out, call)
+    told = {
+        "analysis": task.analysis,
+        "tables": list(result.tables()),
+        "sentences": list(result.sentences),
+        "warnings": list(result.warnings),
+        "accepted": result.accepted,
+    }
+    draft = out / f"{TOLD}.part"
+    draft.write_text(json.dumps(told, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    os.replace(draft, out / TOLD)
+
+
+_sources = cache(source_digest.digest)

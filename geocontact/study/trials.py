@@ -1,0 +1,123 @@
+"""The trials of a study, from files, a table and lists of values."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+from geocontact.data.errors import InputError
+from geocontact.io.text.side_table import read_side_table
+from geocontact.study.study_file import RESERVED, StudyFile, Value
+
+FILE = "file"
+"""Name of a trial's file, where they are found by a pattern."""
+_NAME = re.compile(r"\{(\w+)\}")
+Factors = dict[str, Value]
+
+
+@dataclass(frozen=True)
+class CohortTrial:
+    """One trial: its name, what it differs in from others, and the options of its analysis as typed."""
+
+    name: str
+    factors: Mapping[str, Value]
+    options: Mapping[str, Any]
+
+
+def trials_of(study: StudyFile) -> list[CohortTrial]:
+    """All trials, files in the order of their paths, lists as they are written, the first outermost."""
+    rows: list[Factors] = [{}]
+    for source, more in _sources(study):
+        rows = _joined(study, source, rows, more)
+    trials = [_trial(study, row) for row in _varied(study, rows)]
+    found = [one for one in trials if one is not None]
+    if not found:
+        raise InputError(study.path, "", "every trial is left out", "see [[leave_out]]")
+    twice = next((name for name, count in Counter(one.name for one in found).items() if count > 1), None)
+    if twice is not None:
+        raise InputError(study.path, "", f"two trials are {twice!r}", "name what they differ in, as in {trial}")
+    return found
+
+
+def _sources(study: StudyFile) -> Iterator[tuple[str, list[Factors]]]:
+    if study.files:
+        yield study.files, _found_files(study)
+    if study.table:
+        table = read_side_table(study.home / study.table)
+        yield study.table, [{str(key): value for key, value in row.items()} for row in table.to_dict("records")]
+
+
+def _found_files(study: StudyFile) -> list[Factors]:
+    """What the names in a pattern stand for, for each file that it fits."""
+    names = _NAME.findall(study.files)
+    parts = _NAME.split(study.files)
+    expression, seen = "", set[str]()
+    for k, part in enumerate(parts):
+        if k % 2 == 0:
+            expression += "[^/]*".join(map(re.escape, part.split("*")))
+        else:
+            expression += f"(?P={part})" if part in seen else f"(?P<{part}>[^/]+?)"
+            seen.add(part)
+    pattern = re.compile(expression)
+    matches = sorted(each.relative_to(study.home).as_posix() for each in study.home.glob(_NAME.sub("*", study.files)))
+    fits = [(path, fit) for path in matches if (fit := pattern.fullmatch(path))]
+    if not fits:
+        raise InputError(study.path, "`files`", f"no file fits {study.files!r}", f"paths start from {study.home}")
+    return [{**{name: fit[name] for name in names}, FILE: path} for path, fit in fits]
+
+
+def _joined(study: StudyFile, source: str, rows: list[Factors], more: list[Factors]) -> list[Factors]:
+    """Each row with what fits to it: equal in all names that both have."""
+    shared = [name for name in rows[0] if name in more[0]]
+    found = [{**row, **each} for row in rows for each in more if all(str(row[n]) == str(each[n]) for n in shared)]
+    lonely = [row for row in rows if not any(all(str(row[n]) == str(each[n]) for n in shared) for each in more)]
+    if lonely:
+        words = ", ".join(f"{name} {lonely[0][name]}" for name in shared)
+        raise InputError(study.path, source, f"has no row for {words}", "add it, or leave its files out")
+    return found
+
+
+def _varied(study: StudyFile, rows: Iterable[Factors]) -> Iterator[tuple[Factors, Factors]]:
+    """Rows with every combination of values, and with those of swept options apart."""
+    for row in rows:
+        for values in product(*study.vary.values()):
+            varied = dict(zip(study.vary, values, strict=True))
+            if all(str(row[name]) == str(value) for name, value in varied.items() if name in row):
+                for swept in product(*study.sweep.values()):
+                    yield {**row, **varied}, dict(zip(study.sweep, swept, strict=True))
+
+
+def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> CohortTrial | None:
+    """The trial of a row; None where it is left out."""
+    given, swept = row
+    reserved = next((name for name in (*given, *swept) if name in RESERVED and name != FILE), None)
+    if reserved is not None:
+        raise InputError(study.path, f"`{reserved}`", "is a name that every study has", "choose another one")
+    factors = {**{name: value for name, value in given.items() if name != FILE}, **swept}
+    for left in study.leave_out:
+        if all(str(factors.get(name)) == str(value) for name, value in left.items()):
+            return None
+    options = {name: _filled(study, name, value, given) for name, value in study.options.items()}
+    twice = next((name for name in swept if name in options), None)
+    if twice is not None:
+        raise InputError(study.path, f"[sweep] {twice}", "is in [options] too", "give it once")
+    name = " ".join(str(value) for value in factors.values()) or study.path.stem
+    return CohortTrial(name, factors, {**options, **swept})
+
+
+def _filled(study: StudyFile, name: str, value: Any, factors: Factors) -> Any:
+    """A value with what `{name}` stands for; a number where it stands alone for one."""
+    if isinstance(value, list):
+        return [_filled(study, name, each, factors) for each in value]
+    if not isinstance(value, str):
+        return value
+    unknown = next((each for each in _NAME.findall(value) if each not in factors), None)
+    if unknown is not None:
+        known = ", ".join(factors) or "none"
+        raise InputError(study.path, f"[options] {name}", f"no trial has {{{unknown}}}", f"names are {known}")
+    alone = _NAME.fullmatch(value)
+    return factors[alone[1]] if alone else _NAME.sub(lambda found: str(factors[found[1]]), value)

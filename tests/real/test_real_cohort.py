@@ -1,0 +1,77 @@
+"""Studies of real recordings: the subtalar joints of two people, and a knee implant at two thresholds."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from tests.cli.calls import call, done, written
+
+STANCE = {"Norm_01": (10, 133), "Norm_03": (17, 177)}
+"""Frames of heel strike and toe-off, as *_Event.xlsx has them; both recordings end before toe-off."""
+SHARE, STEP = 0.85, 24
+ANKLES = """
+analysis = "area"
+title = "Subtalar joints over stance"
+files = "{{subject}}_Talus.txt"
+[options]
+moving = "{data}/{{subject}}/{{subject}}_Talus.stl"
+fixed = "{data}/{{subject}}/{{subject}}_Calcaneus_Right.stl"
+unit = "mm"
+motion = "{{file}}"
+motion_fixed = "{{subject}}_Calcaneus.txt"
+rate = 1
+threshold = 4
+"""
+
+
+@pytest.mark.slow
+def test_subtalar_joints_of_two_people_over_stance(data_dir: Path, tmp_path: Path) -> None:
+    """Every 24th frame of the first 85 % of stance; coverage below 4 mm is 900 to 1700 mm^2, rows as one by one."""
+    data = data_dir / "jma_ankles"
+    for person, (strike, off) in STANCE.items():
+        for bone in ("Talus", "Calcaneus"):
+            rows = (data / person / f"{person}_Walk_{bone}.txt").read_text(encoding="utf-8").split()
+            part = rows[strike - 1 : strike + int(SHARE * (off - strike)) : STEP]
+            written(tmp_path / f"{person}_{bone}.txt", "\n".join(part) + "\n")
+    study = written(tmp_path / "ankles.toml", ANKLES.format(data=data))
+    out = tmp_path / "out"
+    made = done(call("cohort", study, "--workers", "1", "--out", out, folder=out))
+    assert "2 of 2 trials of area have results" in made.out
+    table = pd.read_parquet(out / "tables" / "area.parquet")
+    assert table.groupby("subject").size().to_dict() == {"Norm_01": 5, "Norm_03": 6}
+    assert table["area_fixed [mm^2]"].between(900.0, 1700.0).all() and (table["signed"] == "both").all()
+    ensemble = made.table("ensemble.csv")
+    area = ensemble[ensemble["quantity"] == "area_fixed"]
+    assert len(area) == 101 and (area["subjects [-]"] == 2).all()
+    ends = table.groupby("subject")["area_fixed [mm^2]"].first().mean()
+    assert area["mean"].iloc[0] == pytest.approx(ends, rel=1e-9)
+
+
+KNEE = """
+analysis = "area"
+[options]
+moving = "{data}/stl/Femoral Component contact.stl"
+fixed = "{data}/stl/Tibial Insert contact.stl"
+unit = "m"
+motion = "{data}/fluoroscopy/Fluoroscopic Gait Data.sto"
+map = "rx=knee_flex_r,ry=knee_add_r,rz=knee_rot_r,tx=knee_ant_r,ty=knee_sup_r,tz=knee_lat_r"
+angles = "rad"
+[sweep]
+threshold = [2, 4]
+"""
+
+
+@pytest.mark.slow
+def test_a_knee_implant_at_two_thresholds(data_dir: Path, tmp_path: Path) -> None:
+    """101 frames of DM; the area below 2 mm is a part of that below 4 mm, and each threshold has its mean curve."""
+    study = written(tmp_path / "knee.toml", KNEE.format(data=data_dir / "gc6_dm_knee"))
+    out = tmp_path / "out"
+    made = done(call("cohort", study, "--workers", "1", "--out", out, folder=out))
+    table = pd.read_parquet(out / "tables" / "area.parquet")
+    narrow, wide = (table[table["threshold"] == each]["area_fixed [mm^2]"].to_numpy() for each in ("2", "4"))
+    assert len(narrow) == len(wide) == 101 and (narrow < wide).all() and (narrow > 0.3 * wide).all()
+    assert set(made.table("values.csv")["condition"]) == {"threshold 2", "threshold 4"}
+    assert made.table("trials.csv")["warnings [-]"].min() >= 2, "open surfaces are named for each trial"

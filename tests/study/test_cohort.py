@@ -1,0 +1,146 @@
+"""Studies run, are run again, and say what became of every trial."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import sys
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from scipy.io import netcdf_file
+
+from tests.cli.calls import Call, call
+from tests.study.quick import compared, study, tables, told
+
+NUMBERS = {"A": "1", "B": "2", "C": "3"}
+
+
+def cohort(file: Path, out: Path, scheduler: str) -> Call:
+    return call("cohort", file, "--scheduler", scheduler, "--out", out, folder=out)
+
+
+def test_tables_of_all_trials_stand_together_in_both_forms(tmp_path: Path, scheduler: str) -> None:
+    file = study(tmp_path, NUMBERS, "[sweep]", "gain = [1, 2]")
+    done = cohort(file, tmp_path / "out", scheduler)
+    assert done.code == 0, done.err
+    table = pd.read_parquet(tmp_path / "out" / "tables" / "sine.parquet")
+    names = [f"{subject} {gain}" for subject in NUMBERS for gain in (1, 2)]
+    assert list(table["name"].unique()) == names == list(done.table("trials.csv")["name"])
+    for (subject, gain), rows in table.groupby(["subject", "gain"]):
+        number = float(NUMBERS[subject])
+        assert len(rows) == 5 + number
+        np.testing.assert_array_equal(rows["force [N]"], number * float(gain) * np.sin(rows["time [s]"]))
+    with netcdf_file(str(tmp_path / "out" / "tables" / "sine.nc"), mmap=False) as found:
+        v = found.variables
+        np.testing.assert_array_equal(v["force"][:], table["force [N]"])
+        np.testing.assert_array_equal(v["rows"][:], table.groupby("name", sort=False).size())
+        assert v["rows"].sample_dimension == b"row" and v["force"].units == b"N"
+        assert [b"".join(each).rstrip(b"\0").decode() for each in v["side"][:]] == list(table["side"])
+
+
+def test_only_what_is_missing_is_evaluated_again(tmp_path: Path, scheduler: str) -> None:
+    file, out = study(tmp_path, NUMBERS), tmp_path / "out"
+    assert "3 of 3 trials" in cohort(file, out, scheduler).out
+    first = tables(out)
+    assert ", 0 of them new" in cohort(file, out, scheduler).out and tables(out) == first
+    shutil.rmtree(out / pd.read_csv(out / "trials.csv")["folder"][1])
+    assert ", 1 of them new" in cohort(file, out, scheduler).out and tables(out) == first
+    (tmp_path / "B.txt").write_text("7", encoding="utf-8")
+    assert ", 1 of them new" in cohort(file, out, scheduler).out and tables(out) != first
+    (tmp_path / "B.txt").write_text("2", encoding="utf-8")
+    assert ", 0 of them new" in cohort(file, out, scheduler).out and tables(out) == first, (
+        "the old results are still there"
+    )
+
+
+def test_a_file_that_only_another_file_names_counts_too(tmp_path: Path, scheduler: str) -> None:
+    (tmp_path / "more.dat").write_text("1", encoding="utf-8")
+    file, out = study(tmp_path, {"A": "1 and more.dat"}), tmp_path / "out"
+    cohort(file, out, scheduler)
+    assert ", 0 of them new" in cohort(file, out, scheduler).out
+    (tmp_path / "more.dat").write_text("2", encoding="utf-8")
+    assert ", 1 of them new" in cohort(file, out, scheduler).out
+
+
+@pytest.mark.parametrize(
+    ("wrong", "state", "line", "code"),
+    [
+        ("wrong", "input error", "B.txt: is wrong; mend it", 2),
+        ("fails", "failed", "ZeroDivisionError: it fails (quick.py ", 1),
+        pytest.param("kills", "set aside", "its worker was killed 3 times", 1, marks=pytest.mark.slow),
+    ],
+)
+def test_a_trial_that_cannot_be_evaluated_is_one_line(
+    tmp_path: Path, scheduler: str, wrong: str, state: str, line: str, code: int
+) -> None:
+    out = tmp_path / "out"
+    done = cohort(study(tmp_path, {**NUMBERS, "B": f"2 {wrong}", "D": "4"}), out, scheduler)
+    assert done.code == code and len(done.complaints) == 1
+    assert done.complaints[0].startswith("B: ") and line in done.complaints[0]
+    assert list(done.table("trials.csv")["state"]) == ["done", state, "done", "done"]
+    assert set(pd.read_parquet(out / "tables" / "sine.parquet")["subject"]) == {"A", "C", "D"}
+    assert told(out)["results"]["trials"] == {"all": 4, "done": 3}
+
+
+def test_no_room_ends_the_study_and_loses_nothing(tmp_path: Path, scheduler: str) -> None:
+    file, out = study(tmp_path, {**dict.fromkeys("ABCDEF", "1"), "G": "2 full"}), tmp_path / "out"
+    ended = cohort(file, out, scheduler)
+    assert ended.code == 1 and len(ended.complaints) == 1
+    assert ended.complaints[0].startswith(f"{out / 'results'}: No space left on device; what is done is kept")
+    (tmp_path / "G.txt").write_text("2", encoding="utf-8")
+    done = cohort(file, out, scheduler)
+    assert done.code == 0 and "7 of 7" in done.out and ", 7 of them new" not in done.out
+
+
+def test_results_are_those_of_one_by_one(tmp_path: Path, scheduler: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    from tests.study.quick import quick
+
+    out = tmp_path / "out"
+    manifest = cohort(study(tmp_path, NUMBERS), out, scheduler).table("trials.csv")
+    monkeypatch.chdir(tmp_path)
+    for name, folder in zip(manifest["name"], manifest["folder"], strict=True):
+        quick(f"{name}.txt").write(tmp_path / name)
+        assert (tmp_path / name / "sine.csv").read_bytes() == (out / folder / "sine.csv").read_bytes()
+
+
+def test_conditions_are_compared_and_the_page_leads_to_every_trial(tmp_path: Path, scheduler: str) -> None:
+    out = tmp_path / "out"
+    done = cohort(compared(tmp_path), out, scheduler)
+    assert done.code == 0 and done.warnings == ["F fast 2 lies apart from the other trials of its condition"]
+    assert "force, fast against slow: p is at most 5 % at 100 of 101 places, 1 to 100 %" in done.out
+    values = done.table("values.csv")
+    largest = values[(values["value"] == "largest") & (values["condition"] == "slow")]["mean"].item()
+    assert largest == pytest.approx(21.0 * np.sin(1.0), rel=1e-9)
+    differences = done.table("differences.csv")
+    assert differences["p [-]"][1:].to_numpy() == pytest.approx(2 / 64) and differences["p [-]"][0] == 1.0
+    assert r"icc\_agreement [-]" in (out / "agreement.tex").read_text(encoding="utf-8")
+    page = (out / "report.html").read_text(encoding="utf-8")
+    links = re.findall(r'<a href="(results/[0-9a-f]{32}/report\.html)">', page)
+    assert len(links) == 24 and all((out / link).is_file() for link in links)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--memory", "lots"), "--memory: 'lots' is no size of memory; write for example 4GB"),
+        (("--workers", "0"), "--workers: 0 is less than one process"),
+        (("--scheduler", "here"), "--scheduler: 'here' is no address; write tcp://host:8786, or local"),
+        (("--scheduler", "tcp://h:1", "--workers", "2"), "--workers: has no effect with --scheduler"),
+    ],
+)
+def test_options_that_cannot_be_are_refused_before_any_work(
+    tmp_path: Path, options: tuple[str, ...], said: str
+) -> None:
+    refused = call("cohort", study(tmp_path, NUMBERS), *options, "--out", tmp_path / "out")
+    assert refused.code == 2 and refused.err.startswith(said) and not (tmp_path / "out").exists()
+
+
+def test_without_the_extra_it_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    refused = call("cohort", study(tmp_path, NUMBERS), "--out", tmp_path / "out")
+    assert refused.code == 2 and refused.err == (
+        "cohort: needs distributed, which is not installed; pip install 'geocontact[cohort]'\n"
+    )

@@ -1,0 +1,79 @@
+"""Trials of a study from patterns of files, tables and lists; what cannot be is one line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from geocontact.data.errors import InputError
+from geocontact.study.study_file import read_study_file
+from geocontact.study.trials import CohortTrial, trials_of
+
+
+def trials(folder: Path, text: str) -> list[CohortTrial]:
+    (folder / "study.toml").write_text(f'analysis = "area"\n{text}', encoding="utf-8")
+    return trials_of(read_study_file(folder / "study.toml"))
+
+
+@pytest.fixture
+def data(tmp_path: Path) -> Path:
+    for name in ("P1/slow_1.csv", "P1/fast_1.csv", "P2/slow_1.csv", "P2/notes.csv"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).touch()
+    (tmp_path / "people.csv").write_text("subject,side,mass [kg]\nP1,left,70\nP2,right,80\n", encoding="utf-8")
+    return tmp_path
+
+
+def test_files_a_table_and_lists_come_together(data: Path) -> None:
+    found = trials(
+        data,
+        'files = "{subject}/{condition}_{trial}.csv"\ntable = "people.csv"\n'
+        '[options]\nmotion = "{file}"\nside = "{side}"\nplace = ["{subject}.a", "b"]\nrate = 5\n'
+        '[sweep]\nthreshold = [1, 4]\n[[leave_out]]\nsubject = "P1"\ncondition = "fast"\nthreshold = 4\n',
+    )
+    assert [one.name for one in found] == [
+        f"{name} {side} {mass} {threshold}"
+        for name, side, mass, threshold in (
+            ("P1 fast 1", "left", 70.0, 1),
+            ("P1 slow 1", "left", 70.0, 1),
+            ("P1 slow 1", "left", 70.0, 4),
+            ("P2 slow 1", "right", 80.0, 1),
+            ("P2 slow 1", "right", 80.0, 4),
+        )
+    ]
+    assert found[1].options == {
+        "motion": "P1/slow_1.csv",
+        "side": "left",
+        "place": ["P1.a", "b"],
+        "rate": 5,
+        "threshold": 1,
+    }
+
+
+def test_lists_alone_give_all_combinations_and_numbers_stay_numbers(tmp_path: Path) -> None:
+    found = trials(tmp_path, '[options]\nrate = "{rate}"\n[vary]\nsubject = ["A", "B"]\nrate = [1, 2.5]\n')
+    assert [one.options["rate"] for one in found] == [1, 2.5, 1, 2.5]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("option = 1", "`option`: is not known here; write analysis, title, files"),
+        ('files = "{subject}/none_{trial}.csv"', "`files`: no file fits '{subject}/none_{trial}.csv'"),
+        ('files = "{subject}/*.csv"\n', "two trials are 'P1'; name what they differ in"),
+        ('[options]\nmotion = "{who}.csv"\n[vary]\nsubject = ["A"]', "[options] motion: no trial has {who}; names are"),
+        ('[vary]\nsubject = "A"', "[vary] subject: is no list of values"),
+        ('[vary]\nsubject = ["A", "A"]', "[vary] subject: has a value twice"),
+        ('[vary]\nstate = ["A"]', "`state`: is a name that every study has"),
+        ('[vary]\nsubject = ["A"]\n[[leave_out]]\nsubject = "A"', "every trial is left out"),
+        ("[options]\nrate = 1\n[sweep]\nrate = [1, 2]", "[sweep] rate: is in [options] too"),
+        ('[summary]\nwho = "subject"', "[summary] who: is not known here"),
+        ('files = "{subject}/{condition}_{trial}.csv"\ntable = "one.csv"', "one.csv: has no row for subject P2"),
+    ],
+)
+def test_what_cannot_be_is_one_line(data: Path, text: str, said: str) -> None:
+    (data / "one.csv").write_text("subject,side\nP1,left\n", encoding="utf-8")
+    with pytest.raises(InputError) as refused:
+        trials(data, text)
+    assert said in str(refused.value) and str(refused.value).startswith(str(data / "study.toml"))
