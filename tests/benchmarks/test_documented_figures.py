@@ -121,7 +121,8 @@ def test_the_real_ankle_s_loops_and_the_intact_foot() -> None:
         for step, one in steps.items():
             if not one["calibrated"]:
                 cells = row("theory/prosthesis_both_sides.md", recording, step)
-                for cell, name in zip(cells, names, strict=True):
+                assert len(cells) == len(names) + 3, "and what brings it nearer"
+                for cell, name in zip(cells, names, strict=False):
                     assert near(cell, one[name], 1.0 if name == "centre r2" else 100.0), (recording, step, name)
 
 
@@ -138,7 +139,7 @@ def test_one_trial_or_one_of_each_setting() -> None:
             own = [one for name, one in told[key]["trials"].items() if name.startswith(setting)]
             means = [np.mean([one[curve][f"{kind}rmse"] for one in own]) for curve in ("resultant", "cop_ground")]
             assert all(near(part, float(mean), 100.0) for part, mean in zip(cell.split(", "), means, strict=True)), cell
-    assert f"took {told['seconds']:.1f}" in (ROOT / "docs" / page).read_text(encoding="utf-8")
+    assert f"took {told['seconds']:.0f} CPU" in (ROOT / "docs" / page).read_text(encoding="utf-8")
 
 
 def test_effects_refitted_over_the_whole_stance() -> None:
