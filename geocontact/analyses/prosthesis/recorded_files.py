@@ -35,16 +35,20 @@ def right_markers(
     return as_right(seen, side)
 
 
-def plate_under_foot(record: Record, file: Path, name: str | None, side: Side, mass: float) -> tuple[PlateStance, str]:
+def plate_under_foot(
+    record: Record, file: Path, name: str | None, side: Side, mass: float, option: str = "plate"
+) -> tuple[PlateStance, str]:
     """Force and centre of pressure of one plate of a file, and its name; InputError where nobody of that mass stands.
 
     Parameters
     ----------
     mass
         Of the person [kg].
+    option
+        By which the plate is named.
     """
-    plate = plate_named(read_force_plates(file), name, file, "`plate`")
-    record.add_input("`plates`", file, plate=plate.name)
+    plate = plate_named(read_force_plates(file), name, file, f"`{option}`")
+    record.add_input(f"`{option}s`", file, plate=plate.name)
     force = of_side(np.nan_to_num(plate.wrench.force), side)
-    require_weight(file, "`plate`", plate.name, force[:, 1], mass * GRAVITY)
+    require_weight(file, f"`{option}`", plate.name, force[:, 1], mass * GRAVITY)
     return PlateStance(plate.time, force, of_side(plate.centre_of_pressure(GATE), side)), plate.name

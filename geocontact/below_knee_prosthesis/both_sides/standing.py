@@ -88,6 +88,12 @@ def standing_amputee(
     return Amputee(prosthetic, intact, (depth, width), foot, fulcrum)
 
 
+def standing_intact_leg(seen: MarkerTrajectories, person: Person) -> IntactLeg:
+    """The intact leg alone of a person with a right prosthesis; InputError where the markers cannot tell it."""
+    at = median_places(seen, (*PELVIS, *INTACT_STANDING))
+    return _intact(seen, at, person, pelvis_frame(at, seen.source), NO_JOINTS)
+
+
 def _intact(
     seen: MarkerTrajectories,
     at: Mapping[str, Vector],

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from jaxtyping import Float
 from scipy.interpolate import make_interp_spline
@@ -9,13 +11,14 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import Errors, RecordedStance
 from geocontact.below_knee_prosthesis.clocks import lowest_sphere
-from geocontact.below_knee_prosthesis.from_markers.marker_names import BODIES, MAP
+from geocontact.below_knee_prosthesis.from_markers.marker_names import MAP
 from geocontact.below_knee_prosthesis.model.leg import Leg
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import share_of_foot
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times, longest_stance
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Marker
 from geocontact.dynamics.segment_poses import segment_poses
 from geocontact.identify.signals.filled import filled_and_smoothed
 from geocontact.loads.pose_rate import pose_rate
@@ -79,20 +82,31 @@ def keel_poses(
     seen: MarkerTrajectories, leg: Leg, time: Float[np.ndarray, " t"], cutoff: float | None, gap_limit: float
 ) -> RigidTransform:
     """Poses of the keel's frame at some times [s], as the markers on the socket tell them; InputError where not."""
-    return _body_poses(seen, leg, "shank", time, cutoff, gap_limit) * RigidTransform.from_components(leg.keel, leg.turn)
+    socket = body_poses(seen, leg.markers, "shank", time, cutoff, gap_limit)
+    return socket * RigidTransform.from_components(leg.keel, leg.turn)
 
 
 def hip_centres(
     seen: MarkerTrajectories, leg: Leg, time: Float[np.ndarray, " t"], cutoff: float | None, gap_limit: float
 ) -> Float[np.ndarray, "t 3"]:
     """Centre of the hip at some times [m], as the markers on the pelvis tell it; InputError where they do not."""
-    return np.asarray(_body_poses(seen, leg, "pelvis", time, cutoff, gap_limit).apply(leg.hip))
+    return np.asarray(body_poses(seen, leg.markers, "pelvis", time, cutoff, gap_limit).apply(leg.hip))
 
 
-def _body_poses(
-    seen: MarkerTrajectories, leg: Leg, body: str, time: Float[np.ndarray, " t"], cutoff: float | None, gap_limit: float
+def body_poses(
+    seen: MarkerTrajectories,
+    markers: Sequence[Marker],
+    body: str,
+    time: Float[np.ndarray, " t"],
+    cutoff: float | None,
+    gap_limit: float,
 ) -> RigidTransform:
-    names = BODIES[body]
+    """Poses of a body at some times [s], as those of a leg's markers that are fixed to it tell them.
+
+    InputError where they do not.
+    """
+    by_name = {marker.name: marker.location for marker in markers if marker.body == body}
+    names = tuple(by_name)
     missing = [name for name in names if name not in seen.names]
     if missing:
         raise InputError(seen.source, "", f"no marker {', '.join(missing)}", MAP)
@@ -102,8 +116,7 @@ def _body_poses(
     except ValueError as error:
         raise InputError(seen.source, "", str(error), "fill the gaps, or give another `gap_limit`") from error
     dense = make_interp_spline(even, smooth, k=SMOOTH)(time).reshape(len(time), -1, 3)
-    by_name = {marker.name: marker.location for marker in leg.markers}
-    found, _, off = segment_poses(dense, np.array([by_name[name] for name in names]))
+    found, _, off = segment_poses(dense, np.array(list(by_name.values())))
     middle = float(np.nanmedian(off))
     if middle > FAR:
         what = f"markers {', '.join(names)} are {1e3 * middle:.0f} mm from the standing ones in the median"

@@ -71,10 +71,15 @@ def returned(found: CarriedLoad) -> float:
 
 def roll_over_radius(found: CarriedLoad) -> float:
     """Of the arc through the centre of pressure in the shank's frame [m]."""
-    task = found.task
-    share = (task.time - task.time[0]) / (task.time[-1] - task.time[0])
-    kept = (share <= ROLLS) & (task.load >= FIRM * task.weight)
-    return arc_through(shank_path(found)[kept]).radius
+    return radius_of_path(found.task.time, found.task.load / found.task.weight, shank_path(found))
+
+
+def radius_of_path(
+    time: Float[np.ndarray, " t"], load: Float[np.ndarray, " t"], path: Float[np.ndarray, "t 2"]
+) -> float:
+    """The same of a path over the loaded stance [m]; the load is over body weight."""
+    share = (time - time[0]) / (time[-1] - time[0])
+    return arc_through(path[(share <= ROLLS) & (load >= FIRM)]).radius
 
 
 def shank_path(found: CarriedLoad) -> Float[np.ndarray, "t 2"]:

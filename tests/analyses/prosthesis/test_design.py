@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
+from tests.analyses.prosthesis.intact_trial import STANDING, known_step
 from tests.analyses.prosthesis.spoilt_trial import renamed_markers
 from tests.cli.calls import MESHES, call
 
@@ -58,10 +59,15 @@ def test_shipped_trial_to_files(tmp_path: Path) -> None:
     numbers.write_text("\n".join(["number,unit,value,lower,upper,verdict", *rows]) + "\n")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        found = gc.prosthesis.design(TRIAL / "walking.trc", **GIVEN, numbers=numbers, feet=6, walks=1, together=True)
+        step = known_step(tmp_path)
+        given = GIVEN | {"static": STANDING, "intact": step.markers, "intact_plates": step.plates}
+        found = gc.prosthesis.design(TRIAL / "walking.trc", **given, numbers=numbers, feet=6, walks=1, together=True)
     known = found.table("answers").set_index("outcome")
     assert known.loc["radius", "told"]
     assert not known.loc["loading_rate", "told"]
+    assert known.loc["radius", "wanted"] == "nearest to the intact side's 0.31 m"
+    assert known.loc["energy", "wanted"] == "the most"
+    assert "the intact side's 0.31 m" in found.sentences[0] and "no peak moment at the socket" in found.sentences[3]
     sweep = found.table("sweep").set_index(["response", "outcome"])
     energy = sweep.loc[("angles kept", "energy"), "median"].to_numpy(float)
     assert np.all(np.diff(energy) < 0.0)
@@ -82,3 +88,4 @@ def test_shipped_trial_to_files(tmp_path: Path) -> None:
     np.testing.assert_allclose(alone, energy, rtol=1e-6)
     found.write(tmp_path / "out")
     assert (tmp_path / "out" / "report.html").is_file() and (tmp_path / "out" / "pairs.csv").is_file()
+    assert (tmp_path / "out" / "intact.csv").is_file()

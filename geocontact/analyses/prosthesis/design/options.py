@@ -68,7 +68,14 @@ class ProsthesisDesignOptions(Options):
         Peak ankle moment, peak moment at the socket or rate of loading: the least; energy that the keel returns: the
         most; radius of the roll-over shape: 0.3 of the leg's length.
     target
-        Value of the aim that is wanted instead, such as that of the other side [N m, J, m or N/s].
+        Value of the aim that is wanted instead [N m, J, m or N/s].
+    intact
+        Walking trial with a step of the intact foot; as near as can be to what it has is wanted then, of peak ankle
+        moment, radius and rate of loading. The standing trial shows the intact leg as well.
+    intact_plates
+        Ground reactions of that trial; those of the prosthetic foot's unless given.
+    intact_plate
+        Name or number of the plate under the intact foot.
     together
         Whether the foot's alignment, 6 degrees to both sides, is varied together with fulcrum or stiffness.
 
@@ -118,6 +125,9 @@ class ProsthesisDesignOptions(Options):
     vary: Literal["fulcrum", "alignment", "stiffness"] = "fulcrum"
     aim: Literal["ankle_moment", "socket_moment", "energy", "radius", "loading_rate"] = "radius"
     target: float | None = None
+    intact: Path | None = None
+    intact_plates: Path | None = None
+    intact_plate: str | None = None
     together: bool = False
     feet: int = 12
     walks: int = 3
@@ -132,7 +142,7 @@ class ProsthesisDesignOptions(Options):
     axes: Expression | None = None
 
     def refuse_impossible(self) -> None:
-        """Too few draws, a probability that is none."""
+        """Too few draws, a probability that is none, a plate of a trial that is not named."""
         if not FEWEST <= self.feet <= MOST:
             raise InputError("", "`feet`", f"{self.feet} is not {FEWEST} to {MOST}", "give for example 12")
         if not 1 <= self.walks <= MOST:
@@ -143,3 +153,6 @@ class ProsthesisDesignOptions(Options):
             raise InputError("", "`level`", f"{self.level:g} is not between 0 and 1", "give for example 0.95")
         if self.target is not None and not 0.0 < self.target < math.inf:
             raise InputError("", "`target`", f"{self.target:g} cannot be reached", "give a positive number")
+        for name in ("intact_plates", "intact_plate"):
+            if self.intact is None and getattr(self, name) is not None:
+                raise InputError("", f"`{name}`", "no trial of the intact side is given", "give `intact` as well")

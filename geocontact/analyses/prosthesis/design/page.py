@@ -28,6 +28,7 @@ FIGURE = (
     "bands over the draws. A grey line is the present value, green the interval of the best one."
 )
 PAIRS = "The foot turned on the socket as well: what the best pair gains over the best value alone"
+INTACT = "What a step of the intact foot has, which is aimed at"
 LIMITS = [
     (
         "What a person does on another foot is not known. With angles kept the socket turns as recorded; with torque "
@@ -67,6 +68,7 @@ def write_design_page(
     sections: list[Section] = [
         Picture("Outcomes and roll-over shapes", FIGURE, drawing(figure), wide=True),
         frame_table("What is best, and whether that can be told", tables["answers"], 3),
+        *(frame_table(INTACT, tables["intact"], 3) for _ in range("intact" in tables)),
         *(frame_table(PAIRS, tables["pairs"], 3) for _ in range("pairs" in tables)),
         frame_table("Between which ends each outcome lies, whatever the person keeps", tables["ranges"], 3),
         frame_table("On what the outcomes of the present foot hang", tables["sensitivities"], 3),

@@ -10,6 +10,7 @@ import pandas as pd
 from jaxtyping import Float
 from scipy.stats import norm
 
+from geocontact.analyses.prosthesis.design.intact_side import intact_side
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.foot_law import foot_with_law
 from geocontact.analyses.prosthesis.plausible_plate import require_one_clock, require_under_foot
@@ -18,6 +19,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.stance_from_markers import recorded_heights, stance_from_markers
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.clocks import clock_offset
+from geocontact.below_knee_prosthesis.design.intact_step import IntactStep
 from geocontact.below_knee_prosthesis.design.stance_again import RecordedTrial
 from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
@@ -33,11 +35,15 @@ COLUMNS = ("number", "value", "lower", "upper", "verdict")
 
 @dataclass(frozen=True, eq=False)
 class FootAndTrial:
-    """A foot, a trial on it, and the standard deviation of the logarithm of each number of its sole."""
+    """A foot, a trial on it, the standard deviation of the logarithm of each number of its sole, an intact foot's step.
+
+    The last is None where none is named.
+    """
 
     foot: VariableStiffnessFoot
     trial: RecordedTrial
     sd: Float[np.ndarray, " p"]
+    intact: IntactStep | None = None
 
 
 def read(o: ProsthesisDesignOptions, record: Record) -> FootAndTrial:
@@ -63,11 +69,12 @@ def read(o: ProsthesisDesignOptions, record: Record) -> FootAndTrial:
     given = (trial.walking, leg, plate, trial.fulcrum, foot.keel.length)
     stance = stance_from_markers(*given, cutoff=trial.cutoff, gap_limit=trial.gap_limit)
     require_under_foot(o.plates, name, stance.centre)
+    intact = intact_side(o, trial, record)
     zones = ZoneParameters(foot.sole, foot.law)
     if o.numbers is None:
         record.warn("nothing is known of this sole but what is believed of any: give the `numbers` of a calibration")
-        return FootAndTrial(foot, trial, zones.sd)
-    return FootAndTrial(foot, trial, _known(o.numbers, zones, record))
+        return FootAndTrial(foot, trial, zones.sd, intact)
+    return FootAndTrial(foot, trial, _known(o.numbers, zones, record), intact)
 
 
 def _known(file: Path, zones: ZoneParameters, record: Record) -> Float[np.ndarray, " p"]:

@@ -11,6 +11,7 @@ import pandas as pd
 
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.prosthesis.design.figure import design_figure, stance_share
+from geocontact.analyses.prosthesis.design.intact_side import intact_table
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.page import write_design_page
 from geocontact.analyses.prosthesis.design.sensitivities_table import sensitivities_table
@@ -20,7 +21,7 @@ from geocontact.analyses.result import Result
 from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import Knob, Response
-from geocontact.below_knee_prosthesis.design.outcomes import shank_path
+from geocontact.below_knee_prosthesis.design.outcomes import Aim, shank_path
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity
 from geocontact.io.text.results import write_table
 
@@ -46,6 +47,8 @@ class ProsthesisDesignResult(Result):
         How far outcomes on the present foot hang on each number.
     together
         Alignment varied together with the value; None where it was not asked for.
+    intact
+        Outcomes that the intact foot has, in SI; None where its step is not given.
     """
 
     options: ProsthesisDesignOptions
@@ -57,9 +60,10 @@ class ProsthesisDesignResult(Result):
     held: tuple[float, ...]
     hangs_on: tuple[FootSensitivity, ...]
     together: Together | None = None
+    intact: Mapping[Aim, float] | None = None
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`answers`, `ranges`, `sensitivities`, `sweep`, `shapes`; `pairs` and `together` where both are varied."""
+        """`answers`, `ranges`, `sensitivities`, `sweep`, `shapes`; `intact` of that side; `pairs` and `together`."""
         vary = self.sweep.knob.vary
         told = {
             "answers": answers_table(self.answers, vary),
@@ -68,6 +72,8 @@ class ProsthesisDesignResult(Result):
             "sweep": self.sweep.table(),
             "shapes": self._shapes(),
         }
+        if self.intact is not None:
+            told["intact"] = intact_table(self.intact)
         if self.together is not None:
             told |= {"pairs": self.together.pairs(vary, self.answers), "together": self.together.table(vary)}
         return told

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.json_file import plain
+from geocontact.analyses.prosthesis.design.intact_side import OF_ONE_STEP, intact_words
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.read import FootAndTrial
 from geocontact.analyses.prosthesis.design.result import ProsthesisDesignResult
@@ -16,7 +19,7 @@ from geocontact.below_knee_prosthesis.design.choice import FootChoice, choose
 from geocontact.below_knee_prosthesis.design.drawn import draws
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob, Vary
-from geocontact.below_knee_prosthesis.design.outcomes import MEASURES
+from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim
 from geocontact.below_knee_prosthesis.design.sensitivities import Unknown, sensitivities
 from geocontact.below_knee_prosthesis.design.stance_again import TrialErrors, task_again
 from geocontact.below_knee_prosthesis.design.terrain import LEVEL, Terrain, words
@@ -61,7 +64,8 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
         remedy = "check `mass`, the plate and how flat the foot stood"
         raise InputError(o.markers, "", str(error), remedy) from error
     sweep = Sweep(knob, found.drawn, o.level)
-    answers = tuple(_answer(sweep, task, o, k) for k in range(len(AIMS)))
+    near = {} if given.intact is None else given.intact.outcomes()
+    answers = tuple(_answer(sweep, wanted_now(AIMS[k], o, task, near), AIMS[k] in near, k) for k in range(len(AIMS)))
     together = Together.of(knob.settings, ALIGNMENTS, found.beside, answers, o.level) if o.together else None
     result = ProsthesisDesignResult(
         record=record,
@@ -74,10 +78,13 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
         held=tuple(held.tolist()),
         hangs_on=hangs_on,
         together=together,
+        intact=None if given.intact is None else near,
     )
     if found.lost:
         record.warn(f"{found.lost} of {o.feet} drawn feet found no equilibrium and are left out")
     record.warn(_words_of_torques(result))
+    if given.intact is not None:
+        record.warn(OF_ONE_STEP)
     record.warn("bands are of one trial: how a person differs from step to step is not in them")
     if terrain != LEVEL:
         record.warn(f"judged {words(terrain)}: the stance was recorded on a floor, its load and its turns are kept")
@@ -90,12 +97,17 @@ def _ends(knob: Knob) -> Knob:
     return Knob(knob.vary, np.unique([knob.settings[0], knob.present, knob.settings[-1]]), knob.fulcrum, knob.terrain)
 
 
-def _answer(sweep: Sweep, task: FootTask, o: ProsthesisDesignOptions, k: int) -> AimAnswer:
-    aim = AIMS[k]
-    target = o.target if aim == o.aim and o.target is not None else wanted_of(aim, task)
-    knob = sweep.knob
-    choice = choose(knob.settings, sweep.drawn[..., k], MEASURES[aim].sense, target, knob.present, o.level)
-    return AimAnswer(aim, target, choice)
+def wanted_now(aim: Aim, o: ProsthesisDesignOptions, task: FootTask, near: Mapping[Aim, float]) -> float | None:
+    """Value of an aim that is wanted: a given one, else what the intact side has, else the usual one."""
+    if aim == o.aim and o.target is not None:
+        return o.target
+    return near.get(aim, wanted_of(aim, task))
+
+
+def _answer(sweep: Sweep, target: float | None, of_intact: bool, k: int) -> AimAnswer:
+    knob, measure = sweep.knob, MEASURES[AIMS[k]]
+    choice = choose(knob.settings, sweep.drawn[..., k], measure.sense, target, knob.present, sweep.level)
+    return AimAnswer(AIMS[k], target, choice, of_intact)
 
 
 def _say(r: ProsthesisDesignResult) -> None:
@@ -120,6 +132,9 @@ def _say(r: ProsthesisDesignResult) -> None:
         other = choice.sides["joint torques kept"]
         own = f"{shown(other.best)} ({shown(other.lower)} to {shown(other.upper)})"
         record.say(f"with the torques of hip and knee kept: {own if other.verdict == 'told' else other.verdict}")
+    if r.intact is not None:
+        record.say(intact_words(r.intact))
+        record.results["intact"] = plain(dict(r.intact))
     if r.together is not None:
         record.say(pair_words(knob.vary, chosen, r.together))
     for response, rows in r.sweep.differences().items():

@@ -127,17 +127,23 @@ class AimAnswer:
     ----------
     target
         Wanted value; None where the least or the most is best.
+    of_intact
+        Whether it is what the intact side has.
     """
 
     aim: Aim
     target: float | None
     choice: FootChoice
+    of_intact: bool = False
 
     @property
     def wanted(self) -> str:
         """In words."""
         measure = MEASURES[self.aim]
-        return f"the {measure.sense}" if self.target is None else f"nearest to {self.target:.3g} {measure.unit}"
+        if self.target is None:
+            return f"the {measure.sense}"
+        whose = "the intact side's " if self.of_intact else ""
+        return f"nearest to {whose}{self.target:.3g} {measure.unit}"
 
 
 def wanted_of(aim: Aim, task: FootTask) -> float | None:
