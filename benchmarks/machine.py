@@ -29,6 +29,11 @@ def write_results(name: str, asked: dict[str, Any], figures: Any, packages: Abst
     return file
 
 
+def stamp(packages: AbstractSet[str] = frozenset()) -> dict[str, Any]:
+    """What a part of a report that is written part by part was made by: commit, machine, versions."""
+    return {"commit": commit(), "machine": machine(), "versions": versions(set(packages))}
+
+
 def machine() -> dict[str, str]:
     """Processor, system, Python, load and date."""
     load = f"{os.getloadavg()[0]:.2f}" if hasattr(os, "getloadavg") else "unknown"

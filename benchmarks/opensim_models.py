@@ -44,9 +44,10 @@ def main() -> None:
     from tests.elsewhere import another_process
 
     rows = []
-    with another_process() as call, tempfile.TemporaryDirectory() as place:
+    with tempfile.TemporaryDirectory() as place:
         for name, file in _models(options.folders, Path(place)):
-            rows.append({"model": name, **compared(file, call)})
+            with another_process() as call:  # of each model: OpenSim may end it
+                rows.append({"model": name, **compared(file, call)})
             print(_line(rows[-1]), flush=True)
     report = {
         "machine": machine(),
@@ -94,7 +95,12 @@ def compared(file: Path, call: Any) -> dict[str, Any]:
         found |= _scaling(file, tree.model, call, rng)
         if len(tree.model.markers) >= FEWEST:
             found |= _markers(file, tree, call, rng)
-    except (RuntimeError, ValueError, IndexError, KeyError) as error:  # of either program: it belongs into the table
+    except (
+        RuntimeError,
+        ValueError,
+        IndexError,
+        KeyError,
+    ) as error:  # of either program; a process that ended, too: it belongs into the table
         found["failed"] = " ".join(f"{type(error).__name__}: {error}".split())[:200].replace(str(file), file.name)
     return found
 

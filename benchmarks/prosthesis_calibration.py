@@ -3,15 +3,18 @@
 Truth is a finer foot (`synthetic.trial`): more joints, twice the rows of spheres. Numbers are found along poses from
 markers, with the keel without inertia, and judged by the simulation of the stance, which gets the other leg's force and
 the recorded angles, as section 2.5 of the study. Two predictors without any model stand beside: the mean of the other
-trials' plates, and another setting's plate. All data are synthetic. `--samples` draws that many random numbers instead.
+trials' plates, and another setting's plate. All data are synthetic. `--samples` draws that many random numbers beside.
+Participants that are run by themselves take the place of their own in benchmarks/results/prosthesis_calibration.json.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -37,6 +40,7 @@ from geocontact.below_knee_prosthesis.synthetic.trial import GaitTrial, syntheti
 from geocontact.identify.signals.agreement import agreement
 
 SETTINGS, TRIALS = ("medium", "low", "high"), 3
+RESULTS = Path(__file__).resolve().parent / "results" / "prosthesis_calibration.json"
 CUTOFF, ANGLES_CUTOFF, GAP = 15.0, 6.0, 0.2
 """Hz; of the markers for the calibration, and of the angles for the simulation; s."""
 CURVES = ("resultant", "vertical", "fore_aft", "impulse", "cop_ground")
@@ -171,15 +175,17 @@ def participant(person: Walker, samples: int, trials: int) -> dict[str, Any]:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Participants by name, all unless named; benchmarks/results/prosthesis_calibration.json."""
+    """Participants by name, all unless named; written as they are done."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("persons", nargs="*")
     parser.add_argument("--samples", type=int, default=0)
     parser.add_argument("--trials", type=int, default=TRIALS)
     told = parser.parse_args(arguments)
-    persons = [each for each in PARTICIPANTS if not told.persons or each.name in told.persons]
-    figures = {each.name: participant(each, told.samples, told.trials) for each in persons}
-    write_results("prosthesis_calibration", vars(told), figures)
+    figures = json.loads(RESULTS.read_text(encoding="utf-8"))["figures"] if RESULTS.is_file() else {}
+    for each in PARTICIPANTS:
+        if not told.persons or each.name in told.persons:
+            figures[each.name] = participant(each, told.samples, told.trials)
+            write_results("prosthesis_calibration", vars(told), figures)
 
 
 if __name__ == "__main__":

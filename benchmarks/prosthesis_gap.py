@@ -294,7 +294,7 @@ def main() -> None:
         told["answers"] |= found
         told.setdefault("run_again", {})[asked.only] = {"commit": commit(), **machine()}
     else:
-        told = {"machine": machine(), "versions": versions({"scipy", "numba"}), "seeds": seeds()}
+        told = {"commit": commit(), "machine": machine(), "versions": versions({"scipy", "numba"}), "seeds": seeds()}
         told["withheld"] = {kind: asdict(planted.withheld) for kind, planted in PLANTED.items()}
         told |= {"left_out": left_out(asked.out / "left_out", paths), "answers": found}
     file.write_text(json.dumps(told, indent=1, default=str) + "\n", encoding="utf-8")

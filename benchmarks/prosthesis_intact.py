@@ -26,6 +26,7 @@ from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import KINETIC, STATIC
 from geocontact.below_knee_prosthesis.foot_in_plane import FootInPlane, row_numbers
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.contact.sphere_foot import normal_force
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.identify.signals.agreement import agreement
 from geocontact.identify.signals.zero_lag import zero_lag
@@ -44,6 +45,10 @@ FEET = {"right": ("RHEE", "RTOE", 1), "left": ("LHEE", "LTOE", 0)}
 FULL_DEPTH, THRESHOLD, SOFTEST, SINK = 2e-3, 0.25, 1.0, 0.010
 """m, m/s, N/m and m: depth of full damping, speed from which friction is that of sliding, least stiffness of a sphere,
 depth in a foot that stands flat, which was taken after 5, 10, 15 and 20 mm had been looked at."""
+FRONT = "toe"
+"""Marker that the row of spheres ends at; where it ends at the metatarsal the last of the path is missing."""
+REACH, TURN, HALVINGS = 0.03, np.radians(15.0), 30
+"""m and rad; within which corrections of height and pitch are sought, and how often the interval is halved."""
 GATE, CUTOFF, SHARES = 60.0, 15.0, np.linspace(0.0, 1.0, 101)
 """N; below it a centre of pressure is not compared. Hz; of the markers."""
 
@@ -86,7 +91,7 @@ def opensim_steps(data: Path, name: str) -> dict[str, OnPlate]:
     walk, home = real_foot.WALKS[name], data / real_foot.HOME
     time, points = real_foot.markers(home / walk.markers)
     plates = read_force_plates(home / walk.plates)
-    steps = real_foot.steps_of(walk, "", time, points, plates)
+    steps = real_foot.steps_of(walk, FRONT, time, points, plates)
     belt = real_foot.belt_speed(list(steps.values())) if walk.belt else 0.0
     found = {}
     for key, step in steps.items():
@@ -174,6 +179,50 @@ def beside(one: OnPlate, model: np.ndarray, measured: np.ndarray, scale: float) 
     return told.r2, told.rmsd
 
 
+def corrected(one: OnPlate, spheres: SphereSet, law: SoleLaw, *, turned: bool) -> dict[str, float]:
+    """By how much the foot is higher or lower, frame by frame, than with which the model has the plate's upward force.
+
+    With `turned` its pitch about the middle is free as well, so that the centre is the plate's too. Root mean squares
+    of both corrections, of the height about its mean over the step, and of what is left of the centre over the length.
+    """
+    foot = one.foot
+    px, py, radius = spheres.centre[:, 0], spheres.centre[:, 1], spheres.radius
+    middle = 0.5 * one.length
+
+    def pressed(raised: np.ndarray, tilt: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        pitch = foot.pitch + tilt
+        s, c = np.sin(pitch)[:, None], np.cos(pitch)[:, None]
+        y = foot.y + raised + middle * (np.sin(foot.pitch) - np.sin(pitch))
+        depth = radius - (y[:, None] + px * s + py * c)
+        rate = np.gradient(radius - (foot.y[:, None] + px * np.sin(foot.pitch)[:, None] + py * c), foot.time, axis=0)
+        force = normal_force(depth, rate, law.stiffness, law.exponent, law.damping, law.full_depth)
+        up = force.sum(axis=1)
+        return up, (force * (px - s * radius)).sum(axis=1) / np.maximum(up, 1.0)
+
+    on = np.isfinite(one.centre)
+    low, high = (np.full(len(foot.time), each) for each in (-REACH, REACH))
+    tilt = np.zeros(len(foot.time))
+    turns = (np.full(len(tilt), -TURN), np.full(len(tilt), TURN))
+    for _ in range(HALVINGS if turned else 1):
+        tilt = 0.5 * (turns[0] + turns[1]) if turned else tilt
+        low, high = (np.full(len(foot.time), each) for each in (-REACH, REACH))
+        for _ in range(HALVINGS):
+            raised = 0.5 * (low + high)
+            more = pressed(raised, tilt)[0] > one.force[:, 1]
+            low, high = np.where(more, raised, low), np.where(more, high, raised)
+        ahead = pressed(raised, tilt)[1] > one.centre
+        turns = np.where(ahead, tilt, turns[0]), np.where(ahead, turns[1], tilt)
+    up, centre = pressed(raised, tilt)
+    met = on & (np.abs(up - one.force[:, 1]) < 0.01 * one.weight)
+    return {
+        "height rms [mm]": 1e3 * float(np.sqrt(np.mean(raised[met] ** 2))),
+        "height about its mean [mm]": 1e3 * float(np.std(raised[met])),
+        "pitch rms [deg]": float(np.degrees(np.sqrt(np.mean(tilt[met] ** 2)))),
+        "centre left": float(np.sqrt(np.mean((centre - one.centre)[met] ** 2))) / one.length,
+        "share met": float(met.sum() / on.sum()),
+    }
+
+
 MEASURED: dict[str, Callable[[OnPlate], np.ndarray]] = {
     "vertical": lambda one: one.force[:, 1],
     "fore_aft": lambda one: one.force[:, 0],
@@ -190,6 +239,8 @@ def judged(steps: dict[str, OnPlate], calibration: Sequence[str]) -> dict[str, d
         force, centre = predicted(one, spheres, law)
         models = {"vertical": force[:, 1], "fore_aft": force[:, 0], "centre": centre}
         row: dict[str, Any] = {"calibrated": name in calibration}
+        row["with another height"] = corrected(one, spheres, law, turned=False)
+        row["with another height and pitch"] = corrected(one, spheres, law, turned=True)
         for key, model in models.items():
             measured, scale = MEASURED[key](one), one.length if key == "centre" else one.weight
             row[f"{key} r2"], row[f"{key} rmse"] = beside(one, model, measured, scale)
@@ -224,6 +275,8 @@ def main() -> None:
                 for key in ("vertical", "fore_aft", "centre")
             ]
             print(f"{name:11}{step:9}{'fitted   ' if row['calibrated'] else 'predicted'} {'; '.join(words)}")
+            for key in ("with another height", "with another height and pitch"):
+                print(f"    {key}: " + ", ".join(f"{what} {value:.3g}" for what, value in row[key].items()))
     write_results("prosthesis_intact", {}, told)
 
 

@@ -12,7 +12,7 @@ import argparse
 import json
 import time
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -40,25 +40,30 @@ def main() -> None:
     options = parser.parse_args()
     pin()
     import geocontact as gc
-    from benchmarks.machine import machine, versions
+    from benchmarks.machine import stamp
 
     warnings.simplefilter("ignore", gc.InputWarning)
     out: Path = options.out
     out.mkdir(parents=True, exist_ok=True)
     file = HERE / "results" / "standing_nine.json"
     report: dict[str, Any] = json.loads(file.read_text("utf-8")) if file.is_file() else {"cpu seconds": {}}
-    report |= {"machine": machine(), "versions": versions({"casadi", "numpy", "scipy"}), "seed": SEED}
+    report["seed"] = SEED
     for part in options.parts:
-        began = time.process_time()
+        began, made_by = time.process_time(), stamp({"casadi", "numpy", "scipy"})
+
+        def keep(told: dict[str, Any], part: str = part, made_by: dict[str, Any] = made_by) -> None:
+            report[part] = told | made_by
+            file.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+
         if part == "pipelines":
-            report[part] = pipelines(out)
+            keep(pipelines(out))
         elif part == "cal":
             calibrate(out, options.nodes)
+            keep(written(out / "cal"))
         else:
-            report[part] = predict(out, options.nodes, {"C1": 1.0, "C2": PERTURBED}[part])
+            keep(predict(out, options.nodes, {"C1": 1.0, "C2": PERTURBED}[part], keep))
         report["cpu seconds"][part] = time.process_time() - began
-    report |= written(out)
-    file.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+        keep(report[part])
     print(json.dumps(report, indent=2))
 
 
@@ -251,12 +256,15 @@ GIVEN = {
     "without ground reaction": ("torque",),
     "without torques": ("force", "centre"),
 }
-FIRST_ONLY = "without torques"
-"""Asked of the first trial only: its search is the longest."""
+ONCE = "without torques"
+"""Not asked again with stiffer straps: its search is the longest."""
 
 
-def predict(out: Path, nodes: float, factor: float) -> dict[str, Any]:
-    """C1, and C2 with stiffer straps, as `geocontact sit-to-stand predict` does it; CPU time of each search limited."""
+def predict(out: Path, nodes: float, factor: float, keep: Callable[[dict[str, Any]], None]) -> dict[str, Any]:
+    """C1, and C2 with stiffer straps, as `geocontact sit-to-stand predict` does it; CPU time of each search limited.
+
+    `keep` is told of the rows as soon as there is one more.
+    """
     import numpy as np
 
     from geocontact.analyses.run_record import Record
@@ -280,7 +288,7 @@ def predict(out: Path, nodes: float, factor: float) -> dict[str, Any]:
     model, rows = with_exoskeleton(study.subject), []
     for trial in study.trials:
         for name, tracks in GIVEN.items():
-            if name == FIRST_ONLY and (trial is not study.trials[0] or factor != 1.0):
+            if name == ONCE and factor != 1.0:
                 continue
             phase = phase_c(model, study.subject, trial, study.noise, p, tracks=tracks)
             options = SolverOptions("radau", 4, 1, 1e-7, 300, LONGEST)
@@ -293,6 +301,7 @@ def predict(out: Path, nodes: float, factor: float) -> dict[str, Any]:
             how |= {"certified": passed, "residual [N]": round(float(told.force.max()), 3)}
             rows.append({"trial": trial.name, "predictor": name} | how | off_from(trial, seen))
             print(rows[-1], flush=True)
+            keep({"factor": factor, "rows": rows})
         mean = off_from(trial, mean_trial(known.trials, trial.time))
         rows.append({"trial": trial.name, "predictor": "mean of the calibration"} | mean)
     return {"factor": factor, "rows": rows}
@@ -314,28 +323,22 @@ def off_from(trial: Any, seen: Any) -> dict[str, Any]:
     }
 
 
-def written(out: Path) -> dict[str, Any]:
-    """What the commands wrote."""
+def written(folder: Path) -> dict[str, Any]:
+    """What a calibration wrote."""
     import pandas as pd
 
-    told: dict[str, Any] = {}
-    for name in ("cal",):
-        if not (out / name / "run.json").is_file():
-            continue
-        errors, certificates = (pd.read_csv(out / name / f"{table}.csv") for table in ("errors", "certificate"))
-        record = json.loads((out / name / "run.json").read_text("utf-8"))
-        told[name] = {
-            "RMSD": table_of(errors if "predictor" in errors else errors.assign(predictor="calibrated")),
-            "certified": f"{int((certificates['certified'] == 'yes').sum())} of {len(certificates)}",
-            "largest residual [N, N m]": certificates[["residual [N]", "residual [N m]"]].max().tolist(),
-            "results": record["results"],
-            "warnings": record["warnings"],
-        }
-        if name == "cal":
-            columns = ["phase", "parameter", "unit", "value", "lower", "upper", "verdict"]
-            parameters = pd.read_csv(out / name / "parameters.csv")[columns]
-            told[name]["parameters"] = json.loads(parameters.to_json(orient="records"))
-    return told
+    errors, certificates = (pd.read_csv(folder / f"{table}.csv") for table in ("errors", "certificate"))
+    record = json.loads((folder / "run.json").read_text("utf-8"))
+    columns = ["phase", "parameter", "unit", "value", "lower", "upper", "verdict"]
+    parameters = pd.read_csv(folder / "parameters.csv")[columns]
+    return {
+        "RMSD": table_of(errors.assign(predictor="calibrated")),
+        "certified": f"{int((certificates['certified'] == 'yes').sum())} of {len(certificates)}",
+        "largest residual [N, N m]": certificates[["residual [N]", "residual [N m]"]].max().tolist(),
+        "results": record["results"],
+        "warnings": record["warnings"],
+        "parameters": json.loads(parameters.to_json(orient="records")),
+    }
 
 
 def table_of(errors: Any) -> dict[str, dict[str, dict[str, float]]]:

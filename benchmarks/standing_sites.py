@@ -45,22 +45,23 @@ def main() -> None:
     options = parser.parse_args()
     pin()
     import geocontact as gc
-    from benchmarks.machine import machine, versions
+    from benchmarks.machine import stamp
 
     warnings.simplefilter("ignore", gc.InputWarning)
     out: Path = options.out
     out.mkdir(parents=True, exist_ok=True)
     file = HERE / "results" / "standing_sites.json"
     report: dict[str, Any] = json.loads(file.read_text("utf-8")) if file.is_file() else {"cpu seconds": {}}
-    report |= {"machine": machine(), "versions": versions({"casadi", "numpy", "scipy"}), "seed": SEED, "paper": PAPER}
+    report |= {"seed": SEED, "paper": PAPER}
     for part in options.parts:
-        began = time.process_time()
+        began, made_by = time.process_time(), stamp({"casadi", "numpy", "scipy"})
         if part == "pipelines":
             report[part] = pipelines(out)
         elif part in CONFIGURATIONS and part != "C":
             report[part] = calibrated(out, part, options.nodes)
         else:
             report[part] = {"C": predicted, "spread": spread}[part](out, options.nodes)
+        report[part] |= made_by | {"nodes a second": options.nodes}
         report["cpu seconds"][part] = time.process_time() - began
         file.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
         print(json.dumps(report[part], indent=2), flush=True)
@@ -238,9 +239,16 @@ def spread(out: Path, nodes: float) -> dict[str, Any]:
         )
         for trial in study.trials
     ]  # fmt: skip
-    whole = both_phases(study, study.trials, nodes)
-    of_exact = both_phases(study, exact, nodes)
-    without = [both_phases(study, [t for t in study.trials if t is not one], nodes) for one in study.trials]
+
+    def found(name: str, trials: list[Any]) -> dict[str, dict[str, float]]:
+        kept = out / f"spread_{name}.json"
+        if not kept.is_file():
+            kept.write_text(json.dumps(both_phases(study, trials, nodes)), encoding="utf-8")
+            print(kept.name, flush=True)
+        return dict(json.loads(kept.read_text("utf-8")))
+
+    whole, of_exact = found("whole", list(study.trials)), found("exact", exact)
+    without = [found(f"without_{one.name}", [t for t in study.trials if t is not one]) for one in study.trials]
     count, rows = len(without), []
     reach = float(student.ppf(0.975, count - 1))
     for key, told in whole.items():

@@ -31,15 +31,14 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=HERE / "results")
     options = parser.parse_args()
     pin()
-    from benchmarks.machine import machine, versions
+    from benchmarks.machine import stamp
 
     options.out.mkdir(parents=True, exist_ok=True)
     file = options.out / "standing_up.json"
     report: dict[str, Any] = json.loads(file.read_text("utf-8")) if file.is_file() else {}
-    report |= {"machine": machine(), "versions": versions({"casadi", "numpy", "scipy"})}
     for part in options.parts:
         began = time.process_time()
-        report[part] = PARTS[part](options)
+        report[part] = PARTS[part](options) | stamp({"casadi", "numpy", "scipy"})
         report[part]["cpu seconds of it all"] = time.process_time() - began
         file.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
         print(json.dumps({part: report[part]}, indent=2), flush=True)
@@ -161,6 +160,7 @@ def exoskeleton(options: argparse.Namespace) -> dict[str, Any]:
         parameters = Path(out) / "parameters.csv"
         predicted = gc.sit_to_stand.predict(held_out, parameters=parameters, against=folder / "study.toml")
     return {
+        "resamples": options.resamples,
         "parameters": {
             row["parameter"]: {"planted": planted[row["parameter"]], **row[["value", "lower", "upper"]].to_dict()}
             for _, row in table.iterrows()
@@ -207,8 +207,66 @@ def strap_profiles(options: argparse.Namespace) -> dict[str, Any]:
     return {"rise three sd below and above": rises}
 
 
+def freed(options: argparse.Namespace) -> dict[str, Any]:
+    """A with and without radius and dissipation, B with one, two and four numbers of the strap.
+
+    What is not sought is held at what is believed, the feet in B at what was planted.
+    """
+    from geocontact.analyses.run_record import Record
+    from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+    from geocontact.standing_up.exoskeleton import STRAP, STRAP_PLANTED, strapped
+    from geocontact.standing_up.feet import EVERY_PLANTED, FOOT_PARAMETERS, SOUGHT
+    from geocontact.standing_up.phase_a import phase_a
+    from geocontact.standing_up.phase_b import phase_b
+    from geocontact.standing_up.synthetic_study import synthetic_study
+
+    rows, alone = {}, synthetic_study()
+    sets_a = {"A without radius": tuple(name for name in SOUGHT if name != "radius"), "A": SOUGHT}
+    for label, free in (sets_a | {"A with dissipation": tuple(each.name for each in FOOT_PARAMETERS)}).items():
+        phase = phase_a(alone.model, alone.subject, alone.trials, alone.noise, free=free)
+        rows[label] = told_of(phase, alone.trials, alone.planted)
+    study = standing_trials(SAMPLES / "standing_up_exoskeleton" / "study.toml", "study", Record("calibrate", {}))
+    model, planted = strapped(study.subject, study.sites), [*EVERY_PLANTED, *STRAP_PLANTED]
+    for label, free in (("B, normal", STRAP[:1]), ("B, normal and tangential", STRAP[:2]), ("B", STRAP)):
+        phase = phase_b(model, study.subject, study.trials, study.noise, EVERY_PLANTED, free=free)
+        rows[label] = told_of(phase, study.trials, planted)
+    return rows
+
+
+def told_of(phase: Any, trials: Any, planted: Any) -> dict[str, Any]:
+    """A phase solved: deviation from what was planted, what is left of the belief, how sharply all are told."""
+    import numpy as np
+
+    from geocontact.dynamics.collocation.solve import SolverOptions, solve
+    from geocontact.standing_up.contact_numbers import contact_numbers
+
+    meshes = tuple(np.linspace(0.0, 1.0, round(30.0 * float(t.time[-1])) + 1) for t in trials)
+    found = solve(phase.control, SolverOptions("radau", 4, 1, 1e-7, 300), meshes=meshes)
+    numbers = contact_numbers(phase, found)
+    off = np.abs(numbers.correlation - np.eye(len(numbers.names)))
+    told = {
+        "ending": found.ending,
+        "objective": found.objective,
+        "cpu seconds": found.seconds,
+        "sharper than believed": numbers.directions.tolist(),
+        "largest correlation": float(off.max(initial=0.0)),
+        "parameters": {
+            n.name: {
+                "value": n.value,
+                "planted": each.value(float(at)),
+                "off in sd": (each.searched(n.value) - float(at)) / n.after,
+                "sd left of the belief": n.after / n.before,
+            }
+            for n, each, at in zip(numbers.numbers, phase.parameters, planted, strict=True)
+            if n.verdict in ("known", "believed")
+        },
+    }
+    print(json.dumps(told), flush=True)
+    return told
+
+
 PARTS = {"coverage": coverage, "nodes": nodes, "starts": starts, "exoskeleton": exoskeleton, "profiles": profiles,
-         "strap profiles": strap_profiles}  # fmt: skip
+         "strap profiles": strap_profiles, "freed": freed}  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -120,11 +120,13 @@ def standing_up(
     assistance: float = 0.0,
     intervals: int = 50,
     chair: Course | None = None,
+    down: bool = False,
 ) -> tuple[ControlProblem, CollocationResult]:
     """The motion with planted parameters closest to `rising`, with little jerk and torque; an exoskeleton along.
 
     `assistance` is what the exoskeleton's torques are to be of the person's. Coordinates after both chains', such as a
     toe joint's, have no torque and are to stay at 0. `chair` is the force of one over time, for a model that has it.
+    `down` has the person sit down instead, the same course from its end.
     """
     from casadi import SX, sumsqr
 
@@ -147,7 +149,7 @@ def standing_up(
     alone = rising(seconds, seated, planted)
 
     def course(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t n"]:
-        q = alone(time)
+        q = alone(seconds - time if down else time)
         return np.hstack([q, q[:, 3 : 3 + torques - 3], np.zeros((len(q), n - 3 - torques))])
 
     def given(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t w"]:

@@ -160,11 +160,12 @@ def row_of_planted(one: dict[str, Any]) -> tuple[str, str, str]:
 def test_the_strap_s_planted_effects() -> None:
     page, told = "theory/sit_to_stand_gap.md", results("standing_gap")
     for kind, one in told["answers"].items():
-        said, likely, _, error, full, seconds = row(page, kind)
+        held_out, said, likely, _, error, full, seconds = row(page, kind)
         assert said.startswith(one["verdict"]) and all(name.replace("_", " ") in said for name in one["named"])
         assert near(likely, max(one["probabilities"].values())) and near(seconds, one["seconds"]["diagnosis"])
         assert error == "-" or near(error.split("%")[0], one["gap"]["thigh_force"]["reduction"], 100.0), error
         term = next(iter(one["full_model"].values()))
+        assert int(held_out) == len(term["before"]["solved"]) - 1
         for cell, when in zip(full.split(" → "), ("before", "after"), strict=False):
             assert near(cell, term[when]["mat_N"]), full
     for kind, off in told["left_out"].items():
@@ -552,6 +553,7 @@ def test_the_nine_trials_of_standing_up() -> None:
     kinds = (
         ("C1", "all given", "C1, all given"),
         ("C1", "without ground reaction", "without ground reaction"),
+        ("C1", "without torques", "without torques"),
         ("C2", "all given", "C2, all given"),
         ("C1", "mean of the calibration", "mean of the calibration"),
     )
@@ -561,5 +563,5 @@ def test_the_nine_trials_of_standing_up() -> None:
         for cell, one in zip(cells, ours, strict=True):
             strap, angle = cell.replace("°", "").replace(" N", "").split(", ")
             assert near(strap, one["strap [N]"]) and near(angle, max(one["angles [deg]"][:3])), (label, cell)
-            assert one.get("certified", True)
+            assert one.get("certified", True) or (label == "without torques" and one["trial"] in ("P1", "P5"))
     assert max(told["pipelines"]["largest residual of the truth [N, N m]"]) < 1.0

@@ -12,6 +12,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import Multibody
 from geocontact.identify.signals.even_times import UNEVEN
+from geocontact.identify.signals.zero_lag import zero_lag
 from geocontact.io.mocap.force_plates import LOADED, ForcePlate, plate_named, read_force_plates
 from geocontact.io.opensim.coordinates import columns_of, motion_of
 from geocontact.io.recordings.standing_study import StandingTrialFiles
@@ -20,6 +21,8 @@ from geocontact.standing_up.trials import StandingTrial
 
 SEATED = 5.0
 """Force on the chair from which on one sits [N], the study's."""
+CHAIR_CUTOFF = 10.0
+"""Of the chair's force [Hz], ours: the load is given, so that a motion would have to follow its noise."""
 FEWEST = 20
 """Samples of a trial."""
 NORMAL, FORWARDS = "normal", "fx"
@@ -89,14 +92,26 @@ def channels_of(
         strap = site_force(files.strap, record, f"{files.name} strap", "thigh", time)
         roles = {site: f"{files.name} strap_{site}" for site in sites}
         elsewhere = {s: site_force(files.elsewhere.get(s, ()), record, role, s, time) for s, role in roles.items()}
-    sat_on = chair_load(chair, time) if files.sitting and chair is not None else None
+    sat_on = None
+    if files.sitting and chair is not None and files.plates is not None:
+        sat_on = chair_load(files.plates, chair, time)
     return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on, elsewhere)
 
 
-def chair_load(chair: ForcePlate, time: Times) -> Table:
-    """Force forwards and up [N] and moment about the ground's origin [N m] on the person, (t, 3)."""
+def chair_load(file: Path, chair: ForcePlate, time: Times) -> Table:
+    """Force forwards and up [N] and moment about the ground's origin [N m] on the person, low-passed, (t, 3).
+
+    300 N that are let go within 0.3 s from the first sample on are off by 1 N at most for it.
+    """
     wrench = chair.at(np.clip(time, *chair.time[[0, -1]]))
-    return np.asarray(np.nan_to_num(np.column_stack([wrench.force[:, :2], wrench.moment[:, 2]])))
+    load = np.nan_to_num(np.column_stack([wrench.force[:, :2], wrench.moment[:, 2]]))
+    step, remedy = float(np.median(np.diff(time))), "resample the coordinates evenly, at 50 Hz or more"
+    if np.abs(np.diff(time) - step).max() > 2.0 * UNEVEN * step:
+        raise InputError(file, chair.name, "is wanted at times that are not even, as a filter needs them", remedy)
+    try:
+        return zero_lag(load, step, CHAIR_CUTOFF)
+    except ValueError as error:
+        raise InputError(file, chair.name, str(error), remedy) from error
 
 
 def site_force(files: Sequence[Path], record: Record, role: str, site: str, time: Times) -> Times:

@@ -126,8 +126,8 @@ def _side(
     worth = away(PchipInterpolator(values, drawn, axis=1)(fine), sense, target)
     size = float(np.median(np.abs(drawn)))
     near = worth <= worth.min(axis=1, keepdims=True) + FLAT * size
-    lower = _interval(fine[np.argmax(near, axis=1)], level)[1]
-    upper = _interval(fine[len(fine) - 1 - np.argmax(near[:, ::-1], axis=1)], level)[2]
+    lower = interval(fine[np.argmax(near, axis=1)], level)[1]
+    upper = interval(fine[len(fine) - 1 - np.argmax(near[:, ::-1], axis=1)], level)[2]
     best = float(np.median(fine[np.argmin(worth, axis=1)]))
     span = float(np.median(drawn.max(axis=1) - drawn.min(axis=1)))
     verdict: SideVerdict = "told"
@@ -148,10 +148,10 @@ def _gain(
 ) -> tuple[float, float, float]:
     """Of the second value over the first, draw by draw."""
     both = away(PchipInterpolator(values, drawn, axis=1)(np.array(ends)), sense, target)
-    return _interval(both[:, 0] - both[:, 1], level)
+    return interval(both[:, 0] - both[:, 1], level)
 
 
-def _interval(sample: Float[np.ndarray, " d"], level: float) -> tuple[float, float, float]:
+def interval(sample: Float[np.ndarray, " d"], level: float) -> tuple[float, float, float]:
     """Median, and the interval of that probability with as much outside on either side, of draws: rather too wide."""
     lower = np.quantile(sample, 0.5 * (1.0 - level), method="lower")
     upper = np.quantile(sample, 0.5 * (1.0 + level), method="higher")

@@ -8,7 +8,7 @@ settings share falls out of them.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -37,10 +37,13 @@ class Draws:
         Of each draw, by response, value and aim.
     lost
         Draws in which the keel had no equilibrium, and which are left out.
+    beside
+        Of each draw and each further alignment, by response that is judged, value and aim.
     """
 
     drawn: Float[np.ndarray, "d responses n aims"]
     lost: int
+    beside: Float[np.ndarray, "d alignments judged n aims"]
 
 
 def draws(
@@ -54,11 +57,14 @@ def draws(
     seed: int = 0,
     keel: float = KEEL,
     step: Callable[[], None] = lambda: None,
+    alignments: Sequence[float] = (),
 ) -> Draws:
     """Of a sweep.
 
     Parameters
     ----------
+    alignments
+        With which every value is tried as well [rad].
     again
         A draw of the stance, as other errors of markers and plate would have shown it.
     sd
@@ -68,19 +74,26 @@ def draws(
 
     ArithmeticError where more than half of the drawn feet have no equilibrium.
     """
-    rng, family, found, lost = np.random.default_rng(seed), finer_feet(foot), [], 0
+    rng, family, lost = np.random.default_rng(seed), finer_feet(foot), 0
+    found: list[Float[np.ndarray, "responses n aims"]] = []
+    beside: list[list[Float[np.ndarray, "judged n aims"]]] = []
+    turned = [replace(knob, turned=angle) for angle in alignments]
+    widest = max((knob, *turned), key=lambda each: float(np.abs(each.alignments).max()))
     for k in range(feet):
         other = drawn_foot(family[k % len(family)], sd, keel, rng)
         tasks = [again(rng) for _ in range(walks)]
         try:
-            maps = knob.maps(other, _widest(tasks))
-            found += [knob.measured(maps, each) for each in tasks]
+            maps = widest.maps(other, _widest(tasks))
+            here = [knob.measured(maps, each) for each in tasks]
+            there = [[one.measured_still(maps, each) for one in turned] for each in tasks]
         except ArithmeticError:
             lost += 1
+        else:
+            found, beside = found + here, beside + there
         step()
     if lost > FEWEST * feet:
         raise ArithmeticError(f"{lost} of {feet} drawn feet have no equilibrium along the stance")
-    return Draws(np.array(found), lost)
+    return Draws(np.array(found), lost, np.array(beside))
 
 
 def finer_feet(foot: VariableStiffnessFoot) -> tuple[VariableStiffnessFoot, ...]:

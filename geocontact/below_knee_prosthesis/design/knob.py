@@ -49,12 +49,20 @@ class Knob:
         That the stance was recorded on [m], which stays where something else is varied.
     terrain
         That the values are judged on; the stance was recorded on level ground.
+    turned
+        Alignment that goes with every value [rad]; where alignment itself is varied its values stand for it.
     """
 
     vary: Vary
     settings: Float[np.ndarray, " n"]
     fulcrum: float
     terrain: Terrain = LEVEL
+    turned: float = 0.0
+
+    @property
+    def alignments(self) -> Float[np.ndarray, " n"]:
+        """Of each value [rad]."""
+        return self.settings if self.vary == "alignment" else np.full(len(self.settings), self.turned)
 
     @property
     def present(self) -> float:
@@ -66,7 +74,7 @@ class Knob:
 
         ArithmeticError as `foot_map`.
         """
-        reach = REACH + (float(np.abs(self.settings).max()) if self.vary == "alignment" else 0.0)
+        reach = REACH + float(np.abs(self.alignments).max())
         met = self.terrain.met(task)
         rows, level = needed(met.pitch, met.load, reach), needed(task.pitch, task.load, REACH)
         if self.vary == "alignment":
@@ -84,18 +92,24 @@ class Knob:
 
     def carried(self, maps: Sequence[FootMap], task: FootTask) -> Mapping[Response, tuple[CarriedLoad, ...]]:
         """The foot along the stance at each value, for each response of the person."""
-        moment, met = with_angles_kept(maps[-1], task).ankle_moment, self.terrain.met(task)
-        tasks = [met.aligned(value) if self.vary == "alignment" else met for value in self.settings]
-        pairs = list(zip(maps[:-1], tasks, strict=True))
+        return {**self.still(maps, task), "joint torques kept": self._moved(maps, task, self._tasks(task))}
+
+    def still(self, maps: Sequence[FootMap], task: FootTask) -> Mapping[Response, tuple[CarriedLoad, ...]]:
+        """The same for the responses without inertia, which are `JUDGED`."""
+        moment = with_angles_kept(maps[-1], task).ankle_moment
+        pairs = list(zip(maps[:-1], self._tasks(task), strict=True))
         return {
             "angles kept": tuple(with_angles_kept(*each) for each in pairs),
             "torque kept": tuple(with_torque_kept(*each, moment) for each in pairs),
-            "joint torques kept": self._moved(maps, task, tasks),
         }
+
+    def _tasks(self, task: FootTask) -> list[FootTask]:
+        met = self.terrain.met(task)
+        return [met.aligned(float(angle)) for angle in self.alignments]
 
     def other_feet(self, maps: Sequence[FootMap], task: FootTask, tracking: float = 1.0) -> OtherFeet:
         """What the leg stands on at each value with its joint torques kept."""
-        turn = self.settings if self.vary == "alignment" else np.zeros(len(self.settings))
+        turn = self.alignments
         legs = [task.leg.aligned(float(angle), task.ankle[:2]) for angle in turn]
         recorded, met = recorded_motion(maps[-1], task), self.terrain.met(task)
         forward = curve(recorded.time, met.time, met.forward)
@@ -113,6 +127,12 @@ class Knob:
 
     def measured(self, maps: Sequence[FootMap], task: FootTask) -> Float[np.ndarray, "responses n aims"]:
         """Outcomes by response, value and `AIMS`."""
-        found = self.carried(maps, task)
-        rows = [[[outcomes(each)[aim] for aim in AIMS] for each in found[response]] for response in RESPONSES]
-        return np.array(rows)
+        return _numbers(self.carried(maps, task))
+
+    def measured_still(self, maps: Sequence[FootMap], task: FootTask) -> Float[np.ndarray, "judged n aims"]:
+        """The same for `JUDGED`."""
+        return _numbers(self.still(maps, task))
+
+
+def _numbers(found: Mapping[Response, tuple[CarriedLoad, ...]]) -> Float[np.ndarray, "responses n aims"]:
+    return np.array([[[outcomes(each)[aim] for aim in AIMS] for each in own] for own in found.values()])

@@ -10,14 +10,14 @@ become on their way to the end.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.dynamics.collocation.problem import ControlledSystem, ControlledTrial
 from geocontact.dynamics.collocation.residual import residuals
-from geocontact.dynamics.collocation.resimulation import Resimulation
+from geocontact.dynamics.collocation.resimulation import COARSER, Resimulation
 
 FINER = 5
 MARGIN = 3.0
@@ -144,11 +144,11 @@ def _after_intervals(again: Resimulation) -> Float[np.ndarray, "m s"]:
 
 
 def _window(again: Resimulation, seconds: float, n: int) -> float:
-    """Largest departure of a coordinate over so many seconds from any node."""
-    breaks, largest = again.motion.breaks, 0.0
+    """Largest departure of a coordinate over so many seconds from any node; steps are far finer than what passes."""
+    breaks, largest, coarser = again.motion.breaks, 0.0, replace(again, tolerance=COARSER)
     for begin, start in zip(breaks[:-1], again.states()[:-1], strict=True):
         time = np.linspace(begin, min(begin + seconds, breaks[-1]), 21)
-        largest = max(largest, float(np.abs(again.after(start, time) - again.known(time))[:, :n].max()))
+        largest = max(largest, float(np.abs(coarser.after(start, time) - again.known(time))[:, :n].max()))
     return largest
 
 

@@ -17,7 +17,7 @@ Vector = Float[np.ndarray, " _"]
 POWERS = 6
 """Coefficients of an interval's polynomial for a given input."""
 CHANGE, COARSER = 1e-4, 1e-7
-"""Change of a state whose effect is looked at, and the tolerance of a step meanwhile.
+"""Change of a state whose effect is looked at, and the tolerance of a step meanwhile and over a longer window.
 
 How it grows is then known to some thousandths, in a quarter of the time that a tolerance of 1e-9 takes."""
 

@@ -29,6 +29,7 @@ GIVEN: dict[str, Any] = {
         ({"walks": 0}, "is not 1 to 600"),
         ({"level": 1.0}, "not between 0 and 1"),
         ({"target": -0.3}, "cannot be reached"),
+        ({"together": True, "vary": "alignment"}, "alignment is varied anyway"),
         ({"plate": "other_force"}, "no whole stance"),
         ({"numbers": TRIAL / "truth.csv"}, "numbers.csv of prosthesis calibrate"),
     ],
@@ -57,7 +58,7 @@ def test_shipped_trial_to_files(tmp_path: Path) -> None:
     numbers.write_text("\n".join(["number,unit,value,lower,upper,verdict", *rows]) + "\n")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        found = gc.prosthesis.design(TRIAL / "walking.trc", **GIVEN, numbers=numbers, feet=6, walks=2)
+        found = gc.prosthesis.design(TRIAL / "walking.trc", **GIVEN, numbers=numbers, feet=6, walks=1, together=True)
     known = found.table("answers").set_index("outcome")
     assert known.loc["radius", "told"]
     assert not known.loc["loading_rate", "told"]
@@ -70,5 +71,14 @@ def test_shipped_trial_to_files(tmp_path: Path) -> None:
     assert (ends["least"].to_numpy(float) <= energy + 1e-12).all() and (ends["most"].to_numpy(float) >= energy).all()
     assert found.held[1] > max(found.held[0], found.held[2])  # torques alone, nearest to the present foot
     assert any("a weak spring at hip and knee" in each for each in found.warnings)
+    hangs_on = found.table("sensitivities").set_index(["number", "response", "outcome"])["change"]
+    assert hangs_on["fulcrum", "angles kept", "energy"] < 0.0
+    step = np.interp([10.0, 20.0], found.sweep.shown - found.sweep.shown[0], energy)
+    assert hangs_on["fulcrum", "angles kept", "energy"] == pytest.approx(step[1] - step[0], rel=0.6)
+    pairs = found.table("pairs").set_index("outcome")
+    assert pairs.loc["socket_moment", "best alignment [deg]"] < 0.0  # toes down shortens the lever
+    straight = found.table("together").set_index(["alignment [deg]", "response", "outcome"]).sort_index()
+    alone = straight.loc[(0.0, "angles kept", "energy"), "median"].to_numpy(float)
+    np.testing.assert_allclose(alone, energy, rtol=1e-6)
     found.write(tmp_path / "out")
-    assert (tmp_path / "out" / "report.html").is_file()
+    assert (tmp_path / "out" / "report.html").is_file() and (tmp_path / "out" / "pairs.csv").is_file()

@@ -7,6 +7,7 @@ import pytest
 from jaxtyping import Float
 
 from geocontact.below_knee_prosthesis.design.choice import away, choose
+from geocontact.below_knee_prosthesis.design.choose_pair import choose_pair
 
 VALUES = np.linspace(0.066, 0.151, 9)
 
@@ -74,3 +75,21 @@ def test_senses() -> None:
     assert np.argmin(away(outcome, "most", 2.1)) == 2
     with pytest.raises(ValueError, match="target"):
         away(outcome, "nearest", None)
+
+
+def pairs(gain: float) -> Float[np.ndarray, "d m judged n"]:
+    """An outcome that is least at 0.11 and, by `gain` of its size, with the foot turned up; known with an error."""
+    rng, turns = np.random.default_rng(3), np.array([0.0, -0.5, -1.0])
+    bowl = 1.0 + 40.0 * (VALUES - 0.11) ** 2 + gain * turns[:, None]
+    each = 1.0 + 0.02 * rng.standard_normal((40, 3, 2, 1)) * np.abs(turns)[:, None, None]
+    return np.asarray(bowl[None, :, None] * each)
+
+
+def test_a_second_change_is_better_only_where_it_gains_surely() -> None:
+    turns = np.radians([0.0, 3.0, 6.0])
+    surely, hardly = (choose_pair(VALUES, turns, pairs(gain), "least", None, 0.95) for gain in (0.2, 0.005))
+    assert surely.better and surely.alignment == turns[2] and surely.value == surely.alone
+    assert surely.gain["torque kept"][0] == pytest.approx(0.2, rel=0.1)
+    assert surely.alignments == (turns[2], turns[2])
+    assert not hardly.better and hardly.alignments[0] == turns[0]
+    assert hardly.as_good[0] <= hardly.alone <= hardly.as_good[1]

@@ -6,10 +6,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from benchmarks.keel_stance import Stance
+from benchmarks.prosthesis_grounds import SLOPE, strip, turned
 from geocontact.below_knee_prosthesis.keel.on_ground import loads_at
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.ground import Stairs
+from geocontact.loads.pose_rate import pose_rate
 
 FAR = Stairs((-5.0,), (-1.0, 0.0))
 """Stairs whose one tread is the floor."""
@@ -56,3 +59,25 @@ def test_what_is_behind_the_edge_of_a_step_hangs_in_the_air(edge: float) -> None
         found.loads.depth[touching], (keel.sole.spheres.radius - near)[touching], rtol=0.0, atol=2e-6
     )
     assert np.abs(found.loads.normal[touching][:, 0]).max() > 0.05  # some of them on the edge itself
+
+
+def test_a_ramp_is_a_turned_floor_and_a_mesh_is_its_formula() -> None:
+    """Short form of `benchmarks/prosthesis_grounds.py`: damping and friction along a known motion."""
+    keel = vsf_foot().at(0.1)
+    time, poses = moving(12)
+    level = Stance(time, poses, pose_rate(time, poses))
+    uphill, s, c = turned(level, SLOPE), np.sin(SLOPE), np.cos(SLOPE)
+    floor = keel.solve(poses, HalfSpace(), rate=level.rate, time=time)
+    gravity = (9.80665 * s, -9.80665 * c, 0.0)
+    given = {"rate": uphill.rate, "time": time, "gravity": gravity}
+    ramp = keel.solve(uphill.poses, HalfSpace(normal=(-s, c, 0.0)), **given)
+    size = np.abs(floor.force).max()
+    assert size > 300.0
+    np.testing.assert_allclose(Rotation.from_euler("z", -SLOPE).apply(ramp.force), floor.force, atol=1e-9 * size)
+    mesh = keel.solve(uphill.poses, strip(2.0 * np.array([[-c, -s], [c, s]])), **given)
+    np.testing.assert_allclose(mesh.force, ramp.force, atol=1e-9 * size)
+    steps = Stairs((0.19,), (-0.15, 0.0))
+    sheet = strip(np.array([[-2.0, -0.15], [0.19, -0.15], [0.19, 0.0], [2.0, 0.0]]))
+    both = [keel.solve(poses, ground, rate=level.rate, time=time) for ground in (steps, sheet)]
+    assert np.abs(both[0].force - floor.force).max() > 0.05 * size
+    np.testing.assert_allclose(both[1].force, both[0].force, atol=1e-7 * size)

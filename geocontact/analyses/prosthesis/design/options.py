@@ -69,6 +69,8 @@ class ProsthesisDesignOptions(Options):
         most; radius of the roll-over shape: 0.3 of the leg's length.
     target
         Value of the aim that is wanted instead, such as that of the other side [N m, J, m or N/s].
+    together
+        Whether the foot's alignment, 6 degrees to both sides, is varied together with fulcrum or stiffness.
 
     How it is judged
     ----------------
@@ -116,6 +118,7 @@ class ProsthesisDesignOptions(Options):
     vary: Literal["fulcrum", "alignment", "stiffness"] = "fulcrum"
     aim: Literal["ankle_moment", "socket_moment", "energy", "radius", "loading_rate"] = "radius"
     target: float | None = None
+    together: bool = False
     feet: int = 12
     walks: int = 3
     seed: int = 0
@@ -134,6 +137,8 @@ class ProsthesisDesignOptions(Options):
             raise InputError("", "`feet`", f"{self.feet} is not {FEWEST} to {MOST}", "give for example 12")
         if not 1 <= self.walks <= MOST:
             raise InputError("", "`walks`", f"{self.walks} is not 1 to {MOST}", "give for example 3")
+        if self.together and self.vary == "alignment":
+            raise InputError("", "`together`", "alignment is varied anyway", "vary fulcrum or stiffness with it")
         if not 0.0 < self.level < 1.0:
             raise InputError("", "`level`", f"{self.level:g} is not between 0 and 1", "give for example 0.95")
         if self.target is not None and not 0.0 < self.target < math.inf:

@@ -27,6 +27,7 @@ FIGURE = (
     "Blue with the person's angles kept, orange with the ankle's torque kept, pink with the torques of hip and knee; "
     "bands over the draws. A grey line is the present value, green the interval of the best one."
 )
+PAIRS = "The foot turned on the socket as well: what the best pair gains over the best value alone"
 LIMITS = [
     (
         "What a person does on another foot is not known. With angles kept the socket turns as recorded; with torque "
@@ -66,7 +67,9 @@ def write_design_page(
     sections: list[Section] = [
         Picture("Outcomes and roll-over shapes", FIGURE, drawing(figure), wide=True),
         frame_table("What is best, and whether that can be told", tables["answers"], 3),
+        *(frame_table(PAIRS, tables["pairs"], 3) for _ in range("pairs" in tables)),
         frame_table("Between which ends each outcome lies, whatever the person keeps", tables["ranges"], 3),
+        frame_table("On what the outcomes of the present foot hang", tables["sensitivities"], 3),
         *curves,
         inputs_table(record.inputs),
         options_table(record),

@@ -13,12 +13,15 @@ from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.prosthesis.design.figure import design_figure, stance_share
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.page import write_design_page
+from geocontact.analyses.prosthesis.design.sensitivities_table import sensitivities_table
 from geocontact.analyses.prosthesis.design.sweep import SHOWN, UNITS, AimAnswer, Sweep, answers_table
+from geocontact.analyses.prosthesis.design.together import Together
 from geocontact.analyses.result import Result
 from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import Knob, Response
 from geocontact.below_knee_prosthesis.design.outcomes import shank_path
+from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity
 from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
@@ -39,6 +42,10 @@ class ProsthesisDesignResult(Result):
         What the foot carries.
     held
         How long joint torques alone hold the leg at each of the ends [s].
+    hangs_on
+        How far outcomes on the present foot hang on each number.
+    together
+        Alignment varied together with the value; None where it was not asked for.
     """
 
     options: ProsthesisDesignOptions
@@ -48,15 +55,22 @@ class ProsthesisDesignResult(Result):
     shapes: Mapping[Response, tuple[CarriedLoad, ...]]
     task: FootTask
     held: tuple[float, ...]
+    hangs_on: tuple[FootSensitivity, ...]
+    together: Together | None = None
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`answers`, `ranges`, `sweep`, `shapes`."""
-        return {
-            "answers": answers_table(self.answers, self.sweep.knob.vary),
+        """`answers`, `ranges`, `sensitivities`, `sweep`, `shapes`; `pairs` and `together` where both are varied."""
+        vary = self.sweep.knob.vary
+        told = {
+            "answers": answers_table(self.answers, vary),
             "ranges": self.sweep.ranges(),
+            "sensitivities": sensitivities_table(self.hangs_on),
             "sweep": self.sweep.table(),
             "shapes": self._shapes(),
         }
+        if self.together is not None:
+            told |= {"pairs": self.together.pairs(vary, self.answers), "together": self.together.table(vary)}
+        return told
 
     def figure(self) -> Figure:
         """Outcomes with bands, roll-over shapes."""

@@ -10,12 +10,14 @@ from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOption
 from geocontact.analyses.prosthesis.design.read import FootAndTrial
 from geocontact.analyses.prosthesis.design.result import ProsthesisDesignResult
 from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, AimAnswer, Sweep, wanted_of
+from geocontact.analyses.prosthesis.design.together import Together, pair_words
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.design.choice import FootChoice, choose
 from geocontact.below_knee_prosthesis.design.drawn import draws
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob, Vary
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES
+from geocontact.below_knee_prosthesis.design.sensitivities import Unknown, sensitivities
 from geocontact.below_knee_prosthesis.design.stance_again import TrialErrors, task_again
 from geocontact.below_knee_prosthesis.design.terrain import LEVEL, Terrain, words
 from geocontact.data.errors import InputError
@@ -25,6 +27,8 @@ VALUES: dict[Vary, Float[np.ndarray, " n"]] = {
     "alignment": np.radians(np.linspace(-6.0, 6.0, 9)),
     "stiffness": np.linspace(0.6, 1.6, 9),
 }
+ALIGNMENTS = np.radians([-6.0, -3.0, 0.0, 3.0, 6.0])
+"""That go together with every value."""
 
 
 def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> ProsthesisDesignResult:
@@ -44,7 +48,10 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
                 walks=o.walks,
                 seed=o.seed,
                 step=step,
+                alignments=ALIGNMENTS.tolist() if o.together else (),
             )
+        unknown = Unknown(given.sd, errors.pitch, errors.gain)
+        hangs_on = sensitivities(given.foot, task, trial.fulcrum, terrain, unknown)
         maps = _ends(knob).maps(given.foot, task)
         shapes = _ends(knob).carried(maps, task)
         held = _ends(knob).other_feet(maps, task, tracking=0.0).moved().held
@@ -55,6 +62,7 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
         raise InputError(o.markers, "", str(error), remedy) from error
     sweep = Sweep(knob, found.drawn, o.level)
     answers = tuple(_answer(sweep, task, o, k) for k in range(len(AIMS)))
+    together = Together.of(knob.settings, ALIGNMENTS, found.beside, answers, o.level) if o.together else None
     result = ProsthesisDesignResult(
         record=record,
         options=o,
@@ -64,6 +72,8 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
         shapes=shapes,
         task=task,
         held=tuple(held.tolist()),
+        hangs_on=hangs_on,
+        together=together,
     )
     if found.lost:
         record.warn(f"{found.lost} of {o.feet} drawn feet found no equilibrium and are left out")
@@ -110,6 +120,8 @@ def _say(r: ProsthesisDesignResult) -> None:
         other = choice.sides["joint torques kept"]
         own = f"{shown(other.best)} ({shown(other.lower)} to {shown(other.upper)})"
         record.say(f"with the torques of hip and knee kept: {own if other.verdict == 'told' else other.verdict}")
+    if r.together is not None:
+        record.say(pair_words(knob.vary, chosen, r.together))
     for response, rows in r.sweep.differences().items():
         record.say(f"{response}, {shown(knob.settings[-1])} in place of {shown(knob.settings[0])}: {'; '.join(rows)}")
     ends = r.sweep.ends
