@@ -90,7 +90,7 @@ def test_everything_is_written_and_listed(diagnosed: Call) -> None:
     assert set(inventory(diagnosed.folder)) == expected
     record = diagnosed.record()
     assert record["command"] == "gap diagnose" and set(record["files"]) == expected
-    assert list(record["options"]) == ["case", "bare", "run_simulator", "many", "out"]
+    assert list(record["options"]) == ["case", "bare", "run_simulator", "many", "resume", "out"]
     roles = [entry["role"] for entry in record["inputs"]]
     assert roles == ["case", "calibration", "calibration", "evaluation", "evaluation"]
     assert all(re.fullmatch("[0-9a-f]{64}", entry["sha256"]) for entry in record["inputs"])

@@ -213,7 +213,7 @@ SLIPS = {
         [*AREA, "--treshold", "4"],
         "--treshold is no option of area; did you mean --threshold?",
     ),
-    "unknown command": (["zzz"], "zzz is no command; there are area, cop, "),
+    "unknown command": (["zzz"], "zzz is no command; there are area, cohort, cop, "),
     "choice": ([*AREA, "--medial", "left"], 'Invalid value "left" for --medial. Choose from: "-", "+"; see'),
     "type": ([*AREA, "--workers", "all"], 'Invalid value for --workers: unable to convert "all" into int; see'),
     "twice": ([*AREA, "--unit", "m"], "Parameter --unit specified multiple times; see geocontact area --help"),

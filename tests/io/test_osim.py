@@ -315,7 +315,7 @@ BAD = {
     ),
     "other kind of function": (
         CUSTOM.replace("SimmSpline", "GCVSpline"),
-        "GCVSpline function: this kind of function is not",
+        "CustomJoint j translation1 GCVSpline function: this kind of function is not",
     ),
     "spline runs back": (
         CUSTOM.replace("-0.4 0.1 0.5", "-0.4 0.1 0.1"),

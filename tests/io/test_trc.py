@@ -64,7 +64,6 @@ def test_frames_and_markers_are_chosen(tmp_path: Path) -> None:
 
 BAD = {
     "another file": ("time,x\n0,1\n", "line 1: does not begin with 'PathFileType'"),
-    "frames are missing": (HEAD + ROWS.splitlines()[0] + "\n", "line 3: NumFrames is '3' but 1 frames follow"),
     "markers are missing": (GOOD.replace("100\t3\t2\tmm", "100\t3\t4\tmm"), "line 3: NumMarkers is '4' but 2 markers"),
     "a unit nobody knows": (GOOD.replace("\tmm\t", "\tft\t"), "line 3: unit is 'ft'; expected one of m, cm, mm"),
     "time runs back": (GOOD.replace("0.02", "0.005"), "line 9: time does not increase"),
@@ -78,6 +77,13 @@ def test_what_contradicts_itself_is_refused(tmp_path: Path, text: str, message: 
     with pytest.raises(InputError) as error:
         read_trc(written(tmp_path, text))
     assert message in str(error.value)
+
+
+def test_a_count_of_frames_that_does_not_fit_is_told(tmp_path: Path) -> None:
+    """As OpenSim reads it: all rows, whatever the head says; units in capitals too."""
+    text = (HEAD + ROWS.splitlines()[0] + "\n").replace("\tmm\t", "\tMM\t")
+    with pytest.warns(InputWarning, match="line 3: NumFrames is '3' but 1 frames follow; all are read"):
+        assert len(read_trc(written(tmp_path, text))) == 1
 
 
 def test_a_name_that_is_there_twice_is_refused(tmp_path: Path) -> None:

@@ -29,23 +29,29 @@ _ROUNDED = 0.51e-3
 
 
 def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
-    """Markers of a .trc file, in metres; InputError where counts, units or times contradict the rows."""
+    """Markers of a .trc file, in metres; InputError where names, unit or times contradict the rows.
+
+    A count of frames that does not fit is a warning: OpenSim reads on.
+    """
     file = fspath(path)
     lines = decoded(read_bytes(path), path).splitlines()
     if len(lines) <= _HEAD or not lines[0].startswith("PathFileType"):
         raise InputError(file, "line 1", "does not begin with 'PathFileType'", "is it a complete .trc file?")
     declared = dict(zip(lines[1].split(), lines[2].split(), strict=False))
     names = tuple(without_subject([word.strip() for word in lines[3].split("\t")[2:] if word.strip()]))
-    _check(file, "line 3", declared, "NumMarkers", len(names), "markers are named in line 4")
+    if differs := _other_count(declared, "NumMarkers", len(names), "markers are named in line 4"):
+        raise InputError(file, "line 3", differs, "is the file complete?")
     twice = [name for name in names if names.count(name) > 1]
     if twice:
         raise InputError(file, "line 4", f"marker '{twice[0]}' is there {names.count(twice[0])} times", "rename one")
-    unit = declared.get("Units", "")
+    written = declared.get("Units", "")
+    unit = written.lower()
     if unit not in LENGTH:
-        raise InputError(file, "line 3", f"unit is '{unit[:20]}'", f"expected one of {', '.join(LENGTH)}")
+        raise InputError(file, "line 3", f"unit is '{written[:20]}'", f"expected one of {', '.join(LENGTH)}")
     columns = ("frame", "time", *(f"{name} {axis}" for name in names for axis in "xyz"))
     values, places = read_rows(iter(lines[_HEAD:]), _HEAD + 1, columns, file, _split)
-    _check(file, "line 3", declared, "NumFrames", len(values), "frames follow")
+    if differs := _other_count(declared, "NumFrames", len(values), "frames follow"):
+        warnings.warn(InputWarning(f"{file} line 3: {differs}; all are read"), stacklevel=2)
     time = values[:, 1]
     late = np.flatnonzero(~(np.diff(time) > 0.0))
     if len(late) or not np.isfinite(time[0]):
@@ -78,10 +84,10 @@ def _split(line: str, _separator: None, most: int) -> list[str]:
     return cells + [""] * (most - len(cells))
 
 
-def _check(file: str, place: str, declared: dict[str, str], key: str, count: int, what: str) -> None:
+def _other_count(declared: dict[str, str], key: str, count: int, what: str) -> str:
+    """In words how a count of line 3 differs from what follows; "" where it does not."""
     said = declared.get(key, "")
-    if said and (not said.isdigit() or int(said) != count):
-        raise InputError(file, place, f"{key} is '{said[:20]}' but {count} {what}", "is the file complete?")
+    return f"{key} is '{said[:20]}' but {count} {what}" if said and (not said.isdigit() or int(said) != count) else ""
 
 
 def _seen(file: str, positions: Float[np.ndarray, "t m 3"]) -> Float[np.ndarray, "t m 3"]:

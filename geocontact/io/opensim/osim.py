@@ -17,7 +17,7 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.joint import Coordinate, JointModel, Kind, TransformAxis
 from geocontact.data.multibody.joint_function import JointFunction
 from geocontact.io.opensim import osim_scapula
-from geocontact.io.opensim.osim_functions import constant, linear, read_function
+from geocontact.io.opensim.osim_functions import constant, function_of, linear
 from geocontact.io.opensim.osim_meshes import mesh_placement, mesh_placements
 from geocontact.io.opensim.osim_xml import Frames, is_true, label, numbers_of, offset, read_model, socket_of, text_of
 from geocontact.io.text.tables import listed
@@ -128,7 +128,7 @@ def _motion(file: str, joint: Element) -> tuple[tuple[Coordinate, ...], tuple[Tr
         axes = _simple_axes(joint, [e.get("name", "") for e in elements])
         kinds = {a.coordinates[0]: _kind(i >= 3) for i, a in enumerate(axes) if a.coordinates}
     elif joint.tag == "CustomJoint" and transform is not None:
-        axes = tuple(_read_axis(file, transform, slot) for slot in range(6))
+        axes = tuple(_read_axis(file, label(joint), transform, slot) for slot in range(6))
         kinds = _kinds(transform)
     else:
         supported = ", ".join(["CustomJoint with SpatialTransform", *_SIMPLE])
@@ -179,7 +179,7 @@ def _kind(translation: bool) -> Kind:
     return "translational" if translation else "rotational"
 
 
-def _read_axis(file: str, transform: Element, slot: int) -> TransformAxis:
+def _read_axis(file: str, joint: str, transform: Element, slot: int) -> TransformAxis:
     axis = _axis_element(transform, slot)
     default = tuple(float(x) for x in np.eye(3)[slot % 3])
     if axis is None:
@@ -190,7 +190,10 @@ def _read_axis(file: str, transform: Element, slot: int) -> TransformAxis:
         raise InputError(file, f"{label(axis)} <axis>", f"an axis of length {length:g}", "correct the model")
     names = tuple(text_of(axis, "coordinates").split())
     found = _function_element(axis)
-    function = read_function(file, found, len(names)) if found is not None else _without_function(file, axis, names)
+    owner = f"{joint} {axis.get('name', '')}"
+    function = (
+        function_of(owner, file, found, len(names)) if found is not None else _without_function(file, axis, names)
+    )
     # OpenSim normalises translation axes as well as rotation axes.
     return TransformAxis(direction / length, names, function)
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.model import Coupler, PointPair
-from geocontact.io.opensim.osim_functions import read_function
+from geocontact.io.opensim.osim_functions import function_of
 from geocontact.io.opensim.osim_xml import Frames, is_true, label, numbers_of, socket_of, text_of
 from geocontact.io.text.tables import listed
 
@@ -62,7 +62,7 @@ def _coupler(file: str, element: Element, coordinates: Sequence[str]) -> Coupler
     if function is None:
         raise InputError(file, label(element), "holds no function", "correct the model")
     factor = float(numbers_of(file, element, "scale_factor", 1, (1.0,))[0])
-    return Coupler(dependent, of, read_function(file, function, len(of)).scaled(factor))
+    return Coupler(dependent, of, function_of(label(element), file, function, len(of)).scaled(factor))
 
 
 def _in_order(file: str, couplers: list[Coupler]) -> tuple[Coupler, ...]:

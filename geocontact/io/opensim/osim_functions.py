@@ -73,6 +73,14 @@ def _curvature(
     return np.asarray(solve_banded((1, 1), bands, right), dtype=float)
 
 
+def function_of(owner: str, file: str, element: Element, arguments: int) -> JointFunction:
+    """Function in an XML element of `arguments` coordinates; what is wrong with it is told with its owner's name."""
+    try:
+        return read_function(file, element, arguments)
+    except InputError as error:
+        raise InputError(error.file, f"{owner} {error.place}", error.what, error.remedy) from None
+
+
 def read_function(file: str, element: Element, arguments: int, depth: int = 0) -> JointFunction:
     """Function in an XML element of `arguments` coordinates; unsupported kinds are refused by name."""
     if element.tag == "Constant":

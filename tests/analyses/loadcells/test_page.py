@@ -42,7 +42,7 @@ def test_single_cycles_stand_beside_their_mean(tmp_path: Path) -> None:
     inside = (page.time > 0.25) & (page.time < 3.45)
     np.testing.assert_allclose(mean.values[inside], own.values[inside], atol=15.0)
     assert np.isnan(mean.values[page.time > 3.51]).all() and mean.lower is not None
-    assert any(isinstance(s, Plan) for s in page.sections) and page.lead == 0
+    assert any(isinstance(s, Plan) for s in page.sections) and page.leads == range(1)
 
 
 def test_forces_can_be_read_in_body_weight(tmp_path: Path) -> None:

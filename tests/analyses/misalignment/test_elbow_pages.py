@@ -71,7 +71,7 @@ def test_a_design_opens_with_the_map_and_draws_the_limit(
     result = quietly(lambda _, **given: gc.misalignment.design(**given), **options)
     page = written(monkeypatch, design_page, result, tmp_path)
     assert f"the force reaches 8.64 N and {verb} the limit of {limit:g} N" in page.headline[0]
-    assert page.lead is not None and isinstance(page.sections[page.lead], Picture)
+    assert page.leads and isinstance(page.sections[page.leads[0]], Picture)
     force = next(each for each in page.sections if isinstance(each, Curves))
     assert [each.value for each in force.limits] == [limit, -limit][:lines]
 

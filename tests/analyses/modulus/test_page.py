@@ -24,7 +24,7 @@ def page_of(result: ModulusResult) -> Page:
 def test_a_law_that_holds_gives_its_modulus_and_the_interval(tmp_path: Path) -> None:
     page = page_of(modulus(areas(tmp_path), forces(tmp_path, sides=False), radius=0.037, bootstrap=0))
     assert page.headline[0].startswith(f"E* is {TRUE * 1e-6:g} MPa (95 %") and "R² 1.00" in page.headline[0]
-    assert page.lead is not None and isinstance(page.sections[page.lead], Intervals)
+    assert page.leads and isinstance(page.sections[page.leads[0]], Intervals)
     assert not page.plays and len(page.facts) <= 5
 
 
@@ -40,4 +40,4 @@ def test_a_law_that_does_not_hold_is_said_before_its_modulus(tmp_path: Path) -> 
     assert page.headline[0].startswith("The law does not describe the total force: R² −")
     assert page.headline[0].endswith("a constant force would do better.")
     assert "is only the number that fits" in page.headline[1]
-    assert page.lead is not None and isinstance(page.sections[page.lead], Curves), "the forces show why"
+    assert page.leads and isinstance(page.sections[page.leads[0]], Curves), "the forces show why"

@@ -29,7 +29,7 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_opens_and_shows_its_drawings(report: Path, opened: Open, device: dict[str, Any]) -> None:
     here = opened(report, device=device)
     pictures = here.tab.locator("img")
-    assert pictures.count() == 3
+    assert pictures.count() == 4
     for k in range(3):
         pictures.nth(k).scroll_into_view_if_needed()
         here.until(f"document.images[{k}].complete && document.images[{k}].naturalWidth > 100")
