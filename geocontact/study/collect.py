@@ -37,9 +37,10 @@ def collect(kept: Sequence[Kept], store: Store, folder: Path) -> list[str]:
         schema = _schema(parts)
         target = folder / "tables" / name
         target.parent.mkdir(parents=True, exist_ok=True)
-        _write_parquet(parts, schema, target.with_name(f"{target.name}.parquet"))
+        together = target.with_name(f"{target.name}.parquet")
+        _write_parquet(parts, schema, together)
         ragged = RaggedTable(name, [_labels(part.trial) for part in parts], [part.rows for part in parts])
-        write_ragged(ragged, _columns(parts, schema), target.with_name(f"{target.name}.nc"))
+        write_ragged(ragged, _columns(together, schema), target.with_name(f"{target.name}.nc"))
     return list(names)
 
 
@@ -110,16 +111,14 @@ def _as_in(table: pa.Table, schema: pa.Schema) -> pa.Table:
     return pa.table(columns, schema=schema)
 
 
-def _columns(parts: Sequence[Part], schema: pa.Schema) -> Iterator[tuple[str, bool, Iterator[Any]]]:
-    """Name of each column, whether it is text, and its values trial after trial."""
+def _columns(file: Path, schema: pa.Schema) -> Iterator[tuple[str, bool, Iterator[Any]]]:
+    """Name of each column, whether it is text, and its values a part at a time, from the table of all trials."""
     for column in schema:
         text = not (pa.types.is_integer(column.type) or pa.types.is_floating(column.type))
-        yield column.name, text, _values(parts, column)
+        yield column.name, text, _values(file, column.name)
 
 
-def _values(parts: Sequence[Part], column: pa.Field) -> Iterator[Any]:
-    for part in parts:
-        there = column.name in pq.read_schema(part.file).names
-        read = pq.read_table(part.file, columns=[column.name] if there else [])
-        found = read[column.name].cast(column.type) if there else pa.nulls(part.rows, column.type)
-        yield found.to_pandas().to_numpy()
+def _values(file: Path, column: str) -> Iterator[Any]:
+    with pq.ParquetFile(file) as whole:
+        for batch in whole.iter_batches(ROWS, columns=[column]):
+            yield batch.column(0).to_pandas().to_numpy()
