@@ -11,6 +11,7 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import chdir
+from functools import cache
 from glob import glob, has_magic
 from pathlib import Path
 from typing import Any
@@ -77,10 +78,15 @@ def address_of(command: str, options: Options, home: Path, digests: Digests) -> 
         "command": command,
         "options": {name: _plain(value) for name, value in options.in_si().items()},
         "files": files,
-        "geocontact": [VERSION, source_digest.digest()],
-        "libraries": library_versions(),
+        **_made_by(),
     }
     return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()[:LENGTH]
+
+
+@cache
+def _made_by() -> dict[str, object]:
+    """What results came of besides options and files; the same for all trials of a study."""
+    return {"geocontact": [VERSION, source_digest.digest()], "libraries": library_versions()}
 
 
 def _plain(value: object) -> object:

@@ -7,8 +7,10 @@ from pathlib import Path
 import pytest
 
 from geocontact.data.errors import InputError
+from geocontact.study import address
 from geocontact.study.study_file import read_study_file
 from geocontact.study.trials import CohortTrial, trials_of
+from tests.study.quick import QuickOptions
 
 
 def trials(folder: Path, text: str) -> list[CohortTrial]:
@@ -77,3 +79,17 @@ def test_what_cannot_be_is_one_line(data: Path, text: str, said: str) -> None:
     with pytest.raises(InputError) as refused:
         trials(data, text)
     assert said in str(refused.value) and str(refused.value).startswith(str(data / "study.toml"))
+
+
+def test_what_all_trials_share_is_looked_up_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sources and libraries: a tenth of a second that every trial would pay."""
+    asked: list[str] = []
+    address._made_by.cache_clear()
+    monkeypatch.setattr(address.source_digest, "digest", lambda: asked.append("sources") or "abc")
+    (tmp_path / "a.txt").write_text("1")
+    found = {
+        address.address_of("quick", QuickOptions(Path("a.txt"), gain=gain), tmp_path, address.Digests())
+        for gain in (1.0, 2.0, 2.0)
+    }
+    address._made_by.cache_clear()
+    assert len(found) == 2 and asked == ["sources"]
