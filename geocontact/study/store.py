@@ -6,6 +6,7 @@ import json
 import os
 import shutil
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -85,8 +86,11 @@ class Store:
             raise InputError(error.filename or self.folder, "", what, "choose another `out`") from error
 
     def end(self) -> None:
-        """Clear what is half-written."""
+        """Clear what is half-written, and the folders where nothing is in them."""
         shutil.rmtree(self.folder / WORK, ignore_errors=True)
+        for folder in (self.folder, self.folder.parent):
+            with suppress(OSError):  # something is kept there
+                folder.rmdir()
 
     def starts(self, run: str, address: str) -> int:
         """How often a worker began a trial in a run and did not end it."""

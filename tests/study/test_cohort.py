@@ -144,3 +144,10 @@ def test_without_the_extra_it_is_named(tmp_path: Path, monkeypatch: pytest.Monke
     assert refused.code == 2 and refused.err == (
         "cohort: needs distributed, which is not installed; pip install 'geocontact[cohort]'\n"
     )
+
+
+def test_a_study_that_is_refused_leaves_no_folder(tmp_path: Path) -> None:
+    (tmp_path / "study.toml").write_text('analysis = "arae"\n', encoding="utf-8")
+    told = call("cohort", tmp_path / "study.toml", "--out", tmp_path / "out")
+    assert told.code == 2 and "did you mean 'area'?" in told.err
+    assert not (tmp_path / "out").exists()
