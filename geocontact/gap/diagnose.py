@@ -28,7 +28,7 @@ from geocontact.gap.partial_answer import nearest, partial
 from geocontact.gap.reduction.error_reduction import error_reduction_of
 from geocontact.gap.reduction.held_out import held_out
 from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
-from geocontact.gap.reduction.raw_input_errors import raw_input_errors
+from geocontact.gap.reduction.raw_input_errors import RawInputErrors, raw_input_errors
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import Contender, base_contender
 from geocontact.gap.selection.verdict import SURE
@@ -130,14 +130,7 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
         seconds=time.perf_counter() - began,
         version=version,
         faults=_faults(found),
-        remarks=(
-            *(f"{each.words} in {each.channel}" for each in (*found.odd, *found.recorder)),
-            *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
-            *(f"{each.words} in {channel}" for channel, each in found.heavy.items()),
-            *objection(found),
-            *(nearest(found) if said.verdict == "unknown" and part is None else ()),
-            *(on_bounds(said.chosen, found.base, errors.fitted, errors.values) if said.effects else ()),
-        ),
+        remarks=_remarks(found, part is None, errors),
         next_experiment=then,
         partial=part,
         behind=behind(found) if said.effects else {},
@@ -160,6 +153,19 @@ def ranking(found: Attribution, probabilities: Mapping[str, float]) -> tuple[Ran
         probability = probabilities.get(one.names[0], 0.0) if first else None
         rows.append(Ranked(one.label, " + ".join(one.names), gain, calibration, probability))
     return tuple(sorted(rows, key=lambda row: -row.gain))
+
+
+def _remarks(found: Attribution, unexplained: bool, errors: RawInputErrors) -> tuple[str, ...]:
+    """What is odd, in words; `unexplained` where nothing known explains a part of an unknown gap."""
+    said = found.answer
+    return (
+        *(f"{each.words} in {each.channel}" for each in (*found.odd, *found.recorder)),
+        *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
+        *(f"{each.words} in {channel}" for channel, each in found.heavy.items()),
+        *objection(found),
+        *(nearest(found) if said.verdict == "unknown" and unexplained else ()),
+        *(on_bounds(said.chosen, found.base, errors.fitted, errors.values) if said.effects else ()),
+    )
 
 
 def behind(found: Attribution) -> dict[str, float]:
