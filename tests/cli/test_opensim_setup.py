@@ -265,6 +265,17 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
         np.testing.assert_allclose(own.inertia, other.inertia, rtol=1e-9)
 
 
+def test_bodies_that_the_model_lacks_are_passed_over_as_in_opensim(tmp_path: Path) -> None:
+    """One set-up for models of several kinds, as Pose2Sim has it; told, not refused."""
+    legs.model_file(tmp_path)
+    whole = _scale_options(tmp_path, SCALE)
+    begin = "<BodyScaleSet><objects>"
+    more = SCALE.replace(begin, f'{begin}<BodyScale name="fibula_r"><axes>X</axes></BodyScale>')
+    (tmp_path / "scale.xml").write_text(more.format(task("femur_r0", 1.0)))
+    found = read_tool_setup(tmp_path / "scale.xml", "ScaleTool")
+    assert found.options == whole and found.unheeded == ("size of fibula_r, which the model does not have,",)
+
+
 def _scale_options(folder: Path, text: str) -> tuple[tuple[str, str], ...]:
     (folder / "scale.xml").write_text(text.format(task("femur_r0", 1.0)))
     return read_tool_setup(folder / "scale.xml", "ScaleTool").options

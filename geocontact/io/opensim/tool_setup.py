@@ -13,6 +13,7 @@ import numpy as np
 from geocontact.data.errors import InputError
 from geocontact.io.opensim.marker_weights import read_marker_weights
 from geocontact.io.opensim.osim_xml import is_true, label, numbers_of, read_document, read_model, text_of
+from geocontact.io.text.tables import listed
 
 UNASSIGNED = ("", "unassigned")
 
@@ -82,7 +83,8 @@ def _scale(file: str, tool: Element) -> ToolSetup:
     mass = float(numbers_of(file, tool, "mass", 1, (-1.0,))[0])
     if scales and mass > 0.0:
         options.append(("mass", str(mass)))
-    options += [("scale", text) for text in (_sizes(file, scaler) if scales else ())]
+    sizes, lost = _of_bodies(_sizes(file, scaler) if scales else [], dict(options).get("model", ""))
+    options += [("scale", text) for text in sizes]
     places = placer.find("apply") is None or is_true(file, placer, "apply")
     recording = _needed(file, placer if places or _told(placer, "marker_file") else scaler, "marker_file")
     options += [("tasks", _tasks(file, placer)), *_time(file, placer)]
@@ -92,7 +94,17 @@ def _scale(file: str, tool: Element) -> ToolSetup:
         options.append(("mass-by-volume", ""))
     if not places:
         options.append(("keep-markers", ""))
-    return ToolSetup(recording, tuple(options))
+    return ToolSetup(recording, tuple(options), lost)
+
+
+def _of_bodies(sizes: list[str], model: str) -> tuple[list[str], tuple[str, ...]]:
+    """Those of bodies that the model has, and what is said of the others, which OpenSim passes over."""
+    if not sizes or not model or not Path(model).is_file():
+        return sizes, ()  # the command says so
+    known = {e.get("name", "") for e in read_model(model).findall("BodySet/objects/Body")}
+    lost = dict.fromkeys(body for text in sizes if (body := text.partition(":")[0]) not in known)
+    kept = [text for text in sizes if text.partition(":")[0] not in lost]
+    return kept, (f"size of {listed(tuple(lost))}, which the model does not have,",) if lost else ()
 
 
 def _measuring(file: str, scaler: Element, placer: Element, recording: Path) -> list[tuple[str, str]]:
