@@ -265,6 +265,29 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
         np.testing.assert_allclose(own.inertia, other.inertia, rtol=1e-9)
 
 
+def test_a_range_of_a_static_trial_takes_the_frames_that_opensim_takes(tmp_path: Path, opensim: Elsewhere) -> None:
+    """Those that enclose it, of a leg that grows by 1 % and moves by 1 cm in each frame; for sizes and for the pose."""
+    _, model, time, values = legs.planted(tmp_path)
+    grown = [scaled(model, {"femur_r": (1.0 + 0.01 * k) * np.ones(3)}) for k in range(9)]
+    places = np.array([each.marker_places(0.0 * values[:1])[0] + 0.01 * k for k, each in enumerate(grown)])
+    legs.trc_file(tmp_path, MarkerTrajectories(time[:9], places, tuple(m.name for m in model.markers)))
+    tasks = "".join(task(m.name, 1.0) for m in model.markers)
+    narrow = SCALE.replace("<preserve", "<time_range>0.013 0.032</time_range><preserve").replace(
+        "0 0.02<", "0.018 0.041<"
+    )
+    end = "</MarkerPlacer>"
+    text = narrow.replace(end, f"<output_model_file>theirs.osim</output_model_file>{end}").format(tasks)
+    (tmp_path / "scale.xml").write_text(text)
+    told = with_setup(["scale", "--setup", str(tmp_path / "scale.xml")])
+    assert {"--time=0.01:0.05", "--sizes-time=0.01:0.04"} < set(told)
+    done(call("scale", "--setup", tmp_path / "scale.xml", "--out", tmp_path / "s"))
+    opensim(opensim_oracle.run_scaling, tmp_path / "scale.xml")
+    ours, theirs = (read_multibody(tmp_path / name) for name in ("s/scaled.osim", "theirs.osim"))
+    assert [b.mass for b in ours.bodies] == pytest.approx([b.mass for b in theirs.bodies], rel=1e-6)
+    for own, other in zip(ours.markers, theirs.markers, strict=True):
+        np.testing.assert_allclose(own.location, other.location, atol=1e-3, err_msg=own.name)
+
+
 def test_bodies_that_the_model_lacks_are_passed_over_as_in_opensim(tmp_path: Path) -> None:
     """One set-up for models of several kinds, as Pose2Sim has it; told, not refused."""
     legs.model_file(tmp_path)
