@@ -26,7 +26,8 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.one_core import THREADS
-from benchmarks.opensim_models import NOISE, RATE, SEED, _states
+from benchmarks.opensim_models import NOISE, RATE, SEED
+from benchmarks.opensim_states import states
 
 HERE = Path(__file__).resolve().parent
 FRAMES = 101
@@ -106,6 +107,7 @@ def _scaling(setup: Path, model: Path, kind: str, place: Path) -> Row:
     places = subject.marker_places(subject.coupled(values))
     places = places + NOISE * rng.normal(size=places.shape)
     write_trc(place / "static.trc", MarkerTrajectories(np.arange(FRAMES) / RATE, places, _names(subject)))
+    _exact_times(place / "static.trc")
     named = {"model_file": str(model), "marker_set_file": str(sets[0]), "marker_file": "static.trc"}
     _renamed(setup, place / "scale.xml", {**named, "output_model_file": "theirs.osim"})
     told = _both("scale", place)
@@ -127,6 +129,7 @@ def _kinematics(setup: Path, place: Path) -> Row:
     places = model.marker_places(truth)
     places = places + NOISE * rng.normal(size=places.shape)
     write_trc(place / "walk.trc", MarkerTrajectories(np.arange(FRAMES) / RATE, places, _names(model)))
+    _exact_times(place / "walk.trc")
     named = {"model_file": "theirs.osim", "marker_file": "walk.trc", "output_motion_file": "theirs.mot"}
     _renamed(setup, place / "ik.xml", {**named, "results_directory": "."})
     told = _both("ik", place)
@@ -173,7 +176,7 @@ def _names(model: Any) -> tuple[str, ...]:
 def _motion(model: Any, rng: Any) -> Any:
     import numpy as np
 
-    one, two = _states(model, rng, 2)
+    one, two = states(model, rng, 2)
     phase = 0.5 - 0.5 * np.cos(np.linspace(0.0, 2.0 * np.pi, FRAMES))[:, None]
     return model.coupled(one + phase * (two - one))
 
@@ -189,6 +192,14 @@ def _renamed(setup: Path, target: Path, files: dict[str, str]) -> None:
     tree.write(target, encoding="utf-8", xml_declaration=True)
 
 
+def _exact_times(trial: Path) -> None:
+    """All digits, as Pose2Sim writes them: its set-ups end at a frame."""
+    head, rows = (lines := trial.read_text(encoding="utf-8").splitlines())[:-FRAMES], lines[-FRAMES:]
+    cells = [row.split("\t") for row in rows]
+    whole = ["\t".join([row[0], repr(k / RATE), *row[2:]]) for k, row in enumerate(cells)]
+    trial.write_text("\n".join([*head, *whole]) + "\n", encoding="utf-8")
+
+
 def _both(tool: str, place: Path) -> Row:
     """CPU and wall seconds of both; what ours says where it refuses."""
     here = HERE.parent
@@ -198,7 +209,11 @@ def _both(tool: str, place: Path) -> Row:
     ours = _timed(call, place)
     if ours["code"] or theirs["code"]:
         return {"refused": ours["error"] or "no", "opensim": theirs["error"] or "runs"}
-    return {
+    run = json.loads((place / f"ours_{tool}" / "run.json").read_text(encoding="utf-8"))
+    words = "of kinds that are not read do not act here, in OpenSim they do: "
+    unread = [w.partition(words)[2] for w in run["warnings"] if words in w]
+    told = {"forces_not_read": unread[0]} if unread else {}
+    return told | {
         "cpu_s": ours["cpu_s"], "opensim_cpu_s": theirs["cpu_s"],
         "wall_s": ours["wall_s"], "opensim_wall_s": theirs["wall_s"],
     }  # fmt: skip
@@ -215,16 +230,20 @@ def _timed(call: list[str], place: Path) -> Row:
 
 
 def _models_apart(ours: Path, theirs: Path) -> Row:
-    """Largest relative difference of masses and moments of inertia, of places [m], and of markers [mm]."""
+    """Largest relative difference of masses and places [m]; of moments of inertia, which are those of a cylinder in
+    OpenSim where a body's factors differ; of markers [mm].
+    """
     import numpy as np
 
     one, two = _model(ours), _model(theirs)
     known, joints = {b.name: b for b in two.bodies}, {j.child: j for j in two.joints}
-    off = [0.0]
+    off, inertias = [0.0], [0.0]
     for body in one.bodies:
         other = known[body.name]
         off.append(abs(body.mass - other.mass) / max(other.mass, 1e-9))
-        off.append(float(np.abs(body.inertia - other.inertia).max()) / max(float(np.abs(other.inertia).max()), 1e-12))
+        inertias.append(
+            float(np.abs(body.inertia - other.inertia).max()) / max(float(np.abs(other.inertia).max()), 1e-12)
+        )
         off.append(float(np.abs(body.centre - other.centre).max()))
     for joint in one.joints:
         for side in ("parent_offset", "child_offset"):
@@ -232,7 +251,14 @@ def _models_apart(ours: Path, theirs: Path) -> Row:
             off.append(float(np.abs(np.subtract(*pair)).max()))
     places = {m.name: m.location for m in two.markers}
     apart = [float(np.linalg.norm(m.location - places[m.name])) for m in one.markers]
-    return {"scaled_off": max(off), "markers": len(apart), "markers_apart_mm": 1e3 * max(apart)}
+    defaults = np.abs(np.subtract(*([c.default for c in model.coordinates] for model in (one, two)))).max()
+    return {
+        "scaled_off": max(off),
+        "inertia_off": max(inertias),
+        "default_pose_off": float(defaults),
+        "markers": len(apart),
+        "markers_apart_mm": 1e3 * max(apart),
+    }
 
 
 def _angles(place: Path, model: Any, truth: Any) -> Row:

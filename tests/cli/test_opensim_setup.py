@@ -288,6 +288,31 @@ def test_a_range_of_a_static_trial_takes_the_frames_that_opensim_takes(tmp_path:
         np.testing.assert_allclose(own.location, other.location, atol=1e-3, err_msg=own.name)
 
 
+def test_muscles_that_a_set_up_lets_act_are_told(tmp_path: Path) -> None:
+    """A set-up that leaves nothing out: 413 N m at a knee of the published Rajagopal2015 in OpenSim, none here."""
+    swinging(tmp_path)
+    text = (tmp_path / "leg.osim").read_text()
+    muscle = '<ForceSet><objects><Thelen2003Muscle name="vasti"/>'
+    (tmp_path / "leg.osim").write_text(text.replace("<ForceSet><objects>", muscle, 1))
+    assert "vasti" in (tmp_path / "leg.osim").read_text()
+    for excluded, told in {"": 1, "stops": 1, "Muscles stops": 0, "ALL": 0}.items():
+        (tmp_path / "id.xml").write_text(ID.format(exclude=excluded))
+        unheeded = read_tool_setup(tmp_path / "id.xml", "InverseDynamicsTool").unheeded
+        assert sum(what.startswith("passive force of 1 muscles") for what in unheeded) == told, excluded
+
+
+def test_without_placing_markers_the_default_pose_stays(tmp_path: Path) -> None:
+    """As OpenSim has it, whose set-up then needs no task of a marker, as Pose2Sim's for BlazePose has none."""
+    _, model, time, values = legs.planted(tmp_path)
+    legs.trc_file(tmp_path, legs.markers_of(model, time[:3], 0.0 * values[:3] + 0.05))
+    own = SCALE.replace("<MarkerPlacer><apply>true", "<MarkerPlacer><apply>false")
+    near = '<IKCoordinateTask name="knee"><value_type>default_value</value_type><weight>0</weight></IKCoordinateTask>'
+    (tmp_path / "scale.xml").write_text(own.format(near))
+    done(call("scale", "--setup", tmp_path / "scale.xml", "--out", tmp_path / "s"))
+    made = read_multibody(tmp_path / "s" / "scaled.osim")
+    assert [c.default for c in made.coordinates] == [c.default for c in model.coordinates]
+
+
 def test_bodies_that_the_model_lacks_are_passed_over_as_in_opensim(tmp_path: Path) -> None:
     """One set-up for models of several kinds, as Pose2Sim has it; told, not refused."""
     legs.model_file(tmp_path)
