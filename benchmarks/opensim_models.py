@@ -44,9 +44,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.opensim_models", description=__doc__.splitlines()[0])
     parser.add_argument("folders", nargs="*", type=Path)
     parser.add_argument("--out", type=Path, default=HERE / "results")
+    parser.add_argument("--name", default="opensim_models", help="of the JSON, without ending")
     options = parser.parse_args()
     pin()
-    from benchmarks.machine import machine, versions
+    from benchmarks.machine import stamp
     from tests.elsewhere import another_process
 
     rows = []
@@ -56,13 +57,12 @@ def main() -> None:
                 rows.append({"model": name, **compared(file, call)})
             print(_line(rows[-1]), flush=True)
     report = {
-        "machine": machine(),
-        "versions": versions({"casadi", "numpy", "scipy", "opensim"}),
+        **stamp({"casadi", "numpy", "scipy", "opensim"}),
         "seed": SEED,
         "models": rows,
     }
     options.out.mkdir(parents=True, exist_ok=True)
-    (options.out / "opensim_models.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+    (options.out / f"{options.name}.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
 
 
 def _models(folders: list[Path], scratch: Path) -> Iterator[tuple[str, Path]]:

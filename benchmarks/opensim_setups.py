@@ -50,25 +50,30 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.opensim_setups", description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path)
     parser.add_argument("--out", type=Path, default=HERE / "results")
+    parser.add_argument(
+        "--kinds", nargs="*", help="markers of Pose2Sim, as its set-ups call them; all of them unless told"
+    )
     options = parser.parse_args()
     os.environ.update(dict.fromkeys(THREADS, "1"))
-    from benchmarks.machine import machine, versions
+    from benchmarks.machine import stamp
 
     options.out.mkdir(parents=True, exist_ok=True)
     report: dict[str, Any] = {
-        "machine": machine(), "versions": versions({"casadi", "numpy", "scipy", "opensim"}), "seed": SEED,
+        **stamp({"casadi", "numpy", "scipy", "opensim"}), "seed": SEED,
         "set-ups": [],
     }  # fmt: skip
-    for told in _all(options.folder.resolve()):
+    for told in _all(options.folder.resolve(), options.kinds):
         report["set-ups"].append(told)
         print(json.dumps({key: each for key, each in told.items() if not isinstance(each, dict)}), flush=True)
         (options.out / "opensim_setups.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
 
 
-def _all(folder: Path) -> Any:
+def _all(folder: Path, kinds: list[str] | None) -> Any:
     with tempfile.TemporaryDirectory() as scratch:
         for k, setup in enumerate(sorted(folder.rglob("Scaling_Setup_Pose2Sim_*.xml"))):
             kind = setup.stem.removeprefix("Scaling_Setup_Pose2Sim_")
+            if kinds is not None and kind not in kinds:
+                continue
             for model in (MODEL, WHOLE) if kind == "Halpe26" else (MODEL,):
                 place = Path(scratch) / f"{k}{model[:16]}"
                 place.mkdir()
