@@ -67,7 +67,7 @@ def kinematics() -> list[str]:
     return _table(head, [
         [
             _name(row), str(len(row["held"].split(", ")) if row["held"] else 0), f"{row['angles_off_deg']:.1f}°",
-            f"{row['sum_over_opensims']:.3f}",
+            f"{row['sum_over_opensims']:.3f}", f"{row['frames_with_larger_sum']} of {row['frames']}",
             f"{row['off_truth_rms_deg']:.2f}°, {row['opensim_off_truth_rms_deg']:.2f}°", _time(row),
         ]
         for row in _setups("sum_over_opensims")

@@ -289,7 +289,7 @@ def test_a_range_of_a_static_trial_takes_the_frames_that_opensim_takes(tmp_path:
 
 
 def test_muscles_that_a_set_up_lets_act_are_told(tmp_path: Path) -> None:
-    """A set-up that leaves nothing out: 413 N m at a knee of the published Rajagopal2015 in OpenSim, none here."""
+    """A set-up that leaves nothing out: in OpenSim muscles act at rest, here they never do."""
     swinging(tmp_path)
     text = (tmp_path / "leg.osim").read_text()
     muscle = '<ForceSet><objects><Thelen2003Muscle name="vasti"/>'
