@@ -29,13 +29,14 @@ file that fits the pattern, `{file}` is its path), from the columns of `table`, 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from geocontact.data.errors import InputError
-from geocontact.io.text.toml_text import toml_of
+from geocontact.io.text.toml_text import numbers_in, toml_of
 from geocontact.study.summary_settings import SummarySettings, summary_of
 
 LARGEST = 4_000_000
@@ -93,6 +94,9 @@ def read_study_file(path: Path) -> StudyFile:
     odd = [key for key in content if key not in KEYS]
     if odd:
         raise InputError(path, f"`{odd[0]}`", "is not known here", f"write {', '.join(KEYS)}")
+    for place, value in numbers_in(content):
+        if not math.isfinite(value):
+            raise InputError(path, place, f"is {value}", "write a number")
     analysis = content.get("analysis")
     if not isinstance(analysis, str) or not analysis:
         raise InputError(path, "", "no `analysis`", 'write for example analysis = "area"')

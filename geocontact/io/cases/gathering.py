@@ -40,6 +40,7 @@ def read_gathering(path: Path) -> Gathering:
         raise InputError(path, "layout", "is what gathering writes", "leave it out")
     settings = settings_of(given, fspath(path))
     check_settings(settings, path, KNOWN_SYSTEMS)
+    parameters_of(settings, path)  # told here and not when the case is read that is written from it
     for name in settings.trials:
         if name not in stated:
             like = next((each for each in stated if isinstance(stated[each], dict)), None)
