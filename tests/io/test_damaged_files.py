@@ -26,7 +26,7 @@ from geocontact.io.recordings.area_table import read_area_table
 from geocontact.io.recordings.contact_parameters import read_contact_intervals
 from geocontact.io.recordings.load_cells import read_regression
 from geocontact.io.recordings.radius_profile import read_radius_profile
-from geocontact.io.recordings.spheres import read_law
+from geocontact.io.recordings.spheres import read_law, read_spheres
 from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.tables import read_table
 from geocontact.study.study_file import read_study_file
@@ -89,6 +89,13 @@ CASES: dict[str, tuple[str, str, Read, str]] = {
         read_radius_profile,
         "side 'all': radii must be above 0",
     ),
+    "side of a profile": (
+        "profile.csv",
+        f"side,flexion [deg],radius [mm]\n{'a' * 5000},0,36\n",
+        read_radius_profile,
+        "aaa: radii must be above 0",
+    ),
+    "sphere": ("a.csv", "px [m],py [m],pz [m],radius [m],zone\n1e39,0,0,0.01,a\n", read_spheres, "line 2: px is 1e39"),
     "interval": (
         "parameters.csv",
         "parameter,unit,value,lower,upper\nk,N/m,1,0,1e30\n",

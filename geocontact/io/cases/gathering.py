@@ -8,7 +8,7 @@ from os import fspath
 from pathlib import Path
 
 from geocontact.data.errors import InputError
-from geocontact.io.cases.case_consistency import KNOWN_SYSTEMS, check_settings
+from geocontact.io.cases.case_consistency import KNOWN_SYSTEMS, check_settings, parameters_of
 from geocontact.io.cases.case_settings import LARGEST_SETTINGS, CaseSettings, settings_of
 from geocontact.io.cases.storage_trial import EXAMPLE as EXAMPLE_COLUMN
 from geocontact.io.cases.storage_trial import StorageColumn, columns_of, is_storage

@@ -34,7 +34,7 @@ def read_radius_profile(path: Path) -> dict[str, RadiusProfile]:
         flexion, radius = np.radians(numbers[NAMES[1]].to_numpy(float)), numbers[NAMES[2]].to_numpy(float) * 1e-3
         sound = np.isfinite([flexion, radius]).all() and (radius > 0.0).all() and (np.diff(flexion) > 0.0).all()
         if len(flexion) < 2 or not sound:
-            what = f"side {side!r}: radii must be above 0 at 2 angles or more, each angle once"
+            what = f"side {side!r:.60}: radii must be above 0 at 2 angles or more, each angle once"
             raise InputError(path, "", what, "give the profile.csv of geocontact fit")
         found[str(side)] = RadiusProfile(flexion, radius)
     if not found:

@@ -13,6 +13,7 @@ from jaxtyping import Bool, Float
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.magnitude import too_large
 from geocontact.io.text.column_names import spelled_as
 from geocontact.io.text.file_preflight import read_bytes
 from geocontact.io.text.plain_table import open_plain
@@ -155,6 +156,7 @@ class _Cells:
         """Finite numbers of a column; InputError names the line of the first cell that holds none."""
         values = np.array([self._number(name, line, text) for line, text in self.column(name)])
         self.refuse(name, values, ~np.isfinite(values), "must be finite")
+        self.refuse(name, values, too_large(values), "must be a number that is meant")
         return values
 
     def lengths(self, name: str) -> Float[np.ndarray, " n"]:
