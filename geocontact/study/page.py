@@ -84,8 +84,11 @@ def _trials(manifest: pd.DataFrame) -> Table:
 
 
 @in_style
-def study_figure(curves: Sequence[StudyCurves]) -> Figure:
-    """Mean ± SD of every quantity and condition."""
+def study_figure(curves: Sequence[StudyCurves]) -> Figure | None:
+    """Mean ± SD of every quantity and condition; None where no trial has a whole curve."""
+    curves = [one for one in curves if _drawn(one)]
+    if not curves:
+        return None
     figure, axes = panels(1, len(curves), DOUBLE, 0.06)
     for one, own in zip(curves, axes, strict=True):
         name, unit = split_header(one.column)

@@ -118,7 +118,7 @@ class CohortResult(Result):
 
     def figure(self) -> Figure | None:
         """Mean curves."""
-        return study_figure(self.curves) if self.curves else None
+        return study_figure(self.curves)
 
     def write_files(self, folder: Path) -> None:
         """Manifest, the tables of all trials together, the page; then other studies may write into the folder."""

@@ -17,7 +17,7 @@ from scipy.io import netcdf_file
 from geocontact.analyses.run_record import Record
 from geocontact.study.curves import StudyCurves
 from geocontact.study.lock import LOCK, sole_writer
-from geocontact.study.page import study_page
+from geocontact.study.page import study_figure, study_page
 from geocontact.view.page.content import Curves
 from tests.cli.calls import Call, call
 from tests.study.quick import compared, study, tables, told
@@ -124,6 +124,30 @@ def test_units_on_the_page_are_as_in_print(tmp_path: Path) -> None:
     one = StudyCurves("area [mm^2]", ("A",), ("A",), ("all",), np.ones((1, 101)))
     page = study_page("areas", Record("cohort", {}), [one], {"trials": pd.DataFrame({"name": ["A"], "folder": [""]})})
     assert [part.unit for part in page.sections if isinstance(part, Curves)] == ["mm²"]
+
+
+@pytest.mark.slow
+def test_a_trial_that_takes_more_memory_than_it_may_is_set_aside(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    file = study(tmp_path, {"A": "1", "B": "2 hungry"})
+    done = call("cohort", file, "--workers", "1", "--memory", "700MB", "--out", out, folder=out)
+    assert done.code == 1 and done.complaints == ["B: its worker was killed 3 times: out of memory, or a crash"], (
+        done.err
+    )
+    assert list(done.table("trials.csv")["state"]) == ["done", "set aside"]
+
+
+@pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="no /proc here")
+def test_a_folder_that_takes_no_files_is_refused(tmp_path: Path) -> None:
+    refused = call("cohort", study(tmp_path, NUMBERS), "--out", "/proc/none")
+    assert refused.code == 2 and len(refused.complaints) == 1 and "cannot be written to" in refused.err
+
+
+def test_a_quantity_that_no_trial_has_whole_is_not_drawn() -> None:
+    names = ("A",), ("A",), ("all",)
+    whole, gaps = (StudyCurves("area [mm^2]", *names, np.full((1, 101), value)) for value in (1.0, np.nan))
+    drawn = study_figure([gaps, whole])
+    assert drawn is not None and len(drawn.axes) == 1 and study_figure([gaps]) is None
 
 
 def test_results_are_those_of_one_by_one(tmp_path: Path, scheduler: str, monkeypatch: pytest.MonkeyPatch) -> None:
