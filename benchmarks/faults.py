@@ -113,7 +113,7 @@ FAULTS: dict[str, Fault] = {
     "no casadi, ezc3d, open3d": Fault(without=("casadi", "ezc3d", "open3d", "openpyxl")),
     "no distributed": Fault(without=("distributed", "dask")),
     "no compiled code can be kept": Fault(environment={"NUMBA_CACHE_DIR": "/proc/none"}),
-    "no compiler": Fault(environment={"NUMBA_DISABLE_JIT": "1"}),
+    "no compiler": Fault(environment={"PATH": "/proc/none", "CC": "/proc/none"}),
 }
 """By what is wrong; the run is a contact area of a ball on a plate with page, figure and Parquet."""
 

@@ -89,6 +89,12 @@ CASES: dict[str, tuple[str, str, Read, str]] = {
         read_radius_profile,
         "side 'all': radii must be above 0",
     ),
+    "cells": (
+        "profile.csv",
+        f"side,flexion [deg],radius [mm]{',' * 20_000}\nall,0,36\n",
+        read_radius_profile,
+        "profile.csv line 1: more than 10000 cells",
+    ),
     "side of a profile": (
         "profile.csv",
         f"side,flexion [deg],radius [mm]\n{'a' * 5000},0,36\n",
