@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from geocontact.data.errors import InputError
+from geocontact.data.magnitude import LARGEST_MEANT
 from geocontact.io.text.units import ANGLE, DIMENSIONS, LENGTH, si_unit
 
 if TYPE_CHECKING:  # numbers are read before anything heavy is imported
@@ -253,8 +254,9 @@ def _fit(file: Path, shape: str) -> dict[str, list[float]]:
             raise KeyError(shape)
         found = {key: [float(value) for value in fit[key]] for key in keys}
         for values in found.values():
-            _three(values)
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
+            if any(not abs(value) <= LARGEST_MEANT for value in _three(values)):
+                raise ValueError("a number is not finite or too large")
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         what = f"holds no {' and '.join(reversed(keys))} of a {shape}"
         raise InputError(file, "", what, f"give the fit.json of a {shape} fit") from error
     return found

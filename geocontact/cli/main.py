@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import signal
 import sys
@@ -20,6 +21,7 @@ from geocontact.data.version import VERSION
 HELP = "--help", "-h"
 USAGE_ERROR = 2
 FAILURE = 1
+NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 app = App(
     name="geocontact",
@@ -87,7 +89,8 @@ def run(tokens: Sequence[str], debug: bool = False) -> int:
     except BrokenPipeError:
         return FAILURE
     except OSError as error:
-        return _fail(f"{error.filename or 'file system'}: {error.strerror or error}", FAILURE, debug)
+        stays = f"; {what_stays()}" if error.errno in NO_ROOM else ""
+        return _fail(f"{error.filename or 'file system'}: {error.strerror or error}{stays}", FAILURE, debug)
     except MemoryError:
         return _fail("not enough memory; decimate the meshes or evaluate fewer frames", FAILURE, debug)
     except Exception as error:  # the last line of defence: one line for the user, --debug for us

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -58,6 +59,8 @@ class CohortResult(Result):
         Of the columns that the summary is about.
     scratch
         Holds the store where no folder was named.
+    held
+        Keeps other studies out of the folder until the tables are written.
     """
 
     planned: PlannedStudy
@@ -65,6 +68,7 @@ class CohortResult(Result):
     store: Store
     curves: tuple[StudyCurves, ...]
     scratch: Scratch | None
+    held: ExitStack
 
     @property
     def done(self) -> tuple[StudiedTrial, ...]:
@@ -114,10 +118,14 @@ class CohortResult(Result):
 
     def figure(self) -> Figure | None:
         """Mean curves."""
-        return study_figure(self.curves) if self.curves else None
+        return study_figure(self.curves)
 
     def write_files(self, folder: Path) -> None:
-        """Manifest, the tables of all trials together, the page."""
+        """Manifest, the tables of all trials together, the page; then other studies may write into the folder."""
+        with self.held:
+            self._write_files(folder)
+
+    def _write_files(self, folder: Path) -> None:
         if self.scratch is not None:
             for one in self.done:
                 shutil.copytree(self.store.place(one.address), folder / RESULTS / one.address, dirs_exist_ok=True)

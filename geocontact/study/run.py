@@ -6,7 +6,7 @@ import errno
 import secrets
 import time
 from collections.abc import Iterator
-from contextlib import chdir
+from contextlib import ExitStack, chdir
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -47,14 +47,28 @@ def run(planned: PlannedStudy, o: CohortOptions, record: Record) -> CohortResult
     scratch = None if record.out is not None else Scratch()
     out = record.out if record.out is not None else scratch.folder if scratch is not None else Path()
     store = Store(out.resolve() / RESULTS)
-    store.begin()
-    try:
+    with ExitStack() as held:  # until the tables are written, unless something goes wrong before
+        held.enter_context(store.begun())
         plan = _plan(planned, store)
         if any(one.known is not None and one.known.state == DONE for one in plan):
             is_kept(store.folder)
         became = _evaluated(planned, plan, store, o, record)
-    finally:
-        store.end()
+        trials, curves = _looked_at(planned, plan, became, store, o, record)
+        kept = ExitStack() if scratch is not None else held.pop_all()
+    return CohortResult(
+        record=record, planned=planned, trials=trials, store=store, curves=curves, scratch=scratch, held=kept
+    )
+
+
+def _looked_at(
+    planned: PlannedStudy,
+    plan: list[_Planned],
+    became: list[TrialOutcome],
+    store: Store,
+    o: CohortOptions,
+    record: Record,
+) -> tuple[tuple[StudiedTrial, ...], tuple[StudyCurves, ...]]:
+    """What became of each trial, and the curves; what goes wrong and what conditions differ in is said."""
     trials = tuple(StudiedTrial(one.trial, one.address, became[k]) for k, one in enumerate(plan))
     for one in trials:
         if one.outcome.state != DONE:
@@ -68,7 +82,7 @@ def run(planned: PlannedStudy, o: CohortOptions, record: Record) -> CohortResult
     record.say(f"{all_of_them} have results, {new} of them new")
     curves = curves_of(planned.file, [(one.trial, one.address) for one in done], store)
     _say(curves, record)
-    return CohortResult(record=record, planned=planned, trials=trials, store=store, curves=curves, scratch=scratch)
+    return trials, curves
 
 
 def _say(curves: tuple[StudyCurves, ...], record: Record) -> None:

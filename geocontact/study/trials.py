@@ -11,12 +11,14 @@ from typing import Any
 
 from geocontact.data.errors import InputError
 from geocontact.io.text.side_table import read_side_table
-from geocontact.study.study_file import RESERVED, StudyFile, Value
+from geocontact.study.study_file import OWN, RESERVED, StudyFile, Value
 
 FILE = "file"
 """Name of a trial's file, where they are found by a pattern."""
 _NAME = re.compile(r"\{(\w+)\}")
-Factors = dict[str, Value]
+Factors = dict[str, Any]
+"""Values by name, and a trial's own options under `APART`."""
+APART = "[options]"
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,8 @@ def trials_of(study: StudyFile) -> list[CohortTrial]:
 
 
 def _sources(study: StudyFile) -> Iterator[tuple[str, list[Factors]]]:
+    if study.trials:
+        yield "[[trials]]", [{APART if name == OWN else name: each[name] for name in each} for each in study.trials]
     if study.files:
         yield study.files, _found_files(study)
     if study.table:
@@ -72,7 +76,7 @@ def _found_files(study: StudyFile) -> list[Factors]:
 
 def _joined(study: StudyFile, source: str, rows: list[Factors], more: list[Factors]) -> list[Factors]:
     """Each row with what fits to it: equal in all names that both have."""
-    shared = [name for name in rows[0] if name in more[0]]
+    shared = [name for name in rows[0] if name in more[0] and name != APART]
     found = [{**row, **each} for row in rows for each in more if all(str(row[n]) == str(each[n]) for n in shared)]
     lonely = [row for row in rows if not any(all(str(row[n]) == str(each[n]) for n in shared) for each in more)]
     if lonely:
@@ -94,6 +98,8 @@ def _varied(study: StudyFile, rows: Iterable[Factors]) -> Iterator[tuple[Factors
 def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> CohortTrial | None:
     """The trial of a row; None where it is left out."""
     given, swept = row
+    own = given.get(APART, {})
+    given = {name: value for name, value in given.items() if name != APART}
     reserved = next((name for name in (*given, *swept) if name in RESERVED and name != FILE), None)
     if reserved is not None:
         raise InputError(study.path, f"`{reserved}`", "is a name that every study has", "choose another one")
@@ -101,7 +107,7 @@ def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> CohortTrial | None
     for left in study.leave_out:
         if all(str(factors.get(name)) == str(value) for name, value in left.items()):
             return None
-    options = {name: _filled(study, name, value, given) for name, value in study.options.items()}
+    options = {name: _filled(study, name, value, given) for name, value in {**study.options, **own}.items()}
     twice = next((name for name in swept if name in options), None)
     if twice is not None:
         raise InputError(study.path, f"[sweep] {twice}", "is in [options] too", "give it once")
