@@ -1,7 +1,7 @@
 """The clipped area at many poses in the field of a fixed surface: `python -m benchmarks.repeated`.
 
-The job of `benchmarks.peers` again, without the map: 101 poses of A at about 5e4 × 5e4 faces, area of A within 4 mm of B.
-CPU seconds of one process and one thread, what is prepared once not counted (told beside it); all in turn. Peers do
+The job of `benchmarks.peers` again, without the map: 101 poses of A at about 5e4 × 5e4 faces, area of A within 4 mm of
+B. CPU seconds of one process and one thread, what is prepared once not counted (told beside it); all in turn. Peers do
 every tenth frame. Areas are compared with the exact clip of geocontact's own map in every frame.
 """
 
@@ -47,7 +47,7 @@ def main() -> None:
     found = areas.at(pair.rotation, pair.translation, 1)
     rows: dict[str, list[float]] = {"repeated": [], **{name: [] for name in steps}}
     for _ in range(options.rounds):
-        for name in rows:
+        for name, seconds in rows.items():
             every = EVERY if name not in ("repeated", OURS) else 1
             start = time.process_time()
             if name == "repeated":
@@ -56,11 +56,11 @@ def main() -> None:
                 for k in range(0, len(pair.rotation), every):
                     steps[name](k)
             done = len(range(0, len(pair.rotation), every))
-            rows[name].append((time.process_time() - start) * len(pair.rotation) / done)
+            seconds.append((time.process_time() - start) * len(pair.rotation) / done)
         median = {name: float(np.median(values)) for name, values in rows.items()}
         record = {
             "commit": subprocess.run(
-                ["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True
+                ["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=False
             ).stdout.strip(),
             "machine": machine(),
             "versions": versions({e.package for e in engines}),
