@@ -136,4 +136,5 @@ def _write_report(
         (*one.reservations, *notes),
         shown,
         compared,
+        one.uncertainty,
     )
