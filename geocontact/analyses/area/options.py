@@ -8,6 +8,7 @@ from glob import has_magic
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
+from geocontact.analyses.layer_options import Thickness
 from geocontact.analyses.options import (
     AngleUnit,
     Excludes,
@@ -30,7 +31,6 @@ from geocontact.data.ranges import (
     DIFFERENCE,
     FRAME_RATE,
     JOINT_ANGLE,
-    LAYER,
     LAYER_RATIO,
     PIECE,
     SHARE,
@@ -39,7 +39,7 @@ from geocontact.data.ranges import (
     YOUNG,
 )
 
-RAYS, FLAT = "rays", "flat"
+FLAT = "flat"
 
 READS_NO_FILE = Excludes("sweep", "has no effect with `sweep`, which reads no motion file")
 OF_LAYER = Requires("pressure")
@@ -52,7 +52,6 @@ Sweep = Annotated[
     JOINT_ANGLE,
 ]
 Turn = Annotated[tuple[str, float], Typed("rad", "turn", '("x", gc.deg(2))'), TURN]
-Thickness = Annotated[float | Literal["rays"], Typed("m", "thickness", "gc.mm(8)"), LAYER]
 
 
 @dataclass(frozen=True)

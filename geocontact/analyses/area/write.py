@@ -15,7 +15,6 @@ from geocontact.analyses.area.motion_result import MotionResult
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.page import write_report
 from geocontact.analyses.area.pressure.along import PressureEvolution
-from geocontact.analyses.area.pressure.figure import PressureMap, pressure_figure
 from geocontact.analyses.area.pressure.page import Pressures, shown_pressures
 from geocontact.analyses.area.read import Bodies
 from geocontact.analyses.area.reference_areas import Compared
@@ -23,6 +22,7 @@ from geocontact.analyses.area.scene import write_paraview, write_stills
 from geocontact.analyses.area.tables import tables_of
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.options_table import options_table
+from geocontact.analyses.pressure_figure import PressureMap, pressure_figure
 from geocontact.analyses.run_record import Record
 from geocontact.geometry.surface import Surface
 from geocontact.io.text.results import write_table

@@ -1,0 +1,13 @@
+"""How thick an elastic layer is, as an option. Light to import."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from geocontact.analyses.options import Typed
+from geocontact.data.ranges import LAYER
+
+RAYS = "rays"
+"""Said of a thickness that is measured along the normal."""
+
+Thickness = Annotated[float | Literal["rays"], Typed("m", "thickness", "gc.mm(8)"), LAYER]
