@@ -7,6 +7,9 @@ from typing import Annotated, Literal
 from geocontact.analyses.options import Typed
 from geocontact.data.ranges import LAYER
 
+BodyPair = Annotated[tuple[str, str], Typed("-", "body_pair", '("femur_r", "tibia_r")')]
+"""Names in an OpenSim model of MOVING's body and FIXED's."""
+
 RAYS = "rays"
 """Said of a thickness that is measured along the normal."""
 

@@ -24,7 +24,7 @@ from geocontact.loads.settling.energy_balance import energy_balance
 from geocontact.loads.settling.first_touch import pressing
 from geocontact.loads.settling.indeterminate import not_held
 from geocontact.loads.settling.newton import equilibrium
-from geocontact.loads.settling.potential import Bed, Pull, total_at
+from geocontact.loads.settling.potential import AxialLoad, Bed, total_at
 from tests.cli.calls import FEMUR, INSERT
 from tests.contact.sphere_on_layer import linear_force, logarithmic_force
 from tests.loads.test_foundation import R, ball, slab
@@ -60,7 +60,7 @@ def test_forces_and_stiffness_are_derivatives_of_the_energy(law: str) -> None:
     """Central differences in all six coordinates; what is left are slopes that jump at the facets."""
     given, _ = knee()
     given = replace(given, layer=replace(given.layer, law=law))
-    pull = Pull(1000.0, np.array([2e4, 1e4, 1e4, 20.0, 20.0, 20.0]), AT + 1e-3)
+    pull = AxialLoad(1000.0, np.array([2e4, 1e4, 1e4, 20.0, 20.0, 20.0]), AT + 1e-3)
     here = total_at(given, pull, AT)
     step = np.array([1e-6, 1e-6, 1e-6, 5e-5, 5e-5, 5e-5])
     ends = [[total_at(given, pull, AT + sign * step * unit) for sign in (1.0, -1.0)] for unit in np.eye(6)]
@@ -73,12 +73,12 @@ def test_forces_and_stiffness_are_derivatives_of_the_energy(law: str) -> None:
 
 @pytest.mark.parametrize("law", ["linear", "logarithmic"])
 def test_a_ball_sinks_as_deep_as_the_closed_form_and_stores_the_work(law: str) -> None:
-    """The energy is that of all points, so the force is 2 pi c w(d), c = R - d; along the layer's normals it is more."""
+    """The energy is that of all points, so the force is 2 pi c w(d), c = R - d: less than along the layer's normals."""
     given, force = bed(slab(), ball(40), 0.25e-3, law), 1500.0
     deep = brentq(lambda d: _force(law, d) - force, 1e-6, 2e-3)
     assert _force(law, deep) == pytest.approx(LAW[law](R, deep, H, M), rel=0.015)
     high = np.array([0.0, R + 5e-3, 0.0, 0.0, 0.0, 0.0])
-    pull = Pull(force, np.zeros(6), high)
+    pull = AxialLoad(force, np.zeros(6), high)
     at = pressing(given, high, slab())
     assert at is not None
     rest = equilibrium(given, pull, at, FREE["axial"])

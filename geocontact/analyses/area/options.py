@@ -8,7 +8,7 @@ from glob import has_magic
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.layer_options import Thickness
+from geocontact.analyses.layer_options import BodyPair, Thickness
 from geocontact.analyses.options import (
     AngleUnit,
     Excludes,
@@ -169,6 +169,8 @@ class AreaOptions(Options):
         Of its layer: a length such as 3mm, or rays.
     piece
         Longest edge of the pieces that pressure is summed over: 0.5mm unless given.
+    bodies
+        OpenSim bodies of MOVING and FIXED, femur_r,tibia_r: forces are also written as external loads of these.
 
     Work
     ----
@@ -242,6 +244,7 @@ class AreaOptions(Options):
     poisson_moving: Annotated[float | None, OF_SECOND, LAYER_RATIO] = None
     thickness_moving: Annotated[Thickness | None, OF_SECOND] = None
     piece: Annotated[Length | None, OF_LAYER, PIECE] = None
+    bodies: Annotated[BodyPair | None, OF_LAYER] = None
     workers: int | None = None
 
     def paths(self) -> Iterator[tuple[Path, Missing]]:

@@ -12,14 +12,14 @@ from geocontact.geometry.surface import Surface
 from geocontact.loads.settling.coordinates import AXIAL, placed_at
 from geocontact.loads.settling.first_touch import pressing
 from geocontact.loads.settling.newton import Rest, equilibrium
-from geocontact.loads.settling.potential import Bed, Pull
+from geocontact.loads.settling.potential import AxialLoad, Bed
 
 
 @dataclass(frozen=True, eq=False)
 class Frame:
     """One frame: what was asked for, and where it came to rest; None where the bodies miss each other."""
 
-    pull: Pull
+    pull: AxialLoad
     rest: Rest | None
 
     @property
@@ -53,7 +53,7 @@ def settle_along(
     frames: list[Frame] = []
     off = np.zeros(6)
     for k, values in enumerate(wanted):
-        pull = Pull(float(load[k]), springs, values)
+        pull = AxialLoad(float(load[k]), springs, values)
         rest = _found(bed, fixed, pull, values + off, free) if off.any() else None
         if rest is None or not rest.converged:
             at = pressing(bed, values, fixed)
@@ -66,7 +66,7 @@ def settle_along(
 
 
 def _found(
-    bed: Bed, fixed: Surface, pull: Pull, start: Float[np.ndarray, " 6"], free: Bool[np.ndarray, " 6"]
+    bed: Bed, fixed: Surface, pull: AxialLoad, start: Float[np.ndarray, " 6"], free: Bool[np.ndarray, " 6"]
 ) -> Rest | None:
     """Down onto the layer, then to rest under the load with nothing but the axial way free, then to rest."""
     touches = bed.state(placed_at(start, bed.point)).energy > 0.0

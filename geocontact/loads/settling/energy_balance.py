@@ -9,7 +9,7 @@ from jaxtyping import Bool, Float
 
 from geocontact.loads.settling.coordinates import AXIAL
 from geocontact.loads.settling.newton import Rest, equilibrium
-from geocontact.loads.settling.potential import Bed, Pull
+from geocontact.loads.settling.potential import AxialLoad, Bed
 
 NODES = 8
 
@@ -27,7 +27,7 @@ class EnergyBalance:
         return abs(self.work - self.stored) / self.work
 
 
-def energy_balance(bed: Bed, pull: Pull, rest: Rest, free: Bool[np.ndarray, " 6"]) -> EnergyBalance | None:
+def energy_balance(bed: Bed, pull: AxialLoad, rest: Rest, free: Bool[np.ndarray, " 6"]) -> EnergyBalance | None:
     """Balance along the equilibria under smaller loads; None where one of them is not found.
 
     The way of the load is y, downwards. By parts its work is F y less the integral of y over the load, taken with

@@ -8,9 +8,9 @@ from jaxtyping import Bool, Float
 from geocontact.loads.settling.coordinates import NAMES
 from geocontact.loads.settling.newton import ARM, scales
 
-HELD = 0.02
+HELD = 0.05
 """Of load over 20 mm: the least stiffness that counts as holding a coordinate. A load that rests in a valley with a
-radius of 1 m has this much."""
+radius of 0.4 m has this much; pieces of half a millimetre make up to 0.01 where there is none."""
 
 SHARE = 0.3
 """Least part of a coordinate in a direction that is not held for it to be named."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.loads.settling.potential import Bed, Pull, Total, total_at
+from geocontact.loads.settling.potential import AxialLoad, Bed, Total, total_at
 
 ARM = 0.02
 """m; lever at which a turn counts like a displacement, and a moment like a force."""
@@ -60,7 +60,7 @@ def scales() -> Float[np.ndarray, " 6"]:
     return np.array([1.0, 1.0, 1.0, 1.0 / ARM, 1.0 / ARM, 1.0 / ARM])
 
 
-def equilibrium(bed: Bed, pull: Pull, start: Float[np.ndarray, " 6"], free: Bool[np.ndarray, " 6"]) -> Rest:
+def equilibrium(bed: Bed, pull: AxialLoad, start: Float[np.ndarray, " 6"], free: Bool[np.ndarray, " 6"]) -> Rest:
     """Coordinates at which nothing moves on along the free ones, from `start`; the others stay."""
     now = total_at(bed, pull, start)
     for step in range(STEPS):
@@ -79,7 +79,7 @@ def _left(now: Total, free: Bool[np.ndarray, " 6"]) -> float:
     return float(np.abs((now.slope * scales())[free]).max())
 
 
-def _lower(bed: Bed, pull: Pull, now: Total, free: Bool[np.ndarray, " 6"]) -> Total | None:
+def _lower(bed: Bed, pull: AxialLoad, now: Total, free: Bool[np.ndarray, " 6"]) -> Total | None:
     """The next point of the search; None where no step lowers the energy."""
     direction, promised = downhill(now, free)
     share = min(1.0, LONGEST / max(float(np.abs(direction / scales()).max()), 1e-300))

@@ -38,7 +38,7 @@ class Bed:
 
 
 @dataclass(frozen=True, eq=False)
-class Pull:
+class AxialLoad:
     """What acts on the component besides the foundation.
 
     Parameters
@@ -87,7 +87,7 @@ class Total:
         return self.foundation.energy + self.springs
 
 
-def total_at(bed: Bed, pull: Pull, values: Float[np.ndarray, " 6"]) -> Total:
+def total_at(bed: Bed, pull: AxialLoad, values: Float[np.ndarray, " 6"]) -> Total:
     """Energy and its derivatives at `values`."""
     at = placed_at(values, bed.point)
     state = bed.state(at)

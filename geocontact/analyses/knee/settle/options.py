@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.layer_options import Thickness
+from geocontact.analyses.layer_options import BodyPair, Thickness
 from geocontact.analyses.options import (
     AngleUnit,
     Excludes,
@@ -152,7 +152,7 @@ class SettleOptions(Options):
     region: Expression | None = None
     split: str = "z"
     piece: Annotated[Length | None, PIECE] = None
-    bodies: str | None = None
+    bodies: BodyPair | None = None
     paraview: bool = False
 
     def refuse_impossible(self) -> None:
@@ -174,5 +174,3 @@ class SettleOptions(Options):
             raise InputError("", "`springs`", "one is not positive", "leave it out")
         if self.split.partition("=")[0].strip() != "z":
             raise InputError("", "`split`", f"{self.split!r} does not lie across z", "write z, or for example z=1.5")
-        if self.bodies is not None and len(self.bodies.split(",")) != 2:
-            raise InputError("", "`bodies`", f"{self.bodies!r} are not two names", "write femur_r,tibia_r")

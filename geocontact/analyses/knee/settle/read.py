@@ -9,7 +9,6 @@ from jaxtyping import Bool, Float
 
 from geocontact.analyses import quantities
 from geocontact.analyses.bodies import chosen_faces, read_body, refuse_two_spaces
-from geocontact.analyses.body_motion import read_body_motion
 from geocontact.analyses.knee.settle.options import SettleOptions
 from geocontact.analyses.layer_thickness import confined_modulus, measured_thickness
 from geocontact.analyses.run_record import Record
@@ -19,6 +18,7 @@ from geocontact.data.motion import Motion
 from geocontact.geometry.phong_offset import corner_normals, phong_offset
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.surface_quadrature import surface_quadrature
+from geocontact.io.motion.motion import read_motion
 from geocontact.io.recordings.force_curves import read_force_curves
 from geocontact.loads.foundation import Layer
 from geocontact.loads.settling.coordinates import NAMES
@@ -57,6 +57,11 @@ class SettleInputs:
     free: Bool[np.ndarray, " 6"]
 
     @property
+    def clock(self) -> str:
+        """Column of the frames' times."""
+        return "time [s]" if self.motion.time_unit == "s" else "cycle [%]"
+
+    @property
     def title(self) -> str:
         """Heading of figures and pages."""
         return f"MOVING {self.bed.moving.name} at rest on FIXED {self.fixed.name}"
@@ -73,7 +78,7 @@ def read(o: SettleOptions, record: Record) -> SettleInputs:
     if not moving.closed:
         what = f"{moving.name} is open ({moving.topology.why_open}): it has no inside, so there is no depth"
         raise InputError("", "", what, "close it, or see `assume_closed` moving")
-    motion = read_body_motion(record, o.motion, o)
+    motion = _motion(record, o)
     bed = Bed(layer_of(record, fixed, o), moving, corner_normals(moving), _point(o, moving))
     springs = np.array([(o.springs or {}).get(name, 0.0) for name in NAMES])
     free = np.array([name in (*o.free, "axial") for name in NAMES])
@@ -95,6 +100,28 @@ def layer_of(record: Record, fixed: Surface, o: SettleOptions) -> Layer:
     height = phong_offset(fixed, corner_normals(fixed), pieces.face, pieces.point)
     parts = {"medial": on_it, "lateral": ~on_it}
     return Layer(pieces, thickness, confined_modulus(o.modulus, o.poisson), o.foundation, parts, height)
+
+
+def _motion(record: Record, o: SettleOptions) -> Motion:
+    """Poses; every frame is at rest, so that a cycle in per cent will do."""
+    motion = read_motion(
+        o.motion,
+        osim=o.osim,
+        joint=o.joint,
+        moving=o.moving_body or "child",
+        mapping=o.map,
+        order=o.order,
+        angles=o.angles,
+    )
+    for option in ("order", "angles"):
+        if o.given(option) and option not in motion.heeded:
+            raise InputError("", f"`{option}`", f"has no effect here: {o.motion} is read without it", "leave it out")
+    if o.forces is not None and motion.time_unit != "s":
+        raise InputError(o.motion, "", "time is in per cent of a cycle, that of `forces` in s", "give `load`")
+    record.add_input("motion", o.motion, frames=len(motion), source=motion.source)
+    if o.osim is not None:
+        record.add_input("model", o.osim, joint=o.joint)
+    return motion
 
 
 def _point(o: SettleOptions, moving: Surface) -> Float[np.ndarray, " 3"]:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 COORDINATES = ("flexion", "adduction", "rotation", "tx", "ty", "tz")
-"""Columns of settled.mot, as `area --convention grood-suntay --moving parent` reads them."""
+"""Columns of settled.mot, as `area` reads them by the convention of Grood and Suntay."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -68,10 +68,9 @@ class SettleResult(Result):
         write_storage(folder / "settled.mot", time, COORDINATES, values, title=s.inputs.title, degrees=True)
         save_both(self.figure(), folder, "settle")
         if self.options.bodies is not None:
-            moving, fixed = (name.strip() for name in self.options.bodies.split(","))
             found = [load for load in s.loads if load is not None]
             loads = {side: [load[side] for load in found] for side in SIDES[:2]}
-            write_contact_loads(folder, time, loads, moving, fixed)
+            write_contact_loads(folder, time, loads, *self.options.bodies)
         if self.options.paraview:
             write_pressure_series(self._series(), folder / "paraview")
         self.write_page(folder / "report.html")

@@ -15,7 +15,7 @@ def settle_table(s: Settled) -> pd.DataFrame:
     """A row per frame; cells are empty where it did not come to rest."""
     flexion, adduction, rotation = np.degrees(s.knee_angles).T
     columns: dict[str, object] = {
-        "time [s]": s.inputs.motion.time,
+        s.inputs.clock: s.inputs.motion.time,
         "load [N]": s.inputs.load,
         "flexion [deg]": flexion,
         "adduction [deg]": adduction,
@@ -34,10 +34,10 @@ def settle_table(s: Settled) -> pd.DataFrame:
 
 
 def pose_table(s: Settled) -> pd.DataFrame:
-    """Poses of MOVING in FIXED in the frames at rest, as `area --motion` reads them."""
+    """Poses of MOVING in FIXED in the frames at rest, as `area` reads them."""
     poses = s.poses
     shift, turn = poses.translation * MM, poses.rotation.as_quat(scalar_first=True)
-    columns: dict[str, object] = {"time [s]": s.inputs.motion.time[s.kept]}
+    columns: dict[str, object] = {s.inputs.clock: s.inputs.motion.time[s.kept]}
     columns |= {f"t{letter} [mm]": shift[:, axis] for axis, letter in enumerate("xyz")}
     columns |= {f"q{letter} [-]": turn[:, k] for k, letter in enumerate("wxyz")}
     return pd.DataFrame(columns)
