@@ -3,8 +3,7 @@
 The shipped synthetic knee in five frames of its gait under 2000 N, by resolution and length of the pieces, with only
 adduction free and with all coordinates, each against the finest. With `--data`, subject DM's implants (closed, poses by
 fluoroscopy, every 25th frame) under 1500 N in the same way. Loads, modulus (463 MPa) and Poisson's ratio (0.46) are
-invented numbers of a usual size. The first run of each pair also reads meshes and builds trees; seconds are those of the
-equilibria alone.
+invented numbers of a usual size. Seconds are those of the equilibria and of one balance of energy, without reading.
 """
 
 from __future__ import annotations

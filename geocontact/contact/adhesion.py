@@ -75,13 +75,13 @@ def jkr_depth(patch: X, radius: X, modulus: X, work: X) -> X:
 
 def dmt_pull_off(radius: X, work: X) -> X:
     """Force at which the bodies come apart, -2 pi w R [N]."""
-    force: X = -2.0 * np.pi * work * radius
+    force: X = work * radius * (-2.0 * np.pi)
     return force
 
 
 def jkr_pull_off(radius: X, work: X) -> X:
     """Force at which the bodies come apart, -3/2 pi w R [N]."""
-    force: X = -1.5 * np.pi * work * radius
+    force: X = work * radius * (-1.5 * np.pi)
     return force
 
 

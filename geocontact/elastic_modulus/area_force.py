@@ -101,8 +101,8 @@ class Adhesion:
     def pull(self, area: Float[np.ndarray, " t"], radius: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
         """Pull [N] for DMT, over sqrt(E*) for JKR; 0 without area."""
         if self.law == "dmt":
-            return np.asarray((area > 0.0) * -dmt_pull_off(radius, self.work))
-        return np.sqrt(8.0 * np.pi * self.work) * (np.maximum(area, 0.0) / np.pi) ** 0.75
+            return np.asarray((area > 0.0) * radius * -dmt_pull_off(1.0, self.work))
+        return np.asarray(np.sqrt(8.0 * np.pi * self.work) * (np.maximum(area, 0.0) / np.pi) ** 0.75)
 
     def force(
         self, unit: Float[np.ndarray, " n"], pull: Float[np.ndarray, " n"], modulus: float
