@@ -16,7 +16,7 @@ FEWEST = 3
 
 
 @dataclass(frozen=True)
-class Told:
+class WithInterval:
     """A number with its interval of 95 %; not a number where there are too few cycles."""
 
     value: float
@@ -42,10 +42,10 @@ class StyleShift:
         At that shift.
     """
 
-    swing: Told
-    peak: Told
-    later: Told
-    peak_later: Told
+    swing: WithInterval
+    peak: WithInterval
+    later: WithInterval
+    peak_later: WithInterval
     correlation: float
 
 
@@ -64,12 +64,14 @@ def style_shift(style: Float[np.ndarray, "c t"], reference: Float[np.ndarray, "d
             each[rng.integers(len(each), size=(REPLICATES, len(each)))].mean(axis=1) for each in (style, reference)
         ]
 
-    def told(number: Callable[[Float[np.ndarray, "b t"], Float[np.ndarray, "b t"]], Float[np.ndarray, " b"]]) -> Told:
+    def told(
+        number: Callable[[Float[np.ndarray, "b t"], Float[np.ndarray, "b t"]], Float[np.ndarray, " b"]],
+    ) -> WithInterval:
         value = float(number(means[0], means[1])[0])
         if drawn is None:
-            return Told(value, np.nan, np.nan)
+            return WithInterval(value, np.nan, np.nan)
         lower, upper = np.percentile(number(drawn[0], drawn[1]), [2.5, 97.5])
-        return Told(value, float(lower), float(upper))
+        return WithInterval(value, float(lower), float(upper))
 
     return StyleShift(
         swing=told(lambda a, b: np.ptp(a, axis=1) - np.ptp(b, axis=1)),

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.view.surfaces.vtp_series import BODIES, MM, MPA, collection, encoded_vtp, require_pyvista
+from geocontact.view.surfaces.vtp_series import BODIES, MM, MPA, encoded_vtp, pvd_text, require_pyvista
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,4 +55,4 @@ def write_pressure_series(series: PressureSeries, folder: Path) -> None:
             name = f"frames/{body}_{k:0{digits}d}.vtp"
             (folder / name).write_bytes(encoded_vtp(surface))
             rows.append((time, body, name))
-    (folder / "both.pvd").write_text(collection(rows, BODIES), encoding="utf-8")
+    (folder / "both.pvd").write_text(pvd_text(rows, BODIES), encoding="utf-8")
