@@ -392,6 +392,14 @@ def _bounds(text: str, option: str, unit: float) -> tuple[float, float]:
     return number(low, option, "lag=-0.05:0.05") * unit, number(high, option, "lag=-0.05:0.05") * unit
 
 
+def body_pair(text: str, option: str) -> tuple[str, str]:
+    """ "femur_r,tibia_r" to two names."""
+    names = [name.strip() for name in text.split(",")]
+    if len(names) != 2 or not all(names) or names[0] == names[1]:
+        raise InputError("", option, f"{text!r} is not two bodies", "write femur_r,tibia_r")
+    return names[0], names[1]
+
+
 def ratios(text: str, option: str) -> tuple[float, ...]:
     """ "0.25,0.46" to numbers."""
     return tuple(number(part, option, "0.25,0.46") for part in text.split(","))

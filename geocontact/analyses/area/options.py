@@ -8,6 +8,7 @@ from glob import has_magic
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
+from geocontact.analyses.layer_options import BodyPair, Thickness
 from geocontact.analyses.options import (
     AngleUnit,
     Excludes,
@@ -30,7 +31,6 @@ from geocontact.data.ranges import (
     DIFFERENCE,
     FRAME_RATE,
     JOINT_ANGLE,
-    LAYER,
     LAYER_RATIO,
     PIECE,
     POSE,
@@ -41,7 +41,7 @@ from geocontact.data.ranges import (
     YOUNG,
 )
 
-RAYS, FLAT = "rays", "flat"
+FLAT = "flat"
 
 READS_NO_FILE = Excludes("sweep", "has no effect with `sweep`, which reads no motion file")
 OF_LAYER = Requires("pressure")
@@ -55,7 +55,6 @@ Sweep = Annotated[
 ]
 Turn = Annotated[tuple[str, float], Typed("rad", "turn", '("x", gc.deg(2))'), TURN]
 PoseSd = Annotated[tuple[float, ...], Typed("m, rad", "pose_sd", "(5e-4, 5e-4, 5e-4, *gc.deg(1, 1, 1))"), POSE]
-Thickness = Annotated[float | Literal["rays"], Typed("m", "thickness", "gc.mm(8)"), LAYER]
 
 
 @dataclass(frozen=True)
@@ -189,6 +188,8 @@ class AreaOptions(Options):
         Of its layer: a length such as 3mm, or rays.
     piece
         Longest edge of the pieces that pressure is summed over: 0.5mm unless given.
+    bodies
+        OpenSim bodies of MOVING and FIXED, femur_r,tibia_r: forces are also written as external loads of these.
 
     Work
     ----
@@ -270,6 +271,7 @@ class AreaOptions(Options):
     poisson_moving: Annotated[float | None, OF_SECOND, LAYER_RATIO] = None
     thickness_moving: Annotated[Thickness | None, OF_SECOND] = None
     piece: Annotated[Length | None, OF_LAYER, PIECE] = None
+    bodies: Annotated[BodyPair | None, OF_LAYER] = None
     workers: int | None = None
 
     def paths(self) -> Iterator[tuple[Path, Missing]]:
