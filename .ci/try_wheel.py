@@ -22,6 +22,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from core_lock import pins
 
 ROOT = Path(__file__).resolve().parents[1]
+LEGS = "{m}/amputee_P1"
 DEVICE = "{m}/standing_up_exoskeleton/unloaded"
 KNEE = "{m}/femoral_component_right_coarse.stl {m}/tibial_insert_right_coarse.stl --unit mm"
 THIGH = "mat {m}/mat_thigh_16x8/frames.csv --layout {m}/mat_thigh_16x8/layout.toml --surface {m}/thigh.stl --unit mm"
@@ -40,7 +41,6 @@ CORE = (
     "elbow simulate --seconds 20 --rate 50 --noise 0.2 --trials 4 --case --out elbow",
     "elbow fit elbow/locked_1.csv elbow/locked_2.csv --known l=169,z=127 --bootstrap 0 --out elbow_fit",
     "gap diagnose elbow/case --bare --out gap",
-    "prosthesis scale {m}/amputee_P1/standing.trc --functional {m}/amputee_P1/functional.trc --mass 77.3 --out amputee",
 )
 """What works without any extra; `{m}` is the folder of the sample files in the wheel."""
 STUDY = """\
@@ -87,6 +87,10 @@ c.write("walk.c3d")
 """
 
 
+BEGINNINGS = {".c3d": b"\x02P" + bytes(1022), ".xlsx": b"PK\x03\x04"}
+"""What files begin with that are to look like one before the extra can make them."""
+
+
 @dataclass(frozen=True)
 class Extra:
     """What an extra is for.
@@ -122,6 +126,7 @@ EXTRAS = {
         "geocontact[dynamics]",
         more=(
             "id ik/ik.mot --model {m}/leg.osim --out id",
+            f"prosthesis scale {LEGS}/standing.trc --functional {LEGS}/functional.trc --mass 77.3 --out amputee",
             f"sit-to-stand device {DEVICE}_coordinates.sto --motors {DEVICE}_motors.sto --out device",
         ),
     ),
@@ -187,7 +192,7 @@ def try_extra(there: Environment, wheel: Path, name: str, meshes: str) -> None:
     extra, before = EXTRAS[name], there.packages()
     words = extra.command.format(m=meshes).split()
     if extra.input:
-        (there.work / extra.input).write_bytes(b"PK\x03\x04")
+        (there.work / extra.input).write_bytes(BEGINNINGS[Path(extra.input).suffix])
     refused = there.run("geocontact", *words)
     lines = refused.stderr.strip().splitlines()
     if refused.returncode != 2 or len(lines) != 1 or extra.refused not in lines[0]:
