@@ -10,8 +10,8 @@ from typing import Any
 
 from geocontact.data.errors import InputError
 from geocontact.io.text.side_table import read_side_table
-from geocontact.study.found_files import NAME, found_files
-from geocontact.study.study_file import RESERVED, StudyFile, Value
+from geocontact.study.description.found_files import NAME, found_files
+from geocontact.study.description.study_file import RESERVED, StudyFile, Value
 
 FILE = "file"
 """Name of a trial's file, where they are found by a pattern."""
@@ -82,7 +82,7 @@ def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> CohortTrial | None
     for left in study.leave_out:
         if all(str(factors.get(name)) == str(value) for name, value in left.items()):
             return None
-    options = {name: _filled(study, name, value, given) for name, value in study.options.items()}
+    options = {name: filled(study, name, value, given) for name, value in study.options.items()}
     twice = next((name for name in swept if name in options), None)
     if twice is not None:
         raise InputError(study.path, f"[sweep] {twice}", "is in [options] too", "give it once")
@@ -90,15 +90,15 @@ def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> CohortTrial | None
     return CohortTrial(name, factors, {**options, **swept})
 
 
-def _filled(study: StudyFile, name: str, value: Any, factors: Factors) -> Any:
+def filled(study: StudyFile, name: str, value: Any, factors: Mapping[str, Value], where: str = "[options]") -> Any:
     """A value with what `{name}` stands for; a number where it stands alone for one."""
     if isinstance(value, list):
-        return [_filled(study, name, each, factors) for each in value]
+        return [filled(study, name, each, factors, where) for each in value]
     if not isinstance(value, str):
         return value
     unknown = next((each for each in NAME.findall(value) if each not in factors), None)
     if unknown is not None:
         known = ", ".join(factors) or "none"
-        raise InputError(study.path, f"[options] {name}", f"no trial has {{{unknown}}}", f"names are {known}")
+        raise InputError(study.path, f"{where} {name}", f"no trial has {{{unknown}}}", f"names are {known}")
     alone = NAME.fullmatch(value)
     return factors[alone[1]] if alone else NAME.sub(lambda found: str(factors[found[1]]), value)
