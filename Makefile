@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input
 EDITABLE := $(PIP) install --quiet --no-deps --no-build-isolation -e .
 COMPILE := $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-emit-index-url \
-	--no-annotate --no-header --group build --extra all --extra test
+	--no-annotate --no-header --group build --extra all --extra docs --extra test
 
 # Modules are compiled once and kept, whatever the shell says: tests read them in hundreds of processes.
 export PYTHONDONTWRITEBYTECODE :=
