@@ -1,4 +1,4 @@
-"""Build the site: `python -m website`; `--execute` runs the notebooks first, `--pages` writes the generated pages of docs/."""
+"""Build the site: `python -m website`; with `--execute` the notebooks are run first."""
 
 from __future__ import annotations
 
@@ -11,10 +11,13 @@ from sphinx.cmd.build import build_main
 from website.api.pages import api_pages
 from website.stage import INDEX, ROOT, stage
 
-REDIRECT = '<!doctype html><meta charset="utf-8"><meta http-equiv="refresh" content="0; url={0}"><a href="{0}">docs</a>\n'
+REDIRECT = (
+    '<!doctype html><meta charset="utf-8"><meta http-equiv="refresh" content="0; url={0}"><a href="{0}">docs</a>\n'
+)
 
 
 def main(words: list[str]) -> int:
+    """Build it; the exit code is that of Sphinx."""
     parser = argparse.ArgumentParser(prog="python -m website", description=__doc__)
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "docs", help="folder of the site")
     parser.add_argument("--execute", action="store_true", help="run the notebooks, whose outputs are not kept")

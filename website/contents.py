@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 
 LINK = re.compile(r"\]\(([^)\s#]+\.(?:md|ipynb))[^)\s]*\)")
-ROW = re.compile(r"^\| (?!topic|you want|-)([^|]+?) \|")
+ROW = re.compile(r"^\| (?!topic|you want|yours|system|-)([^|]+?) \|")
 
 
 def with_contents(index: str, generated: Iterable[str]) -> str:
@@ -28,7 +28,9 @@ def listed(index: str) -> list[tuple[str, list[str]]]:
         heading, _, text = part.partition("\n")
         for line in text.splitlines():
             row = ROW.match(line)
-            caption = f"{heading}: {row[1]}" if row else heading
+            if row and row[1].startswith("my "):
+                continue  # ways through pages that stand in other rows
+            caption = f"{heading}: {row[1]}" if row and heading != "Tutorial" else heading
             pages = [page for page in dict.fromkeys(LINK.findall(line)) if page not in seen]
             seen.update(pages)
             if found and found[-1][0] == caption:

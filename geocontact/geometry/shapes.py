@@ -46,6 +46,10 @@ class HalfSpace:
         Any point on the plane [m].
     normal
         Outward direction, of any length.
+
+    >>> import geocontact as gc, numpy as np
+    >>> gc.HalfSpace().proximity(np.array([[0.0, -0.002, 0.0]])).distance.round(6).tolist()
+    [-0.002]
     """
 
     point: Vector = (0.0, 0.0, 0.0)
@@ -60,7 +64,12 @@ class HalfSpace:
 
 @dataclass(frozen=True)
 class Sphere:
-    """Solid ball: heel and toe spheres, femoral heads. centre and radius in m."""
+    """Solid ball: heel and toe spheres, femoral heads. centre and radius in m.
+
+    >>> import geocontact as gc, numpy as np
+    >>> gc.Sphere((0.0, 0.0, 0.0), radius=0.02).proximity(np.array([[0.01, 0.0, 0.0]])).distance.round(6).tolist()
+    [-0.01]
+    """
 
     centre: Vector
     radius: float
@@ -84,6 +93,11 @@ class Tube:
         Axis: any point on it [m], direction of any length.
     radius
         Radius of the bore [m].
+
+    >>> import geocontact as gc, numpy as np
+    >>> bore = gc.Tube((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), radius=0.03)
+    >>> bore.proximity(np.array([[0.01, 0.0, 0.0]])).distance.round(6).tolist()
+    [0.02]
     """
 
     point: Vector

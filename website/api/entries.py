@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -94,5 +95,5 @@ def _home(thing: Any) -> str:
 
 def _blocks(docstring: str) -> list[str]:
     """Paragraphs of a docstring that are typed into Python."""
-    return [part.strip("\n") for part in docstring.split("\n\n") if part.lstrip().startswith(">>>")]
-
+    text = re.sub(r"^Examples\n-+\n", "", docstring, flags=re.MULTILINE)
+    return [part.strip("\n") for part in text.split("\n\n") if part.lstrip().startswith(">>>")]

@@ -64,6 +64,8 @@ def _sections(thing: Any, sections: dict[str, list[str]]) -> list[str]:
     lines: list[str] = []
     kinds = _kinds(thing)
     for heading, body in sections.items():
+        if heading == "Examples":
+            continue
         rows = []
         for names, words in entry_list(body):
             name = names.partition(" : ")[0]
@@ -85,24 +87,37 @@ def _kinds(thing: Any) -> dict[str, Any]:
         return {}
 
 
+RAISED = [
+    ("`gc.InputError`", "A file or an option is unusable; one line says which, why, and what to do."),
+    ("`gc.InputWarning`", "A warning, not an error: what was computed has a reservation."),
+]
+"""By every job."""
+
+
 def _returned(thing: Any) -> list[str]:
     if isinstance(thing, Job):
-        result = inspect.get_annotations(thing.run, eval_str=True)["return"]
-        summary = parts(inspect.getdoc(result) or "")
-        told = {name: words for names, words in entry_list(summary.sections.get("Parameters", [])) for name in names.split(", ")}
-        rows = [
-            (f"`{one.name}`", shown_type(one.type), cell(told.get(one.name, "")))
-            for one in dataclasses.fields(result)
-            if one.name != "record"
-        ]
-        first = _words(summary.words[0]) if summary.words else ""
-        lines = ["## Returns", f"`{result.__name__}`: {first}", _table(("field", "type", "what it is"), rows)]
-        lines.append("Its methods: `table`, `tables`, `figure`, `write`, `page`; see [gc.Result](Result.md).")
-        return [*lines, "## Raises", _table(("error", "when"), [("`gc.InputError`", "A file or an option is unusable; one line says which, why, and what to do."), ("`gc.InputWarning`", "(a warning) What was computed has a reservation.")])]
+        return [*_result(thing), "## Raises", _table(("error", "when"), RAISED)]
     if inspect.isfunction(thing):
         kind = inspect.signature(thing).return_annotation
         return [] if kind in (None, "None") else ["## Returns", shown_type(kind)]
     return []
+
+
+def _result(job: Job[Any, Any]) -> list[str]:
+    """Type of what a job returns, and its fields."""
+    result = inspect.get_annotations(job.run, eval_str=True)["return"]
+    summary = parts(inspect.getdoc(result) or "")
+    known = entry_list(summary.sections.get("Parameters", []))
+    told = {name: words for names, words in known for name in names.split(", ")}
+    fields = [one for one in dataclasses.fields(result) if one.name != "record"]
+    rows = [(f"`{one.name}`", shown_type(one.type), cell(told.get(one.name, ""))) for one in fields]
+    first = _words(summary.words[0]) if summary.words else ""
+    return [
+        "## Returns",
+        f"`{result.__name__}`: {first}",
+        _table(("field", "type", "what it is"), rows),
+        "Its methods `table`, `tables`, `figure`, `write` and `page`: see [gc.Result](Result.md).",
+    ]
 
 
 def _members(thing: Any) -> list[str]:

@@ -46,8 +46,9 @@ def _argument(one: inspect.Parameter) -> str:
     if one.default is one.empty:
         return ("*" if one.kind is one.VAR_POSITIONAL else "") + one.name
     default = repr(one.default)
-    return f"{one.name}={default if len(default) < 40 else '…'}"
+    return f"{one.name}={default if len(default) < 40 else '...'}"
 
 
 def _is_plain(kind: Any) -> bool:
-    return isinstance(kind, type) and not hasattr(kind, "__args__") and "Array" not in type(kind).__name__ + kind.__name__ and not ARRAY.search(str(kind)) and "jaxtyping" not in kind.__module__
+    """Whether its name says it all: no array of some shape, and nothing in brackets."""
+    return isinstance(kind, type) and not hasattr(kind, "__args__") and "jaxtyping" not in f"{kind.__module__} {kind!r}"

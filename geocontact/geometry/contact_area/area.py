@@ -39,6 +39,10 @@ class Refinement:
     pieces
         Largest number of triangles divided in all, the most doubtful first (equally doubtful ones together): a bound on
         the time where thresholds are small against the triangles. What is left undecided shows in the bounds.
+
+    >>> import geocontact as gc
+    >>> gc.Refinement(accuracy=gc.mm(0.1)).accuracy
+    0.0001
     """
 
     accuracy: float = 2e-4
