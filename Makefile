@@ -16,7 +16,7 @@ export PYTHONDONTWRITEBYTECODE :=
 TOGETHER := -rs --durations 25 --durations-min 5 -n auto --maxprocesses 4 --dist loadscope --no-loadscope-reorder
 
 .DELETE_ON_ERROR:
-.PHONY: demo test shapes slow long real check lint types imports oracle lock page clean
+.PHONY: demo test shapes slow long real check lint types imports docs site oracle lock page clean
 
 demo: $(VENV)/core.stamp
 	@$(BIN)/geocontact demo
@@ -56,6 +56,16 @@ types: $(VENV)/full.stamp
 
 imports: $(VENV)/full.stamp
 	$(BIN)/lint-imports
+
+# The site with every notebook run anew, since outputs that are kept grow old: build/docs/html/index.html
+docs: $(VENV)/full.stamp
+	@$(BIN)/python -m website.pages
+	@$(BIN)/python -m website --execute
+	@echo "open build/docs/html/index.html"
+
+# The same without outputs, for .ci/run: tests/notebooks runs the notebooks there; a warning is an error
+site: $(VENV)/full.stamp
+	@$(BIN)/python -m website
 
 oracle: $(VENV)/oracle.stamp
 

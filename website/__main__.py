@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
 
 from sphinx.cmd.build import build_main
 
 from website.api.pages import api_pages
+from website.notebooks import execute
 from website.stage import INDEX, ROOT, stage
 
 REDIRECT = (
@@ -24,6 +26,9 @@ def main(words: list[str]) -> int:
     given = parser.parse_args(words)
     sources, html = given.out / "sources", given.out / "html"
     stage(sources, api_pages())
+    if given.execute:
+        os.environ["GEOCONTACT_DATA"] = str(given.out / "none")
+        execute(sources)
     told = ["-b", "html", "-W", "--keep-going", "-n", "-q", "-d", str(given.out / "cache"), "-c", str(ROOT / "website")]
     failed = build_main([*told, str(sources), str(html)])
     (html / "index.html").write_text(REDIRECT.format(INDEX.replace(".md", ".html")), encoding="utf-8")

@@ -35,7 +35,10 @@ def _of_page(file: Path) -> list[str]:
     parts: list[str] = []
     for heading, body in sections(text):
         link = _relative(file, file.name) + "#" + heading.lower().replace(" ", "-")
-        parts += [f"## [{title}]({link})", LINK.sub(lambda one: f"]({_relative(file, one[1])})", body)]
+        parts += [
+            f"## [{title}]({link})" if "docs" in file.parts else f"## All of {title}",
+            LINK.sub(lambda one: f"]({_relative(file, one[1])})", body),
+        ]
     return parts
 
 
