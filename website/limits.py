@@ -12,6 +12,7 @@ from pathlib import Path
 from website.stage import ROOT
 
 PAGE = "docs/reference/limits.md"
+README = ROOT / "README.md"  # not a page of the site
 HEADINGS = ("Limits", "What it does not do", "What these trials cannot distinguish", "What it leaves out")
 LINK = re.compile(r"\]\(([^):\s]+)\)")
 
@@ -22,7 +23,7 @@ def limits() -> str:
         "# Known limits",
         "Gathered from the pages, where they stand with what they are limits of; made by `python -m website.pages`.",
     ]
-    for file in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
+    for file in [README, *sorted((ROOT / "docs").rglob("*.md"))]:
         if file != ROOT / PAGE:
             parts += _of_page(file)
     parts += ["## What tests expect to fail", "Tests that are red for a known reason, each as it says it.", _xfails()]
@@ -35,10 +36,8 @@ def _of_page(file: Path) -> list[str]:
     parts: list[str] = []
     for heading, body in sections(text):
         link = _relative(file, file.name) + "#" + heading.lower().replace(" ", "-")
-        parts += [
-            f"## [{title}]({link})" if "docs" in file.parts else f"## All of {title}",
-            LINK.sub(lambda one: f"]({_relative(file, one[1])})", body),
-        ]
+        above = f"## All of {title}" if file == README else f"## [{title}]({link})"
+        parts += [above, LINK.sub(lambda one: f"]({_relative(file, one[1])})", body)]
     return parts
 
 

@@ -69,8 +69,8 @@ def _evidence(evidence: dict[str, list[dict[str, Any]]]) -> str:
         raise ValueError(f"{WORDS.name}: no credibility factors: {', '.join(sorted(unknown))}")
     rows = ["| activity | credibility factor | evidence | from |", "|---|---|---|---|"]
     for factor, activity in FACTORS.items():
-        for one in evidence.get(factor, []):
-            rows.append(f"| {activity} | {factor.lower()} | {_told(one)} | {_source(one)} |")
+        told = evidence.get(factor, [])
+        rows += [f"| {activity} | {factor.lower()} | {_told(one)} | {_source(one)} |" for one in told]
     return "\n".join(rows)
 
 

@@ -28,10 +28,10 @@ def page(entry: Entry, read_more: Iterable[tuple[str, str]]) -> str:
     lines = [f"# gc.{entry.name}", *map(_words, summary)]
     if callable(thing) and not isinstance(thing, Unit):
         lines.append(f"```python\n{signature(entry.name, thing)}\n```")
-    lines += _options(thing) if isinstance(thing, Job) else _sections(thing, told.sections)
-    lines += _returned(thing) + _members(thing)
     example = entry.example
     lines += ["## Example", f"```python\n{example}\n```" if example else NO_EXAMPLE]
+    lines += _options(thing) if isinstance(thing, Job) else _sections(thing, told.sections)
+    lines += _returned(thing) + _members(thing)
     place = Path(inspect.getfile(entry.module)).relative_to(ROOT).as_posix()
     lines += ["## Source", f"`{place}`" + (f", line {entry.line}" if entry.line > 1 else "")]
     links = [f"[{title}]({link})" for title, link in read_more]

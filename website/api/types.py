@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 
 ARRAY = re.compile(r"(?:jaxtyping\.)?(Float|Int|Bool|Complex)\w*\[(?:numpy\.|np\.)?ndarray, ?['\"]([^'\"]*)['\"]\]")
@@ -27,7 +28,7 @@ def shown_type(kind: Any) -> str:
 
 
 def signature(name: str, thing: Any) -> str:
-    """The call with its names and defaults, one line or one name a line; types stand in the table below it."""
+    """The call with its names and defaults, in lines of a width that a page has; types stand in the table below it."""
     try:
         known = inspect.signature(thing).parameters.values()
     except (TypeError, ValueError):
@@ -39,7 +40,10 @@ def signature(name: str, thing: Any) -> str:
             told.append("*")
         told.append(_argument(one))
     line = f"gc.{name}({', '.join(told)})"
-    return line if len(line) <= WIDTH else f"gc.{name}(\n" + "".join(f"    {one},\n" for one in told) + ")"
+    if len(line) <= WIDTH:
+        return line
+    body = fill(", ".join(told), WIDTH, initial_indent="    ", subsequent_indent="    ", break_long_words=False)
+    return f"gc.{name}(\n{body},\n)"
 
 
 def _argument(one: inspect.Parameter) -> str:
