@@ -10,7 +10,7 @@ from typing import Any
 
 ARRAY = re.compile(r"(?:jaxtyping\.)?(Float|Int|Bool|Complex)\w*\[(?:numpy\.|np\.)?ndarray, ?['\"]([^'\"]*)['\"]\]")
 KINDS = {"Float": "float", "Int": "integer", "Bool": "boolean", "Complex": "complex"}
-WIDTH = 100
+WIDTH = 84
 
 
 def shown_type(kind: Any) -> str:
