@@ -42,11 +42,15 @@ def _answer(
 class HalfSpace:
     """Everything below a plane: the ground, a flat plate.
 
+    Parameters
+    ----------
     point
         Any point on the plane [m].
     normal
         Outward direction, of any length.
 
+    Examples
+    --------
     >>> import geocontact as gc, numpy as np
     >>> gc.HalfSpace().proximity(np.array([[0.0, -0.002, 0.0]])).distance.round(6).tolist()
     [-0.002]
@@ -89,11 +93,15 @@ class Tube:
     Sphere-in-tube contact: a sphere of radius r touches when its centre is closer than r to the wall. Distance is
     positive in the bore and negative in the wall; the normal points to the axis.
 
+    Parameters
+    ----------
     point, direction
         Axis: any point on it [m], direction of any length.
     radius
         Radius of the bore [m].
 
+    Examples
+    --------
     >>> import geocontact as gc, numpy as np
     >>> bore = gc.Tube((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), radius=0.03)
     >>> bore.proximity(np.array([[0.01, 0.0, 0.0]])).distance.round(6).tolist()

@@ -27,6 +27,8 @@ from geocontact.geometry.surface import Surface
 class Settings:
     """What counts as contact and how it is counted.
 
+    Parameters
+    ----------
     thresholds
         Largest signed distances that count as contact [m].
     rule
@@ -43,6 +45,8 @@ class Settings:
         Further thresholds [m] at which FIXED's area is wanted to see how much the choice matters: triangles cut once as
         given, no bounds. Distances reach as far as the largest of all thresholds.
 
+    Examples
+    --------
     >>> import geocontact as gc
     >>> settings = gc.Settings(thresholds=gc.mm(1, 4), rule="clip")
     >>> settings.thresholds
