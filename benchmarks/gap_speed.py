@@ -1,9 +1,9 @@
 """CPU seconds of `gap diagnose`, case by case: `python -m benchmarks.gap_speed --seed N`, or `--cases FOLDER`.
 
 The whole command with tables only, in a process of its own, on one core, one case after the other, warm: the first
-case runs once beforehand to load what is compiled. Others at work on the machine make CPU seconds longer, so the largest
-load average is told. Parts overlap: simulations are part of the contests. Every case is
-written into benchmarks/results/gap_speed.json as it is done.
+case runs once beforehand to load what is compiled. Others at work on the machine make CPU seconds longer, so the
+largest load average is told. Parts overlap: simulations are part of the contests. Every case is written into
+benchmarks/results/gap_speed.json as it is done.
 """
 
 from __future__ import annotations
