@@ -20,6 +20,15 @@ def _model(file: Path) -> tuple[Any, Any]:
     return model, model.initSystem()
 
 
+def _body(model: Any, name: str) -> Any:
+    """Ground or body, also one that is in no set; a view that lives as long as the model does."""
+    if name == "ground":
+        return model.getGround()
+    if model.getBodySet().contains(name):
+        return model.getBodySet().get(name)
+    return model.getComponent(f"/{name}")
+
+
 def _set(model: Any, state: Any, names: Sequence[str], values: np.ndarray) -> None:
     for name, value in zip(names, values, strict=True):
         model.updCoordinateSet().get(name).setValue(state, float(value), False)
@@ -28,7 +37,7 @@ def _set(model: Any, state: Any, names: Sequence[str], values: np.ndarray) -> No
 def poses(file: Path, names: Sequence[str], samples: np.ndarray, pairs: Sequence[tuple[str, str]]) -> np.ndarray:
     """Poses of the first body in the second for each sample and pair, (s, p, 4, 4)."""
     model, state = _model(file)
-    frames = [[model.getGround() if b == "ground" else model.getBodySet().get(b) for b in pair] for pair in pairs]
+    frames = [[_body(model, b) for b in pair] for pair in pairs]
     found = np.tile(np.eye(4), (len(samples), len(pairs), 1, 1))
     for k, values in enumerate(samples):
         _set(model, state, names, values)
@@ -78,6 +87,23 @@ def external_loads(file: Path) -> list[tuple[str, str, str]]:
     for k in range(loads.getSize()):
         one = loads.get(k)
         found.append((one.getName(), one.getAppliedToBodyName(), one.getForceIdentifier()))
+    return found
+
+
+def external_wrenches(model_file: Path, file: Path, time: float) -> dict[str, tuple[str, str, np.ndarray]]:
+    """Body, frame, and force, point and torque (3, 3) of each load at a time, with the loads added to a model."""
+    import opensim
+
+    model, _ = _model(model_file)
+    loads = opensim.ExternalLoads(str(file), True)
+    model.addModelComponent(loads)
+    model.initSystem()
+    found = {}
+    for k in range(loads.getSize()):
+        one = loads.get(k)
+        vectors = (one.getForceAtTime(time), one.getPointAtTime(time), one.getTorqueAtTime(time))
+        numbers = np.array([[vector.get(i) for i in range(3)] for vector in vectors])
+        found[one.getName()] = one.getAppliedToBodyName(), one.getForceExpressedInBodyName(), numbers
     return found
 
 

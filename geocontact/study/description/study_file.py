@@ -42,7 +42,8 @@ from typing import Any
 
 from geocontact.data.errors import InputError
 from geocontact.io.text.toml_text import numbers_in, toml_of
-from geocontact.study.summary_settings import SummarySettings, summary_of
+from geocontact.study.description.summary_settings import SummarySettings, summary_of
+from geocontact.study.description.surface_settings import SurfaceSettings, surface_of
 
 LARGEST = 4_000_000
 """Bytes of a description."""
@@ -50,7 +51,7 @@ RESERVED = ("name", "file", "state", "folder", "words")
 """Names of columns that every study has, and of what a pattern of files gives."""
 OWN = "options"
 """Key of one of [[trials]] under which it has options of its own."""
-KEYS = ("analysis", "title", "files", "table", "trials", "options", "vary", "sweep", "leave_out", "summary")
+KEYS = ("analysis", "title", "files", "table", "trials", "options", "vary", "sweep", "leave_out", "summary", "surface")
 Value = str | int | float | bool
 
 
@@ -78,6 +79,8 @@ class StudyFile:
         Values by name, of trials that are not evaluated.
     summary
         What the page and the statistics are about.
+    surface
+        Points that correspond from subject to subject, None where there are none.
     """
 
     path: Path
@@ -91,6 +94,7 @@ class StudyFile:
     sweep: Mapping[str, tuple[Value, ...]] = field(default_factory=dict)
     leave_out: tuple[Mapping[str, Value], ...] = ()
     summary: SummarySettings = field(default_factory=SummarySettings)
+    surface: SurfaceSettings | None = None
 
     @property
     def home(self) -> Path:
@@ -126,6 +130,7 @@ def read_study_file(path: Path) -> StudyFile:
         _values(path, content, "sweep"),
         _left_out(path, content.get("leave_out", [])),
         summary_of(path, _table(path, content, "summary")),
+        surface_of(path, _table(path, content, "surface"), analysis, _table(path, content, "options")),
     )
 
 
