@@ -1,14 +1,15 @@
 """What runs of the command do on a machine where something is wrong: a table of faults, each in a process of its own.
 
-`python -m benchmarks.faults` writes results/faults.json. Each fault has to end as it says: in one line with exit code 1
-or 2 and nothing half-written, or with the same tables as an undisturbed run. The full disk is a tmpfs of 256 kB where
-this user may mount one, elsewhere a limit on the size of files.
+`python -m benchmarks.faults` writes results/faults.json; with `--only` those that are run replace theirs. Each fault
+has to end as it says: in one line with exit code 1 or 2 and nothing half-written, or with the same tables as an
+undisturbed run. The full disk is a tmpfs of 256 kB, where this user may mount one.
 """
 
 from __future__ import annotations
 
 import argparse
 import contextlib
+import json
 import os
 import resource
 import shutil
@@ -26,6 +27,7 @@ ROOT = Path(__file__).resolve().parents[1]
 MESHES = ROOT / "meshes"
 PASSED_OVER = ("warning: ", "compiling the distance kernels")
 """Beginnings of lines on stderr that no failure says."""
+Outcomes = dict[str, dict[str, object]]
 FEW = 4096
 """Bytes that a file may have where files are limited."""
 
@@ -166,11 +168,9 @@ def tables(folder: Path) -> dict[str, bytes]:
     return {file.name: file.read_bytes() for file in sorted(folder.glob("*")) if file.suffix in (".csv", ".parquet")}
 
 
-def run(
-    names: list[str], tell: Callable[[dict[str, dict[str, object]]], None] = lambda _: None
-) -> dict[str, dict[str, object]]:
+def run(names: list[str], tell: Callable[[Outcomes], None] = lambda _: None) -> Outcomes:
     """Outcomes of these faults, the undisturbed run first; those that this machine cannot have are told."""
-    found: dict[str, dict[str, object]] = {}
+    found: Outcomes = {}
     whole: dict[str, bytes] = {}
     for name in ["nothing", *(each for each in names if each != "nothing")]:
         with tempfile.TemporaryDirectory() as folder:
@@ -192,9 +192,13 @@ def main() -> None:
     parser.add_argument("--dry", action="store_true", help="write no results")
     asked = parser.parse_args()
 
-    def tell(found: dict[str, dict[str, object]]) -> None:
+    file = ROOT / "benchmarks" / "results" / "faults.json"
+    known: Outcomes = json.loads(file.read_text(encoding="utf-8"))["figures"] if file.is_file() else {}
+
+    def tell(found: Outcomes) -> None:
         if not asked.dry:
-            write_results("faults", {"faults": asked.only}, found, {"pyvista", "pyarrow", "matplotlib"})
+            together = {name: one for name, one in {**known, **found}.items() if name in FAULTS}
+            write_results("faults", {"anew": asked.only}, together, {"pyvista", "pyarrow", "matplotlib"})
 
     run(asked.only, tell)
 

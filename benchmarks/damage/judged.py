@@ -17,7 +17,7 @@ from pathlib import Path
 from benchmarks.damage.mutations import mutated
 from benchmarks.damage.readers import READERS, Found, Reader, summary
 from benchmarks.damage.samples import Sample
-from geocontact.data.magnitude import LARGEST_MEANT
+from geocontact.data.plausible import LARGEST_MEANT
 
 SECONDS = 10.0
 """A reader that takes longer hangs."""

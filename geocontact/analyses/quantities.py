@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from geocontact.data.errors import InputError
-from geocontact.data.magnitude import LARGEST_MEANT
+from geocontact.data.plausible import LARGEST_MEANT
 from geocontact.io.text.units import ANGLE, DIMENSIONS, LENGTH, si_unit
 
 if TYPE_CHECKING:  # numbers are read before anything heavy is imported

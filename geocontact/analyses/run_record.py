@@ -13,7 +13,6 @@ from importlib.metadata import PackageNotFoundError, version
 from os import PathLike, fspath
 from pathlib import Path
 
-from geocontact.analyses.json_file import plain
 from geocontact.analyses.listener import Listener
 from geocontact.analyses.stale_results import RUN, digest, written
 from geocontact.analyses.table_forms import AS_ALWAYS, TableForms
@@ -110,6 +109,8 @@ class Record:
 
     def write(self, *folders: Path) -> None:
         """Write `run.json` into each folder of results; they differ only in what lists the files beside it."""
+        from geocontact.analyses.json_file import plain  # late: --help needs no numpy
+
         content = {
             "geocontact": VERSION,
             "command": self.command,

@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Bool, Float
 
-LARGEST_MEANT = 1e20
-"""Beyond what is written anywhere, 64-bit clocks that count nanoseconds from 1970 (2e18) included."""
-TOO_LARGE = "is larger than any number that is meant"
+from geocontact.data.plausible import LARGEST_MEANT
 
 
 def too_large(values: Float[np.ndarray, "*shape"]) -> Bool[np.ndarray, "*shape"]:

@@ -27,6 +27,11 @@ LEAST_NUMBER = 0.1
 """Smallest value in SI that may be a number of another unit: 4 m that was to be 4 mm, but not 0.04 m for 0.04 mm."""
 
 
+LARGEST_MEANT = 1e20
+"""Beyond what is written anywhere, 64-bit clocks that count nanoseconds from 1970 (2e18) included."""
+TOO_LARGE = "is larger than any number that is meant"
+
+
 @dataclass(frozen=True)
 class Plausible:
     """The values of a quantity.

@@ -585,6 +585,18 @@ def test_the_nine_trials_of_standing_up() -> None:
     assert max(told["pipelines"]["largest residual of the truth [N, N m]"]) < 1.0
 
 
+def test_damaged_files_and_faults() -> None:
+    page, damaged, faults = "reference/durability.md", results("mutated_files")["figures"], results("faults")["figures"]
+    assert damaged["files"] >= 10_000 and damaged["bad"] == 0
+    words = ("refused", "warned", "read", "unchanged")
+    for name, counts in damaged["readers"].items():
+        good = [counts.get(word, 0) for word in words]
+        assert row(page, name) == [str(each) for each in (sum(counts.values()), *good, 0)]
+    assert row(page, "all") == [str(each) for each in (damaged["files"], *map(damaged["outcomes"].get, words), 0)]
+    for name, found in faults.items():
+        assert found["right"] and row(page, name)[0] == str(found["code"])
+
+
 def test_the_plan_of_a_large_study() -> None:
     """Every row of the simulation, and what a trial costs."""
     page, told = "reference/large_study.md", results("cohort_plan")

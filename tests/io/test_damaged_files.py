@@ -16,7 +16,8 @@ from geocontact.analyses.misalignment.compare.read import _law
 from geocontact.analyses.quantities import axis
 from geocontact.analyses.run_again import read_run
 from geocontact.data.errors import InputError
-from geocontact.data.magnitude import LARGEST_MEANT, too_large
+from geocontact.data.magnitude import too_large
+from geocontact.data.plausible import LARGEST_MEANT
 from geocontact.io.mocap.force_plates import read_force_plates
 from geocontact.io.mocap.markers import read_markers
 from geocontact.io.motion.motion import read_motion

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.magnitude import LARGEST_MEANT
+from geocontact.data.plausible import LARGEST_MEANT
 from geocontact.io.text.columns import angles_of, lengths, parse_map, resolve
 from geocontact.io.text.storage_header import unit_in_text
 from geocontact.io.text.tables import TextTable, read_table

@@ -16,7 +16,8 @@ from typing import Literal
 import numpy as np
 
 from geocontact.data.errors import InputError
-from geocontact.data.magnitude import TOO_LARGE, too_large
+from geocontact.data.magnitude import too_large
+from geocontact.data.plausible import TOO_LARGE
 from geocontact.io.text.file_preflight import read_bytes
 
 PATIENCE = 8.0, 2e-7

@@ -13,8 +13,8 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.magnitude import LARGEST_MEANT
 from geocontact.data.motion import Motion
+from geocontact.data.plausible import LARGEST_MEANT
 from geocontact.io.text.tables import LARGEST_FILE, TextTable
 from geocontact.io.text.units import LENGTH
 

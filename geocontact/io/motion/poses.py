@@ -11,9 +11,9 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.magnitude import LARGEST_MEANT
 from geocontact.data.motion import Motion
 from geocontact.data.multibody.joint import JointModel
+from geocontact.data.plausible import LARGEST_MEANT
 from geocontact.io.motion.grood_suntay import motion_from_grood_suntay
 from geocontact.io.motion.pose_rows import ENTRIES, rotations, rotations_of
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of, warn_of_defaults

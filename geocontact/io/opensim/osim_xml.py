@@ -15,7 +15,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.errors import InputError
-from geocontact.data.magnitude import LARGEST_MEANT
+from geocontact.data.plausible import LARGEST_MEANT
 from geocontact.io.text.encoding import decoded
 
 LARGEST_MODEL = 32_000_000

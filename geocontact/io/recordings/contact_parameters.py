@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 
 from geocontact.data.errors import InputError
-from geocontact.data.magnitude import LARGEST_MEANT, TOO_LARGE
+from geocontact.data.plausible import LARGEST_MEANT, TOO_LARGE
 from geocontact.io.text.csv_text import text_of
 
 LARGEST = 1_000_000

@@ -10,7 +10,8 @@ import numpy as np
 import pandas as pd
 
 from geocontact.data.errors import InputError
-from geocontact.data.magnitude import TOO_LARGE, too_large
+from geocontact.data.magnitude import too_large
+from geocontact.data.plausible import TOO_LARGE
 from geocontact.io.text.column_names import spelled_as
 from geocontact.io.text.plain_table import open_plain
 

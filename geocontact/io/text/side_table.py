@@ -12,7 +12,7 @@ from pathlib import Path
 import pandas as pd
 
 from geocontact.data.errors import InputError
-from geocontact.data.magnitude import LARGEST_MEANT
+from geocontact.data.plausible import LARGEST_MEANT
 from geocontact.io.text.csv_text import Column, open_csv
 from geocontact.io.text.frame import named
 

@@ -8,7 +8,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
-from geocontact.data.magnitude import TOO_LARGE, too_large
+from geocontact.data.magnitude import too_large
+from geocontact.data.plausible import TOO_LARGE
 
 _BLOCK = 2048
 _NOT_A_NUMBER = ("", "1.#qnan", "-1.#qnan", "1.#ind", "-1.#ind")

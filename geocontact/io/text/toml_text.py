@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from geocontact.data.errors import InputError
-from geocontact.data.magnitude import LARGEST_MEANT, TOO_LARGE
+from geocontact.data.plausible import LARGEST_MEANT, TOO_LARGE
 from geocontact.io.text.csv_text import text_of
 
 

@@ -16,7 +16,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.law import NAMES
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
-from geocontact.data.magnitude import LARGEST_MEANT
+from geocontact.data.plausible import LARGEST_MEANT
 
 
 @dataclass(frozen=True)
