@@ -15,8 +15,8 @@ SYSTEMS = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
 SHARES = {"none": 100, "single": 70, "pair": 10, "outside": 10, "absorbed": 3, "fault": 4, "shift": 3}
 """Cases of each kind among 200: half without any effect, most others with one, so that about 60 can be seen."""
 
-HOME, *ABROAD = LABORATORIES
-"""The laboratory that the benchmark has always had, and the others."""
+HOME, ABROAD = "home", ("recorder", "placement", "inputs")
+"""The laboratory that the benchmark has always had, and three others; kinds of laboratories stand beside these."""
 
 
 @dataclass(frozen=True)
