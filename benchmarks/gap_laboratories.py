@@ -72,16 +72,15 @@ def arguments() -> argparse.Namespace:
 
 def asked(o: argparse.Namespace) -> list[Lot]:
     """Cases in turns: every beginning has systems, sorts of cases and kinds of laboratories in about equal shares."""
-    from geocontact.analyses.gap.benchmark.run import mixed
-
     names = kinds_of(o.kinds)
-    chosen = []
+    chosen: list[tuple[float, Lot]] = []
     for row, system in enumerate(o.systems):
         for column, (option, kind) in enumerate(COUNTED.items()):
-            for turn in range(getattr(o, option)):
+            count = getattr(o, option)
+            for turn in range(count):
                 which = (turn + 3 * row + 2 * column) % len(names)
-                chosen.append(Lot(system, kind, o.seed, turn, names[which]))
-    return mixed(chosen)
+                chosen.append(((turn + 0.5) / count, Lot(system, kind, o.seed, turn, names[which])))
+    return [lot for _, lot in sorted(chosen, key=lambda one: one[0])]
 
 
 def diagnosed(work: tuple[Lot, float]) -> Worked | None:
