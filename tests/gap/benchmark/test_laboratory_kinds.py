@@ -16,6 +16,7 @@ from geocontact.gap_benchmark.synthetic.equipment.placement import Placement
 from geocontact.gap_benchmark.synthetic.equipment.power_law import PowerLawNoise
 from geocontact.gap_benchmark.synthetic.equipment.warm_up import WarmUp
 from geocontact.gap_benchmark.synthetic.laboratories.kinds import LABORATORY_KINDS, kinds_of
+from geocontact.gap_benchmark.synthetic.laboratories.placement import placed_as_usual
 from geocontact.gap_benchmark.synthetic.noise import NoiseFilter, SensorNoise
 from geocontact.gap_benchmark.synthetic.plan import NotFoundError
 from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
@@ -155,6 +156,8 @@ def test_a_label_knows_warming_up_and_two_clocks() -> None:
     triggered = replace(scene, laboratory=replace(scene.laboratory, clock=Clock(trigger=0.5)))
     (column,) = np.moveaxis(whitener(triggered, path).placed, 2, 0)
     assert np.abs(column).max() > 0.0
+    usual, both = (placed_as_usual(each, path, 60).shape[2] for each in (scene, triggered))
+    assert both == usual + 1  # also where all is placed anew
     cold = WarmUp(Placement(zeros={0: 4.0}), 2.0)
     cold_scene = replace(scene, laboratory=replace(scene.laboratory, warm_up=cold))
     np.testing.assert_allclose(whitener(cold_scene, path).placed[0, :, 0], 4.0)
