@@ -69,11 +69,12 @@ LABORATORY_KINDS: Mapping[str, LaboratoryKind] = {
     "mains, raw inputs, many trials": LaboratoryKind("home", "mains", inputs="raw", trials="many", trouble="placed"),
     "filtered, coarse, constants off": LaboratoryKind("home", "filtered", steps="coarse", trouble="constants"),
     "heavy tails, two clocks, few trials": LaboratoryKind("home", "tailed", "triggered", trials="few", quotient=True),
+    "mains, two clocks, coarse": LaboratoryKind("home", "mains", "triggered", "coarse", "six", quotient=True),
     "1/f, uneven clock, few trials": LaboratoryKind(
         "abroad", "pink", "uneven", inputs="each", trials="few", trouble="placed"
     ),
-    "mains, two clocks, coarse": LaboratoryKind(
-        "abroad", "mains", "triggered", "coarse", "six", quotient=True, forms="second"
+    "filtered, two clocks, coarse": LaboratoryKind(
+        "abroad", "filtered", "triggered", "coarse", "each", quotient=True, forms="second"
     ),
     "filtered, rows dropped, many trials": LaboratoryKind(
         "abroad", "filtered", "dropping", inputs="raw", trials="many", trouble="placed"
