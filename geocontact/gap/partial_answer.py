@@ -5,6 +5,7 @@ from __future__ import annotations
 from geocontact.data.gap.diagnosis import Partial
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.reduction.error_reduction import error_reduction
+from geocontact.gap.selection.held_out_rules import WORTH_NAMING
 from geocontact.gap.selection.verdict import PAIR, SURE
 
 
@@ -12,10 +13,12 @@ def partial(found: Attribution) -> Partial | None:
     """What the effect that gains most explains of a gap that is not all explained by it; two, where a second one adds
     as much as it must to be named.
 
-    Not one that a rule speaks against, nor one whose amplitude is on the bound of what is physical. None where nobody
-    gains more than luck may, and where no channel's error shrinks on held-out trials.
+    Not one that a rule speaks against, nor one whose amplitude is on the bound of what is physical, nor a mistake in
+    the data, which is there or not but is no part of a gap. None where nobody gains more than luck may, and where no
+    channel loses `WORTH_NAMING` of its squared error on held-out trials, what an effect must take to be named.
     """
-    free = [one for one in found.contenders if one.label not in found.objections and not one.cut_short]
+    able = [one for one in found.contenders if not one.cut_short and not one.mistaken]
+    free = [one for one in able if one.label not in found.objections]
     alone = max((one for one in free if len(one.names) == 1), key=lambda one: one.nats, default=found.base)
     both = max(free, key=lambda one: one.nats, default=found.base)
     needed = SURE + PAIR * max(alone.nats - found.base.nats, 0.0)
@@ -24,8 +27,9 @@ def partial(found: Attribution) -> Partial | None:
     if gain < SURE:
         return None
     shrunk = error_reduction(found.problem, found.clean, best.judged, True, found.data_error)
-    removed = {name: (s.reduction, (s.low, s.high)) for name, s in shrunk.items()}
-    return Partial(best.names, gain, removed) if any(part > 0.0 for part, _ in removed.values()) else None
+    if all(1.0 - (1.0 - s.reduction) ** 2 < WORTH_NAMING for s in shrunk.values()):
+        return None
+    return Partial(best.names, gain, {name: (s.reduction, (s.low, s.high)) for name, s in shrunk.items()})
 
 
 def nearest(found: Attribution) -> tuple[str, ...]:

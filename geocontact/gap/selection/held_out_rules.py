@@ -185,8 +185,7 @@ class HeldOutRules:
 
     def ruled_out(self, one: Contender) -> bool:
         """Whether a model surely predicts held-out trials worse, not by chance; mistakes in the data are not judged."""
-        mistaken = any(each.somewhere is not None for each in one.candidates)
-        return not mistaken and any(own is not None and own.worse for own in self._amplitudes(one))
+        return not one.mistaken and any(own is not None and own.worse for own in self._amplitudes(one))
 
     def _amplitudes(self, one: Contender) -> list[Amplitude | None]:
         """Of what a model changes on held-out trials, in units of the floor: of all channels together, of each."""

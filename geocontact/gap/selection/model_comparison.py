@@ -51,6 +51,11 @@ class Contender:
         return any(one.cut_short(self.judged.model.values) for one in self.candidates)
 
     @property
+    def mistaken(self) -> bool:
+        """Whether a mistake in the data is among the candidates."""
+        return any(one.somewhere is not None for one in self.candidates)
+
+    @property
     def label(self) -> str:
         """Candidates in one word."""
         return " + ".join(one.label for one in self.candidates) or "none"

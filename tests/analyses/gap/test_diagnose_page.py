@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -195,6 +196,21 @@ def test_what_an_effect_explains_is_told_unless_a_rule_speaks_against_it(told: T
     assert second is not None and "damping" not in second.effects and second.gain_nats < part.gain_nats
     assert partial(replace(found, objections={one.label: "why" for one in found.contenders})) is None
     assert partial(replace(found, contenders=())) is None
+
+
+def test_a_mistake_in_the_data_is_no_part_of_a_gap_nor_is_what_takes_little(
+    told: Told, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = told[1].attribution
+    damped = next(one for one in found.contenders if one.names == ("damping",))
+    alone = replace(found, contenders=(damped,))
+    assert partial(alone) is not None
+    (candidate,) = damped.candidates
+    wrong = replace(damped, candidates=(replace(candidate, somewhere=lambda trials: candidate.link),))
+    assert partial(replace(found, contenders=(wrong,))) is None
+    shrunk = {"force": SimpleNamespace(reduction=0.05, low=-0.6, high=0.6)}
+    monkeypatch.setattr("geocontact.gap.partial_answer.error_reduction", lambda *_: shrunk)
+    assert partial(alone) is None
 
 
 def test_rivals_are_behind_by_the_difference_of_their_evidence(told: Told) -> None:

@@ -80,6 +80,7 @@ def alike(one: np.ndarray, other: np.ndarray) -> bool:
 def test_slider_and_keys_choose_the_frame(rendering: None) -> None:
     """Without a screen: the picture changes with the frame, and is the same again when the frame is."""
     plotter = arranged(series(4), OBLIQUE, off_screen=True)
+    plotter.window_size = [320, 240]  # a sixteenth of the pixels: each picture takes seconds without a graphics card
     try:
         slider = getattr(plotter, "widgets", plotter).slider_widgets[0]
 

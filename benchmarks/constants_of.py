@@ -1,0 +1,81 @@
+"""Numbers that modules of the package are built on, and a process in which some of them are others."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import inspect
+import pkgutil
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from types import ModuleType
+
+import geocontact
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A number with a name at the top of a module; `label` has the module without the package."""
+
+    module: str
+    name: str
+    value: float | int
+
+    @property
+    def label(self) -> str:
+        """As the table of the theory has it."""
+        return f"{self.module.removeprefix('geocontact.')}.{self.name}"
+
+    def times(self, factor: float) -> float | int:
+        """So many times as large; a count stays a count, of one at the least."""
+        if isinstance(self.value, int):
+            return max(1, round(self.value * factor))
+        return self.value * factor
+
+
+def constants(rooms: Sequence[str]) -> list[Constant]:
+    """All of these rooms, in the order of modules and lines; neither words nor tables of several values."""
+    found = []
+    for module in _modules(rooms):
+        tree = ast.parse(inspect.getsource(module))
+        for name in (name for node in tree.body for name in _names(node)):
+            value = getattr(module, name)
+            if isinstance(value, (int, float)) and not isinstance(value, bool):
+                found.append(Constant(module.__name__, name, value))
+    return found
+
+
+def put(changed: Mapping[Constant, float | int]) -> None:
+    """Put other numbers in place of these constants, in all modules that have been loaded, for this process.
+
+    Functions read them when they are called. What was compiled or worked out before, defaults of arguments among it,
+    stays as it was.
+    """
+    for constant, value in changed.items():
+        setattr(sys.modules[constant.module], constant.name, value)
+        for module in [m for name, m in sys.modules.items() if name.startswith("geocontact.")]:
+            for here in _imported(module, constant):
+                setattr(module, here, value)
+
+
+def _modules(rooms: Sequence[str]) -> Iterator[ModuleType]:
+    for found in pkgutil.walk_packages(geocontact.__path__, "geocontact."):
+        if not found.ispkg and any(f"{found.name}.".startswith(f"geocontact.{room}.") for room in rooms):
+            yield importlib.import_module(found.name)
+
+
+def _names(node: ast.stmt) -> list[str]:
+    if not isinstance(node, ast.Assign):
+        return []
+    targets = [part for target in node.targets for part in (target.elts if isinstance(target, ast.Tuple) else [target])]
+    return [each.id for each in targets if isinstance(each, ast.Name) and each.id.isupper()]
+
+
+def _imported(module: ModuleType, constant: Constant) -> list[str]:
+    """What a module calls a constant that it has from another one."""
+    if getattr(module, "__file__", None) is None or not vars(module).keys() & {constant.name}:
+        return []
+    asked = [node for node in ast.walk(ast.parse(inspect.getsource(module))) if isinstance(node, ast.ImportFrom)]
+    taken = [alias for node in asked if node.module == constant.module for alias in node.names]
+    return [alias.asname or alias.name for alias in taken if alias.name == constant.name]
