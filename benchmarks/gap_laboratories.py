@@ -18,6 +18,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from benchmarks.machine import commit, machine
 from geocontact.analyses.gap.benchmark.case import Worked
 from geocontact.analyses.gap.benchmark.journal import Journal
@@ -186,26 +188,30 @@ def line_of(row: Worked) -> dict[str, Any]:
 
 
 def table(home: Mapping[str, Any], abroad: Mapping[str, Any]) -> Iterator[str]:
-    """Home and abroad by system and in all, and the loss."""
-    scopes = ["all", *[one for one in SYSTEMS if one in home["figures"] and one in abroad["figures"]]]
-    yield "| figure | home | abroad | loss, points | " + " | ".join(f"{one}, abroad" for one in scopes[1:]) + " |"
-    yield "|---" * (3 + len(scopes)) + "|"
-    sides = [{one: read_back(side["figures"][one]) for one in scopes} for side in (home, abroad)]
-    lost = losses(sides[0]["all"], sides[1]["all"])
+    """In all at home and abroad, the loss, and abroad by system."""
+    there = [one for one in SYSTEMS if one in abroad["figures"]]
+    yield "| figure | home | abroad | loss, points | " + " | ".join(f"{one}, abroad" for one in there) + " |"
+    yield "|---" * (4 + len(there)) + "|"
+    sides = [read_back(side["figures"]["all"]) for side in (home, abroad)]
+    own = [read_back(abroad["figures"][one]) for one in there]
+    lost = losses(*sides)
     for name, words in WORDS.items():
-        cells = [_cell(side["all"], name) for side in sides]
+        cells = [_cell(side, name) for side in sides]
         if name in NUMBERS:
-            apart = sides[0]["all"].numbers[name] - sides[1]["all"].numbers[name]
-            cells.append(f"{apart:+.3g}")
-        else:
+            cells.append(f"{sides[0].numbers[name] - sides[1].numbers[name]:+.3g}")
+        elif min(side.shares[name].count for side in sides):
             one = lost[name]
             cells.append(f"{100 * one.points:+.0f} [{100 * one.low:+.0f}, {100 * one.high:+.0f}]")
-        cells += [_cell(sides[1][scope], name) for scope in scopes[1:]]
+        else:
+            cells.append("not told")
+        cells += [_cell(one, name) for one in own]
         yield f"| {words} | " + " | ".join(cells) + " |"
 
 
 def _cell(figures: LaboratoryFigures, name: str) -> str:
-    return f"{figures.numbers[name]:.3g}" if name in NUMBERS else str(figures.shares[name])
+    if name not in NUMBERS:
+        return str(figures.shares[name]).replace("%", " %")
+    return "not told" if np.isnan(figures.numbers[name]) else f"{figures.numbers[name]:.3g}"
 
 
 def main() -> int:
