@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks import opensim_tables
+
 ROOT = Path(__file__).resolve().parents[2]
 MINUS = "\N{MINUS SIGN}"
 LEAST_COVERAGE = 0.88  # of the elbow's intervals of 95 %: 60 to 200 runs tell them to 3 %
@@ -440,6 +442,21 @@ def test_largest_forces_of_a_population() -> None:
     assert f"{speed['samples_per_second_at_8_deg'] / 1e6:.2f} million, ratio {speed['ratio_at_8_deg']:.1f} to" in text
     assert speed["samples_per_second"] > 2e5, "a million people in seconds"
     assert told["convergence"][0]["largest_error_N"] < told["convergence"][-1]["grid_only_largest_error_N"]
+
+
+def test_published_models_beside_opensim() -> None:
+    """Tables as the JSON has them; each model within its bound or refused, but for what the page says."""
+    lines = (ROOT / "docs" / "reference" / "opensim_models.md").read_text(encoding="utf-8").splitlines()
+    for table in (opensim_tables.models, opensim_tables.scaling, opensim_tables.kinematics, opensim_tables.dynamics):
+        assert set(table()) <= set(lines), table.__name__
+    for one in results("opensim_packages")["models"]:
+        exact = {**one, **one.get("rewritten", {})}
+        assert "failed" not in one and exact["scaled_off"] < 1e-6 and exact["bodies_apart_mm"] < 0.01
+        assert exact["forces_off_share"] < 0.01 and one.get("angles_off_deg", 0.0) < 0.1
+        assert exact["forces_off_share"] < 1e-9 or one["lagrange"]["ours"] < 1e-12
+    for one in results("opensim_setups")["set-ups"]:
+        assert "refused" not in one and one.get("scaled_off", 0.0) < 1e-6 and one.get("sum_over_opensims", 0.0) < 1.0
+        assert one.get("forces_off_share", 0.0) < 0.01 or "forces_not_read" in one
 
 
 def test_bodies_on_joints_beside_their_peers() -> None:

@@ -25,6 +25,7 @@ OLDEST = 20_000
 
 _DEEPEST = 50
 _SCOPED = re.compile(rb"(</?[A-Za-z_][\w.]*)::")
+_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 _ENCODING = re.compile(rb"""\s*<\?xml[^>]*encoding=["']([\w-]+)["']""")
 _SETS = ("BodySet", "JointSet", "ForceSet", "ComponentSet")
 
@@ -41,12 +42,25 @@ def read_model(path: str | PathLike[str]) -> Element:
         what = f"is of version {version}, before OpenSim 2.0"
         raise InputError(fspath(path), "", what, "open and save the model with OpenSim 3.3 or later")
     _gather(model)
+    name_joints_apart(model)
     return model
 
 
 def outside_of_sets(model: Element) -> list[Element]:
     """What a model holds by itself (`<components>`) where others have a set for it."""
     return [e for e in model.findall("components/*") if _set_of(e)]
+
+
+def name_joints_apart(model: Element) -> None:
+    """The second joint `back` of a model is `back_0`, the third `back_1`, as OpenSim calls them."""
+    known: set[str] = set()
+    for joint in (e for e in model.iter() if e.tag.endswith("Joint") and e.get("name")):
+        name = joint.get("name", "")
+        count = 0
+        while name in known:
+            name, count = f"{joint.get('name', '')}_{count}", count + 1
+        joint.set("name", name)
+        known.add(name)
 
 
 def _gather(model: Element) -> None:
@@ -98,11 +112,20 @@ def _parsed(text: bytes) -> Element:
     replaced before and put back after parsing.
     """
     stand_in = b"-scope-of-"
-    root: Element = defusedxml.ElementTree.fromstring(_SCOPED.sub(rb"\1" + stand_in, text))
+    plain = _SCOPED.sub(rb"\1" + stand_in, text)
+    try:
+        root: Element = defusedxml.ElementTree.fromstring(plain)
+    except ParseError:
+        root = defusedxml.ElementTree.fromstring(_without_comments(plain))
     if b"::" in text:
         for element in root.iter():
             element.tag = element.tag.replace(stand_in.decode(), "::")
     return root
+
+
+def _without_comments(text: bytes) -> bytes:
+    """OpenSim lets comments hold what XML does not allow there (`<!-- <!-- -->`, `--`); lines keep their numbers."""
+    return _COMMENT.sub(lambda found: b"\n" * found[0].count(b"\n"), text)
 
 
 def label(element: Element) -> str:
