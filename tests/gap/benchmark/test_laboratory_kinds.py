@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import zlib
 from dataclasses import astuple, replace
 
 import numpy as np
 import pytest
 
+from geocontact.gap_benchmark import drawing
 from geocontact.gap_benchmark.synthetic import LABORATORIES
 from geocontact.gap_benchmark.synthetic.cases import prepared
 from geocontact.gap_benchmark.synthetic.catalogue import SECOND, plans
@@ -147,6 +149,14 @@ def test_the_second_family_plants_other_equations(name: str) -> None:
         assert np.isfinite(seen.nats) and seen.nats > 0.0
         shown.append(seen.nats)
     assert shown[0] != pytest.approx(shown[1], rel=1e-3)
+
+
+def test_another_kind_changes_no_case_of_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(drawing, "synthetic_case", lambda *asked, **_: asked[2].spawn_key)
+    first, kinds = list(drawing.ABROAD), list(LABORATORY_KINDS)
+    keys = [drawing.drawn(drawing.Lot("knee", "none", 1, 0, name))[-1] for name in (*first, *kinds)]
+    assert keys[:3] == [1, 2, 3] and len(set(keys)) == len(keys)
+    assert keys[3] == zlib.crc32(kinds[0].encode())
 
 
 def test_a_label_knows_warming_up_and_two_clocks() -> None:
