@@ -20,7 +20,7 @@ from geocontact.data.version import VERSION
 
 if TYPE_CHECKING:
     from geocontact import chain
-    from geocontact.analyses import misalignment, prosthesis, shoulder, sit_to_stand
+    from geocontact.analyses import knee, misalignment, prosthesis, shoulder, sit_to_stand
     from geocontact.analyses.area.job import area, pressure
     from geocontact.analyses.cop.job import centre_of_pressure
     from geocontact.analyses.gap.diagnose.job import diagnose
@@ -127,6 +127,7 @@ _PLACES = {
 }
 
 _ROOMS = {
+    "knee": "analyses.knee",
     "misalignment": "analyses.misalignment",
     "prosthesis": "analyses.prosthesis",
     "shoulder": "analyses.shoulder",
@@ -176,6 +177,7 @@ __all__ = [
     "inverse_kinematics",
     "kN",
     "kPa",
+    "knee",
     "lbf",
     "load_cells",
     "m",
@@ -220,7 +222,13 @@ def __dir__() -> list[str]:
 
 
 def read_surface(path: str, unit: str, assume_closed: bool = False) -> Surface:
-    """Surface of a mesh file whose numbers are in `unit` (m, cm, mm or in), ready for queries; see `read_mesh`."""
+    """Surface of a mesh file whose numbers are in `unit` (m, cm, mm or in), ready for queries; see `read_mesh`.
+
+    >>> import geocontact as gc
+    >>> ball = gc.read_surface("meshes/sphere_r20.stl", "mm")
+    >>> ball.vertices.shape, ball.faces.shape, ball.closed
+    ((1442, 3), (2880, 3), True)
+    """
     from geocontact.geometry.surface import Surface
     from geocontact.io.mesh.meshes import read_mesh
 
