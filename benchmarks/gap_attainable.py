@@ -22,13 +22,12 @@ from typing import Any
 
 import numpy as np
 
+from geocontact.gap_benchmark.attainable import CLEAR
 from geocontact.gap_benchmark.drawing import SYSTEMS
 
 HERE = Path(__file__).resolve().parent
 ASKED = ("single", "shift")
 """Kinds of cases."""
-CLEAR = 3.0
-"""Nats by which the planted effect's own candidate is ahead, or behind: noise turns that round in one case of nine."""
 
 
 def arguments() -> argparse.Namespace:

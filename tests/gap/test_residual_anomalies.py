@@ -8,7 +8,7 @@ import pytest
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs.spectrum import switches
-from geocontact.gap.selection.residual_anomalies import moving
+from geocontact.gap.selection.residual_anomalies import at_mains, moving
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Tremor, held, in_steps, knock, odd, rung, share_of_line
 
@@ -60,6 +60,20 @@ def test_ringing_at_the_same_phase_of_every_trial(elsewhere: Elsewhere) -> None:
     words, nats = max((each for each in seen.items() if "ringing" in each[0]), key=lambda each: each[1])
     assert nats > 15.0
     assert float(words.split()[2]) == pytest.approx(8.0, abs=1.6)
+
+
+def test_hum_of_the_mains_is_of_the_recorder_where_sampling_folds_it_to(elsewhere: Elsewhere) -> None:
+    """60 Hz, 25 times a second, is seen at 10 Hz; it is remarked upon, and no line."""
+    seen = elsewhere(odd, Tremor(0.25, 10.0))
+    assert max(nats for words, nats in seen.items() if "a line" in words) < 5.0
+    words, nats = max((each for each in seen.items() if "hum" in each[0]), key=lambda each: each[1])
+    assert nats > 20.0 and float(words.split()[5]) == pytest.approx(10.0, abs=0.3)
+
+
+def test_frequencies_of_the_mains_are_few() -> None:
+    """At 1000 samples a second 50 and 60 Hz themselves."""
+    found = np.flatnonzero(at_mains(501, 1000, 1e-3))
+    assert set(found) == {48, 49, 50, 51, 52, 58, 59, 60, 61, 62}
 
 
 def test_what_only_goes_on_and_off_hides_no_line() -> None:

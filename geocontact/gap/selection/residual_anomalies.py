@@ -9,7 +9,7 @@ recorder: they are remarked upon, and are no evidence of an effect.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -30,6 +30,8 @@ OTHERS = 4  # times the width of a stretch that what it is compared with counts 
 PACKETS = (16, 24, 32)  # samples that an oscillation is looked for in
 CYCLES = 4  # periods per window from which it counts as one
 HELD_USUALLY = 2e-3  # share of samples that repeat the last by chance, at the least
+MAINS = (50.0, 60.0)  # frequencies of electric mains [Hz]
+HUMMING = 2.0  # bins about such a frequency, or where sampling folds it to, that are hum
 COARSE, SURELY = 0.33, 12.0  # steps, in noise levels, that are coarse, and how sure that makes of it [nats]
 
 
@@ -60,7 +62,7 @@ def residual_anomalies(problem: Problem, judged: Judged) -> list[ResidualAnomaly
 
 def recorder_remarks(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
     """What the recording itself shows, the surest first."""
-    found = [*bursts(problem, judged), *held_samples(problem), *steps(problem)]
+    found = [*hum(problem, judged), *bursts(problem, judged), *held_samples(problem), *steps(problem)]
     return sorted(found, key=lambda each: -each.nats)
 
 
@@ -84,11 +86,33 @@ def lines(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
     """A narrow line in the spectrum: power at one frequency against that of its neighbours, trials taken together.
 
     At frequencies of the movement a model misses something, and nothing is odd. What only goes on and off has all
-    frequencies, and is no movement.
+    frequencies, and is no movement. Hum of the mains is of the recorder.
     """
+    return _lines(problem, judged, "a line", mains=False)
+
+
+def hum(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
+    """The same at the frequencies of electric mains, as sampling shows them.
+
+    A line that is something else falls there by chance only: they are a few bins of hundreds.
+    """
+    found = _lines(problem, judged, "hum of the mains", mains=True)
+    return [replace(one, share=0.0) for one in found]
+
+
+def at_mains(count: int, samples: int, step: float) -> Bool[np.ndarray, " f"]:
+    """Which of `count` frequencies of so many samples, every `step` [s], are those of the mains or of their images."""
+    cycles = np.array(MAINS) * step
+    image = np.abs(cycles - np.round(cycles)) * samples
+    return np.asarray((np.abs(np.arange(count)[:, None] - image) <= HUMMING).any(axis=1))
+
+
+def _lines(problem: Problem, judged: Judged, what: str, *, mains: bool) -> list[ResidualAnomaly]:
+    """Lines at the mains' frequencies, or everywhere else."""
     from scipy.stats import f, gamma
 
     found = []
+    step = problem.system.scale.step
     trials = [*problem.calibration.trials, *problem.evaluation.trials]
     moved = [name for name in problem.system.inputs if not switches(trials, name)]
     rows = innovations(problem, judged)
@@ -104,13 +128,13 @@ def lines(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
             usual, beside = _around(power)
             nats = -f.logsf(power / usual, 2, beside)  # neighbours overlap under the window, so half of them count
             ruled_out = moving(trial, moved, len(power))
+            ruled_out |= at_mains(len(power), len(x), step) != mains
             ruled_out[:TURNS] = ruled_out[-1] = True  # at Nyquist's frequency power has half the freedom
             doubt += np.interp(grid, np.arange(len(power)) / len(x), np.where(ruled_out, 0.0, nats))
         peak = int(np.argmax(doubt))
         nats = -float(gamma.logsf(doubt[peak], len(series))) - float(np.log(len(grid)))
-        hertz = grid[peak] / problem.system.scale.step
         share = share_of_band(problem, judged, c, float(grid[peak]), 0.0)
-        found.append(ResidualAnomaly(f"a line at {hertz:.3g} Hz", name, max(nats, 0.0), share))
+        found.append(ResidualAnomaly(f"{what} at {grid[peak] / step:.3g} Hz", name, max(nats, 0.0), share))
     return found
 
 

@@ -28,6 +28,7 @@ from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, NotFoun
 from geocontact.gap_benchmark.synthetic.reach import Reach, reach
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 from geocontact.gap_benchmark.synthetic.scenes import SCENES
+from geocontact.gap_benchmark.synthetic.slight import slightly_wrong
 from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError
 from geocontact.gap_benchmark.synthetic.trials import (
     NO_DATA_ERROR,
@@ -50,6 +51,8 @@ they do it is at least this large [nats]."""
 ALIKE, APART = 0.9, 10.0
 """Of a pair: largest cosine between the visible signatures; what each shows at least beside the other [nats]."""
 ATTEMPTS = 60
+TRIALS = ((3, 2), (3, 2), (3, 2), (4, 2), (3, 3))
+"""For calibration and evaluation, where the laboratory has no number of its own."""
 
 
 @dataclass(frozen=True)
@@ -155,8 +158,11 @@ def attempt_at(
     rng: Rng, scene: SyntheticScene, kind: Kind, effect: str | None, nats: float | None, name: str
 ) -> SyntheticCase:
     """One draw; raises where it does not give what the kind asks for."""
-    learn, hold = [(3, 2), (3, 2), (3, 2), (4, 2), (3, 3)][rng.integers(5)]
+    learn, hold = scene.laboratory.trials or TRIALS[rng.integers(len(TRIALS))]
     stage = prepared(scene, [scene.path(rng, i) for i in range(learn)], kind)
+    if len(scene.laboratory.standing):
+        scene = slightly_wrong(scene, stage.anew.trials, stage.floor)
+        stage = replace(stage, scene=scene)
     found = FINDERS[kind](rng, stage, effect, nats)
     if not all(math.isfinite(seen.nats) for seen in (found.sights or {}).values()):
         raise NotFoundError(f"{found.words}: how visible it is cannot be told")
@@ -164,7 +170,10 @@ def attempt_at(
     gaps = scene.laboratory.clock.kept if rng.random() < scene.laboratory.clock.losing else None
     data_errors = found.by_trial(learn + hold)
     paths = [one.path for one in stage.trials] + [scene.later(rng, i) for i in range(hold)]
-    recordings = [record(scene, p, rng, found.hooks, f, fine, gaps) for p, f in zip(paths, data_errors, strict=True)]
+    recordings = [
+        record(scene, p, rng, found.hooks, f, fine, gaps, turn)
+        for turn, (p, f) in enumerate(zip(paths, data_errors, strict=True))
+    ]
     share = sum(f is not NO_DATA_ERROR for f in data_errors[learn:]) / hold
     fresh = [
         record(
@@ -174,6 +183,7 @@ def attempt_at(
             found.hooks,
             found.data_error if (i + 0.5) / FRESH < share else NO_DATA_ERROR,
             fine,
+            turn=learn + i % hold,
         )
         for i in range(FRESH)
     ]
@@ -207,7 +217,9 @@ def nothing(_: Rng, __: Stage, ___: str | None, ____: float | None) -> DrawnCase
 
 def single(rng: Rng, stage: Stage, effect: str | None, nats: float | None) -> DrawnCase:
     """One effect of the vocabulary, its visibility spread evenly over the decades."""
-    known = [one for one in plans(stage.scene.system) if one.name == effect or effect is None]
+    known = [
+        one for one in plans(stage.scene.system, stage.scene.laboratory.forms) if one.name == effect or effect is None
+    ]
     if not known:
         raise ValueError(f"no planted effect {effect!r} for the {stage.scene.system}")
     if effect is None:
@@ -253,7 +265,7 @@ def amplitude(stage: Stage, draw: Draw, target: float) -> tuple[float, Sight]:
 def pair(rng: Rng, stage: Stage, _: str | None, __: float | None) -> DrawnCase:
     """Two effects that are visible about alike, none of which the base parameters reproduce."""
     hard = NO_GAP.get(stage.scene.system, ())
-    known = [one for one in plans(stage.scene.system) if one.name not in hard]
+    known = [one for one in plans(stage.scene.system, stage.scene.laboratory.forms) if one.name not in hard]
     first, second = (known[i] for i in rng.choice(len(known), 2, replace=False))
     level = float(np.exp(rng.uniform(np.log(20.0), np.log(BRIGHTEST))))
     found = []
@@ -291,7 +303,11 @@ def outside(rng: Rng, stage: Stage, effect: str | None, nats: float | None) -> D
 
 def confounded(rng: Rng, stage: Stage, effect: str | None, _: float | None) -> DrawnCase:
     """An effect of some size that refitted base parameters reproduce on these trials."""
-    known = [one for one in plans(stage.scene.system) if one.name in CONFOUNDED[stage.scene.system]]
+    known = [
+        one
+        for one in plans(stage.scene.system, stage.scene.laboratory.forms)
+        if one.name in CONFOUNDED[stage.scene.system]
+    ]
     known = [one for one in known if one.name == effect or effect is None]
     plan = known[rng.integers(len(known))]
     draw = plan.drawn(rng, stage.scale)

@@ -25,6 +25,9 @@ from geocontact.gap_benchmark.synthetic.effects.mechanical.relaxation import REL
 from geocontact.gap_benchmark.synthetic.effects.mechanical.series_compliance import SERIES_COMPLIANCE
 from geocontact.gap_benchmark.synthetic.effects.mechanical.slip import SLIP
 from geocontact.gap_benchmark.synthetic.effects.mechanical.stiffening import STIFFENING
+from geocontact.gap_benchmark.synthetic.effects.second.measurement import AVERAGING, LEANING, ONE_SIDED, SMALL_LOADS
+from geocontact.gap_benchmark.synthetic.effects.second.mechanical import CREEPING, LOCKING, STICKING, THINNING
+from geocontact.gap_benchmark.synthetic.equipment.laboratory import Forms
 from geocontact.gap_benchmark.synthetic.plan import InjectionPlan
 
 PLANS: tuple[InjectionPlan, ...] = (
@@ -74,6 +77,11 @@ NO_GAP = {"elbow": CONFOUNDED["elbow"], "sit_to_stand": ("sensor_gain",)}
 """Those that leave no visible gap of their own kind at all: never planted as a single one or in a pair."""
 
 
-def plans(system: str) -> tuple[InjectionPlan, ...]:
-    """Those that apply to a system."""
-    return tuple(one for one in PLANS if system in one.systems)
+SECOND = {one.name: one for one in (AVERAGING, LEANING, ONE_SIDED, SMALL_LOADS, CREEPING, LOCKING, STICKING, THINNING)}
+"""Effects that have a second family of equations; the others are of the first in either."""
+
+
+def plans(system: str, forms: Forms = "first") -> tuple[InjectionPlan, ...]:
+    """Those that apply to a system, in one family of equations."""
+    known = PLANS if forms == "first" else tuple(SECOND.get(one.name, one) for one in PLANS)
+    return tuple(one for one in known if system in one.systems)

@@ -136,12 +136,14 @@ def record(
     data_error: SyntheticDataError = NO_DATA_ERROR,
     fine: int | None = None,
     gaps: Callable[[Rng, int], Int[np.ndarray, " s"]] | None = None,
+    turn: int = 0,
 ) -> SyntheticTrial:
-    """One trial: its own base parameters and placement, noise on outputs and inputs, rows that got lost."""
+    """Trial number `turn`: its own base parameters and placement, noise on outputs and inputs, rows that got lost."""
     count, fine = samples(scene, path), fine or scene.body.fine
     recorder, clock = scene.laboratory.recorder, scene.laboratory.clock
     theta = vary(scene, rng)
-    placed = scene.laboratory.placement.drawn(rng)
+    laboratory = scene.laboratory
+    placed = laboratory.placement.drawn(rng) + laboratory.standing + laboratory.warm_up.at(turn)
     late = clock.late(rng, count, fine) / fine
     time = (np.arange(count) + late) * scene.step
     course = path(time)
@@ -151,7 +153,8 @@ def record(
     outputs = scene.body.recorded(outputs)
     passed = zip(scene.input_noise, scene.filters, strict=True)
     noise = [smooth_noise(rng, sd, count, scene.step, one) for sd, one in passed]
-    inputs = recorder.rounded(course.position + np.array(noise), recorder.input_steps)
+    seen = path(time + apart).position if (apart := scene.step * clock.apart(rng)) else course.position
+    inputs = recorder.rounded(seen + np.array(noise), recorder.input_steps)
     rows = np.arange(count) if gaps is None else gaps(rng, count)
     return SyntheticTrial(
         path,

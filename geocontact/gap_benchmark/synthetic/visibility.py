@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -86,7 +86,7 @@ def whitener(scene: SyntheticScene, path: Path) -> WhitenedTrial:
     diagonal = np.diag(total).reshape(outputs.shape).copy()
     sd_all = np.repeat([one.sd for one in scene.noise], count)
     total[np.diag_indices(size)] += np.where(gone.ravel(), (HIDDEN * sd_all) ** 2, (1e-3 * sd_all) ** 2)
-    return WhitenedTrial(path, count, model, outputs, np.linalg.cholesky(total), diagonal, placed(scene, course))
+    return WhitenedTrial(path, count, model, outputs, np.linalg.cholesky(total), diagonal, varied(scene, path, count))
 
 
 def add_sensor_noise(total: Float[np.ndarray, "n n"], scene: SyntheticScene, outputs: Outputs) -> None:
@@ -111,6 +111,21 @@ def input_noises(scene: SyntheticScene) -> Iterator[tuple[int, float, NoiseFilte
         yield i, float(sd), filtered
     for i, step in scene.laboratory.recorder.input_steps.items():
         yield i, float(step / np.sqrt(ROUNDED)), NoiseFilter(0.5 / scene.step)
+
+
+def varied(scene: SyntheticScene, path: Path, count: int) -> Float[np.ndarray, "c s q"]:
+    """What all that differs from trial to trial adds, by one standard deviation: placement, warming up, clocks."""
+    time = np.arange(count) * scene.step
+    laboratory, course = scene.laboratory, path(time)
+    columns = placed(scene, course)
+    if len(laboratory.warm_up.cold):
+        cold = replace(scene, laboratory=replace(laboratory, placement=laboratory.warm_up.cold))
+        columns = np.concatenate([columns, placed(cold, course)], axis=2)
+    if laboratory.clock.trigger:
+        sd = laboratory.clock.trigger * scene.step / np.sqrt(3.0)  # uniform
+        sides = [scene.base_model(replace(path(time + by), time=time))(scene.theta) for by in (sd, -sd)]
+        columns = np.concatenate([columns, np.nan_to_num(0.5 * (sides[0] - sides[1]))[..., None]], axis=2)
+    return columns
 
 
 def placed(scene: SyntheticScene, course: InputCourse) -> Float[np.ndarray, "c s q"]:

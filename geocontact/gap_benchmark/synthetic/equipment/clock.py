@@ -24,12 +24,16 @@ class Clock:
         Share of rows that such a recording loses one by one.
     longest
         Most rows of a stretch that it loses, a fifth of a trial at most; there are two stretches at most.
+    trigger
+        Most by which the inputs of a trial are recorded late or early against its outputs, as a share of the time
+        between two samples: they have a clock each, started by one signal.
     """
 
     uneven: float = 0.0
     losing: float = 0.2
     alone: float = 0.01
     longest: int = 5
+    trigger: float = 0.0
 
     def late(self, rng: Rng, count: int, fine: int) -> Int[np.ndarray, " s"]:
         """How late each sample is, in steps of which there are `fine` between two; the first and last are in time."""
@@ -37,6 +41,10 @@ class Clock:
         late = rng.integers(-most, most + 1, count) if most else np.zeros(count, int)
         late[[0, -1]] = 0
         return late
+
+    def apart(self, rng: Rng) -> float:
+        """By which share of a step the inputs of a trial are late; nothing is drawn for clocks that are one."""
+        return float(rng.uniform(-self.trigger, self.trigger)) if self.trigger else 0.0
 
     def kept(self, rng: Rng, count: int) -> Int[np.ndarray, " s"]:
         """Rows that are left when some were lost, single ones and a few stretches; the first and last stay."""

@@ -36,6 +36,13 @@ class Placement:
     def __len__(self) -> int:
         return sum(len(one) for one in self._parts.values())
 
+    def __add__(self, other: Placement) -> Placement:
+        """Off by both; self where the other is nothing."""
+        if not len(other):
+            return self
+        parts = other._parts
+        return Placement(**{part: _sum(one, parts[part]) for part, one in self._parts.items()})
+
     def drawn(self, rng: np.random.Generator) -> Placement:
         """Of one trial, these being standard deviations."""
         return self.times(rng.standard_normal(len(self)))
@@ -80,6 +87,10 @@ class Placement:
     @property
     def _parts(self) -> dict[str, Mapping[Any, float]]:
         return {"constants": self.constants, "inputs": self.inputs, "gains": self.gains, "zeros": self.zeros}
+
+
+def _sum(one: Mapping[Any, float], other: Mapping[Any, float]) -> dict[Any, float]:
+    return {key: one.get(key, 0.0) + other.get(key, 0.0) for key in {**one, **other}}
 
 
 IN_PLACE = Placement()

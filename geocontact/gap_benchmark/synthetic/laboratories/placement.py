@@ -15,7 +15,7 @@ from geocontact.gap_benchmark.synthetic.equipment.placement import Placement
 from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import Sizes, another_device, sampled, sizes
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 from geocontact.gap_benchmark.synthetic.trials import samples
-from geocontact.gap_benchmark.synthetic.visibility import placed
+from geocontact.gap_benchmark.synthetic.visibility import placed, varied
 
 LENGTH, ANGLE = 1e-3, np.radians(0.5)
 """Standard deviation of a length [m], of an angle [rad]."""
@@ -42,11 +42,11 @@ def placement_laboratory(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
 def placed_as_usual(scene: SyntheticScene, path: Path, count: int) -> Float[np.ndarray, "c s q"]:
     """What each thing that sits elsewhere adds to the outputs along a movement, by one usual standard deviation.
 
-    Of a scene that has a placement of its own or none; nothing is drawn for it.
+    Of a scene that has a placement of its own or none; nothing is drawn for it. What else varies there is added.
     """
     placement = noticed(scene, path, placement_of(scene, sizes(scene, path), 1.0))
     anew = replace(scene, laboratory=replace(scene.laboratory, placement=placement))
-    return placed(anew, path(np.arange(count) * scene.step))
+    return varied(anew, path, count)
 
 
 def placement_of(scene: SyntheticScene, size: Sizes, care: float) -> Placement:

@@ -40,10 +40,10 @@ def recorder_laboratory(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
     """The scene, recorded in another way."""
     scene = at_another_rate(rng, another_device(rng, scene))
     size, sort = sizes(scene, scene.path(rng, 0)), str(rng.choice(SORTS))
-    noise = tuple(_noise(rng, sort, one.sd) for one in scene.noise)
+    noise = tuple(power_law_noise(rng, sort, one.sd) for one in scene.noise)
     recorder = Recorder(
-        _growth(rng, scene, size) if sort == "growing" else {},
-        {row: Quotient(by, QUARTER * float(size.largest[by])) for row, by in scene.body.quotients.items()},
+        growth_of(rng, scene, size) if sort == "growing" else {},
+        quotients_of(scene, size),
         {row: one.sd * _step(rng, COARSEST) for row, one in enumerate(noise)},
         {row: float(sd) * _step(rng, COARSEST_INPUT) for row, sd in enumerate(scene.input_noise) if sd},
     )
@@ -66,14 +66,21 @@ def at_another_rate(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
     return replace(scene, step=1.0 / rate, filters=filters)
 
 
-def _noise(rng: Rng, sort: str, sd: float) -> PowerLawNoise:
+def power_law_noise(rng: Rng, sort: str, sd: float) -> PowerLawNoise:
+    """Of one output that had `sd`: pink, growing (white here, or nearly) or tailed."""
     sd = sd * rng.uniform(0.7, 1.4)
     if sort == "pink":
         return PowerLawNoise(sd, rng.uniform(0.7, 1.2), float(np.exp(rng.uniform(np.log(0.5), np.log(5.0)))), 0.3)
     return PowerLawNoise(sd, 0.0 if rng.random() < 0.5 else 0.5, freedom=TAILS if sort == "tailed" else np.inf)
 
 
-def _growth(rng: Rng, scene: SyntheticScene, size: Sizes) -> dict[int, float]:
+def quotients_of(scene: SyntheticScene, size: Sizes) -> dict[int, Quotient]:
+    """Every output that a laboratory gets by a division."""
+    return {row: Quotient(by, QUARTER * float(size.largest[by])) for row, by in scene.body.quotients.items()}
+
+
+def growth_of(rng: Rng, scene: SyntheticScene, size: Sizes) -> dict[int, float]:
+    """Slope by which the noise of each output grows, but of a quotient."""
     rows = [row for row in range(len(scene.outputs)) if row not in scene.body.quotients]
     return {row: float(np.exp(rng.uniform(np.log(0.5), np.log(3.0)))) / float(size.largest[row]) for row in rows}
 

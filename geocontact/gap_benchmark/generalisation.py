@@ -1,0 +1,113 @@
+"""Figures of a diagnosis at home and abroad, and the loss between the two.
+
+`figures_of` counts, beside what `score` does: *first, ahead* and *set, ahead*: of visible single effects whose own
+candidate is clearly ahead for somebody who knows the noise (`attainable`), those ranked first, or in a set of three;
+*class, elsewhere*: of the other visible ones, those where an effect of the same class is ranked first. The *log score*
+is where the mean logarithm of the probability of the truth (`LEAST` at least) lies between the constant answer's, 0,
+and certainty, 1.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from geocontact.gap_benchmark.answers import Plain, constant_answer, true_distribution
+from geocontact.gap_benchmark.attainable import clearly_ahead, one_law
+from geocontact.gap_benchmark.rates import Rate
+from geocontact.gap_benchmark.score import answers, score, small_set, visible
+
+LEAST = 1e-3
+"""Probability as which a smaller one counts in the log score."""
+SCORED = (
+    "false_alarms",
+    "sure_alarms",
+    "first_right",
+    "first_right_anew",
+    "in_small_set",
+    "named_right",
+    "missed",
+    "confidently_wrong",
+    "both_found",
+    "unknown_called",
+    "coverage",
+)
+"""Shares that `score` counts."""
+NUMBERS = ("reduction_error", "reduction_error_median", "log_score", "seconds_median", "seconds_most")
+
+
+@dataclass(frozen=True)
+class LaboratoryFigures:
+    """Of some cases: shares and numbers by name, and how many cases there are."""
+
+    cases: int
+    shares: Mapping[str, Rate]
+    numbers: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Loss:
+    """Home less abroad of a share, in 0..1, with a conservative 95 % interval: of two exact ones at 97.5 %."""
+
+    points: float
+    low: float
+    high: float
+
+    @classmethod
+    def of(cls, home: Rate, abroad: Rate) -> Loss:
+        """NaN where either has no case."""
+        (a, b), (c, d) = home.interval(0.975), abroad.interval(0.975)
+        return cls(home.value - abroad.value, a - d, b - c)
+
+
+def figures_of(pairs: Sequence[tuple[Plain, Plain]]) -> LaboratoryFigures:
+    """Of labels (`Label.as_dict`, with `left`) and diagnoses."""
+    names = [str(place) for place in range(len(pairs))]
+    every = score(
+        {name: label for name, (label, _) in zip(names, pairs, strict=True)},
+        {name: said for name, (_, said) in zip(names, pairs, strict=True)},
+    )
+    one = [(label, said) for label, said in pairs if label["kind"] == "single" and visible(label) and label.get("left")]
+    ahead = [(label, said) for label, said in one if clearly_ahead(label)]
+    beside = [(label, said) for label, said in one if not clearly_ahead(label)]
+    shares = {name: getattr(every, name) for name in SCORED}
+    shares["ahead"] = Rate(len(ahead), len(one))
+    shares["first_ahead"] = Rate.of(answers(said)[:1] == list(label["effects"]) for label, said in ahead)
+    shares["set_ahead"] = Rate.of(set(label["effects"]) <= small_set(said) for label, said in ahead)
+    shares["class_elsewhere"] = Rate.of(set(answers(said)[:1]) & one_law(label) != set() for label, said in beside)
+    seconds = [float(said["seconds"]) for _, said in pairs if "seconds" in said]
+    numbers = {
+        "reduction_error": every.reduction_error,
+        "reduction_error_median": every.reduction_error_median,
+        "log_score": log_score(pairs),
+        "seconds_median": float(np.median(seconds)) if seconds else float("nan"),
+        "seconds_most": max(seconds, default=float("nan")),
+    }
+    return LaboratoryFigures(len(pairs), shares, numbers)
+
+
+def log_score(pairs: Sequence[tuple[Plain, Plain]]) -> float:
+    """1 for certainty, 0 for the constant answer, below 0 for less; NaN where the constant answer is certain."""
+    constant = constant_answer(label for label, _ in pairs)
+    best, said, same = (
+        sum(_log_probability(label, given) for label, given in those)
+        for those in (
+            [(label, {"probabilities": true_distribution(label)}) for label, _ in pairs],
+            pairs,
+            [(label, constant) for label, _ in pairs],
+        )
+    )
+    return (said - same) / (best - same) if best > same else float("nan")
+
+
+def _log_probability(label: Plain, said: Plain) -> float:
+    stated = said["probabilities"]
+    return sum(p * math.log(max(float(stated.get(name, 0.0)), LEAST)) for name, p in true_distribution(label).items())
+
+
+def losses(home: LaboratoryFigures, abroad: LaboratoryFigures) -> dict[str, Loss]:
+    """Of every share."""
+    return {name: Loss.of(rate, abroad.shares[name]) for name, rate in home.shares.items()}

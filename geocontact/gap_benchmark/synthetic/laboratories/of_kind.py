@@ -1,0 +1,131 @@
+"""Draws a laboratory of a kind."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from geocontact.gap_benchmark.synthetic.equipment.clock import Clock
+from geocontact.gap_benchmark.synthetic.equipment.disturbed import FilteredNoise, Humming, Knocked
+from geocontact.gap_benchmark.synthetic.equipment.laboratory import Laboratory
+from geocontact.gap_benchmark.synthetic.equipment.placement import Placement
+from geocontact.gap_benchmark.synthetic.equipment.power_law import PowerLawNoise
+from geocontact.gap_benchmark.synthetic.equipment.recorder import Recorder
+from geocontact.gap_benchmark.synthetic.equipment.warm_up import WarmUp
+from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import another_device, sampled, sizes
+from geocontact.gap_benchmark.synthetic.laboratories.inputs import other_filters, quieter
+from geocontact.gap_benchmark.synthetic.laboratories.kinds import LaboratoryKind, Noise, Trials
+from geocontact.gap_benchmark.synthetic.laboratories.placement import LENGTH, noticed, placement_of
+from geocontact.gap_benchmark.synthetic.laboratories.recorder import (
+    at_another_rate,
+    growth_of,
+    power_law_noise,
+    quotients_of,
+)
+from geocontact.gap_benchmark.synthetic.noise import FAR_FROM_NYQUIST, NoiseFilter, SensorNoise
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
+
+CLOCKS = {
+    "even": Clock(losing=0.0),
+    "uneven": Clock(uneven=0.3, losing=0.0),
+    "dropping": Clock(losing=1.0, alone=0.05, longest=12),
+    "triggered": Clock(losing=0.0, trigger=0.5),
+}
+STEPS = {"fine": (0.05, 0.3), "coarse": (0.5, 2.0)}
+"""Of the numbers, in standard deviations of the noise."""
+COARSEST_INPUT = 1.0
+TRIALS: Mapping[Trials, tuple[tuple[int, int], ...]] = {
+    "few": ((2, 1), (2, 1), (2, 2), (3, 1)),
+    "many": ((6, 3), (7, 3), (7, 4), (8, 4)),
+}
+MAINS = (50.0, 60.0)
+"""Frequency of the mains [Hz]."""
+HUM = (0.3, 1.0)
+"""Root mean square of the hum, in standard deviations of the noise beside it."""
+CHAIN = (0.02, 0.2)
+"""Corner of a filter in the measuring chain, as a share of the sampling frequency."""
+KNOCK, KNOCK_DECAY, KNOCK_RINGING, KNOCK_CHANCE = (4.0, 10.0), (0.02, 0.08), (5.0, 25.0), 0.5
+"""Largest value of a knock in standard deviations of the noise; its decay [s]; its ringing [Hz]; how many trials."""
+COLD = (1.0, 2.5)
+"""What is off in the first trial, in what usually varies from trial to trial."""
+CONSTANT = 0.01
+"""Standard deviation of what is told wrong of a constant that is no length of the placement, as a share of it."""
+
+
+def laboratory_of_kind(rng: Rng, scene: SyntheticScene, kind: LaboratoryKind) -> SyntheticScene:
+    """The scene, recorded by some laboratory of the kind."""
+    scene = at_another_rate(rng, another_device(rng, scene))
+    scene = _inputs(rng, scene, kind)
+    noise = tuple(_noise(rng, kind.noise, one.sd, scene.step) for one in scene.noise)
+    scene = replace(scene, noise=noise)
+    size = sizes(scene, scene.path(rng, 0))
+    low, high = STEPS[kind.steps]
+    recorder = Recorder(
+        growth_of(rng, scene, size) if kind.noise == "growing" else {},
+        quotients_of(scene, size) if kind.quotient else {},
+        {row: one.sd * _between(rng, low, high) for row, one in enumerate(noise)},
+        {
+            row: float(sd) * _between(rng, low, min(high, COARSEST_INPUT))
+            for row, sd in enumerate(scene.input_noise)
+            if sd
+        },
+    )
+    usual = noticed(scene, scene.path(rng, 0), placement_of(scene, size, 1.0))
+    own = TRIALS.get(kind.trials)
+    laboratory = Laboratory(
+        recorder,
+        CLOCKS[kind.clock],
+        placement=usual if kind.trouble == "placed" else Placement(),
+        standing=_constants(rng, scene) if kind.trouble == "constants" else Placement(),
+        warm_up=_warm_up(rng, usual) if kind.trouble == "warm_up" else WarmUp(),
+        trials=own[rng.integers(len(own))] if own else None,
+        forms=kind.forms,
+    )
+    return sampled(rng, replace(scene, laboratory=laboratory))
+
+
+def _inputs(rng: Rng, scene: SyntheticScene, kind: LaboratoryKind) -> SyntheticScene:
+    """Other filters of the inputs' noise; who filters less has better sensors."""
+    if kind.inputs == "usual":
+        return scene
+    filters = other_filters(rng, kind.inputs, len(scene.inputs), scene.step)
+    pairs = zip(scene.input_noise, scene.filters, filters, strict=True)
+    return replace(
+        scene,
+        filters=filters,
+        input_noise=np.array([sd * quieter(scene.step, before, after) for sd, before, after in pairs]),
+    )
+
+
+def _noise(rng: Rng, sort: Noise, sd: float, step: float) -> SensorNoise:
+    if sort in ("pink", "growing", "tailed"):
+        return power_law_noise(rng, sort, sd)
+    sd = sd * rng.uniform(0.7, 1.4)
+    if sort == "filtered":
+        return FilteredNoise(sd, NoiseFilter(_between(rng, *CHAIN) / step, int(rng.integers(1, 4))))
+    white = PowerLawNoise(sd)
+    if sort == "mains":
+        return Humming(white, sd * rng.uniform(*HUM), float(rng.choice(MAINS)))
+    if sort == "knocked":
+        decay = max(_between(rng, *KNOCK_DECAY), 2.0 * step)
+        ringing = min(_between(rng, *KNOCK_RINGING), FAR_FROM_NYQUIST / step)
+        return Knocked(white, rng.uniform(*KNOCK), decay, ringing, KNOCK_CHANCE)
+    return white
+
+
+def _constants(rng: Rng, scene: SyntheticScene) -> Placement:
+    """Every constant off by a draw; sizes are made less later, as far as they would show."""
+    usual = {name: LENGTH if name in scene.body.lengths else CONSTANT * told for name, told in scene.constants.items()}
+    return Placement({name: sd * rng.standard_normal() for name, sd in usual.items()})
+
+
+def _warm_up(rng: Rng, usual: Placement) -> WarmUp:
+    cold = rng.uniform(*COLD) * rng.choice([-1.0, 1.0], len(usual))
+    off = usual.times(cold)
+    return WarmUp(Placement(gains=off.gains, zeros=off.zeros), rng.uniform(1.0, 4.0))
+
+
+def _between(rng: Rng, low: float, high: float) -> float:
+    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
