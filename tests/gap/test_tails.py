@@ -14,7 +14,11 @@ from geocontact.gap.attribute import Attribution, attribute
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.selection.model_comparison import base_contender, singles
 from geocontact.gap.selection.surrogate import surrogate
-from geocontact.gap.selection.tails import RETURNING, returning, sharp, tails
+from geocontact.gap.selection.tails import RETURNING, SURE, gained_by_normal, returning, sharp, standing_out, tails
+from geocontact.identify.noise.covariance import Layout
+from geocontact.identify.noise.input_noise import Instant
+from geocontact.identify.noise.noise_levels import NoiseLevels
+from geocontact.identify.noise.student import student_noise
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import NOISE, Change, elbow_case
@@ -110,3 +114,26 @@ def test_what_is_smooth_is_no_tail() -> None:
     assert np.isnan(found[200])
     assert np.abs(np.delete(found, [149, 150, 151, 199, 200, 201])).max() < 0.5
     assert abs(found[150]) > 10.0
+
+
+def test_normal_noise_of_many_samples_has_no_tails() -> None:
+    """Of nine thousand samples Student's distribution gains a hundred nats, by how they are taken."""
+    rng = np.random.default_rng(5)
+    levels = NoiseLevels(*(np.array(each) for each in ([0.03], [[0.09], [0.02]], [[0.6], [0.8]], [])))
+    layouts = []
+    for _ in range(12):
+        time = np.flatnonzero(rng.random(800) > 0.05).astype(float)
+        felt = np.zeros((len(time), 1, 0))
+        present = np.ones((len(time), 1), bool)
+        layouts.append(Layout.of(time, present, Instant(time, felt, felt, ()), present.astype(float)))
+    varied = [np.zeros((*layout.shape, 1)) for layout in layouts]
+    (reference,) = gained_by_normal(layouts, levels, varied)
+    off = []
+    for layout, own in zip(layouts, varied, strict=True):
+        whitener, noise = layout.whitener(levels), np.zeros(layout.shape).ravel()
+        for rows, factor in zip(whitener.rows, whitener.factors, strict=True):
+            noise[rows] = np.linalg.solve(factor, rng.standard_normal(len(rows)))
+        off.append(sharp(standing_out(layout, levels, noise.reshape(layout.shape), own)[:, 0]))
+    gain = student_noise(np.concatenate(off)).gain
+    assert gain > 5.0 * SURE, "what was to be shown"
+    assert gain < SURE + reference

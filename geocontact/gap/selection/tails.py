@@ -22,7 +22,7 @@ from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.identify.noise.student import StudentNoise, student_noise
 
 SURE = 12.0
-"""Nats that heavy tails must gain over normal noise in a channel."""
+"""Nats that heavy tails must gain in a channel over what they gain where noise is normal."""
 ROUNDS = 4
 """Times that weights are found anew: a sample that is off misleads about those next to it."""
 PHASES, FEWEST = 20, 2
@@ -63,6 +63,7 @@ def tails(problem: Problem, one: Judged, explained: Sequence[Float[np.ndarray, "
     left = [r - e for r, e in zip(one.model.residuals, explained, strict=True)]
     varied = [v * one.noise.varies for v in problem.varied(one.model.jacobian)]
     louder = [np.ones(part.shape) for part in left]
+    normal = gained_by_normal(problem.layouts, one.noise.levels, varied)
     found: dict[int, StudentNoise] = {}
     for _ in range(ROUNDS):
         layouts = [layout.louder(times) for layout, times in zip(problem.layouts, louder, strict=True)]
@@ -72,12 +73,31 @@ def tails(problem: Problem, one: Judged, explained: Sequence[Float[np.ndarray, "
         for c in range(len(problem.system.outputs)):
             columns = [sharp(each[:, c]) for each in off]
             own = student_noise(np.concatenate([each[np.isfinite(each)] for each in columns]))
-            if own.gain > SURE and returning([own.weights(each) for each in columns]) < RETURNING:
+            if own.gain > SURE + normal[c] and returning([own.weights(each) for each in columns]) < RETURNING:
                 found[c] = own
         louder = [_louder(layout, each, found) for layout, each in zip(layouts, off, strict=True)]
         if not found:
             break
     return Tails(tuple(louder), {problem.system.outputs[c]: own for c, own in found.items()})
+
+
+def gained_by_normal(
+    layouts: Sequence[Layout], levels: NoiseLevels, varied: Sequence[Float[np.ndarray, "_ c q"]]
+) -> list[float]:
+    """What Student's distribution gains in each channel where noise is normal, of the covariance that it is taken for.
+
+    Not nothing: of two normal numbers the smaller, which `sharp` takes, is not normal, and the gain grows with the
+    number of samples. One draw, always the same.
+    """
+    rng = np.random.default_rng(0)
+    off = []
+    for layout, own in zip(layouts, varied, strict=True):
+        whitener, noise = layout.whitener(levels), np.full(layout.shape, np.nan).ravel()
+        for rows, factor in zip(whitener.rows, whitener.factors, strict=True):
+            noise[rows] = np.linalg.solve(factor, rng.standard_normal(len(rows)))
+        off.append(standing_out(layout, levels, np.nan_to_num(noise.reshape(layout.shape)), own))
+    columns = [[sharp(each[:, c]) for each in off] for c in range(layouts[0].shape[1])]
+    return [student_noise(np.concatenate([x[np.isfinite(x)] for x in each])).gain for each in columns]
 
 
 def sharp(off: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
