@@ -17,7 +17,7 @@ from jaxtyping import Bool, Float, Int
 
 from geocontact.geometry.contact_area.area import areas_cut_once
 from geocontact.geometry.contact_area.sampled import Sampled
-from geocontact.geometry.kernels.cells import BEYOND, OPEN, WITHIN, Cells, divided, measured_cells
+from geocontact.geometry.kernels.cells import BEYOND, OPEN, WITHIN, CellGrid, divided, measured_cells
 from geocontact.geometry.kernels.repeated import ON_IT, areas_at, corner_slopes, face_chunks
 from geocontact.geometry.kernels.triangle import LEAF
 from geocontact.geometry.surface import Surface
@@ -111,7 +111,7 @@ class RepeatedArea:
         return float(areas_cut_once(sampled, d, (self.threshold,))[0]), slope
 
 
-def grid_around(surface: Surface, threshold: float, fine: float) -> Cells:
+def grid_around(surface: Surface, threshold: float, fine: float) -> CellGrid:
     """The cells around a surface, fine ones of about the edge given [m] where the threshold passes."""
     tree, signed = surface.tree, surface.closed
     reach = threshold * (1.0 + 1e-9)
@@ -128,7 +128,7 @@ def grid_around(surface: Surface, threshold: float, fine: float) -> Cells:
     block = np.full(len(side), -1)
     block[opened] = np.arange(len(opened))
     inner = divided(tree, low, coarse, count, FINE, opened, signed)
-    return Cells(
+    return CellGrid(
         low, count, coarse, coarse / FINE, FINE, state, block, len(opened) * FINE**3,
         *(np.concatenate([a, b]) for a, b in zip(inner, (near, place, side), strict=True)),
     )  # fmt: skip

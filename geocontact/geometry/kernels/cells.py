@@ -25,17 +25,17 @@ ROUND = 1e-12  # relative allowance for rounding
 WITHIN, BEYOND, OPEN = np.int8(1), np.int8(2), np.int8(0)
 
 
-class Cells(NamedTuple):
+class CellGrid(NamedTuple):
     """The grid about the centre of its surface, for one threshold.
 
-    low (3,) its corner; count (3,) coarse cells along each axis; coarse and fine their edges [m]; n fine cells along a
+    low (3,) its corner; shape (3,) coarse cells along each axis; coarse and fine their edges [m]; n fine cells along a
     coarse one; state (c,) WITHIN, BEYOND or OPEN; block (c,) number of an open cell's fine cells. A cell's number there
     is `block`, or for coarse ones `first` + the coarse cell's own: near (k, 4) is p and e, place (k,) where p lies in
     the tree, side (k,) 1 outside, -1 inside, 0 where the surface may pass through.
     """
 
     low: np.ndarray
-    count: np.ndarray
+    shape: np.ndarray
     coarse: float
     fine: float
     n: int

@@ -89,7 +89,7 @@ def areas_at(tree, cells, points, faces, area, start, chunks, threshold, signed,
     found, slope, doubt = np.zeros(poses), np.zeros((poses, 6)), np.zeros(poses, np.int64)
     boxes, child, leaves, slots = tree.boxes, tree.child, tree.leaves, tree.slots
     fill, normal = tree.fill, tree.normal
-    low, count, coarse, n_fine = cells.low, cells.count, cells.coarse, cells.n
+    low, count, coarse, n_fine = cells.low, cells.shape, cells.coarse, cells.n
     state, block, first_coarse, near = cells.state, cells.block, cells.first, cells.near
     sides, places = cells.side, cells.place
     nodes, keys, square, fan = scratch()
