@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input
 EDITABLE := $(PIP) install --quiet --no-deps --no-build-isolation -e .
 COMPILE := $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-emit-index-url \
-	--no-annotate --no-header --group build --extra all --extra test
+	--no-annotate --no-header --group build --extra all --extra docs --extra test
 
 # Modules are compiled once and kept, whatever the shell says: tests read them in hundreds of processes.
 export PYTHONDONTWRITEBYTECODE :=
@@ -16,7 +16,7 @@ export PYTHONDONTWRITEBYTECODE :=
 TOGETHER := -rs --durations 25 --durations-min 5 -n auto --maxprocesses 4 --dist loadscope --no-loadscope-reorder
 
 .DELETE_ON_ERROR:
-.PHONY: demo test shapes slow long real check lint types imports oracle lock page clean
+.PHONY: demo test shapes slow long real check lint types imports docs site oracle lock page clean
 
 demo: $(VENV)/core.stamp
 	@$(BIN)/geocontact demo
@@ -56,6 +56,16 @@ types: $(VENV)/full.stamp
 
 imports: $(VENV)/full.stamp
 	$(BIN)/lint-imports
+
+# The site with every notebook run anew, since outputs that are kept grow old: build/docs/html/index.html
+docs: $(VENV)/full.stamp
+	@$(BIN)/python -m website.pages
+	@$(BIN)/python -m website --execute
+	@echo "open build/docs/html/index.html"
+
+# The same without outputs, for .ci/run: tests/notebooks runs the notebooks there; a warning is an error
+site: $(VENV)/full.stamp
+	@$(BIN)/python -m website
 
 oracle: $(VENV)/oracle.stamp
 

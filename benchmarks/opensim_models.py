@@ -4,9 +4,12 @@ Every .osim file below the folders (the project's own meshes, a synthetic whole 
 read by both. At random
 states within the coordinates' ranges: places and turns of all bodies, generalised forces; the model scaled by factors
 of its own for each body, with another mass; inverse kinematics of its virtual markers with noise, angles and frames per
-CPU second of one core. Models with ball, free or scapulothoracic joints are compared at rest, and without the forces of
-those joints: their speeds are angular velocities in OpenSim and rates of the coordinates here. A model that is refused
-here stands in the table with the line that says why. Motions are synthetic, models are as found.
+CPU second of one core. OpenSim rounds numbers of files of version 3 to six digits when it reads them: such files are
+compared as they are, and once more as OpenSim writes them again (`rewritten`). Where the third turn of a joint
+depends on a coordinate of the others, OpenSim's forces by velocity are not those of its mass matrix: `lagrange` has
+how far both are off Lagrange's equations. Models with ball, free or scapulothoracic joints are compared at rest, and
+without the forces of those joints: their speeds are angular velocities in OpenSim and rates of the coordinates here. A
+model that is refused here stands in the table with the line that says why. Motions are synthetic, models are as found.
 """
 
 from __future__ import annotations
@@ -23,6 +26,7 @@ from typing import Any
 
 from benchmarks.full_body import write_full_body
 from benchmarks.one_core import pin
+from benchmarks.opensim_states import closed, lagrange, states
 
 HERE = Path(__file__).resolve().parent
 STATES, FRAMES, RATE, NOISE, SEED = 8, 180, 60.0, 2e-3, 3636
@@ -31,6 +35,8 @@ SOFT = 20.0
 """Weight of constraints where OpenSim does not converge with exact ones."""
 FEWEST = 8
 """Markers of a model that inverse kinematics is tried with."""
+LAGRANGE = 1e-5
+"""Difference of forces, of range, above which Lagrange's equations are asked."""
 
 
 def main() -> None:
@@ -38,9 +44,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.opensim_models", description=__doc__.splitlines()[0])
     parser.add_argument("folders", nargs="*", type=Path)
     parser.add_argument("--out", type=Path, default=HERE / "results")
+    parser.add_argument("--name", default="opensim_models", help="of the JSON, without ending")
     options = parser.parse_args()
     pin()
-    from benchmarks.machine import machine, versions
+    from benchmarks.machine import stamp
     from tests.elsewhere import another_process
 
     rows = []
@@ -50,13 +57,12 @@ def main() -> None:
                 rows.append({"model": name, **compared(file, call)})
             print(_line(rows[-1]), flush=True)
     report = {
-        "machine": machine(),
-        "versions": versions({"casadi", "numpy", "scipy", "opensim"}),
+        **stamp({"casadi", "numpy", "scipy", "opensim"}),
         "seed": SEED,
         "models": rows,
     }
     options.out.mkdir(parents=True, exist_ok=True)
-    (options.out / "opensim_models.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+    (options.out / f"{options.name}.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
 
 
 def _models(folders: list[Path], scratch: Path) -> Iterator[tuple[str, Path]]:
@@ -90,11 +96,11 @@ def compared(file: Path, call: Any) -> dict[str, Any]:
     }
     rng = np.random.default_rng(SEED)
     try:
-        found |= _kinematics(file, tree, call, _states(tree.model, rng, STATES))
-        found |= _dynamics(file, tree, call, _states(tree.model, rng, STATES), rng)
-        found |= _scaling(file, tree.model, call, rng)
+        found |= _at_states(file, tree, call, rng)
         if len(tree.model.markers) >= FEWEST:
             found |= _markers(file, tree, call, rng)
+        if _is_old(file):
+            found |= {"rewritten": _rewritten(file, call)}
     except (
         RuntimeError,
         ValueError,
@@ -105,37 +111,32 @@ def compared(file: Path, call: Any) -> dict[str, Any]:
     return found
 
 
-def _states(model: Any, rng: Any, count: int) -> Any:
-    """Coordinates about the middle of their ranges, half as wide; locked ones and those that follow as they are."""
+def _at_states(file: Path, tree: Any, call: Any, rng: Any) -> dict[str, Any]:
+    found = _kinematics(file, tree, call, states(tree.model, rng, STATES))
+    found |= _dynamics(file, tree, call, states(tree.model, rng, STATES), rng)
+    return found | _scaling(file, tree.model, call, rng)
+
+
+def _is_old(file: Path) -> bool:
+    from geocontact.io.opensim.osim_xml import read_document
+
+    return read_document(file).get("Version", "0") < "40000"
+
+
+def _rewritten(file: Path, call: Any) -> dict[str, Any]:
+    """The same comparison of the file that OpenSim writes again."""
     import numpy as np
 
-    low, high = np.array([c.limits for c in model.coordinates]).T
-    start = np.array([c.default for c in model.coordinates])
-    wide = np.isfinite(low) & np.isfinite(high) & (high - low < 7.0)
-    low, high = np.where(wide, low, start - 0.5), np.where(wide, high, start + 0.5)
-    middle, span = 0.5 * (low + high), 0.5 * (high - low)
-    turned = np.array([c.kind == "rotational" for c in model.coordinates])
-    span = np.where(turned, np.minimum(span, 0.6), np.minimum(span, 0.1))
-    middle = np.where(np.abs(middle - start) > span, np.clip(start, middle - span, middle + span), middle)
-    values = middle + rng.uniform(-0.5, 0.5, (count, len(span))) * span
-    locked = np.array([c.locked for c in model.coordinates])
-    return _closed(model, model.coupled(np.where(locked, start, values)))
+    from geocontact.dynamics.tree import tree_of
+    from geocontact.io.opensim.osim_multibody import read_multibody
+    from tests import opensim_oracle
 
-
-def _closed(model: Any, values: Any) -> Any:
-    """States near these in which points of constraints lie on each other."""
-    import numpy as np
-    from scipy.optimize import least_squares
-
-    if not model.pairs:
-        return values
-
-    def apart(q: Any) -> Any:
-        poses = model.poses(q[None])
-        ends = [[poses[body].apply(place)[0] for body, place in map(pair.ends, (0, 1))] for pair in model.pairs]
-        return np.concatenate([one - other for one, other in ends])
-
-    return np.array([least_squares(lambda q, near=near: np.r_[1e4 * apart(q), q - near], near).x for near in values])
+    with tempfile.TemporaryDirectory() as place, warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        again = Path(place) / file.name
+        call(opensim_oracle.converted, file, again)
+        found = _at_states(again, tree_of(read_multibody(again)), call, np.random.default_rng(SEED))
+    return {key: found[key] for key in ("bodies_apart_mm", "forces_off_share", "scaled_off")}
 
 
 def _kinematics(file: Path, tree: Any, call: Any, q: Any) -> dict[str, Any]:
@@ -171,7 +172,8 @@ def _dynamics(file: Path, tree: Any, call: Any, q: Any, rng: Any) -> dict[str, A
     theirs = call(opensim_oracle.inverse_dynamics, file, tree.names, q, u, a)
     off = np.abs(ours - theirs).max(axis=0) / np.maximum(np.ptp(theirs, axis=0), 1e-3 * np.abs(theirs).max())
     shares = {name: float(share) for name, share in zip(tree.names, off, strict=True) if name not in turning}
-    return {
+    found = {"lagrange": lagrange(file, tree, call, q, u)} if max(shares.values()) > LAGRANGE and not turning else {}
+    return found | {
         "forces_at_rest": bool(turning),
         "forces_off_share": max(shares.values()),
         "forces_beyond_1_percent": [name for name, share in shares.items() if share > 0.01],
@@ -215,11 +217,11 @@ def _scaling(file: Path, model: Any, call: Any, rng: Any) -> dict[str, Any]:
             size = max(float(np.abs(other.inertia).max()), 1e-12)
             off.append(float(np.abs(body.inertia - other.inertia).max()) / size)
             off.append(float(np.abs(body.centre - other.centre).max()))
-    joints = {joint.name: joint for joint in theirs.joints}
+    joints = {joint.child: joint for joint in theirs.joints}
     for joint in ours.joints:
-        if joint.name in joints:
+        if joint.child in joints:
             for side in ("parent_offset", "child_offset"):
-                one, two = (getattr(each, side).translation for each in (joint, joints[joint.name]))
+                one, two = (getattr(each, side).translation for each in (joint, joints[joint.child]))
                 off.append(float(np.abs(one - two).max()))
     places = {m.name: m.location for m in theirs.markers}
     off += [float(np.abs(m.location - places[m.name]).max()) for m in ours.markers if m.name in places]
@@ -236,9 +238,9 @@ def _markers(file: Path, tree: Any, call: Any, rng: Any) -> dict[str, Any]:
     from geocontact.io.mocap.trc import read_trc
     from geocontact.io.mocap.trc_writer import write_trc
 
-    one, two = _states(tree.model, rng, 2)
+    one, two = states(tree.model, rng, 2)
     phase = 0.5 - 0.5 * np.cos(np.linspace(0.0, 2.0 * np.pi, FRAMES))[:, None]
-    values = _closed(tree.model, tree.model.coupled(one + phase * (two - one)))
+    values = closed(tree.model, tree.model.coupled(one + phase * (two - one)))
     names = tuple(m.name for m in tree.model.markers)
     places = tree.model.marker_places(values) + NOISE * rng.normal(size=(FRAMES, len(names), 3))
     tasks = MarkerTasks(dict.fromkeys(names, 1.0))

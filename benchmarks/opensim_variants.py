@@ -89,7 +89,19 @@ def variants() -> Iterator[tuple[str, str]]:
         f'<Body name="femur"><components>{spot}<orientation>0 0.2 0</orientation></PhysicalOffsetFrame></components>'
     )
     text = model(gimbal).replace('<Body name="femur">', inside)
+    bodies, joints = (text_of_set(model(gimbal), name) for name in ("BodySet", "JointSet"))
+    loose = model(gimbal).replace(bodies, f"<components>{objects(bodies)}{objects(joints)}</components>")
+    yield "in components", loose.replace(joints, "").replace("/bodyset/", "/")
     yield "frame on a frame", text.replace("/bodyset/femur</socket_parent>", "/bodyset/femur/spot</socket_parent>")
+
+
+def text_of_set(text: str, name: str) -> str:
+    return text[text.index(f"<{name}>") : text.index(f"</{name}>")] + f"</{name}>"
+
+
+def objects(text: str) -> str:
+    """What a set holds."""
+    return text.partition("<objects>")[2].rpartition("</objects>")[0]
 
 
 def names(count: int) -> dict[str, str]:

@@ -1,4 +1,6 @@
-"""The whole `area` command on a pair: what a user waits for, in a process of its own, warm and on one core.
+"""Whole commands: what a user waits for, in a process of its own, warm and on one core.
+
+The `area` command on a pair is here; `benchmarks.gap_speed` has the diagnosis of gaps.
 
 Interpreter, imports, reading, both bodies' maps, refined areas with bounds, areas at 13 further thresholds, exact least
 distance and depth of every frame, table, figures and page.
@@ -31,27 +33,39 @@ from geocontact.cli.main import run
 
 taken = {}
 
-def timed(module, name, what):
-    module = import_module(module)
-    function = getattr(module, name)
+def timed(where, name, what):
+    module, _, inside = where.partition(":")
+    owner = import_module(module)
+    owner = getattr(owner, inside) if inside else owner
+    function, depth = getattr(owner, name), []
 
     def call(*args, **named):
+        depth.append(0)
         start = time.process_time()
-        found = function(*args, **named)
-        taken[what] = taken.get(what, 0.0) + time.process_time() - start
-        return found
+        try:
+            return function(*args, **named)
+        finally:
+            depth.pop()
+            if not depth:
+                taken[what] = taken.get(what, 0.0) + time.process_time() - start
 
-    setattr(module, name, call)
+    setattr(owner, name, call)
 
-timed("geocontact.analyses.area.read", "read_body", "reading")
-timed("geocontact.analyses.area.run", "area_evolution", "frames")
-timed("geocontact.analyses.area.write", "save_both", "figures")
-timed("geocontact.analyses.area.write", "_write_report", "page")
-code = run(sys.argv[1:])
+for each in json.loads(sys.argv[1]):
+    timed(*each)
+code = run(sys.argv[2:])
 taken["all"] = time.process_time()
 sys.stderr.write("\\n" + json.dumps(taken) + "\\n")
 sys.exit(code)
 """
+
+AREA = (
+    ("geocontact.analyses.area.read", "read_body", "reading"),
+    ("geocontact.analyses.area.run", "area_evolution", "frames"),
+    ("geocontact.analyses.area.write", "save_both", "figures"),
+    ("geocontact.analyses.area.write", "_write_report", "page"),
+)
+"""What is timed of `area`: module, or module:class; function; what it is called."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +80,7 @@ def whole_command(pair: Pair, rounds: int) -> Whole:
     """Run it once to load every cache and then `rounds` times."""
     with tempfile.TemporaryDirectory() as folder:
         arguments = _written(pair, Path(folder))
-        runs = [_once(arguments) for _ in range(rounds + 1)]
+        runs = [once(arguments, AREA) for _ in range(rounds + 1)]
     parts = {name: [run[name] for run in runs[1:]] for name in runs[0] if name != "all"}
     return Whole([run["all"] for run in runs[1:]], parts)
 
@@ -88,8 +102,9 @@ def _stl(body: Surface, name: str) -> bytes:
     return stl_bytes(1e3 * body.vertices, body.faces, name)
 
 
-def _once(arguments: Sequence[str]) -> dict[str, float]:
-    command = [sys.executable, "-c", PROGRAM, *arguments]
+def once(arguments: Sequence[str], parts: Sequence[tuple[str, str, str]]) -> dict[str, float]:
+    """CPU seconds of one run of the command line `arguments`, "all", and of those of `parts` that were called."""
+    command = [sys.executable, "-c", PROGRAM, json.dumps(parts), *arguments]
     done = subprocess.run(command, cwd=ROOT, env=dict(os.environ), capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise RuntimeError(done.stderr)

@@ -222,7 +222,13 @@ def __dir__() -> list[str]:
 
 
 def read_surface(path: str, unit: str, assume_closed: bool = False) -> Surface:
-    """Surface of a mesh file whose numbers are in `unit` (m, cm, mm or in), ready for queries; see `read_mesh`."""
+    """Surface of a mesh file whose numbers are in `unit` (m, cm, mm or in), ready for queries; see `read_mesh`.
+
+    >>> import geocontact as gc
+    >>> ball = gc.read_surface("meshes/sphere_r20.stl", "mm")
+    >>> ball.vertices.shape, ball.faces.shape, ball.closed
+    ((1442, 3), (2880, 3), True)
+    """
     from geocontact.geometry.surface import Surface
     from geocontact.io.mesh.meshes import read_mesh
 

@@ -20,6 +20,15 @@ def _model(file: Path) -> tuple[Any, Any]:
     return model, model.initSystem()
 
 
+def _body(model: Any, name: str) -> Any:
+    """Ground or body, also one that is in no set; a view that lives as long as the model does."""
+    if name == "ground":
+        return model.getGround()
+    if model.getBodySet().contains(name):
+        return model.getBodySet().get(name)
+    return model.getComponent(f"/{name}")
+
+
 def _set(model: Any, state: Any, names: Sequence[str], values: np.ndarray) -> None:
     for name, value in zip(names, values, strict=True):
         model.updCoordinateSet().get(name).setValue(state, float(value), False)
@@ -28,7 +37,7 @@ def _set(model: Any, state: Any, names: Sequence[str], values: np.ndarray) -> No
 def poses(file: Path, names: Sequence[str], samples: np.ndarray, pairs: Sequence[tuple[str, str]]) -> np.ndarray:
     """Poses of the first body in the second for each sample and pair, (s, p, 4, 4)."""
     model, state = _model(file)
-    frames = [[model.getGround() if b == "ground" else model.getBodySet().get(b) for b in pair] for pair in pairs]
+    frames = [[_body(model, b) for b in pair] for pair in pairs]
     found = np.tile(np.eye(4), (len(samples), len(pairs), 1, 1))
     for k, values in enumerate(samples):
         _set(model, state, names, values)

@@ -31,6 +31,15 @@ class Result(ABC):
     ----------
     record
         Inputs with their hashes, options, reservations, time taken: what `run.json` holds.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> result = gc.fit_shape("meshes/sphere_r20.stl", shape="sphere", unit="mm")
+    >>> isinstance(result, gc.Result), list(result.tables())
+    (True, ['fit'])
+    >>> sorted(file.name for file in result.write("out").iterdir())
+    ['fit.json', 'fit.png', 'fit.svg', 'report.html', 'run.json']
     """
 
     record: Record = field(repr=False)

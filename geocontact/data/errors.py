@@ -12,6 +12,14 @@ class InputError(ValueError):
 
     Raised where the value enters. `place` is a line, column, face or option ("line 6", "face 12"), empty when the
     whole file is meant; `remedy` may be empty when there is nothing the user could do differently.
+
+    >>> import geocontact as gc
+    >>> try:
+    ...     gc.fit_shape("meshes/sphere_r20.stl", shape="sphere", unit="m")
+    ... except gc.InputError as error:
+    ...     print(error)
+    sphere_r20.stl: bounding box 40 x 40 x 40 m is too large for an implant or a body; the file looks like
+    millimetres, pass `unit` mm
     """
 
     file: str | PathLike[str]
@@ -26,4 +34,12 @@ class InputError(ValueError):
 
 
 class InputWarning(UserWarning):
-    """Input that is used although something about it deserves a look; one line, continued afterwards."""
+    """Input that is used although something about it deserves a look; one line, continued afterwards.
+
+    >>> import geocontact as gc, warnings
+    >>> with warnings.catch_warnings(record=True) as caught:
+    ...     warnings.simplefilter("always")
+    ...     result = gc.shoulder.simulate("meshes/overhead_P1T1S100/markers.trc", side="right")
+    >>> issubclass(caught[0].category, gc.InputWarning), str(caught[0].message) == result.warnings[0]
+    (True, True)
+    """

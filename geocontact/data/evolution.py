@@ -61,6 +61,16 @@ class AreaEvolution:
         Further thresholds [m] and FIXED's area within them [m^2], triangles cut as given, without bounds.
     undecided
         Points whose side the winding number could not decide, per frame; they count as outside.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> femoral = gc.read_surface("meshes/femoral_component_right_coarse.stl", "mm")
+    >>> insert = gc.read_surface("meshes/tibial_insert_right_coarse.stl", "mm")
+    >>> settings = gc.Settings(thresholds=gc.mm(4, 5), rule="clip")
+    >>> found = gc.area_evolution(femoral, insert, gc.read_motion("meshes/gait.csv"), settings)
+    >>> type(found).__name__, found.moving.area.shape
+    ('AreaEvolution', (101, 2))
     """
 
     time: Float[np.ndarray, " t"]

@@ -69,6 +69,15 @@ class Motion:
         Name and values [rad] of the angle that a prescribed motion sweeps; None for recorded motion.
     heeded
         Which of the reader's options "order", "angles" and "convention" had a say in it.
+
+    Examples
+    --------
+    >>> import geocontact as gc, numpy as np
+    >>> from scipy.spatial.transform import RigidTransform
+    >>> poses = RigidTransform.from_translation([[0.0, 0.0, 0.0], [0.0, 0.01, 0.0]])
+    >>> motion = gc.Motion(np.array([0.0, 1.0]), poses)
+    >>> motion.at(np.array([0.5])).poses.translation.tolist()
+    [[0.0, 0.005, 0.0]]
     """
 
     time: Float[np.ndarray, " t"]

@@ -20,6 +20,13 @@ class Parameter:
         Bounds of the search; infinite where there is none.
     fixed
         Known from elsewhere, not to be fitted.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> stiffness = gc.Parameter("k", "N/m", 200.0, lower=50.0, upper=800.0)
+    >>> stiffness.lower, stiffness.fixed
+    (50.0, False)
     """
 
     name: str

@@ -6,8 +6,9 @@ where they do not lead down. As in OpenSim a coordinate that is held counts besi
 seen in the frame: Σ w |x - observed|² / Σ w + v (q - wanted)². Coordinates that the model clamps stay within their
 limits, locked ones at their default; those that depend on others follow them, and points that a constraint joins stay
 together, to 0.1 mm. A marker that is not seen does not count
-in that frame. The search begins where most markers are seen and goes from there to both ends. What the markers of a
-frame do not tell is not stated, or filled where the gap is short.
+in that frame. The search begins where most markers are seen and goes from there to both ends. Coordinates that no
+frame tells stay at their defaults, as few as are needed for all others to be determined. What the markers of a frame
+do not tell is not stated, or filled where the gap is short.
 """
 
 from __future__ import annotations
@@ -23,8 +24,9 @@ from scipy.linalg.lapack import dpotrf, dpotrs
 from geocontact.data.multibody.marker_tasks import MarkerTasks
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Marker
-from geocontact.dynamics.marker_fit import MarkerFit, Vector
+from geocontact.dynamics.marker_fit import TIGHT, MarkerFit, Vector
 from geocontact.dynamics.tree import Tree
+from geocontact.dynamics.undetermined import to_hold, undetermined
 
 STEP = 1e-8  # rad or m that the longest step is below when a frame is done
 MOST = 200  # steps for a frame
@@ -32,8 +34,7 @@ FAST = 0.2  # of the step before that a step is, while the curvature is kept
 DAMPED, WILDER = 1e-6, 10.0  # of the curvature's largest entry, once a step led up; times more each time
 EVEN = 1e-12  # of the cost that it may rise by rounding
 FEWEST = 3  # markers of a model that must be seen somewhere
-NOTHING = 1e-9  # curvature along a direction that markers do not tell, where that of each coordinate is 1
-PART = 1e-3  # of a unit direction that belongs to a coordinate
+ASIDE = 0.5  # rad or m from the defaults of the pose that tells which coordinates markers determine
 
 
 @dataclass(frozen=True)
@@ -95,6 +96,7 @@ def inverse_kinematics(
     if count < FEWEST:
         raise ValueError(f"no frame shows more than {count} markers of the model; three are needed")
     search = _Search(tree, markers, tasks)
+    search.hold(there.any(axis=0))
     wanted = tasks.wanted({c.name: c.default for c in tree.model.coordinates}, seen.time)
     values, distances = np.zeros((len(seen), len(tree.names))), np.full((len(seen), len(markers)), np.nan)
     steps, settled = np.zeros(len(seen), dtype=np.int64), np.zeros(len(seen), dtype=bool)
@@ -105,7 +107,7 @@ def inverse_kinematics(
         q = search.start if frames.step > 0 else values[first]
         for frame in frames:
             q, steps[frame], settled[frame] = search.pose(q, places[frame], wanted[frame])
-            values[frame], determined[frame] = q, search.determined(q, there[frame])
+            values[frame], determined[frame] = q, search.determined(there[frame])
             distances[frame] = np.linalg.norm(search.fit.places(q) - places[frame], axis=1)
             done += 1
             progress(done)
@@ -148,7 +150,19 @@ class _Search:
         }
         self.locked = np.array([c.locked or k in self.followers for k, c in enumerate(coordinates)])
         self.held = tasks.held(tree.names)
-        self.whole: Bool[np.ndarray, " n"] | None = None
+        self.idle = np.zeros(len(coordinates), dtype=bool)
+        self.known: dict[bytes, Bool[np.ndarray, " n"]] = {}
+        count = np.arange(len(coordinates))
+        aside = ASIDE * (1.0 + 0.4 * np.sin(1.0 + 2.4 * count)) * np.where(np.cos(0.3 + 1.7 * count) > 0.0, 1.0, -1.0)
+        beyond = (self.start + aside < self.low) | (self.start + aside > self.high)
+        self.aside = np.clip(self.start + np.where(beyond, -aside, aside), self.low, self.high)
+
+    def hold(self, there: Bool[np.ndarray, " m"]) -> None:
+        """Lock coordinates that these markers, all that are ever seen, hardly tell."""
+        rows = self.fit.slopes(self.aside)[np.repeat(there, 3)]
+        held = np.diag((self.held > 0.0).astype(float))
+        self.idle = to_hold(np.vstack([rows, np.sqrt(TIGHT) * self.fit.ties(self.aside), held]), ~self.locked)
+        self.locked = self.locked | self.idle
 
     def pose(self, q: Vector, observed: Float[np.ndarray, "m 3"], wanted: Vector) -> tuple[Vector, int, bool]:
         """Coordinates of a frame from a start, steps taken, and whether the last was short enough."""
@@ -175,32 +189,28 @@ class _Search:
             self.kept = self.kept if fast else None
         return q, MOST, False
 
-    def determined(self, q: Vector, there: Bool[np.ndarray, " m"]) -> Bool[np.ndarray, " n"]:
-        """Which coordinates the markers that are there, held values and locks determine; once for all of them there."""
-        if there.all() and self.whole is not None:
-            return self.whole
-        slopes = self.fit.slopes(q).reshape(len(there), 3, len(q))
-        weights = np.where(there, self.weights, 0.0)
-        normal = np.einsum("m,mik,mil->kl", weights, slopes, slopes)
-        ties = self.fit.ties(q)
-        normal += weights.sum() * ties.T @ ties
-        found = np.asarray(self.locked | ~_open(normal + weights.sum() * np.diag(self.held), ~self.locked))
+    def determined(self, there: Bool[np.ndarray, " m"]) -> Bool[np.ndarray, " n"]:
+        """Which coordinates the markers that are there, held values and locks determine."""
+        known = self.known.get(there.tobytes())
+        if known is not None:
+            return known
+        found = np.asarray(~self.idle & (self.locked | ~undetermined(self._normal(there), ~self.locked)))
         for k, of in self.followers.items():
             found[k] = found[of].all()
-        if there.all():
-            self.whole = found
+        self.known[there.tobytes()] = found
         return found
 
+    def _normal(self, there: Bool[np.ndarray, " m"]) -> Float[np.ndarray, "n n"]:
+        """Curvature after Gauss and Newton, of the markers that are there and of held values.
 
-def _open(normal: Float[np.ndarray, "n n"], free: Bool[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:
-    """Coordinates with a part in a direction along which nothing counts."""
-    found = np.zeros(len(free), dtype=bool)
-    inner = normal[np.ix_(free, free)]
-    unit = np.sqrt(np.where(np.diag(inner) > 0.0, np.diag(inner), 1.0))
-    size, directions = np.linalg.eigh(inner / np.outer(unit, unit))
-    idle = directions[:, size <= NOTHING]
-    found[np.flatnonzero(free)] = np.abs(idle).max(axis=1, initial=0.0) > PART
-    return found
+        In a pose away from the defaults, and from straight elbows. In the pose of a frame it says too little: where a
+        marker is as near as it comes, its distance does not change with a coordinate that it tells all the same.
+        """
+        slopes = self.fit.slopes(self.aside).reshape(len(there), 3, len(self.aside))
+        weights = np.where(there, self.weights, 0.0)
+        ties = self.fit.ties(self.aside)
+        own = np.einsum("m,mik,mil->kl", weights, slopes, slopes)
+        return np.asarray(own + weights.sum() * (ties.T @ ties + np.diag(self.held)), float)
 
 
 class _Kept:

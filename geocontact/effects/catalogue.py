@@ -63,5 +63,14 @@ EFFECTS: tuple[Effect, ...] = (
 
 
 def candidates(system: System) -> tuple[Candidate, ...]:
-    """Every candidate that applies to a system, then those of its own effects; bounds from its scale."""
+    """Every candidate that applies to a system, then those of its own effects; bounds from its scale.
+
+    >>> import geocontact as gc
+    >>> def run(time, inputs, numbers):
+    ...     return numbers["k"] * inputs[0]
+    >>> spring = gc.simulator_base("spring", {"angle": "rad"}, {"torque": "N m"}, run)
+    >>> system = spring.build((gc.Parameter("k", "N m/rad", 100.0, 10.0, 400.0),), {}, {})
+    >>> [one.label for one in gc.candidates(system)][:4]
+    ['time_shift', 'filter_lag', 'motion_offset.angle', 'gravity_load']
+    """
     return tuple(one for effect in (*EFFECTS, *system.own) for one in effect.candidates(system))

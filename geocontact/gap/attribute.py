@@ -16,9 +16,9 @@ from geocontact.gap.data_errors.gross import DataError, data_error_of, recognise
 from geocontact.gap.data_errors.hidden import hidden_mistakes, undone
 from geocontact.gap.selection.calibration_share import calibration_share, changes
 from geocontact.gap.selection.clipping import ClippedChannel, clipped_channels
-from geocontact.gap.selection.evidence import settled
+from geocontact.gap.selection.evidence import Judged, settled
 from geocontact.gap.selection.held_out_rules import TOO_LITTLE, HeldOutRules
-from geocontact.gap.selection.model_comparison import Contender, base_contender, pairs, settled_in, singles
+from geocontact.gap.selection.model_comparison import Contender, Ends, base_contender, pairs, settled_in, singles
 from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, recorder_remarks, residual_anomalies
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
 from geocontact.gap.selection.tails import Tails, tails
@@ -114,41 +114,64 @@ def _attributed(
 
     Where what nobody accounts for has heavy tails, it is held again with their weights.
     """
-    found = _contest(problem, data_error, clean, Tails.none(clean), offer, case, at)
-    leader = max((found.base, *found.contenders), key=lambda one: one.nats)
-    rest = found.remaining.get(leader.label) or surrogate(clean, leader.judged)
-    heavy = tails(clean, leader.judged, rest.predicted)
-    if not heavy.channels:
-        return found
-    at("the same with heavy tails of the noise")
-    weighed = heavy.weighed(clean)
-    again = _contest(weighed if clean is problem else problem, data_error, weighed, heavy, offer, case, at)
-    return replace(again, heavy=heavy.channels)
+    ends = Ends()
+    held = _contest(clean, data_error, Tails.none(clean), ends, offer, case, at)
+    heavy = tails(clean, held.leader.judged, held.rest.predicted)
+    if heavy.channels:
+        at("the same with heavy tails of the noise")
+        weighed = replace(heavy.weighed(clean), noise=held.base.judged.noise)
+        problem, clean = weighed if clean is problem else problem, weighed
+        held = _contest(clean, data_error, heavy, ends, offer, case, at)
+    return replace(_answered(problem, data_error, clean, held, at), heavy=heavy.channels)
+
+
+@dataclass(frozen=True)
+class Contest:
+    """Models of a case, judged under one weight of each sample.
+
+    Parameters
+    ----------
+    entered
+        Candidates that took part alone.
+    base, contenders
+        The base model, and models with effects.
+    first
+        The base model under the noise that the contest began with.
+    rest
+        What the surrogate finds on the leader.
+    flat
+        Channels whose recordings end at a level.
+    """
+
+    entered: tuple[Candidate, ...]
+    base: Contender
+    contenders: tuple[Contender, ...]
+    first: Judged
+    rest: Surrogate
+    flat: tuple[ClippedChannel, ...]
+
+    @property
+    def leader(self) -> Contender:
+        """The model with the largest evidence, whether that may be named or not."""
+        return max((self.base, *self.contenders), key=lambda one: one.nats)
 
 
 def _contest(
-    problem: Problem,
-    data_error: DataError | None,
-    clean: Problem,
-    heavy: Tails,
-    offer: Offer,
-    case: GapCase,
-    at: Listener,
-) -> Attribution:
-    """Every effect alone, pairs, and what is left over, under one weight of each sample."""
+    clean: Problem, data_error: DataError | None, heavy: Tails, ends: Ends, offer: Offer, case: GapCase, at: Listener
+) -> Contest:
+    """Every effect alone, pairs, and what the best of them leaves over."""
     candidates = offer(clean.system)
     base = base_contender(clean)
+    first = base.judged
     hidden = hidden_mistakes(clean, base.judged, candidates) if data_error is None else ()
-    entered = [*(one for one in candidates if one.parameters), *hidden]
+    entered = (*(one for one in candidates if one.parameters), *hidden)
     flat = clipped_channels(clean)
     at("every effect alone")
-    single = _with_clipped(clean, base, singles(clean, base, entered), candidates, flat)
+    single = _with_clipped(clean, base, singles(clean, base, entered, ends), candidates, flat)
     contenders = [*single]
-    at("whatever else it may be")
-    remaining = {"none": surrogate(clean, base.judged)}
     if single[0].nats - base.nats > WORTH_A_PAIR:
         at("two effects together")
-        contenders += _credited(pairs(clean, _different(single)[:FIRSTS], candidates), flat)
+        contenders += _credited(pairs(clean, _different(single)[:FIRSTS], candidates, ends), flat)
     base, *contenders = compared(clean, [base, *contenders])
     most = max(c.nats for c in contenders)
     contenders = [
@@ -157,6 +180,16 @@ def _contest(
         else c
         for c in contenders
     ]
+    at("whatever else it may be")
+    leader = max((base, *contenders), key=lambda one: one.nats)
+    return Contest(entered, base, tuple(contenders), first, surrogate(clean, leader.judged), tuple(flat))
+
+
+def _answered(
+    problem: Problem, data_error: DataError | None, clean: Problem, contest: Contest, at: Listener
+) -> Attribution:
+    """The verdict on a contest: what may be named, and what is left over."""
+    base, contenders, leader = contest.base, contest.contenders, contest.leader.judged
     shares = {c.label: calibration_share(clean, changes(clean, base, c)) for c in contenders}
     at("whether held-out trials are predicted better")
     rules = HeldOutRules.of(clean, base.judged)
@@ -164,25 +197,27 @@ def _contest(
     alone = [c for c in contenders if len(c.candidates) == 1]
     objections = {c.label: why for c in gaining if (why := rules.objection(c, alone))}
     objections |= rules.outdone([c for c in gaining if c.label not in objections])
-    variants = Counter(one.name for one in entered)
+    variants = Counter(one.name for one in contest.entered)
     held = ranking(base, contenders, shares, variants, objections)
     odd = tuple(each for each in residual_anomalies(clean, held.leader.judged) if each.nats > ODD)
     recorder = tuple(each for each in recorder_remarks(clean, held.leader.judged) if each.nats > ODD)
     strange = float(sum(each.nats for each in odd))
     best = held.best
     at("what is left over")
-    rest = surrogate(clean, best.judged)
+    rest = contest.rest if best.judged is leader else surrogate(clean, best.judged)
+    missing = contest.rest if leader is contest.first else surrogate(clean, contest.first)
     left = _believed(rules, best, rest) if best is base or rules.adds(rest, best) else 0.0
     possible = ranking(base, gaining, shares, variants, {c.label for c in gaining if rules.ruled_out(c)})
     little = {label for label, why in objections.items() if why == TOO_LITTLE}
-    unnamed, known = _believed(rules, base, remaining["none"]), most_of(possible, little)
+    unnamed, known = _believed(rules, base, missing), most_of(possible, little)
     share = max((each.share for each in odd), default=0.0)
     said = with_refused(answer(held, unnamed, strange, left + strange, known, share), possible)
-    remaining |= {best.label: rest}
+    remaining = {"none": missing, best.label: rest}
     if data_error is not None:
         said = with_mistake(said, data_error.candidate.name)
-    found = tuple(contenders)
-    return Attribution(problem, data_error, clean, base, found, remaining, odd, recorder, objections, flat, said)
+    return Attribution(
+        problem, data_error, clean, base, contenders, remaining, odd, recorder, objections, contest.flat, said
+    )
 
 
 def _believed(rules: HeldOutRules, over: Contender, found: Surrogate) -> float:

@@ -10,7 +10,12 @@ from jaxtyping import Float
 
 @dataclass(frozen=True)
 class Plane:
-    """All x with normal . x = offset; normal a unit vector, offset in m, both in the surface's frame."""
+    """All x with normal . x = offset; normal a unit vector, offset in m, both in the surface's frame.
+
+    >>> import geocontact as gc, numpy as np
+    >>> gc.Plane.across("z", 0.01).height(np.array([[0.0, 0.0, 0.03]])).round(6).tolist()
+    [0.02]
+    """
 
     normal: tuple[float, float, float]
     offset: float = 0.0

@@ -25,6 +25,13 @@ class Proximity:
         Face of a meshed surface the nearest point lies on, -1 for analytic shapes and beyond the limit.
     signed
         Whether the shape has an inside.
+
+    Examples
+    --------
+    >>> import geocontact as gc, numpy as np
+    >>> found = gc.Sphere((0.0, 0.0, 0.0), radius=0.02).proximity(np.array([[0.05, 0.0, 0.0]]))
+    >>> found.distance.round(6).tolist(), found.closest.round(6).tolist()
+    ([0.03], [[0.02, 0.0, 0.0]])
     """
 
     distance: Float[np.ndarray, " n"]

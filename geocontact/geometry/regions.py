@@ -54,6 +54,14 @@ def faces_where(
     ------
     ValueError
         The expression cannot be read, or does not say yes or no for each face.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> ball = gc.read_surface("meshes/sphere_r20.stl", "mm")
+    >>> upper = gc.faces_where(ball, "y > 0", metres_per_unit=1e-3)
+    >>> int(upper.sum()), len(ball.faces)
+    (1416, 2880)
     """
     try:
         tree = ast.parse(expression.strip(), mode="eval")

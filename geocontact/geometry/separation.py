@@ -57,7 +57,14 @@ def _model(surface: Surface) -> fcl.BVHModel:
 
 
 def separation(moving: Surface, fixed: Surface, pose: RigidTransform) -> float:
-    """Smallest distance [m] between two surfaces with MOVING at `pose` in FIXED's frame; 0 when they intersect."""
+    """Smallest distance [m] between two surfaces with MOVING at `pose` in FIXED's frame; 0 when they intersect.
+
+    >>> import geocontact as gc
+    >>> from scipy.spatial.transform import RigidTransform
+    >>> ball, plate = (gc.read_surface(f"meshes/{name}.stl", "mm") for name in ("sphere_r20", "plate_80x80x12"))
+    >>> round(gc.separation(ball, plate, RigidTransform.from_translation([0.0, 0.05, 0.0])), 4)
+    0.03
+    """
     return Collider(moving, fixed).distance(pose.rotation.as_matrix(), np.asarray(pose.translation))
 
 
@@ -73,6 +80,13 @@ def settle(
     MOVING is first withdrawn until the bodies are clear of one another, then advanced by their exact distance again and
     again (conservative advancement: a translation by s cannot close a gap larger than s), so the first contact is not
     passed over. Stops at a gap below 1e-9 m. Raises ValueError when the bodies miss each other.
+
+    >>> import geocontact as gc
+    >>> from scipy.spatial.transform import RigidTransform
+    >>> ball, plate = (gc.read_surface(f"meshes/{name}.stl", "mm") for name in ("sphere_r20", "plate_80x80x12"))
+    >>> pose = gc.settle(ball, plate, RigidTransform.from_translation([0.0, 0.05, 0.0]), (0.0, -1.0, 0.0))
+    >>> gc.separation(ball, plate, pose) < 1e-9
+    True
     """
     way = np.asarray(direction, float)
     if not np.linalg.norm(way) > 0.0:

@@ -42,10 +42,18 @@ def _answer(
 class HalfSpace:
     """Everything below a plane: the ground, a flat plate.
 
+    Parameters
+    ----------
     point
         Any point on the plane [m].
     normal
         Outward direction, of any length.
+
+    Examples
+    --------
+    >>> import geocontact as gc, numpy as np
+    >>> gc.HalfSpace().proximity(np.array([[0.0, -0.002, 0.0]])).distance.round(6).tolist()
+    [-0.002]
     """
 
     point: Vector = (0.0, 0.0, 0.0)
@@ -60,7 +68,12 @@ class HalfSpace:
 
 @dataclass(frozen=True)
 class Sphere:
-    """Solid ball: heel and toe spheres, femoral heads. centre and radius in m."""
+    """Solid ball: heel and toe spheres, femoral heads. centre and radius in m.
+
+    >>> import geocontact as gc, numpy as np
+    >>> gc.Sphere((0.0, 0.0, 0.0), radius=0.02).proximity(np.array([[0.01, 0.0, 0.0]])).distance.round(6).tolist()
+    [-0.01]
+    """
 
     centre: Vector
     radius: float
@@ -80,10 +93,19 @@ class Tube:
     Sphere-in-tube contact: a sphere of radius r touches when its centre is closer than r to the wall. Distance is
     positive in the bore and negative in the wall; the normal points to the axis.
 
+    Parameters
+    ----------
     point, direction
         Axis: any point on it [m], direction of any length.
     radius
         Radius of the bore [m].
+
+    Examples
+    --------
+    >>> import geocontact as gc, numpy as np
+    >>> bore = gc.Tube((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), radius=0.03)
+    >>> bore.proximity(np.array([[0.01, 0.0, 0.0]])).distance.round(6).tolist()
+    [0.02]
     """
 
     point: Vector

@@ -38,6 +38,14 @@ class Surface:
         winding number, and points where it is undecided are reported.
     space
         Anatomical axes that its file says it is in, as in `Mesh`.
+
+    Examples
+    --------
+    >>> import geocontact as gc, numpy as np
+    >>> corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    >>> body = gc.Surface(corners, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
+    >>> body.closed, float(body.face_area.sum().round(3))
+    (True, 2.366)
     """
 
     vertices: Float[np.ndarray, "n 3"]

@@ -13,7 +13,13 @@ from geocontact.data.motion import Motion
 
 @dataclass(frozen=True)
 class Axis:
-    """A line in space: point [m] and direction of any length, in FIXED's frame."""
+    """A line in space: point [m] and direction of any length, in FIXED's frame.
+
+    >>> import geocontact as gc, numpy as np
+    >>> axis = gc.Axis(point=(0.0, 0.0, 0.0), direction=(0.0, 0.0, 1.0))
+    >>> axis.turned(np.array([gc.deg(90)])).apply([1.0, 0.0, 0.0]).round(6).tolist()
+    [[0.0, 1.0, 0.0]]
+    """
 
     point: tuple[float, float, float]
     direction: tuple[float, float, float]
@@ -35,6 +41,11 @@ def sweep(axis: Axis, start: float, stop: float, step: float, name: str = "angle
     """MOVING turned about `axis` from start [rad] in steps up to stop, which is included when the steps meet it.
 
     MOVING's own frame coincides with FIXED's at angle 0. One frame a second, so that there is a time.
+
+    >>> import geocontact as gc, numpy as np
+    >>> flexion = gc.sweep(gc.Axis((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)), 0.0, gc.deg(90), gc.deg(30))
+    >>> np.degrees(flexion.coordinate[1]).round(6).tolist()
+    [0.0, 30.0, 60.0, 90.0]
     """
     if step == 0.0 or not np.isfinite([start, stop, step]).all() or (stop - start) * step < 0.0:
         raise ValueError(f"a sweep from {start} to {stop} cannot go in steps of {step}")

@@ -26,6 +26,15 @@ class Base:
         `meshes` names some.
     meshes
         Names of the surfaces that it needs, `[mesh.<name>]` in case.toml.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> def run(time, inputs, numbers):
+    ...     return numbers["k"] * inputs[0]
+    >>> spring = gc.simulator_base("spring", {"angle": "rad"}, {"torque": "N m"}, run)
+    >>> isinstance(spring, gc.Base), spring.outputs
+    (True, ('torque',))
     """
 
     name: str
@@ -53,7 +62,11 @@ class Base:
 def require_numbers(
     system: str, needed: tuple[str, ...], parameters: tuple[Parameter, ...], constants: Mapping[str, float]
 ) -> None:
-    """Raise ValueError when a number is neither parameter nor constant, or both."""
+    """Raise ValueError when a number is neither parameter nor constant, or both.
+
+    >>> import geocontact as gc
+    >>> gc.require_numbers("orthosis", ("k",), [gc.Parameter("k", "N m/rad", 100.0)], {})
+    """
     names = {p.name for p in parameters}
     for name in needed:
         if name not in names and name not in constants:

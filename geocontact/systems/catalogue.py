@@ -18,10 +18,27 @@ SYSTEMS: tuple[Base, ...] = (ELBOW, FOOT, SHOULDER, KNEE, SIT_TO_STAND)
 
 
 def system_of(case: GapCase) -> System:
-    """Base model of a case, its scale taken from the calibration trials.
+    r"""Base model of a case, its scale taken from the calibration trials.
 
     InputError when the system is not known, when the case lacks a number, table or channel that it needs, or when it
     fails on a trial; "package.module:OBJECT" is imported.
+
+    >>> import geocontact as gc, numpy as np, pandas as pd
+    >>> from pathlib import Path
+    >>> Path("case/trials").mkdir(parents=True)
+    >>> time, noise = 0.04 * np.arange(160), np.random.default_rng(3)
+    >>> for k in range(1, 6):
+    ...     angle = 0.3 * np.sin((2.0 + 0.4 * k) * time) + 0.08 * np.sin((5.0 + k) * time)
+    ...     torque = 60.0 * angle + 3.0 * np.gradient(angle, time) + noise.normal(0.0, 0.2, 160)
+    ...     trial = pd.DataFrame({"time [s]": time, "angle [rad]": angle, "torque [N m]": torque})
+    ...     trial.to_csv(f"case/trials/t{k}.csv", index=False)
+    >>> text = 'format = 1\nsystem = "geocontact.systems.elastic_joint.model:JOINT"\n'
+    >>> text += 'calibration = ["t1", "t2", "t3"]\nevaluation = ["t4", "t5"]\n[noise]\ntorque = 0.2\n'
+    >>> text += '[parameters.k]\nstart = 50.0\nlower = 10.0\nupper = 200.0\nunit = "N m/rad"\n'
+    >>> _ = Path("case/case.toml").write_text(text)
+    >>> system = gc.system_of(gc.read_gap_case("case"))
+    >>> system.name, [one.name for one in system.parameters]
+    ('elastic_joint', ['k'])
     """
     if ":" in case.system:
         return python_system(case).scaled(case.calibration)

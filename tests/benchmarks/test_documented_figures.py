@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks import opensim_tables
+
 ROOT = Path(__file__).resolve().parents[2]
 MINUS = "\N{MINUS SIGN}"
 LEAST_COVERAGE = 0.88  # of the elbow's intervals of 95 %: 60 to 200 runs tell them to 3 %
@@ -442,6 +444,21 @@ def test_largest_forces_of_a_population() -> None:
     assert told["convergence"][0]["largest_error_N"] < told["convergence"][-1]["grid_only_largest_error_N"]
 
 
+def test_published_models_beside_opensim() -> None:
+    """Tables as the JSON has them; each model within its bound or refused, but for what the page says."""
+    lines = (ROOT / "docs" / "reference" / "opensim_models.md").read_text(encoding="utf-8").splitlines()
+    for table in (opensim_tables.models, opensim_tables.scaling, opensim_tables.kinematics, opensim_tables.dynamics):
+        assert set(table()) <= set(lines), table.__name__
+    for one in results("opensim_packages")["models"]:
+        exact = {**one, **one.get("rewritten", {})}
+        assert "failed" not in one and exact["scaled_off"] < 1e-6 and exact["bodies_apart_mm"] < 0.01
+        assert exact["forces_off_share"] < 0.01 and one.get("angles_off_deg", 0.0) < 0.1
+        assert exact["forces_off_share"] < 1e-9 or one["lagrange"]["ours"] < 1e-12
+    for one in results("opensim_setups")["set-ups"]:
+        assert "refused" not in one and one.get("scaled_off", 0.0) < 1e-6 and one.get("sum_over_opensims", 0.0) < 1.0
+        assert one.get("forces_off_share", 0.0) < 0.01 or "forces_not_read" in one
+
+
 def test_bodies_on_joints_beside_their_peers() -> None:
     page, told = "theory/multibody.md", results("multibody")
     fast, versions = told["inverse kinematics"], told["versions"]
@@ -566,3 +583,32 @@ def test_the_nine_trials_of_standing_up() -> None:
             assert near(strap, one["strap [N]"]) and near(angle, max(one["angles [deg]"][:3])), (label, cell)
             assert one.get("certified", True) or (label == "without torques" and one["trial"] in ("P1", "P5"))
     assert max(told["pipelines"]["largest residual of the truth [N, N m]"]) < 1.0
+
+
+def test_the_plan_of_a_large_study() -> None:
+    """Every row of the simulation, and what a trial costs."""
+    page, told = "reference/large_study.md", results("cohort_plan")
+    figures, trials = told["figures"], told["asked"]["trials"]
+    trial, study = figures["trial"], figures["study"]
+    measured = {
+        f"`area`, the shipped knee, {trial['frames']} frames": (trial["cpu_seconds"], 1 / 3600.0),
+        "`gap diagnose`, mean of the 1000 benchmark cases": (figures["diagnosis_cpu_seconds"], 1 / 3600.0),
+        "results of `area` on disk, pages among them": (trial["bytes"] / 1e6, 1e-3),
+        "of these, tables": (trial["bytes_of_tables"] / 1e3, 1e-6),
+        "the study's own process, first run": (study["first_ms"], 1e-3 / 60.0),
+        "the same, when all is there already": (study["again_ms"], 1e-3 / 60.0),
+        "its memory": (study["memory_bytes"] / 1e3, 1e-6),
+    }
+    for label, (value, scale) in measured.items():
+        one, every = (cell.partition(" ")[0] for cell in row(page, label))
+        assert near(one, value) and near(every, value, scale * trials), label
+    simulated = [cells for cells in rows(page) if len(cells) == 10 and cells[0] in ("area", "gap diagnose")]
+    assert len(simulated) == 18 and trials == 100_000
+    for analysis, scenario, workers, hours, used, lost, *counts in simulated:
+        own = figures[f"{analysis}, {scenario}, {workers}"]
+        for cell, key in ((hours, "hours"), (lost, "lost_cpu_hours")):
+            assert all(map(near, cell.replace("(", "").replace(")", "").replace("… ", "").split(), own[key])), cell
+        assert near(used, own["share"][0], 100.0)
+        keys = ("failed", "set_aside", "set_aside_innocent", "started_again")
+        assert all(near(cell, own[key][0]) for cell, key in zip(counts, keys, strict=True)), counts
+    assert max(figures[key]["set_aside_innocent"][0] for key in figures if ", " in key) < 1.0

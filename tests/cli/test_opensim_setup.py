@@ -265,6 +265,65 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
         np.testing.assert_allclose(own.inertia, other.inertia, rtol=1e-9)
 
 
+def test_a_range_of_a_static_trial_takes_the_frames_that_opensim_takes(tmp_path: Path, opensim: Elsewhere) -> None:
+    """Those that enclose it, of a leg that grows by 1 % and moves by 1 cm in each frame; for sizes and for the pose."""
+    _, model, time, values = legs.planted(tmp_path)
+    grown = [scaled(model, {"femur_r": (1.0 + 0.01 * k) * np.ones(3)}) for k in range(9)]
+    places = np.array([each.marker_places(0.0 * values[:1])[0] + 0.01 * k for k, each in enumerate(grown)])
+    legs.trc_file(tmp_path, MarkerTrajectories(time[:9], places, tuple(m.name for m in model.markers)))
+    tasks = "".join(task(m.name, 1.0) for m in model.markers)
+    narrow = SCALE.replace("<preserve", "<time_range>0.013 0.032</time_range><preserve").replace(
+        "0 0.02<", "0.018 0.041<"
+    )
+    end = "</MarkerPlacer>"
+    text = narrow.replace(end, f"<output_model_file>theirs.osim</output_model_file>{end}").format(tasks)
+    (tmp_path / "scale.xml").write_text(text)
+    told = with_setup(["scale", "--setup", str(tmp_path / "scale.xml")])
+    assert {"--time=0.01:0.05", "--sizes-time=0.01:0.04"} < set(told)
+    done(call("scale", "--setup", tmp_path / "scale.xml", "--out", tmp_path / "s"))
+    opensim(opensim_oracle.run_scaling, tmp_path / "scale.xml")
+    ours, theirs = (read_multibody(tmp_path / name) for name in ("s/scaled.osim", "theirs.osim"))
+    assert [b.mass for b in ours.bodies] == pytest.approx([b.mass for b in theirs.bodies], rel=1e-6)
+    for own, other in zip(ours.markers, theirs.markers, strict=True):
+        np.testing.assert_allclose(own.location, other.location, atol=1e-3, err_msg=own.name)
+
+
+def test_muscles_that_a_set_up_lets_act_are_told(tmp_path: Path) -> None:
+    """A set-up that leaves nothing out: in OpenSim muscles act at rest, here they never do."""
+    swinging(tmp_path)
+    text = (tmp_path / "leg.osim").read_text()
+    muscle = '<ForceSet><objects><Thelen2003Muscle name="vasti"/>'
+    (tmp_path / "leg.osim").write_text(text.replace("<ForceSet><objects>", muscle, 1))
+    assert "vasti" in (tmp_path / "leg.osim").read_text()
+    for excluded, told in {"": 1, "stops": 1, "Muscles stops": 0, "ALL": 0}.items():
+        (tmp_path / "id.xml").write_text(ID.format(exclude=excluded))
+        unheeded = read_tool_setup(tmp_path / "id.xml", "InverseDynamicsTool").unheeded
+        assert sum(what.startswith("passive force of 1 muscles") for what in unheeded) == told, excluded
+
+
+def test_without_placing_markers_the_default_pose_stays(tmp_path: Path) -> None:
+    """As OpenSim has it, whose set-up then needs no task of a marker, as Pose2Sim's for BlazePose has none."""
+    _, model, time, values = legs.planted(tmp_path)
+    legs.trc_file(tmp_path, legs.markers_of(model, time[:3], 0.0 * values[:3] + 0.05))
+    own = SCALE.replace("<MarkerPlacer><apply>true", "<MarkerPlacer><apply>false")
+    near = '<IKCoordinateTask name="knee"><value_type>default_value</value_type><weight>0</weight></IKCoordinateTask>'
+    (tmp_path / "scale.xml").write_text(own.format(near))
+    done(call("scale", "--setup", tmp_path / "scale.xml", "--out", tmp_path / "s"))
+    made = read_multibody(tmp_path / "s" / "scaled.osim")
+    assert [c.default for c in made.coordinates] == [c.default for c in model.coordinates]
+
+
+def test_bodies_that_the_model_lacks_are_passed_over_as_in_opensim(tmp_path: Path) -> None:
+    """One set-up for models of several kinds, as Pose2Sim has it; told, not refused."""
+    legs.model_file(tmp_path)
+    whole = _scale_options(tmp_path, SCALE)
+    begin = "<BodyScaleSet><objects>"
+    more = SCALE.replace(begin, f'{begin}<BodyScale name="fibula_r"><axes>X</axes></BodyScale>')
+    (tmp_path / "scale.xml").write_text(more.format(task("femur_r0", 1.0)))
+    found = read_tool_setup(tmp_path / "scale.xml", "ScaleTool")
+    assert found.options == whole and found.unheeded == ("size of fibula_r, which the model does not have,",)
+
+
 def _scale_options(folder: Path, text: str) -> tuple[tuple[str, str], ...]:
     (folder / "scale.xml").write_text(text.format(task("femur_r0", 1.0)))
     return read_tool_setup(folder / "scale.xml", "ScaleTool").options

@@ -13,7 +13,7 @@ from benchmarks.full_body import write_full_body
 from geocontact.data.multibody.joint import Coordinate
 from geocontact.data.multibody.marker_tasks import MarkerTasks
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
-from geocontact.data.multibody.model import Multibody
+from geocontact.data.multibody.model import Marker, Multibody
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics
 from geocontact.dynamics.marker_fit import MarkerFit
 from geocontact.dynamics.tree import Tree, tree_of
@@ -139,6 +139,32 @@ def test_what_no_marker_tells_costs_no_steps(tmp_path: Path) -> None:
     assert {name for name, each in zip(tree.names, told, strict=True) if not each} == lost
     np.testing.assert_allclose(found.values[:, told], values[:, told], atol=1e-7)
     assert not found.values[:, ~told].any() and found.steps[1:].mean() < 8.0
+
+
+def test_an_arm_is_found_though_its_markers_hardly_tell_the_pronation(tmp_path: Path) -> None:
+    """One marker at the elbow and one near the axis at the wrist, as of a camera: elbow and shoulder make up for a turn
+    of the forearm. It stays at its default, alone, and the arm is where it was.
+    """
+    body = read_multibody(write_full_body(tmp_path / "body.osim"))
+    spots = {"elbow": ("ulna_r", (0.0, 0.0, 0.0)), "wrist": ("radius_r", (-0.009, -0.236, 0.02))}
+    few = tuple(Marker(name, at, np.array(place)) for name, (at, place) in spots.items())
+    tree = tree_of(
+        replace(body, markers=tuple(m for m in body.markers if "torso" in m.name or "pelvis" in m.name) + few)
+    )
+    arm = [name for name in tree.names if name.endswith("_r") and name.startswith(("arm", "elbow"))]
+    values = np.zeros((12, len(tree.names)))
+    for k, name in enumerate(arm):
+        values[:, tree.names.index(name)] = 0.8 + 0.2 * np.sin(0.2 * np.arange(12) + k)
+    names = tuple(m.name for m in tree.model.markers)
+    places = tree.model.marker_places(values)
+    places += 1e-3 * np.random.default_rng(7).normal(size=places.shape)
+    seen = MarkerTrajectories(np.arange(12) / 100.0, places, names)
+    found = inverse_kinematics(tree, seen, MarkerTasks(dict.fromkeys(names, 1.0)))
+    told = dict(zip(tree.names, found.determined.T, strict=True))
+    assert not told["pro_sup_r"].any() and all(told[name].all() for name in arm)
+    assert found.settled.all() and found.steps.max() < 40
+    off = np.abs(found.values - values)[:, [tree.names.index(name) for name in arm]]
+    assert off.max() < np.radians(5.0)
 
 
 def test_nothing_moves_where_all_coordinates_are_locked(tree: Tree) -> None:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import casadi
 import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform
 
+from benchmarks import opensim_variants as variants
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_dynamics import generalised_forces
 from geocontact.dynamics.symbols import constant
 from geocontact.dynamics.tree import Tree, tree_of
+from geocontact.io.opensim.osim_multibody import read_multibody
 from tests.dynamics.models import all_kinds, pendulum
 
 STATES = 12
@@ -113,3 +117,19 @@ def test_a_double_pendulum_is_the_one_of_the_textbook() -> None:
         second = m12 * a1 + m22 * a2 + m2 * l1 * l2 * s * u1**2 + m2 * g * l2 * np.sin(q1 + q2)
         found = np.array(force([q1, q2], [u1, u2], [a1, a2])).ravel()
         np.testing.assert_allclose(found, [first, second], atol=1e-12)
+
+
+def test_forces_by_velocity_are_those_of_the_mass_matrix(tmp_path: Path) -> None:
+    """Lagrange's equations, for a hip whose three turns and shift depend on one coordinate, where OpenSim's are not."""
+    once, bent = ("h1", variants.LINE), ("h1", variants.SPLINE)
+    text = variants.model(variants.custom({"h1": ""}, (once, bent, bent), (bent,)))
+    (tmp_path / "hip.osim").write_text(text, encoding="utf-8")
+    tree = tree_of(read_multibody(tmp_path / "hip.osim"))
+    whole = generalised_forces(tree)
+    momentum = casadi.jacobian(whole, tree.a) @ tree.u
+    wanted = casadi.jtimes(momentum, tree.q, tree.u) - casadi.gradient(0.5 * casadi.dot(tree.u, momentum), tree.q)
+    still = casadi.substitute(whole, tree.a, 0 * tree.a)
+    both = casadi.Function("f", [tree.q, tree.u], [wanted, still - casadi.substitute(still, tree.u, 0 * tree.u)])
+    rng = np.random.default_rng(5)
+    one, other = (np.array(each) for each in both(*(rng.uniform(-0.6, 0.6, len(tree.names)) for _ in range(2))))
+    np.testing.assert_allclose(other, one, atol=1e-12 * np.abs(one).max())

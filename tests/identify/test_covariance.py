@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -97,6 +99,22 @@ def test_derivatives_are_those_of_the_covariance() -> None:
         change = (block.covariance(LEVELS.at(up)) - block.covariance(LEVELS.at(down))) / 2e-5
         assert exact[k] == pytest.approx(float((pull * change).sum()), rel=1e-4, abs=1e-6)
         assert_allclose(moved[k], change @ values, rtol=1e-4, atol=1e-6)
+
+
+def test_an_input_that_is_not_felt_changes_nothing() -> None:
+    """Between two that are felt: everything but its own derivative, which is 0, is as without it."""
+    one = layout().blocks[0]
+    with_silent = replace(one, inputs=np.stack([one.inputs[0], np.zeros_like(one.inputs[0]), 0.5 * one.inputs[0]]))
+    without = replace(one, inputs=with_silent.inputs[[0, 2]])
+    levels = replace(LEVELS, inputs=np.array([0.04, 3.0, 0.02]))
+    others = replace(LEVELS, inputs=np.array([0.04, 0.02]))
+    assert_allclose(with_silent.covariance(levels), without.covariance(others), rtol=1e-14)
+    pull, values = one.covariance(LEVELS), np.linspace(-1.0, 1.0, len(one.rows))
+    kept = np.delete(np.arange(levels.logarithms().size), -2)
+    for name, given in (("pulls", pull), ("derivatives_times", values)):
+        found, expected = getattr(with_silent, name)(levels, given), getattr(without, name)(others, given)
+        assert_allclose(found[kept], expected, rtol=1e-14)
+        assert not found[-2].any()
 
 
 def test_a_covariance_without_a_factor_is_raised_until_it_has_one() -> None:

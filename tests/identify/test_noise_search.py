@@ -90,7 +90,7 @@ def drawn() -> tuple[list[Layout], list[np.ndarray], list[np.ndarray]]:
 def test_slope_is_that_of_the_cost() -> None:
     limited = replace(unlimited(LEVELS), sensors=0.6 * LEVELS.sensors, inputs=0.6 * LEVELS.inputs)
     surface, x = CostSurface.of(*drawn(), limited), np.linspace(-0.3, 0.3, 7)
-    exact = surface.at(x).gradient
+    exact = surface.gradient(surface.at(x))
     for k, each in enumerate(1e-5 * np.eye(7)):
         assert exact[k] == pytest.approx((surface.at(x + each).cost - surface.at(x - each).cost) / 2e-5, rel=1e-4)
 
@@ -137,6 +137,25 @@ def test_a_search_from_noise_a_hundred_times_too_quiet_takes_few_evaluations(mon
     _, _, nats = most_likely(layouts, residuals, jitter, loud, quiet)
     assert len(evaluations) < 30
     assert nats == pytest.approx(most_likely(layouts, residuals, jitter, loud, LEVELS)[2], abs=1e-5)
+
+
+def test_a_search_sets_out_from_the_likeliest_of_the_levels_that_are_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A place that is left at once takes no slope."""
+    slope, slopes = CostSurface.gradient, []
+
+    def counted(self: CostSurface, place: SearchPoint) -> np.ndarray:
+        slopes.append(place.x)
+        return slope(self, place)
+
+    monkeypatch.setattr(CostSurface, "gradient", counted)
+    layouts, residuals, jitter = drawn()
+    loud = NoisePriors(LEVELS.at(LEVELS.logarithms() + 0.5), 2.0 * np.eye(7), np.full(2, np.inf), np.full(1, np.inf))
+    quiet = LEVELS.times(np.full(2, 0.01), np.full(1, 0.01))
+    end, _, nats = most_likely(layouts, residuals, jitter, loud, quiet)
+    far = len(slopes)
+    again = most_likely(layouts, residuals, jitter, loud, quiet, others=[quiet, end, LEVELS])
+    assert again[2] == pytest.approx(nats, abs=1e-5)
+    assert len(slopes) - far <= 3 < far
 
 
 def test_a_search_that_falls_far_again_takes_information_anew() -> None:

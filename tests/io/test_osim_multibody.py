@@ -55,6 +55,26 @@ def test_markers_are_given_in_their_body(tmp_path: Path) -> None:
     np.testing.assert_allclose(two.location, [0.1, 0.02, 0.0])
 
 
+def test_joints_of_one_name_are_told_apart(tmp_path: Path) -> None:
+    """As in the published gait9dof18musc, whose `back` is the trunk's joint and the head's; frames are alike, too."""
+    text = leg_model()
+    leg = read_multibody(written(tmp_path, text))
+    same = read_multibody(written(tmp_path, text.replace("ankle_r", "knee_r")))
+    assert [j.name for j in same.joints] == ["base", "hip_r", "knee_r", "knee_r_0"]
+    for one, other in zip(leg.joints, same.joints, strict=True):
+        assert (one.parent, one.child) == (other.parent, other.child)
+        np.testing.assert_array_equal(one.parent_offset.as_matrix(), other.parent_offset.as_matrix())
+
+
+def test_comments_that_xml_does_not_allow_are_skipped(tmp_path: Path) -> None:
+    """OpenSim reads them; what is wrong after them is told with its line."""
+    odd = PIN.replace("<Ground", "<!-- was -- before\n<!-- Ground. -->\n<Ground", 1)
+    assert [b.name for b in read_multibody(written(tmp_path, odd)).bodies] == ["p", "c"]
+    lines = odd.partition("</Model>")[0].count("\n") + 2
+    with pytest.raises(InputError, match=f"mismatched tag: line {lines}"):
+        read_multibody(written(tmp_path, odd.replace("</Model>", "\n</Modell>")))
+
+
 def test_bodies_and_joints_of_the_model_itself_are_read(tmp_path: Path) -> None:
     """OpenSim 4 lets a model hold them in `<components>`, whose paths have no set; with and without the set."""
     whole = read_multibody(written(tmp_path, PIN))

@@ -88,3 +88,24 @@ def test_what_hangs_on_frames_of_bodies_is_scaled_and_what_stays_is_told(tmp_pat
     for kind, child in (("PathPoint", "location"), ("BushingForce", "location_body_2")):
         (found,) = model.iter(kind)
         np.testing.assert_allclose(numbers_of("", found, child, 3), 0.1 * FACTORS, rtol=1e-12)
+
+
+def test_shifts_of_joints_of_one_name_scale_with_their_own_bodies(tmp_path: Path) -> None:
+    """A knee and an ankle that both are called `ankle_r`."""
+    shift = (
+        "<TransformAxis name='translation1'><axis>1 0 0</axis><Constant><value>0.1</value></Constant></TransformAxis>"
+    )
+    text = (
+        (MESHES / "leg.osim")
+        .read_text(encoding="utf-8")
+        .replace("PinJoint", "CustomJoint")
+        .replace("knee_r", "ankle_r")
+    )
+    text = text.replace("</CustomJoint>", f"<SpatialTransform>{shift}</SpatialTransform></CustomJoint>")
+    (tmp_path / "leg.osim").write_text(text, encoding="utf-8")
+    leg = read_multibody(tmp_path / "leg.osim")
+    factors = {"femur_r": FACTORS, "tibia_r": np.array([2.0, 1.0, 1.0])}
+    write_scaled_model(tmp_path / "leg.osim", tmp_path / "out.osim", scaled(leg, factors), factors)
+    joints = {joint.child: joint for joint in read_multibody(tmp_path / "out.osim").joints}
+    shifts = {child: float(joints[child].axes[3].function(np.zeros((1, 0)))[0]) for child in ("tibia_r", "foot_r")}
+    assert shifts == {"tibia_r": pytest.approx(0.11), "foot_r": pytest.approx(0.2)}

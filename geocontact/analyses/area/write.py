@@ -140,4 +140,5 @@ def _write_report(
         (*one.reservations, *notes),
         shown,
         compared,
+        one.uncertainty,
     )

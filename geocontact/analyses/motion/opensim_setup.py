@@ -24,10 +24,10 @@ def setup_of(command: str, file: Path) -> ToolSetup:
     """What the set-up asks of the command: its recording, and options as they are typed.
 
     A range of time begins and ends at the frames that OpenSim 4.6 takes: of coordinates the last ones that are not
-    later than its ends, of markers the nearest ones.
+    later than its ends, of markers in motion the nearest ones, of a static trial those that enclose it.
     """
     setup = read_tool_setup(file, TOOLS[command])
-    taken = _not_later if command == "id" else _nearest
+    taken = {"id": _not_later, "ik": _nearest, "scale": _enclosing}[command]
     options = dict(setup.options)
     files = {"time": setup.recording, "sizes-time": Path(options.get("sizes", setup.recording))}
     kept = ((name, _rows(command, files[name], v, taken) if name in files else v) for name, v in setup.options)
@@ -46,6 +46,11 @@ def _rows(command: str, recording: Path, span: str, taken: Callable[[Times, Ends
 
 def _not_later(time: Times, ends: Ends) -> Int[np.ndarray, 2]:
     return np.asarray(np.maximum(np.searchsorted(time, ends, side="right") - 1, 0))
+
+
+def _enclosing(time: Times, ends: Ends) -> Int[np.ndarray, 2]:
+    last = np.searchsorted(time, ends[1], side="left")
+    return np.array([_not_later(time, ends)[0], np.minimum(last, len(time) - 1)])
 
 
 def _nearest(time: Times, ends: Ends) -> Int[np.ndarray, 2]:

@@ -111,11 +111,12 @@ def problem_of(case: GapCase, system: System) -> Problem:
     everything = together(calm.calibration, calm.evaluation)
     plain = plain_fit(problem.system, calm.calibration, floor_of(problem, noise, plain), [plain.values], rounds=20)
     problem = _posed(problem.system, stated, inputs, recorded, calm, plain, everything)
-    floor = floor_of(problem, problem.weighed(plain), plain)
+    noise = problem.weighed(plain, others=[noise])
+    floor = floor_of(problem, noise, plain)
     plain = plain_fit(problem.system, calm.calibration, floor, [plain.values], rounds=20)
     residuals = everything.residuals(problem.system, plain.values)
     passed_on = differences(calm.shaken, problem.system, plain.values, residuals)
-    return replace(problem, plain=plain, floor=floor, passed_on=passed_on)
+    return replace(problem, plain=plain, floor=floor, passed_on=passed_on, noise=noise)
 
 
 def together(calibration: Measured, evaluation: Measured) -> Measured:

@@ -54,6 +54,8 @@ class Problem:
         Calibration trials, then held-out ones, with noise again in their inputs as its taking off leaves it.
     passed_on
         What that noise does to the prediction of the base model, per trial.
+    noise
+        Levels that suit the base model, where somebody estimated them before: its search sets out there.
     """
 
     system: System
@@ -70,6 +72,7 @@ class Problem:
     left: Mapping[str, Share]
     shaken: Measured
     passed_on: tuple[Float[np.ndarray, "_ c"], ...]
+    noise: Noise | None = None
 
     @property
     def calibration_layouts(self) -> tuple[Layout, ...]:
@@ -93,8 +96,11 @@ class Problem:
         """Noise of each channel as it was believed beforehand: a scale, no estimate."""
         return self.beliefs.middle.sensors
 
-    def weighed(self, model: Refit, before: Noise | None = None) -> Noise:
-        """Noise levels and variation that make a model's residuals most likely, calibration trials only."""
+    def weighed(self, model: Refit, before: Noise | None = None, others: Sequence[Noise] = ()) -> Noise:
+        """Noise levels and variation that make a model's residuals most likely, calibration trials only.
+
+        The search sets out from those of `before`, or of `others` where the residuals are more likely with these.
+        """
         fitted = len(self.calibration.trials)
         varied = self.varied(model.jacobian[:fitted])
         sd = self.usual if before is None else before.varies
@@ -106,6 +112,7 @@ class Problem:
                 [each * sd for each in varied],
                 self.beliefs,
                 self.beliefs.middle if levels is None else levels,
+                others=[each.levels for each in others],
             )
             sd = self._variation(model, levels)
         if levels is None:

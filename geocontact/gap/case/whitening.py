@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cache, partial
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -90,13 +90,21 @@ def propagated_input_noise(
 
     That of each input came through its filter in `passed`; `left` says by frequency what was left of some since.
     """
+    return _felt(system, trial, values, spectra_of(system, passed, left))
 
-    def spectrum(name: str) -> NoiseSpectrum:
-        through = passed[name]
+
+def spectra_of(system: System, passed: Mapping[str, LowPass], left: Mapping[str, Share]) -> tuple[NoiseSpectrum, ...]:
+    """Spectrum of each input's noise; inputs of one filter of which nothing was taken off share theirs."""
+
+    @cache
+    def spectrum(through: LowPass, name: str) -> NoiseSpectrum:
         rates = partial(rate_of_waves, step=through.step, reach=system.motion.reach)
         return NoiseSpectrum.after(through, rates, left.get(name, np.ones_like))
 
-    spectra = tuple(spectrum(name) for name in system.inputs)
+    return tuple(spectrum(passed[name], name if name in left else "") for name in system.inputs)
+
+
+def _felt(system: System, trial: Trial, values: Mapping[str, float], spectra: tuple[NoiseSpectrum, ...]) -> InputNoise:
     return (responses if system.dynamic else sensitivity)(system, trial, values, spectra)
 
 
@@ -178,7 +186,8 @@ def layouts_of(
     spread: Sequence[Float[np.ndarray, "_ c"]],
 ) -> list[Layout]:
     """One per trial, inputs' noise (see `propagated_input_noise`) seen through the model at `values`."""
+    spectra = spectra_of(system, passed, left)  # their tables are the same in all trials
     return [
-        Layout.of(t.time, there, propagated_input_noise(system, t, values, passed, left), own)
+        Layout.of(t.time, there, _felt(system, t, values, spectra), own)
         for t, there, own in zip(trials, present, spread, strict=True)
     ]

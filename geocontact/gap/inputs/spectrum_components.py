@@ -12,12 +12,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import product
+from math import exp, log
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.gap.inputs.spectrum import Spectrum
+from geocontact.geometry.kernels.compile import kernel
 from geocontact.identify.optimise.fisher_scoring import Batch, Scored, least
 from geocontact.identify.signals.low_pass import LowPass
 
@@ -32,6 +35,7 @@ BROAD = ((0.08, 0.7), (0.2, 0.7))  # the same of movements that fill the spectru
 FIRST, BEST = 40, 4  # steps from all starts, and how many of them, for each filter, go on
 MANY = 400  # values of a spectrum that are not pooled
 FAINT = 600.0  # exponent beyond which a movement is nothing
+LARGEST = float(np.log(FAINT))
 BENT = 1e6  # ratio of power to what is expected that counts in the curvature at the most
 
 
@@ -108,26 +112,64 @@ class Parts:
         which
             Filter of each row.
         """
-        ratio, steep = np.log(self.frequency) - x[:, 1:2], np.exp(x[:, 2:3])
-        fall = np.minimum(np.exp(steep * ratio), FAINT)
-        movement = np.exp(x[:, 0:1] - fall)
-        noise, rest = np.exp(x[:, 3:4]) * self.passed[which], np.exp(x[:, 4:5]) * np.ones_like(self.frequency)
-        slopes, total = [movement, movement * fall * steep, -movement * fall * steep * ratio], movement + noise + rest
-        slopes += [noise, rest]
-        if x.shape[1] > len(slopes):
-            tail = np.exp(x[:, 5:]) / (1.0 + (self.frequency / TAIL) ** 4) ** 2
-            slopes, total = [*slopes, tail], total + tail
-        slope = np.stack(slopes, axis=1) / total[:, None]
-        met = self.power / total
-        gradient = (slope * (self.count * (1.0 - met))[:, None]).sum(axis=2)
-        curved = (slope * (0.5 * self.count * (1.0 + np.minimum(met, BENT)))[:, None]) @ slope.transpose(0, 2, 1)
+        arrays = (np.log(self.frequency), self.power, self.count, self._tail, self.passed)
+        value, gradient, curved = whittle(*arrays, x, which)
         off, over = (x[:, 3] - self.usual[which]) / LOUDER, np.maximum(x[:, 4] - self.rounding, 0.0) / OVER
         gradient[:, 3] += off / LOUDER
         gradient[:, 4] += over / OVER
         curved[:, 3, 3] += LOUDER**-2
         curved[:, 4, 4] += (over > 0.0) * OVER**-2
-        value = (self.count * (np.log(total) + met)).sum(axis=1) + 0.5 * (off**2 + over**2)
-        return value, gradient, curved
+        return value + 0.5 * (off**2 + over**2), gradient, curved
+
+    @cached_property
+    def _tail(self) -> Float[np.ndarray, " f"]:
+        """Of a movement's tail, its power over that at low frequencies."""
+        return (1.0 + (self.frequency / TAIL) ** 4) ** -2.0
+
+
+@kernel
+def whittle(
+    logarithm: Float[np.ndarray, " f"],
+    power: Float[np.ndarray, " f"],
+    count: Float[np.ndarray, " f"],
+    tail: Float[np.ndarray, " f"],
+    passed: Float[np.ndarray, "k f"],
+    x: Batch,
+    which: Int[np.ndarray, " b"],
+) -> Scored:
+    """Whittle's -log likelihood of each row of parameters, its gradient, and the curvature that `Parts.scored` tells.
+
+    `logarithm` is that of the frequencies.
+    """
+    size = x.shape[1]
+    value, gradient, curved = np.zeros(len(x)), np.zeros((len(x), size)), np.zeros((len(x), size, size))
+    slope = np.empty(size)
+    for row in range(len(x)):
+        steep, noise, rest = exp(x[row, 2]), exp(x[row, 3]), exp(x[row, 4])
+        high = exp(x[row, 5]) if size > 5 else 0.0
+        for f in range(power.size):
+            ratio = logarithm[f] - x[row, 1]
+            fall = exp(min(steep * ratio, LARGEST))
+            movement = exp(x[row, 0] - fall)
+            bend = movement * fall * steep
+            slope[0], slope[1], slope[2] = movement, bend, -bend * ratio
+            slope[3], slope[4] = noise * passed[which[row], f], rest
+            total = movement + slope[3] + rest
+            if size > 5:
+                slope[5] = high * tail[f]
+                total += slope[5]
+            met = power[f] / total
+            value[row] += count[f] * (log(total) + met)
+            pull, weight = count[f] * (1.0 - met) / total, 0.5 * count[f] * (1.0 + min(met, BENT)) / (total * total)
+            for i in range(size):
+                gradient[row, i] += pull * slope[i]
+                own = weight * slope[i]
+                for j in range(i + 1):
+                    curved[row, i, j] += own * slope[j]
+        for i in range(size):
+            for j in range(i):
+                curved[row, j, i] = curved[row, i, j]
+    return value, gradient, curved
 
 
 def _pooled(seen: Spectrum) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"], Float[np.ndarray, " f"]]:

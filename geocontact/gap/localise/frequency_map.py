@@ -40,9 +40,8 @@ def frequency_map(problem: Problem, base: Judged, residuals: list[Float[np.ndarr
         rows = np.concatenate(whitener.rows)
         without = ~np.isfinite(base.model.system.simulate(trial, base.model.values))
         observed.append(energies(trial.time, _placed(residual.ravel()[rows], rows, without)))
-        for k in range(DRAWS):
-            noise = _placed(whitener.coloured(rng.standard_normal(len(rows))), rows, without)
-            drawn[k] += energies(trial.time, noise) / len(trials)
+        for k, noise in enumerate(whitener.coloured(rng.standard_normal((DRAWS, len(rows))).T).T):
+            drawn[k] += energies(trial.time, _placed(noise, rows, without)) / len(trials)
     each = np.array(observed)
     seen = each.mean(axis=0)
     middle, spread = drawn.mean(axis=0), np.maximum(drawn.std(axis=0), 1e-300)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -61,16 +61,45 @@ class Contender:
         return " + ".join(one.label for one in self.candidates) or "none"
 
 
+@dataclass(frozen=True)
+class Ends:
+    """Where searches of one case ended under other weights of its samples, by label.
+
+    Weights move an end a little: searches set out there instead of far away, those that ended lowest first.
+    """
+
+    fits: dict[str, Refit] = field(default_factory=dict)
+    noises: dict[str, Noise] = field(default_factory=dict)
+
+    def noise_of(self, label: str) -> tuple[Noise, ...]:
+        """What suited a model, if it got that far."""
+        return (self.noises[label],) if label in self.noises else ()
+
+    def of(self, one: Candidate, label: str) -> list[Mapping[str, float]]:
+        """Where a model with this candidate last ended; mistakes in some trials are found anew."""
+        known = one.somewhere is None and label in self.fits
+        return [self.fits[label].values] if known else []
+
+    def in_order(self, candidates: Sequence[Candidate]) -> list[Candidate]:
+        """The candidates, those first that ended lowest."""
+        return sorted(candidates, key=lambda one: self.fits[one.label].cost if one.label in self.fits else np.inf)
+
+
 def base_contender(problem: Problem) -> Contender:
     """The base model with the noise that suits it."""
-    noise = problem.weighed(problem.plain)
+    noise = problem.weighed(problem.plain, problem.noise)
     fitted = refit(problem.system, problem.calibration, problem.fitting(noise, problem.plain), [problem.plain.values])
     return finished(problem, (), fitted, noise)
 
 
-def finished(problem: Problem, candidates: tuple[Candidate, ...], model: Refit, before: Noise) -> Contender:
-    """A model fitted under somebody else's noise, refitted under its own."""
-    noise = problem.weighed(model, before)
+def finished(
+    problem: Problem, candidates: tuple[Candidate, ...], model: Refit, before: Noise, *others: Noise
+) -> Contender:
+    """A model fitted under somebody else's noise, refitted under its own.
+
+    The search for that sets out from the likeliest of those that are known, `others` beside the one it was fitted with.
+    """
+    noise = problem.weighed(model, before, others)
     again = refit(model.system, problem.calibration, problem.fitting(noise, model), [model.values], rounds=6)
     everywhere = evaluated(problem, again)
     one = judged(problem, everywhere, noise, discrepancy_basis(problem, candidates, everywhere))
@@ -91,8 +120,10 @@ def settled_in(problem: Problem, one: Contender) -> Contender:
     return one
 
 
-def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) -> list[Contender]:
-    """The most likely candidates, best first.
+def singles(
+    problem: Problem, base: Contender, candidates: Sequence[Candidate], ends: Ends | None = None
+) -> list[Contender]:
+    """The most likely candidates, best first; `ends` are those of earlier searches, and become those of these.
 
     Noise fitted to the base model explains away what it misses, so all are fitted under lower noise first, then under
     the noise that suits the best of them; the leading ones of both rounds get noise of their own. What does not promise
@@ -101,7 +132,8 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
     reference = base.judged.model
     noise = problem.with_lower_noise(base.judged.noise)
     rounds: list[dict[str, Refit]] = []
-    entered = candidates
+    ends = Ends() if ends is None else ends
+    entered = ends.in_order(candidates)
     for kept in (SECOND, FINALISTS):
         whitenings = problem.fitting(noise, reference)
         found: dict[str, Refit] = {}
@@ -109,11 +141,11 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
             if rounds:
                 starts: list[Mapping[str, float]] = [rounds[-1][one.label].values]
             else:
-                starts = [{**base.judged.model.values, **start} for start in one.starts]
-                if len(free(problem.system)) < FEW and one.parameters:
-                    starts.append(one.starts[0])
+                starts = ends.of(one, one.label) or _from_base(problem, base, one)
             useful = to_undercut(found.values(), kept)
             found[one.label] = refit(one.apply(problem.system), problem.calibration, whitenings, starts, useful=useful)
+        if not rounds:
+            ends.fits.update(found)
         rounds.append(found)
         entered = sorted(entered, key=lambda one: found[one.label].cost)[:kept]
         reference = min(found.values(), key=lambda model: model.cost)
@@ -123,28 +155,43 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
     chosen = [*((one, second) for one in entered), *((one, first) for one in ahead)]
     done: dict[str, Contender] = {}
     for one, fits in chosen:
-        own = finished(problem, (one,), fits[one.label], noise)
+        known = ends.noise_of(one.label) or (base.judged.noise, *(each.judged.noise for each in done.values()))
+        own = finished(problem, (one,), fits[one.label], noise, *known)
         if one.label not in done or own.judged.nats > done[one.label].judged.nats:
             done[one.label] = own
+    ends.noises.update({label: one.judged.noise for label, one in done.items()})
     return sorted(done.values(), key=lambda c: -c.judged.nats)
 
 
-def pairs(problem: Problem, firsts: Sequence[Contender], candidates: Sequence[Candidate]) -> list[Contender]:
+def _from_base(problem: Problem, base: Contender, one: Candidate) -> list[Mapping[str, float]]:
+    """Where the search for a candidate sets out: the fitted base, with few parameters the case's own start as well."""
+    starts: list[Mapping[str, float]] = [{**base.judged.model.values, **start} for start in one.starts]
+    return [*starts, one.starts[0]] if len(free(problem.system)) < FEW and one.parameters else starts
+
+
+def pairs(
+    problem: Problem, firsts: Sequence[Contender], candidates: Sequence[Candidate], ends: Ends | None = None
+) -> list[Contender]:
     """Leading contenders with a second candidate, the best pair of each two effects, best first.
+
+    `ends` are those of earlier searches, and become those of these.
 
     Noise that was fitted to one effect explains away what the other does, so all pairs are fitted under noise no higher
     than was stated, the same for all, and the search for their own noise sets out from there; one linear step tells
     which to fit, and those that do not promise to be among the `PAIRS` best are not fitted to the end.
     """
     low_noise = problem.with_lower_noise(firsts[0].judged.noise)
+    ends = Ends() if ends is None else ends
     best: dict[tuple[str, ...], tuple[tuple[Candidate, ...], Refit]] = {}
     for first in firsts:
         model = first.judged.model
         whitenings = problem.fitting(low_noise, model)
         for one in promising(problem, first, whitenings, candidates):
-            starts = [{**model.values, **start} for start in one.starts]
+            label = f"{first.label} + {one.label}"
+            starts = ends.of(one, label) or [{**model.values, **start} for start in one.starts]
             useful = to_undercut([pair for _, pair in best.values()], PAIRS)
             both = refit(one.apply(model.system), problem.calibration, whitenings, starts, useful=useful)
+            ends.fits[label] = both
             names = tuple(sorted((*first.names, one.name)))
             if names not in best or both.cost < best[names][1].cost:
                 best[names] = ((*first.candidates, one), both)

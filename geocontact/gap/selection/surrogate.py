@@ -100,7 +100,7 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
         if not found[-1][1].family:
             break
         left = [a - b for a, b in zip(judged.model.residuals, found[-1][1].predicted, strict=True)]
-        noise = problem.weighed(replace(judged.model, residuals=left), low_noise.noise)
+        noise = problem.weighed(replace(judged.model, residuals=left), low_noise.noise, [found[-1][0].noise])
         other = judged_as(problem, judged.model, noise, judged.discrepancy_basis)
         found.append((other, under(other)))
     bare = max((one for one, _ in found), key=lambda one: one.nats)  # better noise alone is no gain of the surrogate

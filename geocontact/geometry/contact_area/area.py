@@ -29,6 +29,8 @@ SMALLEST = 1e-10  # m^2; an upper bound below this is not refined further
 class Refinement:
     """When to stop dividing triangles.
 
+    Parameters
+    ----------
     accuracy
         Estimated error of the area relative to the area itself.
     bounds
@@ -39,6 +41,12 @@ class Refinement:
     pieces
         Largest number of triangles divided in all, the most doubtful first (equally doubtful ones together): a bound on
         the time where thresholds are small against the triangles. What is left undecided shows in the bounds.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> gc.Refinement(accuracy=1e-3).accuracy
+    0.001
     """
 
     accuracy: float = 2e-4

@@ -27,6 +27,8 @@ from geocontact.geometry.surface import Surface
 class Settings:
     """What counts as contact and how it is counted.
 
+    Parameters
+    ----------
     thresholds
         Largest signed distances that count as contact [m].
     rule
@@ -42,6 +44,13 @@ class Settings:
     sensitivity
         Further thresholds [m] at which FIXED's area is wanted to see how much the choice matters: triangles cut once as
         given, no bounds. Distances reach as far as the largest of all thresholds.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> settings = gc.Settings(thresholds=gc.mm(1, 4), rule="clip")
+    >>> settings.thresholds
+    (0.001, 0.004)
     """
 
     thresholds: tuple[float, ...] = (4e-3,)
@@ -90,6 +99,14 @@ class ContactPair:
         The two bodies, each in its own frame.
     settings
         What counts as contact.
+
+    Examples
+    --------
+    >>> import geocontact as gc, numpy as np
+    >>> ball, plate = (gc.read_surface(f"meshes/{name}.stl", "mm") for name in ("sphere_r20", "plate_80x80x12"))
+    >>> pair = gc.ContactPair(ball, plate, gc.Settings(rule="clip"))
+    >>> pair.signed, float(pair.at(np.eye(3), np.array([0.0, 1.0, 0.0])).fixed[0].area)
+    ('both', 0.0)
     """
 
     def __init__(self, moving: Surface, fixed: Surface, settings: Settings = Settings()) -> None:
@@ -205,6 +222,16 @@ def area_evolution(
         Threads over frames; all cores by default. Results do not depend on it.
     each
         Called with every finished frame, in order: for progress and for keeping distance maps.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> femoral = gc.read_surface("meshes/femoral_component_right_coarse.stl", "mm")
+    >>> insert = gc.read_surface("meshes/tibial_insert_right_coarse.stl", "mm")
+    >>> settings = gc.Settings(thresholds=gc.mm(1, 4), rule="clip")
+    >>> found = gc.area_evolution(femoral, insert, gc.read_motion("meshes/gait.csv"), settings)
+    >>> found.fixed.area.shape, (1e6 * found.fixed.area.max(axis=0)).round(0).tolist()
+    ((101, 2), [1084.0, 2484.0])
     """
     pair = ContactPair(moving, fixed, settings)
     rotation = np.ascontiguousarray(motion.poses.rotation.as_matrix().reshape(-1, 3, 3))

@@ -27,6 +27,17 @@ class DistanceMaps:
     ----------
     largest, nearest
         Numbers of these two frames.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> femoral = gc.read_surface("meshes/femoral_component_right_coarse.stl", "mm")
+    >>> insert = gc.read_surface("meshes/tibial_insert_right_coarse.stl", "mm")
+    >>> maps = gc.DistanceMaps(femoral, insert, every=50)
+    >>> settings = gc.Settings(rule="clip")
+    >>> found = gc.area_evolution(femoral, insert, gc.read_motion("meshes/gait.csv"), settings, each=maps.add)
+    >>> maps.frames
+    [0, 50, 54, 56, 100]
     """
 
     def __init__(self, moving: Surface, fixed: Surface, every: int = 1) -> None:

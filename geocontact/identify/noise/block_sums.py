@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import exp
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
 from geocontact.geometry.kernels.compile import kernel
 
@@ -23,6 +23,18 @@ def decays(
     for i in range(1, time.size):
         if channel[i] == channel[i - 1]:
             out[i] = exp(-(time[i] - time[i - 1]) / memory[channel[i]])
+    return out
+
+
+@kernel
+def heard(inputs: Float[np.ndarray, "j n n"]) -> Bool[np.ndarray, " j"]:
+    """Inputs whose noise is felt in the block: of the others no variance, so no covariance, is more than 0."""
+    out = np.zeros(inputs.shape[0], np.bool_)
+    for j in range(inputs.shape[0]):
+        for a in range(inputs.shape[1]):
+            if inputs[j, a, a] != 0.0:
+                out[j] = True
+                break
     return out
 
 
@@ -43,8 +55,9 @@ def summed(
     """
     size = time.size
     out = np.zeros((size, size))
+    felt = np.flatnonzero(heard(inputs))
     for a in range(size):
-        for j in range(powers.size):
+        for j in felt:
             for b in range(a, size):
                 out[a, b] += powers[j] * inputs[j, a, b]
         out[a, a] += white[channel[a]]
@@ -92,9 +105,10 @@ def pulled(
                 both = 2.0 * pull[a, b] * correlation
                 out[0, k, c] += both
                 out[1, k, c] += both * (time[b] - time[a])
+    felt = np.flatnonzero(heard(inputs))
     for a in range(size):
         white[channel[a]] += pull[a, a]
-        for j in range(inputs.shape[0]):
+        for j in felt:
             total = 0.5 * pull[a, a] * inputs[j, a, a]
             for b in range(a + 1, size):
                 total += pull[a, b] * inputs[j, a, b]
@@ -134,7 +148,7 @@ def carried(
                 out[level, b] += correlation * values[a]
                 out[lagged, a] += lag * values[b]
                 out[lagged, b] += lag * values[a]
-    for j in range(inputs.shape[0]):
+    for j in np.flatnonzero(heard(inputs)):
         for a in range(size):
             total = 0.0
             for b in range(size):

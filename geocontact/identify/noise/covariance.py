@@ -154,7 +154,7 @@ class Whitener:
         flat = values.reshape(values.shape[0] * values.shape[1], values.shape[-1])
         return np.concatenate([f @ flat[rows] for rows, f in zip(self.rows, self.factors, strict=True)])
 
-    def coloured(self, independent: Float[np.ndarray, " n"]) -> Float[np.ndarray, " m"]:
+    def coloured(self, independent: Float[np.ndarray, "n ..."]) -> Float[np.ndarray, "n ..."]:
         """The way back: noise of these levels from independent numbers, in the order of the rows."""
         from scipy.linalg import solve_triangular
 

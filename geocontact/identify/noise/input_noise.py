@@ -44,15 +44,19 @@ class Instant:
     spectra: tuple[NoiseSpectrum, ...]
 
     def covariance(self, at: Int[np.ndarray, " n"], channel: Int[np.ndarray, " n"]) -> Float[np.ndarray, "j n n"]:
-        """a aᵀ C + (b aᵀ - a bᵀ) C' + b bᵀ C'' with the covariances C of the noise and its rate."""
-        lag = self.time[at][:, None] - self.time[at]
+        """a aᵀ C + (b aᵀ - a bᵀ) C' + b bᵀ C'' with the covariances C of the noise and its rate.
+
+        These are looked up once for two samples, whatever number of channels there is.
+        """
+        samples, own = np.unique(at, return_inverse=True)
+        lag, pairs = self.time[samples][:, None] - self.time[samples], np.ix_(own, own)
         found = np.empty((self.to_value.shape[-1], len(at), len(at)))
         for j, spectrum in enumerate(self.spectra):
             a, b = self.to_value[at, channel, j], self.to_rate[at, channel, j]
             if not a.any() and not b.any():
                 found[j] = 0.0
                 continue
-            value, mixed, rate = spectrum.covariance(lag)
+            value, mixed, rate = (each[pairs] for each in spectrum.covariance(lag))
             found[j] = value * np.outer(a, a) + mixed * (np.outer(b, a) - np.outer(a, b)) + rate * np.outer(b, b)
         return found
 

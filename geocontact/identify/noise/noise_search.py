@@ -49,7 +49,7 @@ class ResidualBlock:
 
 @dataclass(frozen=True)
 class SearchPoint:
-    """Minus the logarithm of what is maximised at a point of the search, and its slope.
+    """Minus the logarithm of what is maximised at a point of the search.
 
     `factors`, `solved` are of each piece: the covariance's lower factor, and its inverse times the residual.
     """
@@ -57,7 +57,6 @@ class SearchPoint:
     x: Float[np.ndarray, " h"]
     levels: NoiseLevels
     cost: float
-    gradient: Float[np.ndarray, " h"]
     factors: tuple[Float[np.ndarray, "_ _"], ...]
     solved: tuple[Float[np.ndarray, " _"], ...]
 
@@ -87,18 +86,24 @@ class CostSurface:
         return cls(tuple(pieces), beliefs)
 
     def at(self, x: Float[np.ndarray, " h"]) -> SearchPoint:
-        """Cost and slope at a point."""
+        """Cost at a point."""
         levels = self.beliefs.levels(x)
-        total, pull, factors, solved = 0.5 * float(x @ x), np.zeros(len(x)), [], []
+        total, factors, solved = 0.5 * float(x @ x), [], []
         for piece in self.pieces:
             root, log_scale = factor_of(piece.block.covariance(levels) + piece.moved)
             eased, _ = lapack.dpotrs(root, piece.residual, lower=1)
-            inverse, _ = lapack.dpotri(root, lower=1)  # its lower half, by columns: the upper by rows
             total += 0.5 * float(piece.residual @ eased) + log_scale
-            pull += piece.block.pulls(levels, inverse.T - np.outer(eased, eased))
             factors.append(root)
             solved.append(eased)
-        return SearchPoint(x, levels, total, x + 0.5 * self.beliefs.slope(x, pull), tuple(factors), tuple(solved))
+        return SearchPoint(x, levels, total, tuple(factors), tuple(solved))
+
+    def gradient(self, place: SearchPoint) -> Float[np.ndarray, " h"]:
+        """Slope of the cost at a place: most of the work, which a place that is left at once does without."""
+        pull = np.zeros(len(place.x))
+        for piece, factor, solved in zip(self.pieces, place.factors, place.solved, strict=True):
+            inverse, _ = lapack.dpotri(factor, lower=1)  # its lower half, by columns: the upper by rows
+            pull += piece.block.pulls(place.levels, inverse.T - np.outer(solved, solved))
+        return np.asarray(place.x + 0.5 * self.beliefs.slope(place.x, pull))
 
     def information(self, place: SearchPoint) -> Float[np.ndarray, "h h"]:
         """Average information of the residuals at a place, and that of the beliefs.
@@ -121,6 +126,7 @@ def most_likely(
     beliefs: NoisePriors,
     start: NoiseLevels,
     rounds: int = 80,
+    others: Sequence[NoiseLevels] = (),
 ) -> tuple[NoiseLevels, float, float]:
     """Levels that make the residuals most likely, given what was believed of them.
 
@@ -134,17 +140,19 @@ def most_likely(
         Derivatives with respect to what varies from trial to trial, times its standard deviation.
     beliefs
         What was believed of the levels, and their limits.
-    start
-        Where the search sets out.
+    start, others
+        The search sets out from the likeliest of these.
     rounds
-        Evaluations of the likelihood at the most.
+        Evaluations of the likelihood at the most, `others` aside.
     """
     surface, farthest = CostSurface.of(layouts, residuals, jitter, beliefs), searched(beliefs)
-    here = surface.at(np.clip(beliefs.point(start), -farthest, farthest))
+    known = (surface.at(np.clip(beliefs.point(each), -farthest, farthest)) for each in (start, *others))
+    here = min(known, key=lambda place: place.cost)
+    gradient = surface.gradient(here)
     curvature, damping, near = surface.information(here), DAMPED, False
     for _ in range(rounds - 1):
         low, high = -farthest - here.x, farthest - here.x
-        bend = QuadraticModel.within(here.gradient, curvature, low, high)
+        bend = QuadraticModel.within(gradient, curvature, low, high)
         if bend.promise(bend.step(0.0, low, high)) < ENOUGH:
             break
         step = bend.step(damping, low, high)
@@ -155,10 +163,11 @@ def most_likely(
         fall = here.cost - there.cost
         kept = fall / bend.promise(step)
         damping = damped(damping, kept)
+        slope = surface.gradient(there) if near or fall > 0.0 else gradient
         if near:
-            curvature = secant(curvature, there.x - here.x, there.gradient - here.gradient)
+            curvature = secant(curvature, there.x - here.x, slope - gradient)
         if fall > 0.0:
-            here = there
+            here, gradient = there, slope
             if fall < ENOUGH and kept > BROKEN:
                 break
             if not near or fall >= NEAR:

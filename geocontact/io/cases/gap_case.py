@@ -43,7 +43,7 @@ def gap_case_folders(folder: str | PathLike[str]) -> list[Path]:
 def read_gap_case(
     folder: str | PathLike[str], known_systems: tuple[str, ...] = KNOWN_SYSTEMS, run_programs: bool = False
 ) -> GapCase:
-    """Case in a folder, in SI units.
+    r"""Case in a folder, in SI units.
 
     Channels of all trials come in the order of the first calibration trial. Noise is converted like its channel, tables
     like their headers say; parameters, constants and covariates are in SI units already. Trial files that case.toml
@@ -57,6 +57,25 @@ def read_gap_case(
         Names that `system` may have besides "package.module:OBJECT".
     run_programs
         Whether a program that the case names as its simulator may be run: a case may come from somebody else.
+
+    Examples
+    --------
+    >>> import geocontact as gc, numpy as np, pandas as pd
+    >>> from pathlib import Path
+    >>> Path("case/trials").mkdir(parents=True)
+    >>> time, noise = 0.04 * np.arange(160), np.random.default_rng(3)
+    >>> for k in range(1, 6):
+    ...     angle = 0.3 * np.sin((2.0 + 0.4 * k) * time) + 0.08 * np.sin((5.0 + k) * time)
+    ...     torque = 60.0 * angle + 3.0 * np.gradient(angle, time) + noise.normal(0.0, 0.2, 160)
+    ...     trial = pd.DataFrame({"time [s]": time, "angle [rad]": angle, "torque [N m]": torque})
+    ...     trial.to_csv(f"case/trials/t{k}.csv", index=False)
+    >>> text = 'format = 1\nsystem = "geocontact.systems.elastic_joint.model:JOINT"\n'
+    >>> text += 'calibration = ["t1", "t2", "t3"]\nevaluation = ["t4", "t5"]\n[noise]\ntorque = 0.2\n'
+    >>> text += '[parameters.k]\nstart = 50.0\nlower = 10.0\nupper = 200.0\nunit = "N m/rad"\n'
+    >>> _ = Path("case/case.toml").write_text(text)
+    >>> case = gc.read_gap_case("case")
+    >>> case.system, [trial.name for trial in case.calibration]
+    ('geocontact.systems.elastic_joint.model:JOINT', ['t1', 't2', 't3'])
     """
     home = case_folder(folder)
     file = home / SETTINGS

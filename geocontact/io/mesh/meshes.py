@@ -47,6 +47,13 @@ def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, f
     InputError
         The file cannot be used: not there, damaged, not finite, without faces or area, too large (`limits`),
         absurd unit.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> mesh = gc.read_mesh("meshes/sphere_r20.stl", "mm")
+    >>> mesh.vertices.shape, float(abs(mesh.vertices).max().round(4))
+    ((1442, 3), 0.02)
     """
     name = Path(fspath(path)).name
     scale = metres_per(unit, name)

@@ -52,6 +52,13 @@ def read_motion(
         "right" or "left": columns are knee angles after Grood and Suntay.
     unit, rate
         Unit of the translations and frames per second, for rows of numbers, which say neither.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> gait = gc.read_motion("meshes/gait.csv")
+    >>> len(gait.time), gait.poses.translation.shape
+    (101, (101, 3))
     """
     suffix = Path(fspath(path)).suffix.lower()
     if suffix not in SUFFIXES:

@@ -15,7 +15,16 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.model import GROUND, Multibody, coupler_stretch
 from geocontact.io.opensim.osim_multibody import read_multibody
-from geocontact.io.opensim.osim_xml import Frames, label, numbers_of, outside_of_sets, read_document, socket_of, text_of
+from geocontact.io.opensim.osim_xml import (
+    Frames,
+    label,
+    name_joints_apart,
+    numbers_of,
+    outside_of_sets,
+    read_document,
+    socket_of,
+    text_of,
+)
 from geocontact.io.text.tables import listed
 
 Vector = Float[np.ndarray, " 3"]
@@ -68,6 +77,8 @@ def write_scaled_model(
         raise InputError(
             file, "<components>", f"holds {names}, which is not scaled there", "put it into the model's sets"
         )
+
+    name_joints_apart(model)
 
     def of(body: str) -> Vector:
         return np.asarray(factors.get(basename(body), np.ones(3)), float)

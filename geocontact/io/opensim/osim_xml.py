@@ -15,6 +15,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.errors import InputError
+from geocontact.data.magnitude import LARGEST_MEANT
 from geocontact.io.text.encoding import decoded
 
 LARGEST_MODEL = 32_000_000
@@ -25,6 +26,7 @@ OLDEST = 20_000
 
 _DEEPEST = 50
 _SCOPED = re.compile(rb"(</?[A-Za-z_][\w.]*)::")
+_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 _ENCODING = re.compile(rb"""\s*<\?xml[^>]*encoding=["']([\w-]+)["']""")
 _SETS = ("BodySet", "JointSet", "ForceSet", "ComponentSet")
 
@@ -41,12 +43,25 @@ def read_model(path: str | PathLike[str]) -> Element:
         what = f"is of version {version}, before OpenSim 2.0"
         raise InputError(fspath(path), "", what, "open and save the model with OpenSim 3.3 or later")
     _gather(model)
+    name_joints_apart(model)
     return model
 
 
 def outside_of_sets(model: Element) -> list[Element]:
     """What a model holds by itself (`<components>`) where others have a set for it."""
     return [e for e in model.findall("components/*") if _set_of(e)]
+
+
+def name_joints_apart(model: Element) -> None:
+    """The second joint `back` of a model is `back_0`, the third `back_1`, as OpenSim calls them."""
+    known: set[str] = set()
+    for joint in (e for e in model.iter() if e.tag.endswith("Joint") and e.get("name")):
+        name = joint.get("name", "")
+        count = 0
+        while name in known:
+            name, count = f"{joint.get('name', '')}_{count}", count + 1
+        joint.set("name", name)
+        known.add(name)
 
 
 def _gather(model: Element) -> None:
@@ -98,11 +113,20 @@ def _parsed(text: bytes) -> Element:
     replaced before and put back after parsing.
     """
     stand_in = b"-scope-of-"
-    root: Element = defusedxml.ElementTree.fromstring(_SCOPED.sub(rb"\1" + stand_in, text))
+    plain = _SCOPED.sub(rb"\1" + stand_in, text)
+    try:
+        root: Element = defusedxml.ElementTree.fromstring(plain)
+    except ParseError:
+        root = defusedxml.ElementTree.fromstring(_without_comments(plain))
     if b"::" in text:
         for element in root.iter():
             element.tag = element.tag.replace(stand_in.decode(), "::")
     return root
+
+
+def _without_comments(text: bytes) -> bytes:
+    """OpenSim lets comments hold what XML does not allow there (`<!-- <!-- -->`, `--`); lines keep their numbers."""
+    return _COMMENT.sub(lambda found: b"\n" * found[0].count(b"\n"), text)
 
 
 def label(element: Element) -> str:
@@ -135,7 +159,7 @@ def numbers_of(
         values = np.array([float(word) for word in text.replace(",", " ").split()], dtype=float)
     except ValueError:
         values = np.array([np.nan])
-    if not np.all(np.isfinite(values)) or (count is not None and len(values) != count):
+    if not np.all(np.abs(values) <= LARGEST_MEANT) or (count is not None and len(values) != count):
         expected = "finite numbers" if count is None else f"{count} finite number{'s' * (count > 1)}"
         raise InputError(file, f"{label(element)} <{child}>", f"'{text[:60]}' where {expected} are expected")
     return values

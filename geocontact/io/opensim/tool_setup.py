@@ -12,7 +12,9 @@ import numpy as np
 
 from geocontact.data.errors import InputError
 from geocontact.io.opensim.marker_weights import read_marker_weights
+from geocontact.io.opensim.osim_forces import ALL, MUSCLES
 from geocontact.io.opensim.osim_xml import is_true, label, numbers_of, read_document, read_model, text_of
+from geocontact.io.text.tables import listed
 
 UNASSIGNED = ("", "unassigned")
 
@@ -50,11 +52,21 @@ def _inverse_dynamics(file: str, tool: Element) -> ToolSetup:
     options = [*_files(file, tool, {"model_file": "model", "external_loads_file": "loads"}), *_time(file, tool)]
     cutoff = float(numbers_of(file, tool, "lowpass_cutoff_frequency_for_coordinates", 1, (-1.0,))[0])
     options.append(("cutoff", str(max(cutoff, 0.0))))
-    options += [("exclude", word) for word in text_of(tool, "forces_to_exclude").split()]
+    left_out = text_of(tool, "forces_to_exclude").split()
+    options += [("exclude", word) for word in left_out]
     unheeded = tuple(
         name for name in ("joints_to_report_body_forces", "states_file", "speeds_file") if _told(tool, name)
     )
+    unheeded += _at_rest(dict(options).get("model", ""), left_out)
     return ToolSetup(_needed(file, tool, "coordinates_file"), tuple(options), unheeded)
+
+
+def _at_rest(model: str, left_out: list[str]) -> tuple[str, ...]:
+    """Muscles that OpenSim's tool lets act without control: where a set-up does not say otherwise, all of them."""
+    if {MUSCLES, ALL} & {word.lower() for word in left_out} or not model or not Path(model).is_file():
+        return ()
+    count = sum("Muscle" in e.tag for e in read_model(model).findall("ForceSet/objects/*"))
+    return (f"passive force of {count} muscles, which forces_to_exclude does not leave out,",) if count else ()
 
 
 def _inverse_kinematics(file: str, tool: Element) -> ToolSetup:
@@ -82,17 +94,31 @@ def _scale(file: str, tool: Element) -> ToolSetup:
     mass = float(numbers_of(file, tool, "mass", 1, (-1.0,))[0])
     if scales and mass > 0.0:
         options.append(("mass", str(mass)))
-    options += [("scale", text) for text in (_sizes(file, scaler) if scales else ())]
+    sizes, lost = _of_bodies(_sizes(file, scaler) if scales else [], dict(options).get("model", ""))
+    options += [("scale", text) for text in sizes]
     places = placer.find("apply") is None or is_true(file, placer, "apply")
     recording = _needed(file, placer if places or _told(placer, "marker_file") else scaler, "marker_file")
-    options += [("tasks", _tasks(file, placer)), *_time(file, placer)]
+    tasks = _tasks(file, placer)
+    if places or any(read_document(tasks).iter("IKMarkerTask")):  # else there is nothing that a pose could follow
+        options.append(("tasks", tasks))
+    options += _time(file, placer)
     if any(name == "scale" and "/" in text for name, text in options):
         options += _measuring(file, scaler, placer, recording)
     if scales and not is_true(file, scaler, "preserve_mass_distribution"):
         options.append(("mass-by-volume", ""))
     if not places:
         options.append(("keep-markers", ""))
-    return ToolSetup(recording, tuple(options))
+    return ToolSetup(recording, tuple(options), lost)
+
+
+def _of_bodies(sizes: list[str], model: str) -> tuple[list[str], tuple[str, ...]]:
+    """Those of bodies that the model has, and what is said of the others, which OpenSim passes over."""
+    if not sizes or not model or not Path(model).is_file():
+        return sizes, ()  # the command says so
+    known = {e.get("name", "") for e in read_model(model).findall("BodySet/objects/Body")}
+    lost = dict.fromkeys(body for text in sizes if (body := text.partition(":")[0]) not in known)
+    kept = [text for text in sizes if text.partition(":")[0] not in lost]
+    return kept, (f"size of {listed(tuple(lost))}, which the model does not have,",) if lost else ()
 
 
 def _measuring(file: str, scaler: Element, placer: Element, recording: Path) -> list[tuple[str, str]]:

@@ -183,6 +183,15 @@ def simulator_base(
         Unit of what the law gives; that of the first output in N or N m, else of the first, unless given.
 
     ValueError where `acts_on` is no input, or `law` or `load` is given without it.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> def run(time, inputs, numbers):
+    ...     return numbers["k"] * inputs[0]
+    >>> spring = gc.simulator_base("spring", {"angle": "rad"}, {"torque": "N m"}, run)
+    >>> spring.name, spring.inputs, spring.outputs
+    ('spring', ('angle',), ('torque',))
     """
     if acts_on and acts_on not in inputs:
         raise ValueError(f"acts_on names {acts_on!r}; inputs are {', '.join(inputs)}")

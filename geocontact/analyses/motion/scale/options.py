@@ -38,8 +38,8 @@ class ScaleOptions(Options):
     sizes_time
         First and last time [s] of measuring distances, in place of those of standing still.
     keep_markers
-        Leave markers where scaling puts them; otherwise they are moved to where they were seen in the static trial,
-        but for those that the model calls fixed.
+        Leave markers where scaling puts them, and the model's default pose; otherwise markers are moved to where they
+        were seen in the static trial, but for those that the model calls fixed, and its pose becomes the default.
     tasks
         OpenSim's setup of inverse kinematics or its task set (.xml) for the static pose; without it all markers alike.
     axes

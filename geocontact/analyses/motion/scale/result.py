@@ -64,7 +64,8 @@ class ScaleResult(Result):
         """scaled.osim, scale.json, OpenSim's set-up with the static trial as it was read, page."""
         values = np.asarray(self.pose.values)[0].tolist()
         standing = {name: v for name, v in zip(self.pose.names, values, strict=True) if np.isfinite(v)}
-        write_scaled_model(self.options.model, folder / "scaled.osim", self.model, self.factors, standing)
+        defaults = None if self.options.keep_markers else standing
+        write_scaled_model(self.options.model, folder / "scaled.osim", self.model, self.factors, defaults)
         write_json(folder / "scale.json", self.summary)
         self._write_setup(folder)
         self.write_page(folder / "report.html")

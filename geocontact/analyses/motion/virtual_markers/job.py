@@ -1,4 +1,10 @@
-"""Virtual markers of a model along a motion: `geocontact markers`, `gc.virtual_markers`."""
+"""Virtual markers of a model along a motion: `geocontact markers`, `gc.virtual_markers`.
+
+>>> import geocontact as gc
+>>> result = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim")
+>>> result
+16 markers in 101 frames
+"""
 
 from __future__ import annotations
 

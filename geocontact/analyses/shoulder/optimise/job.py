@@ -1,4 +1,11 @@
-"""Support profiles by linear programs: `geocontact shoulder optimise`, `gc.shoulder.optimise`."""
+"""Support profiles by linear programs: `geocontact shoulder optimise`, `gc.shoulder.optimise`.
+
+>>> import geocontact as gc
+>>> result = gc.shoulder.optimise()
+>>> result.sentences[0]
+"51.4% of the shoulders' torque is taken away without ever pushing an arm up, as the human elevation has it;
+one factor for all tasks, hands and phases takes 40.2%"
+"""
 
 from __future__ import annotations
 

@@ -1,0 +1,54 @@
+"""Pages that are made from other files are up to date, and the site's contents name every page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from website.contents import listed
+from website.limits import sections, xfails
+from website.pages import MADE
+from website.stage import INDEX, ROOT, pages, stage
+from website.validation import FACTORS, report
+
+
+@pytest.mark.parametrize("place", MADE)
+def test_a_generated_page_is_up_to_date(place: str) -> None:
+    assert (ROOT / place).read_text(encoding="utf-8") == MADE[place](), "run `python -m website.pages`"
+
+
+def test_every_page_stands_in_the_contents_once() -> None:
+    index = (ROOT / INDEX).read_text(encoding="utf-8")
+    named = [(ROOT / "docs" / page).resolve().relative_to(ROOT) for _, found in listed(index) for page in found]
+    assert sorted(named) == [page for page in pages() if page != Path(INDEX)]
+
+
+def test_pages_and_the_files_that_they_link_to_are_staged(tmp_path: Path) -> None:
+    stage(tmp_path / "sources", {"docs/reference/api/index.md": "# Functions\n"})
+    staged = tmp_path / "sources"
+    assert all((staged / page).is_file() for page in pages())
+    assert (staged / "docs/reference/gap_reliability.svg").is_file()
+    assert "/docs/tutorial\n" in (staged / INDEX).read_text(encoding="utf-8")
+
+
+def test_limits_are_read_from_their_sections_without_code() -> None:
+    text = "# A\n\n## Limits\n\nNone.\n\n```sh\nx\n```\n\n## Else\n\nNo.\n"
+    assert sections(text) == [("Limits", "None.")]
+
+
+def test_reasons_of_expected_failures_are_found() -> None:
+    found = dict(reversed(one) for one in xfails())
+    assert "8 nats of two short trials name nothing since held-out trials decide" in found
+    assert sum(place == "tests/real/test_real_gap.py" for place in found.values()) > 3, "those in tables"
+
+
+def test_evidence_of_an_unknown_factor_is_refused(tmp_path: Path) -> None:
+    words = tmp_path / "words.toml"
+    aims = "".join(
+        f'{name} = ""\n' for name in ("question", "context", "influence", "consequence", "risk", "judgement")
+    )
+    words.write_text(f'introduction = []\n[system.a]\n{aims}more = {{}}\n[[system.a.evidence."Luck"]]\ntext = "x"\n')
+    assert "Luck" not in FACTORS
+    with pytest.raises(ValueError, match="Luck"):
+        report(words)

@@ -1,0 +1,107 @@
+"""All known limits: docs/reference/limits.md, gathered from the sections of the pages that tell them, and from tests.
+
+A page tells its limits below a heading of `HEADINGS`; the page gathered from them says where each one stands.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+from website.stage import ROOT
+
+PAGE = "docs/reference/limits.md"
+README = ROOT / "README.md"  # not a page of the site
+HEADINGS = ("Limits", "What it does not do", "What these trials cannot distinguish", "What it leaves out")
+LINK = re.compile(r"\]\(([^):\s]+)\)")
+
+
+def limits() -> str:
+    """The whole page."""
+    parts = [
+        "# Known limits",
+        "Gathered from the pages, where they stand with what they are limits of; made by `python -m website.pages`.",
+    ]
+    for file in [README, *sorted((ROOT / "docs").rglob("*.md"))]:
+        if file != ROOT / PAGE:
+            parts += _of_page(file)
+    parts += ["## What tests expect to fail", "Tests that are red for a known reason, each as it says it.", _xfails()]
+    return "\n\n".join(parts) + "\n"
+
+
+def _of_page(file: Path) -> list[str]:
+    text = file.read_text(encoding="utf-8")
+    title = text.partition("\n")[0].removeprefix("# ")
+    parts: list[str] = []
+    for heading, body in sections(text):
+        link = _relative(file, file.name) + "#" + heading.lower().replace(" ", "-")
+        above = f"## All of {title}" if file == README else f"## [{title}]({link})"
+        parts += [above, LINK.sub(lambda one: f"]({_relative(file, one[1])})", body)]
+    return parts
+
+
+def sections(text: str) -> list[tuple[str, str]]:
+    """Headings of a page that tell limits, and what stands below them, code left out."""
+    found = re.findall(r"^## (.*)\n+((?:(?!## ).*\n)*)", text + "\n", re.MULTILINE)
+    return [
+        (heading, re.sub(r"```.*?```", "", body, flags=re.DOTALL).strip())
+        for heading, body in found
+        if heading in HEADINGS
+    ]
+
+
+def _relative(file: Path, target: str) -> str:
+    """A link of a page as seen from the page of limits."""
+    name, hash_, anchor = target.partition("#")
+    there = (file.parent / name).resolve() if name else file
+    place = there.relative_to(ROOT).as_posix()
+    found = place.removeprefix("docs/reference/") if place.startswith("docs/reference/") else f"../../{place}"
+    return found.replace("../../docs/", "../") + hash_ + anchor
+
+
+def _xfails() -> str:
+    rows = [f"| `{place}` | {reason} |" for place, reason in xfails()]
+    return "\n".join(["| test | reason |", "|---|---|", *rows])
+
+
+def xfails() -> list[tuple[str, str]]:
+    """File and reason of each mark and call of xfail; a reason that is put together is told by the names in it."""
+    found: list[tuple[str, str]] = []
+    for file in sorted((ROOT / "tests").rglob("test_*.py")):
+        text = file.read_text(encoding="utf-8")
+        if "xfail" not in text or file.parent.name == "website":
+            continue
+        tree = ast.parse(text)
+        tables = {
+            one.targets[0].id: one.value
+            for one in tree.body
+            if isinstance(one, ast.Assign) and isinstance(one.targets[0], ast.Name)
+        }
+        for one in ast.walk(tree):
+            if isinstance(one, ast.Call) and ast.unparse(one.func).endswith("xfail"):
+                reason = next(
+                    (word.value for word in one.keywords if word.arg == "reason"), one.args[0] if one.args else None
+                )
+                found += [(file.relative_to(ROOT).as_posix(), words) for words in _reasons(reason, tables, text)]
+    return list(dict.fromkeys(found))
+
+
+def _reasons(reason: ast.expr | None, tables: dict[str, ast.expr], text: str) -> list[str]:
+    """Words of a reason; of one that is looked up, the words of the whole table."""
+    if isinstance(reason, ast.Constant):
+        return [str(reason.value)]
+    if isinstance(reason, ast.JoinedStr):
+        return ["".join(str(part.value) if isinstance(part, ast.Constant) else "…" for part in reason.values)]
+    if isinstance(reason, ast.Subscript) and isinstance(reason.value, ast.Name):
+        return _words(tables.get(reason.value.id))
+    if isinstance(reason, ast.Name):
+        looped = re.search(rf"for \w+, {reason.id} in (\w+)\.items\(\)", text)
+        return _words(tables.get(looped[1] if looped else reason.id))
+    return []
+
+
+def _words(table: ast.expr | None) -> list[str]:
+    if isinstance(table, ast.Dict):
+        return [word for value in table.values for word in _words(value)]
+    return [str(table.value)] if isinstance(table, ast.Constant) else []
