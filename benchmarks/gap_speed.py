@@ -1,13 +1,15 @@
 """CPU seconds of `gap diagnose`, case by case: `python -m benchmarks.gap_speed --seed N`, or `--cases FOLDER`.
 
 The whole command with tables only, in a process of its own, on one core, one case after the other, warm: the first
-case runs once beforehand to load what is compiled. Parts overlap: simulations are part of the contests. Every case is
-written into benchmarks/results/gap_speed.json as it is done.
+case runs once beforehand to load what is compiled. Others at work on the machine make CPU seconds longer, so the
+largest load average is told. Parts overlap: simulations are part of the contests. Every case is written into
+benchmarks/results/gap_speed.json as it is done.
 """
 
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import tempfile
 from pathlib import Path
@@ -69,6 +71,7 @@ def main() -> int:
     o = arguments()
     pin()
     rows: dict[str, dict[str, float]] = {}
+    loads: list[float] = []
     with tempfile.TemporaryDirectory() as scratch:
         folder = o.cases or Path(scratch) / "cases"
         if o.cases is None:
@@ -79,7 +82,10 @@ def main() -> int:
             rows[case.name] = {name: round(seconds, 2) for name, seconds in found.items()}
             print(f"{case.name}: {rows[case.name]['all']} s", flush=True)
             asked = {"seed": o.seed} if o.cases is None else {"cases": o.cases.name}
-            write_results("gap_speed", asked, told(rows), frozenset({"numpy", "scipy", "numba"}))
+            loads.append(os.getloadavg()[0])
+            write_results(
+                "gap_speed", asked, told(rows) | {"load_average": max(loads)}, frozenset({"numpy", "scipy", "numba"})
+            )
     return 0
 
 

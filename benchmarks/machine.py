@@ -25,8 +25,15 @@ def write_results(name: str, asked: dict[str, Any], figures: Any, packages: Abst
     """benchmarks/results/NAME.json: figures with commit, machine, versions, and what was asked for, seeds among it."""
     told = {"commit": commit(), "asked": asked, "machine": machine(), "versions": versions(set(packages))}
     file = HERE / "results" / f"{name}.json"
-    file.write_text(json.dumps({**told, "figures": figures}, indent=1, default=str) + "\n", encoding="utf-8")
+    file.write_text(as_json({**told, "figures": figures}), encoding="utf-8")
     return file
+
+
+def as_json(value: Any, indent: int = 1) -> str:
+    """Text of a file of results; null stands for what is not finite, as JSON has no word for it."""
+    from geocontact.analyses.json_file import plain  # late: cores are chosen before anything is imported
+
+    return json.dumps(plain(value), indent=indent, allow_nan=False) + "\n"
 
 
 def stamp(packages: AbstractSet[str] = frozenset()) -> dict[str, Any]:

@@ -61,6 +61,7 @@ def kinematics() -> list[str]:
         "held",
         "largest angle",
         "sum of squares, of OpenSim's",
+        "frames larger",
         "off the truth here, OpenSim",
         "CPU s here, OpenSim",
     )

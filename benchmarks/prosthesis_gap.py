@@ -31,7 +31,7 @@ from scipy.spatial.transform import Rotation
 
 import geocontact as gc
 from benchmarks.keel_stance import heights
-from benchmarks.machine import commit, machine, versions
+from benchmarks.machine import as_json, commit, machine, versions
 from benchmarks.prosthesis_refit import (
     LACKING,
     SETTING,
@@ -297,7 +297,7 @@ def main() -> None:
         told = {"commit": commit(), "machine": machine(), "versions": versions({"scipy", "numba"}), "seeds": seeds()}
         told["withheld"] = {kind: asdict(planted.withheld) for kind, planted in PLANTED.items()}
         told |= {"left_out": left_out(asked.out / "left_out", paths), "answers": found}
-    file.write_text(json.dumps(told, indent=1, default=str) + "\n", encoding="utf-8")
+    file.write_text(as_json(told), encoding="utf-8")
 
 
 def seeds() -> dict[str, list[int]]:

@@ -22,7 +22,7 @@ import numpy as np
 import pandas as pd
 
 import geocontact as gc
-from benchmarks.machine import machine, versions
+from benchmarks.machine import as_json, machine, versions
 from benchmarks.shoulder_planted import (
     CALIBRATION,
     EVALUATION,
@@ -162,7 +162,7 @@ def main() -> None:
         file = ROOT / "benchmarks" / "results" / "shoulder_gap.json"
         told = {"machine": machine(), "versions": versions({"scipy", "casadi"}), "logger_step_deg": LOGGER[0]}
         told |= {"left_out": left_out(asked.out / "left_out"), "answers": found}
-        file.write_text(json.dumps(told, indent=1, default=str) + "\n", encoding="utf-8")
+        file.write_text(as_json(told), encoding="utf-8")
 
 
 if __name__ == "__main__":

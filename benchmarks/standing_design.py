@@ -34,7 +34,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=HERE / "results")
     options = parser.parse_args()
     pin()
-    from benchmarks.machine import machine, versions
+    from benchmarks.machine import as_json, machine, versions
 
     options.out.mkdir(parents=True, exist_ok=True)
     file = options.out / "standing_design.json"
@@ -44,7 +44,7 @@ def main() -> None:
         began = time.process_time()
         report[part] = PARTS[part](options)
         report[part]["cpu seconds of it all"] = time.process_time() - began
-        file.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+        file.write_text(as_json(report, 2), encoding="utf-8")
         print(json.dumps({part: report[part]}, indent=2), flush=True)
 
 

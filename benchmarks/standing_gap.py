@@ -25,7 +25,7 @@ import numpy as np
 import pandas as pd
 
 import geocontact as gc
-from benchmarks.machine import stamp
+from benchmarks.machine import as_json, stamp
 from benchmarks.standing_refit import NAMED, refitted
 from benchmarks.standing_truth import PLANTED, PaddedStrap
 from geocontact.analyses.sit_to_stand.gap_files import write_strap_case
@@ -212,10 +212,10 @@ def main() -> None:
             f"{term}: {one['before']['mat_N']:.2f} -> {one.get('after', one['before'])['mat_N']:.2f} N"
             for term, one in each["full_model"].items()
         )
-        file.write_text(json.dumps(told, indent=1, default=str) + "\n", encoding="utf-8")
+        file.write_text(as_json(told), encoding="utf-8")
         print(f"{kind}: {each['verdict']} {', '.join(each['named'])}; full model, held out: {shown}", flush=True)
     told["left_out"] = left_out(asked.out)
-    file.write_text(json.dumps(told, indent=1, default=str) + "\n", encoding="utf-8")
+    file.write_text(as_json(told), encoding="utf-8")
 
 
 if __name__ == "__main__":

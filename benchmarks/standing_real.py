@@ -55,10 +55,10 @@ def main() -> None:
     parser.add_argument("--nodes", type=float, default=60.0)
     options = parser.parse_args()
     pin()
-    from benchmarks.machine import machine, versions
+    from benchmarks.machine import as_json, machine, versions
 
     report = {"machine": machine(), "versions": versions({"casadi", "numpy", "scipy"})} | steps(options)
-    (HERE / "results" / "standing_real.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+    (HERE / "results" / "standing_real.json").write_text(as_json(report, 2), encoding="utf-8")
     print(json.dumps(report, indent=2))
 
 

@@ -31,7 +31,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=HERE / "results")
     options = parser.parse_args()
     pin()
-    from benchmarks.machine import stamp
+    from benchmarks.machine import as_json, stamp
 
     options.out.mkdir(parents=True, exist_ok=True)
     file = options.out / "standing_up.json"
@@ -40,7 +40,7 @@ def main() -> None:
         began = time.process_time()
         report[part] = PARTS[part](options) | stamp({"casadi", "numpy", "scipy"})
         report[part]["cpu seconds of it all"] = time.process_time() - began
-        file.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+        file.write_text(as_json(report, 2), encoding="utf-8")
         print(json.dumps({part: report[part]}, indent=2), flush=True)
 
 

@@ -20,7 +20,7 @@ from geocontact.data.version import VERSION
 
 if TYPE_CHECKING:
     from geocontact import chain
-    from geocontact.analyses import misalignment, prosthesis, shoulder, sit_to_stand
+    from geocontact.analyses import knee, misalignment, prosthesis, shoulder, sit_to_stand
     from geocontact.analyses.area.job import area, pressure
     from geocontact.analyses.cop.job import centre_of_pressure
     from geocontact.analyses.gap.diagnose.job import diagnose
@@ -127,6 +127,7 @@ _PLACES = {
 }
 
 _ROOMS = {
+    "knee": "analyses.knee",
     "misalignment": "analyses.misalignment",
     "prosthesis": "analyses.prosthesis",
     "shoulder": "analyses.shoulder",
@@ -176,6 +177,7 @@ __all__ = [
     "inverse_kinematics",
     "kN",
     "kPa",
+    "knee",
     "lbf",
     "load_cells",
     "m",

@@ -90,6 +90,23 @@ def external_loads(file: Path) -> list[tuple[str, str, str]]:
     return found
 
 
+def external_wrenches(model_file: Path, file: Path, time: float) -> dict[str, tuple[str, str, np.ndarray]]:
+    """Body, frame, and force, point and torque (3, 3) of each load at a time, with the loads added to a model."""
+    import opensim
+
+    model, _ = _model(model_file)
+    loads = opensim.ExternalLoads(str(file), True)
+    model.addModelComponent(loads)
+    model.initSystem()
+    found = {}
+    for k in range(loads.getSize()):
+        one = loads.get(k)
+        vectors = (one.getForceAtTime(time), one.getPointAtTime(time), one.getTorqueAtTime(time))
+        numbers = np.array([[vector.get(i) for i in range(3)] for vector in vectors])
+        found[one.getName()] = one.getAppliedToBodyName(), one.getForceExpressedInBodyName(), numbers
+    return found
+
+
 def markers(file: Path, row: int) -> tuple[list[str], np.ndarray]:
     """Names of a .trc file and where the markers are in a row, in the file's unit."""
     import opensim

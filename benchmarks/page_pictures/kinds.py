@@ -15,6 +15,7 @@ KINDS = {
     "compare": "page_compare",
     "pressure": "page_pressure",
     "fit": "fit_profile",
+    "knee_settle": "knee_settle",
     "loadcells": "page_loadcells",
     "cop": "cop_compare",
     "cop_alone": "cop",

@@ -26,6 +26,7 @@ PLACES = {
     "id": "motion.inverse_dynamics.job:inverse_dynamics",
     "ik": "motion.inverse_kinematics.job:inverse_kinematics",
     "joint": "motion.functional_joint.job:functional_joint",
+    "knee settle": "knee.settle.job:settle",
     "loadcells": "loadcells.job:load_cells",
     "markers": "motion.virtual_markers.job:virtual_markers",
     "mat": "mat.job:mat",

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from geocontact.data.errors import InputError
+from geocontact.data.magnitude import LARGEST_MEANT
 from geocontact.io.text.units import ANGLE, DIMENSIONS, LENGTH, si_unit
 
 if TYPE_CHECKING:  # numbers are read before anything heavy is imported
@@ -181,6 +182,21 @@ def turn(text: str, option: str) -> tuple[str, float]:
     return axis.strip(), value * ANGLE["deg"]
 
 
+def pose_sd(text: str, option: str) -> tuple[float, ...]:
+    """ "t=0.5,r=1" or "tx=0.5,rz=2" (mm, degrees) to three lengths [m] and three angles [rad]; 0 where not named."""
+    names, found = ("tx", "ty", "tz", "rx", "ry", "rz"), dict[str, float]()
+    for part in text.split(","):
+        name, _, value = (piece.strip() for piece in part.partition("="))
+        meant = [each for each in names if each == name or each[0] == name]
+        if not meant or not value or any(each in found for each in meant):
+            raise InputError("", option, f"{part.strip()!r} is no standard deviation", f"write {option} t=0.5,r=1")
+        for each in meant:
+            found[each] = number(value, option, "t=0.5,r=1") * (LENGTH["mm"] if each[0] == "t" else ANGLE["deg"])
+    if min(found.values()) < 0.0:
+        raise InputError("", option, f"{text!r} is negative", "a standard deviation is not")
+    return tuple(found.get(each, 0.0) for each in names)
+
+
 def angle_range(text: str, option: str, example: str) -> tuple[float, float, float]:
     """ "0:90:1" to start, stop, step [rad]; degrees are typed, and the step is 1 unless given."""
     parts = text.split(":")
@@ -253,8 +269,9 @@ def _fit(file: Path, shape: str) -> dict[str, list[float]]:
             raise KeyError(shape)
         found = {key: [float(value) for value in fit[key]] for key in keys}
         for values in found.values():
-            _three(values)
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
+            if any(not abs(value) <= LARGEST_MEANT for value in _three(values)):
+                raise ValueError("a number is not finite or too large")
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         what = f"holds no {' and '.join(reversed(keys))} of a {shape}"
         raise InputError(file, "", what, f"give the fit.json of a {shape} fit") from error
     return found
@@ -373,6 +390,14 @@ def _bounds(text: str, option: str, unit: float) -> tuple[float, float]:
     if not colon:
         raise InputError("", option, f"{text!r} is not lower:upper", "write threshold=1:6")
     return number(low, option, "lag=-0.05:0.05") * unit, number(high, option, "lag=-0.05:0.05") * unit
+
+
+def body_pair(text: str, option: str) -> tuple[str, str]:
+    """ "femur_r,tibia_r" to two names."""
+    names = [name.strip() for name in text.split(",")]
+    if len(names) != 2 or not all(names) or names[0] == names[1]:
+        raise InputError("", option, f"{text!r} is not two bodies", "write femur_r,tibia_r")
+    return names[0], names[1]
 
 
 def ratios(text: str, option: str) -> tuple[float, ...]:

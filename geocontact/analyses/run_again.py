@@ -64,9 +64,8 @@ def read_run(path: str | PathLike[str]) -> EarlierRun:
     command, options, inputs = told.get("command"), told.get("options"), told.get("inputs")
     if not (isinstance(command, str) and isinstance(options, dict) and isinstance(inputs, list)):
         raise InputError(file, "", f"is not a {RUN} of geocontact", REMEDY)
-    known = {
-        Path(each["file"]): str(each.get("sha256")) for each in inputs if isinstance(each, dict) and "file" in each
-    }
+    named = [each for each in inputs if isinstance(each, dict) and isinstance(each.get("file"), str)]
+    known = {Path(each["file"]): str(each.get("sha256")) for each in named}
     typed = options != told.get("options_si")
     return EarlierRun(file.parent, command, options, typed, known, str(told.get("geocontact", "")))
 

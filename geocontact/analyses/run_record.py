@@ -13,6 +13,7 @@ from importlib.metadata import PackageNotFoundError, version
 from os import PathLike, fspath
 from pathlib import Path
 
+from geocontact.analyses.json_file import plain
 from geocontact.analyses.listener import Listener
 from geocontact.analyses.stale_results import RUN, digest, written
 from geocontact.analyses.table_forms import AS_ALWAYS, TableForms
@@ -115,7 +116,7 @@ class Record:
             "options": self.plain_options(),
             "options_si": {key: _plain(value) for key, value in self.in_si.items()},
             "inputs": self.inputs,
-            "results": self.results,
+            "results": plain(self.results),
             "tables": {name: _plain(told) for name, told in self.tables.items()},
             "warnings": self.warnings,
             "versions": self.versions(),

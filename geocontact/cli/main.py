@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import signal
 import sys
@@ -12,6 +13,7 @@ from io import TextIOWrapper
 from cyclopts import App, CycloptsError, MissingArgumentError
 
 from geocontact.analyses.results_folder import discard_drafts, what_stays
+from geocontact.cli.extras import remedy_for
 from geocontact.cli.opensim_setup import with_setup
 from geocontact.cli.suggestions import help_of, mistyped
 from geocontact.data.errors import InputError
@@ -20,6 +22,7 @@ from geocontact.data.version import VERSION
 HELP = "--help", "-h"
 USAGE_ERROR = 2
 FAILURE = 1
+NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 app = App(
     name="geocontact",
@@ -40,6 +43,7 @@ app.command("geocontact.cli.gap.group:gap", name="gap")
 app.command("geocontact.cli.id:inverse_dynamics", name="id")
 app.command("geocontact.cli.ik:ik", name="ik")
 app.command("geocontact.cli.joint:joint", name="joint")
+app.command("geocontact.cli.knee.group:knee", name="knee")
 app.command("geocontact.cli.loadcells:loadcells", name="loadcells")
 app.command("geocontact.cli.markers:markers", name="markers")
 app.command("geocontact.cli.mat:mat", name="mat")
@@ -82,12 +86,21 @@ def run(tokens: Sequence[str], debug: bool = False) -> int:
         return _fail(mistyped(error, app), USAGE_ERROR, debug)
     except InputError as error:
         return _fail(str(error), USAGE_ERROR, debug)
+    except ModuleNotFoundError as error:
+        remedy = remedy_for(error.name or "")
+        line = (
+            f"{error.name} is needed here and not installed; {remedy}"
+            if remedy
+            else f"{error} (run again with --debug)"
+        )
+        return _fail(line, USAGE_ERROR if remedy else FAILURE, debug)
     except KeyboardInterrupt:
         return _fail(f"interrupted; {what_stays()}", 130, debug)
     except BrokenPipeError:
         return FAILURE
     except OSError as error:
-        return _fail(f"{error.filename or 'file system'}: {error.strerror or error}", FAILURE, debug)
+        stays = f"; {what_stays()}" if error.errno in NO_ROOM else ""
+        return _fail(f"{error.filename or 'file system'}: {error.strerror or error}{stays}", FAILURE, debug)
     except MemoryError:
         return _fail("not enough memory; decimate the meshes or evaluate fewer frames", FAILURE, debug)
     except Exception as error:  # the last line of defence: one line for the user, --debug for us

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from geocontact.contact.adhesion import dmt_force, jkr_force
 from geocontact.contact.area_hertz import cap_force, disc_force, discs_force, strip_force, threshold_force
 from geocontact.contact.bristle_friction import bristle_force, deflection_rate
 from geocontact.contact.bushing import bushing_force
@@ -83,6 +84,11 @@ PRESSING: tuple[ForceLaw, ...] = (
 )
 """How bodies press: 0 unless the first variable is positive, never negative."""
 
+ADHERING: tuple[ForceLaw, ...] = tuple(
+    ForceLaw(law, (Variable("radius of the patch", "m", 3e-3),), (37e-3, 5e6, 0.05)) for law in (dmt_force, jkr_force)
+)
+"""How bodies press that stick: 0 unless the first variable is positive, negative where it is small."""
+
 INDENTATION = (Variable("depth", "m", 4e-3), Variable("rate", "m/s", 0.1))
 
 SMOOTHED: tuple[ForceLaw, ...] = (
@@ -113,4 +119,4 @@ HOLDING: tuple[ForceLaw, ...] = (
 )
 """How they hold what is displaced: odd in all variables together."""
 
-LAWS = PRESSING + SMOOTHED + FRICTION + HOLDING
+LAWS = PRESSING + ADHERING + SMOOTHED + FRICTION + HOLDING

@@ -47,6 +47,36 @@ def logarithmic_pressure(depth: X, thickness: X, modulus: X) -> X:
     return pressure
 
 
+def linear_stiffness(depth: X, thickness: X, modulus: X) -> X:
+    """Slope of `linear_pressure` over depth, M / h; 0 unless d > 0 [Pa/m]."""
+    slope: X = (depth > 0.0) * (modulus / thickness)
+    return slope
+
+
+def linear_energy(depth: X, thickness: X, modulus: X) -> X:
+    """Energy per area of `linear_pressure`, M d^2 / 2h [J/m^2]."""
+    sunk = np.maximum(depth, 0.0)
+    energy: X = 0.5 * modulus * sunk * sunk / thickness
+    return energy
+
+
+def logarithmic_stiffness(depth: X, thickness: X, modulus: X) -> X:
+    """Slope of `logarithmic_pressure` over depth, M / (h - d); 0 unless d > 0 [Pa/m]."""
+    held = np.minimum(np.maximum(depth, 0.0) / thickness, FULL)
+    slope: X = (depth > 0.0) * (modulus / (thickness * (1.0 - held)))
+    return slope
+
+
+def logarithmic_energy(depth: X, thickness: X, modulus: X) -> X:
+    """Energy per area of `logarithmic_pressure`, M h ((1 - s) ln(1 - s) + s) with s = d/h [J/m^2]."""
+    strain = np.maximum(depth, 0.0) / thickness
+    held = np.minimum(strain, FULL)
+    left, beyond = 1.0 - held, strain - held
+    bend = np.log(left)
+    energy: X = modulus * thickness * (left * bend + held + beyond * (0.5 * beyond / left - bend))
+    return energy
+
+
 def linear_pair_pressure(depth: X, thickness: X, modulus: X, other_thickness: X, other_modulus: X) -> X:
     """Two layers under one pressure share the depth: d / (h1/M1 + h2/M2); 0 unless d > 0 [Pa]."""
     pressure: X = np.maximum(depth, 0.0) / (thickness / modulus + other_thickness / other_modulus)

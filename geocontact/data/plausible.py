@@ -15,8 +15,9 @@ N, HZ, S, KG = Unit("N", "N", 1.0), Unit("Hz", "Hz", 1.0), Unit("s", "s", 1.0), 
 RAD, PA, M_PER_S = Unit("rad", "rad", 1.0), Unit("Pa", "Pa", 1.0), Unit("m/s", "m/s", 1.0)
 N_PER_M, N_PER_MM = Unit("N/m", "N/m", 1.0), Unit("N/mm", "N/m", 1e3)
 N_S_PER_M, N_S_PER_MM = Unit("N s/m", "N s/m", 1.0), Unit("N s/mm", "N s/m", 1e3)
+J_PER_M2 = Unit("J/m^2", "J/m^2", 1.0)
 KHZ, G = Unit("kHz", "Hz", 1e3), Unit("g", "kg", 1e-3)
-KNOWN = (*UNITS, N, HZ, S, KG, RAD, PA, M_PER_S, N_PER_M, N_PER_MM, N_S_PER_M, N_S_PER_MM, KHZ, G, PLAIN)
+KNOWN = (*UNITS, N, HZ, S, KG, RAD, PA, M_PER_S, N_PER_M, N_PER_MM, N_S_PER_M, N_S_PER_MM, J_PER_M2, KHZ, G, PLAIN)
 """Units that a number may have been meant in."""
 
 ROUNDING = 1e-9

@@ -51,3 +51,4 @@ SHARE = Plausible("a share", percent, (1e-10, 100.0))
 DIFFERENCE = Plausible("a relative difference", percent, (1e-7, 1e5))
 
 DISPLACEMENT = ByPlace((SHIFT, TILT))
+POSE = ByPlace((SHIFT, SHIFT, SHIFT, TILT, TILT, TILT))

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.interpolate import PchipInterpolator
 
+from geocontact.contact.adhesion import dmt_pull_off
 from geocontact.contact.area_hertz import PatchGeometry, Reading
 from geocontact.data.tilted_areas import TiltedAreas
 
@@ -80,6 +81,51 @@ class ThresholdAreas:
         return np.asarray(reading.force(self.within(threshold), patch, 1.0), float)
 
 
+@dataclass(frozen=True)
+class Adhesion:
+    """What holds the bodies together at a patch of radius a = sqrt(A/pi), for a given work of adhesion.
+
+    Both laws are Hertz's force less a pull (`contact.adhesion`): DMT 2 pi w R, JKR sqrt(E*) sqrt(8 pi w a^3).
+
+    Parameters
+    ----------
+    law
+        "dmt" or "jkr".
+    work
+        Work of adhesion w [J/m^2].
+    """
+
+    law: str
+    work: float
+
+    def pull(self, area: Float[np.ndarray, " t"], radius: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
+        """Pull [N] for DMT, over sqrt(E*) for JKR; 0 without area."""
+        if self.law == "dmt":
+            return np.asarray((area > 0.0) * radius * -dmt_pull_off(1.0, self.work))
+        return np.asarray(np.sqrt(8.0 * np.pi * self.work) * (np.maximum(area, 0.0) / np.pi) ** 0.75)
+
+    def force(
+        self, unit: Float[np.ndarray, " n"], pull: Float[np.ndarray, " n"], modulus: float
+    ) -> Float[np.ndarray, " n"]:
+        """Force [N] from Hertz's over E* and what `pull` gives."""
+        return np.asarray(modulus * unit - pull * (1.0 if self.law == "dmt" else np.sqrt(modulus)))
+
+    def refit(
+        self, unit: Float[np.ndarray, " n"], pull: Float[np.ndarray, " n"], measured: Float[np.ndarray, " n"]
+    ) -> float:
+        """E* of the least sum of squares; for JKR s = sqrt(E*) is a root of its slope, a cubic in s."""
+        if self.law == "dmt":
+            return float((measured + pull) @ unit / (unit @ unit))
+        slope = (2.0 * unit @ unit, -3.0 * unit @ pull, pull @ pull - 2.0 * unit @ measured, pull @ measured)
+        roots = np.roots(slope)
+        real = roots[np.abs(roots.imag) <= 1e-9 * np.abs(roots).max()].real
+        allowed = real[real > 0.0]
+        if len(allowed) == 0:
+            return 0.0
+        off = [float(np.square(unit * s * s - pull * s - measured).sum()) for s in allowed]
+        return float(allowed[int(np.argmin(off))] ** 2)
+
+
 @dataclass(frozen=True, eq=False)
 class AreaForce:
     """The area-integrated law as a model of one force curve.
@@ -94,6 +140,8 @@ class AreaForce:
         Lag with which the measured force was read [s]: force(t + taken) belongs to frame t.
     threshold
         Used unless it is a free parameter [m].
+    adhesion
+        What holds the bodies together besides; None where they do not stick.
     """
 
     evolution: ThresholdAreas
@@ -101,15 +149,19 @@ class AreaForce:
     frames: Float[np.ndarray, " n"]
     taken: float
     threshold: float
+    adhesion: Adhesion | None = None
 
     def per_modulus(self, values: Mapping[str, float]) -> Float[np.ndarray, " n"]:
-        """Force over E* at the frames [m^2].
+        """Hertz's force over E* at the frames [m^2]."""
+        evolution = self.evolution.with_offsets(values)
+        return self._at_frames(evolution.per_modulus(self.reading, values.get(THRESHOLD, self.threshold)), values)
+
+    def _at_frames(self, curve: Float[np.ndarray, " t"], values: Mapping[str, float]) -> Float[np.ndarray, " n"]:
+        """A curve over the area's clock at the frames.
 
         Where the lag is not the one taken, the curve is shifted (monotone cubic in time), not the measured force: its
         noise must not be interpolated anew at each trial value.
         """
-        evolution = self.evolution.with_offsets(values)
-        curve = evolution.per_modulus(self.reading, values.get(THRESHOLD, self.threshold))
         shift = self.taken - values.get(LAG, self.taken)
         if shift == 0.0:
             return np.asarray(np.interp(self.frames, self.evolution.time, curve))
@@ -117,7 +169,15 @@ class AreaForce:
 
     def force(self, values: Mapping[str, float]) -> Float[np.ndarray, " n"]:
         """Force at the frames [N]."""
-        return np.asarray(values[MODULUS] * self.per_modulus(values))
+        unit = self.per_modulus(values)
+        if self.adhesion is None:
+            return np.asarray(values[MODULUS] * unit)
+        return self.adhesion.force(unit, self._pull(values, self.adhesion), values[MODULUS])
+
+    def _pull(self, values: Mapping[str, float], adhesion: Adhesion) -> Float[np.ndarray, " n"]:
+        evolution = self.evolution.with_offsets(values)
+        area = evolution.within(values.get(THRESHOLD, self.threshold))
+        return self._at_frames(adhesion.pull(area, evolution.radius), values)
 
     def predict(self, values: Mapping[str, float]) -> list[Float[np.ndarray, "_ c"]]:
         """The same as `least_squares.Predict` has it: one trial, one channel."""
@@ -126,9 +186,13 @@ class AreaForce:
     def refit(
         self, measured: Float[np.ndarray, "b n"], values: Mapping[str, float], bounds: tuple[float, float]
     ) -> Float[np.ndarray, "b 1"]:
-        """E* of each row of forces by least squares; in closed form, as the law is linear in E*."""
+        """E* of each row of forces by least squares; in closed form, as the law is linear in E*, or in its root too."""
         unit = self.per_modulus(values)
-        return np.asarray(np.clip(measured @ unit / (unit @ unit), *bounds)[:, None])
+        if self.adhesion is None:
+            return np.asarray(np.clip(measured @ unit / (unit @ unit), *bounds)[:, None])
+        pull = self._pull(values, self.adhesion)
+        found = [self.adhesion.refit(unit, pull, row) for row in measured]
+        return np.asarray(np.clip(found, *bounds)[:, None])
 
 
 Sensitivity = Callable[[Mapping[str, float]], Float[np.ndarray, " n"]]

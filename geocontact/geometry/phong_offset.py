@@ -63,6 +63,31 @@ def phong_offset(
     return np.asarray(0.5 * np.einsum("nk,nk->n", _shares(to_corner), height))
 
 
+def phong_slope(
+    surface: Surface,
+    normals: Float[np.ndarray, "m 3 3"],
+    face: Int[np.ndarray, " n"],
+    points: Float[np.ndarray, "n 3"],
+) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3 3"]]:
+    """First and second derivative of `phong_offset` to the place within the triangle [-] and [1/m].
+
+    The offset is quadratic in each triangle, so that the second one is the same everywhere in it.
+    """
+    corners = surface.corners[face]
+    to_corner = corners - (points - surface.centre)[:, None, :]
+    opposite = np.roll(corners, 1, axis=1) - np.roll(corners, -1, axis=1)
+    twice = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    square = np.maximum(np.einsum("ni,ni->n", twice, twice), 1e-300)
+    share = np.cross(twice[:, None, :], opposite) / square[:, None, None]  # slope of each barycentric coordinate
+    across = np.eye(3) - twice[:, :, None] * twice[:, None, :] / square[:, None, None]
+    inside = np.einsum("nij,nkj->nki", across, normals[face])  # the part of the normals within the triangle
+    height = np.einsum("nki,nki->nk", to_corner, normals[face])
+    shares = _shares(to_corner)
+    slope = 0.5 * (np.einsum("nki,nk->ni", share, height) - np.einsum("nk,nki->ni", shares, inside))
+    bend = -0.5 * np.einsum("nki,nkj->nij", share, inside)
+    return np.asarray(slope), np.asarray(bend + np.swapaxes(bend, 1, 2))
+
+
 def _shares(to_corner: Float[np.ndarray, "n 3 3"]) -> Float[np.ndarray, "n 3"]:
     """Barycentric coordinates from the vectors to the corners: areas of the triangles opposite to each."""
     opposite = np.cross(np.roll(to_corner, -1, axis=1), np.roll(to_corner, 1, axis=1))

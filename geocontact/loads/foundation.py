@@ -15,9 +15,9 @@ from geocontact.contact.elastic_foundation import (
     logarithmic_pair_pressure,
     logarithmic_pressure,
 )
-from geocontact.geometry.phong_offset import phong_offset
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.surface_quadrature import SurfaceQuadrature
+from geocontact.loads.overlap import overlap
 from geocontact.loads.pressure_load import PressureLoad, compartment_loads, pressure_load
 
 FOUNDATIONS: Mapping[str, Callable[..., Any]] = {"linear": linear_pressure, "logarithmic": logarithmic_pressure}
@@ -25,9 +25,6 @@ FOUNDATIONS: Mapping[str, Callable[..., Any]] = {"linear": linear_pressure, "log
 
 PAIRS: Mapping[str, Callable[..., Any]] = {"linear": linear_pair_pressure, "logarithmic": logarithmic_pair_pressure}
 """Laws of two layers, by the same names: pressure of (depth, thickness, modulus, other thickness, other modulus)."""
-
-USUAL = 1e-3
-"""m; deeper points are looked for in a second, slower query."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,8 +110,8 @@ def pressed(
     if not moving.closed:
         raise ValueError(f"{moving.name} is open: without an inside there is no depth")
     pieces = layer.pieces
-    depth, face = _overlap(layer, moving, rotation, translation, skin.normals)
-    pressure, strain = _carried(layer, skin, depth, face)
+    over = overlap(pieces, layer.height, moving, rotation, translation, skin.normals)
+    pressure, strain = _carried(layer, skin, over.depth, over.face)
     numbers = pressure, pieces.area, pieces.normal, pieces.point, "FIXED"
     return Pressed(pressure, pressure_load(*numbers), compartment_loads(*numbers, layer.parts), strain)
 
@@ -133,31 +130,3 @@ def _carried(
     )
     most = float(pressure.max(initial=0.0)) / min(layer.modulus, skin.modulus)
     return pressure, most if layer.law == "linear" else float(-np.expm1(-most))
-
-
-def _overlap(
-    layer: Layer,
-    moving: Surface,
-    rotation: Float[np.ndarray, "3 3"],
-    translation: Float[np.ndarray, " 3"],
-    normals: Float[np.ndarray, "m 3 3"] | None,
-) -> tuple[Float[np.ndarray, " p"], Int[np.ndarray, " p"]]:
-    """Depth of each piece [m], 0 where there is none, and the face of `moving` that is next to it."""
-    pieces = layer.pieces
-    there = (pieces.point - translation) @ rotation
-    near = moving.proximity(there, USUAL)
-    distance, normal, face, closest = near.distance.copy(), near.normal.copy(), near.face.copy(), near.closest.copy()
-    deep = np.isneginf(distance)
-    if deep.any():
-        found = moving.proximity(there[deep])
-        distance[deep], normal[deep], face[deep] = found.distance, found.normal, found.face
-        closest[deep] = found.closest
-    if layer.height is not None:
-        distance = distance - layer.height
-    reached = np.flatnonzero(distance < (0.0 if normals is None else USUAL))
-    if normals is not None:
-        distance[reached] -= phong_offset(moving, normals, face[reached], closest[reached])
-    against = np.einsum("pi,pi->p", normal[reached] @ rotation.T, pieces.normal[reached])
-    depth = np.zeros(len(distance))
-    depth[reached] = np.where(against < 0.0, np.maximum(-distance[reached], 0.0), 0.0)
-    return depth, face

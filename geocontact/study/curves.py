@@ -12,9 +12,9 @@ from jaxtyping import Float
 
 from geocontact.data.errors import InputError
 from geocontact.io.results.netcdf import coordinates_of, over_time
+from geocontact.study.description.study_file import StudyFile
+from geocontact.study.description.trials import CohortTrial
 from geocontact.study.store import Store
-from geocontact.study.study_file import StudyFile
-from geocontact.study.trials import CohortTrial
 
 STEPS = np.linspace(0.0, 100.0, 101)
 """Places on the curves [%]."""
@@ -76,7 +76,7 @@ def curves_of(study: StudyFile, done: Sequence[tuple[CohortTrial, str]], store: 
         known = ", ".join(map(str, first.columns))
         raise InputError(study.path, "[summary]", f"table {name!r} has no column {missing!r}", f"there are {known}")
     values = np.array([_curves(study, files[trial.name], columns) for trial in there])
-    subjects, conditions = _who(study, there), _what(study, there)
+    subjects, conditions = subjects_of(study, there), conditions_of(study, there)
     names = tuple(trial.name for trial in there)
     return tuple(StudyCurves(column, names, subjects, conditions, values[:, k]) for k, column in enumerate(columns))
 
@@ -120,11 +120,12 @@ def _first_of_each(table: pd.DataFrame, over: str) -> dict[str, object]:
     return {name: table[name].iloc[0] for name in others}
 
 
-def _who(study: StudyFile, trials: Sequence[CohortTrial]) -> tuple[str, ...]:
+def subjects_of(study: StudyFile, trials: Sequence[CohortTrial]) -> tuple[str, ...]:
+    """The subject of each trial; its own name where it has none."""
     return tuple(str(trial.factors.get(study.summary.subject, trial.name)) for trial in trials)
 
 
-def _what(study: StudyFile, trials: Sequence[CohortTrial]) -> tuple[str, ...]:
+def conditions_of(study: StudyFile, trials: Sequence[CohortTrial]) -> tuple[str, ...]:
     """The condition, and the values of swept options: "fast, threshold 4"."""
     found = []
     for trial in trials:

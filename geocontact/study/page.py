@@ -61,13 +61,18 @@ def _panel(one: StudyCurves) -> Curves:
         several = len(values) > 1
         words = f"{condition} (n = {len(values)})"
         drawn.append(Curve(words, mean, mean - sd if several else None, mean + sd if several else None))
-    return Curves(f"{name}: mean ± SD over subjects", unit or "-", drawn)
+    return Curves(f"{name}: mean ± SD over subjects", _printed(unit), drawn)
 
 
 def _drawn(one: StudyCurves) -> dict[str, np.ndarray]:
     """Conditions that have a curve, not more than there are colours."""
     there = {name: values[np.isfinite(values).all(axis=1)] for name, values in one.groups.items()}
     return {name: there[name] for name in list(there)[:DRAWN] if len(there[name])}
+
+
+def _printed(unit: str | None) -> str:
+    """As figures and pages show it: mm² for mm^2."""
+    return (unit or "-").replace("^2", "²").replace("^3", "³")
 
 
 def _trials(manifest: pd.DataFrame) -> Table:
@@ -79,10 +84,13 @@ def _trials(manifest: pd.DataFrame) -> Table:
 
 
 @in_style
-def study_figure(curves: Sequence[StudyCurves]) -> Figure:
-    """Mean ± SD of every quantity and condition."""
+def study_figure(curves: Sequence[StudyCurves]) -> Figure | None:
+    """Mean ± SD of every quantity and condition; None where no trial has a whole curve."""
+    curves = [one for one in curves if _drawn(one)]
+    if not curves:
+        return None
     figure, axes = panels(1, len(curves), DOUBLE, 0.06)
     for one, own in zip(curves, axes, strict=True):
         name, unit = split_header(one.column)
-        mean_over_cycle(STEPS, _drawn(one), Quantity(name.replace("_", " "), unit or "-"), own, CYCLE)
+        mean_over_cycle(STEPS, _drawn(one), Quantity(name.replace("_", " "), _printed(unit)), own, CYCLE)
     return figure

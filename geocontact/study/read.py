@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from geocontact.analyses.run_record import Record
+from geocontact.study.description.study_file import StudyFile, read_study_file
+from geocontact.study.description.trials import CohortTrial, trials_of
 from geocontact.study.options import CohortOptions
-from geocontact.study.study_file import StudyFile, read_study_file
-from geocontact.study.trials import CohortTrial, trials_of
 
 
 @dataclass(frozen=True)

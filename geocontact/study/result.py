@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,14 +16,17 @@ from geocontact.analyses.results_folder import Scratch
 from geocontact.io.text.results import write_table
 from geocontact.study.collect import collect
 from geocontact.study.curves import StudyCurves
+from geocontact.study.description.trials import CohortTrial
 from geocontact.study.latex import latex
 from geocontact.study.page import REPORT, study_figure, study_page
 from geocontact.study.read import PlannedStudy
 from geocontact.study.store import RESULTS, Store
+from geocontact.study.surface.tables import surface_difference_table, surface_fields, surface_table
+from geocontact.study.surface.values import SurfaceValues
 from geocontact.study.tables import agreement_table, difference_table, ensemble_table, outlier_table, value_table
 from geocontact.study.trial_run import DONE, WRONG, TrialOutcome
-from geocontact.study.trials import CohortTrial
 from geocontact.view.page.write import write_page
+from geocontact.view.surfaces.points_vtp import write_points_vtp
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -56,15 +60,21 @@ class CohortResult(Result):
         Where their results are.
     curves
         Of the columns that the summary is about.
+    surface
+        Distances at points that correspond, None where the study asks for none.
     scratch
         Holds the store where no folder was named.
+    held
+        Keeps other studies out of the folder until the tables are written.
     """
 
     planned: PlannedStudy
     trials: tuple[StudiedTrial, ...]
     store: Store
     curves: tuple[StudyCurves, ...]
+    surface: SurfaceValues | None
     scratch: Scratch | None
+    held: ExitStack
 
     @property
     def done(self) -> tuple[StudiedTrial, ...]:
@@ -95,6 +105,9 @@ class CohortResult(Result):
             "agreement": agreement_table(self.curves),
             "outliers": outlier_table(self.curves),
         }
+        if self.surface is not None:
+            found["surface"] = surface_table(self.surface)
+            found["surface_differences"] = surface_difference_table(self.surface)
         return {name: table for name, table in found.items() if name == MANIFEST or len(table)}
 
     def _manifest(self) -> pd.DataFrame:
@@ -114,10 +127,14 @@ class CohortResult(Result):
 
     def figure(self) -> Figure | None:
         """Mean curves."""
-        return study_figure(self.curves) if self.curves else None
+        return study_figure(self.curves)
 
     def write_files(self, folder: Path) -> None:
-        """Manifest, the tables of all trials together, the page."""
+        """Manifest, the tables of all trials together, the page; then other studies may write into the folder."""
+        with self.held:
+            self._write_files(folder)
+
+    def _write_files(self, folder: Path) -> None:
         if self.scratch is not None:
             for one in self.done:
                 shutil.copytree(self.store.place(one.address), folder / RESULTS / one.address, dirs_exist_ok=True)
@@ -126,6 +143,8 @@ class CohortResult(Result):
             if name in PRINTED:
                 (folder / f"{name}.tex").write_text(latex(table), encoding="utf-8")
         collect([(one.trial, one.address) for one in self.done], self.store, folder)
+        if self.surface is not None:
+            write_points_vtp(folder / "surface.vtp", self.surface.points, surface_fields(self.surface))
         figure = self.figure()
         if figure is not None:
             save_both(figure, folder, "ensemble")

@@ -6,10 +6,12 @@ import errno
 import secrets
 import time
 from collections.abc import Iterator
-from contextlib import chdir
+from contextlib import ExitStack, chdir
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from geocontact.analyses import source_digest
 from geocontact.analyses.catalogue import job_named
@@ -21,14 +23,16 @@ from geocontact.io.text.units import split_header
 from geocontact.study.address import Digests, address_of, options_of
 from geocontact.study.cluster import workers_of
 from geocontact.study.curves import STEPS, StudyCurves, curves_of
+from geocontact.study.description.trials import CohortTrial
 from geocontact.study.dispatch import outcomes
 from geocontact.study.options import CohortOptions
 from geocontact.study.read import PlannedStudy
 from geocontact.study.result import CohortResult, StudiedTrial
 from geocontact.study.store import RESULTS, Store
+from geocontact.study.surface.tables import surface_differences
+from geocontact.study.surface.values import SurfaceValues, surface_values
 from geocontact.study.tables import differences_of, outlier_table
 from geocontact.study.trial_run import DONE, STOPPED, WRONG, TrialOutcome, TrialTask
-from geocontact.study.trials import CohortTrial
 
 LEVEL = 0.05
 
@@ -47,14 +51,35 @@ def run(planned: PlannedStudy, o: CohortOptions, record: Record) -> CohortResult
     scratch = None if record.out is not None else Scratch()
     out = record.out if record.out is not None else scratch.folder if scratch is not None else Path()
     store = Store(out.resolve() / RESULTS)
-    store.begin()
-    try:
+    with ExitStack() as held:  # until the tables are written, unless something goes wrong before
+        held.enter_context(store.begun())
         plan = _plan(planned, store)
         if any(one.known is not None and one.known.state == DONE for one in plan):
             is_kept(store.folder)
         became = _evaluated(planned, plan, store, o, record)
-    finally:
-        store.end()
+        trials, curves, surface = _looked_at(planned, plan, became, store, o, record)
+        kept = ExitStack() if scratch is not None else held.pop_all()
+    return CohortResult(
+        record=record,
+        planned=planned,
+        trials=trials,
+        store=store,
+        curves=curves,
+        surface=surface,
+        scratch=scratch,
+        held=kept,
+    )
+
+
+def _looked_at(
+    planned: PlannedStudy,
+    plan: list[_Planned],
+    became: list[TrialOutcome],
+    store: Store,
+    o: CohortOptions,
+    record: Record,
+) -> tuple[tuple[StudiedTrial, ...], tuple[StudyCurves, ...], SurfaceValues | None]:
+    """What became of each trial, curves, a surface where there is one; what goes wrong and what differs is said."""
     trials = tuple(StudiedTrial(one.trial, one.address, became[k]) for k, one in enumerate(plan))
     for one in trials:
         if one.outcome.state != DONE:
@@ -67,8 +92,11 @@ def run(planned: PlannedStudy, o: CohortOptions, record: Record) -> CohortResult
     all_of_them = f"{len(done)} of {counted(len(trials), 'trial')} of {planned.file.analysis}"
     record.say(f"{all_of_them} have results, {new} of them new")
     curves = curves_of(planned.file, [(one.trial, one.address) for one in done], store)
+    surface = surface_values(planned.file, [(one.trial, one.address) for one in done], store)
     _say(curves, record)
-    return CohortResult(record=record, planned=planned, trials=trials, store=store, curves=curves, scratch=scratch)
+    if surface is not None:
+        _say_surface(surface, record)
+    return trials, curves, surface
 
 
 def _say(curves: tuple[StudyCurves, ...], record: Record) -> None:
@@ -86,6 +114,19 @@ def _say(curves: tuple[StudyCurves, ...], record: Record) -> None:
     apart = outlier_table(curves)
     for name in dict.fromkeys(apart["name"]):
         record.warn(f"{name} lies apart from the other trials of its condition")
+
+
+def _say_surface(surface: SurfaceValues, record: Record) -> None:
+    """On how many points conditions differ."""
+    for first, second, there, found in surface_differences(surface):
+        name = f"distance at {len(surface.points)} particles, {first} against {second}"
+        subjects = counted(found.subjects, "subject")
+        if found.smallest > LEVEL:
+            record.say(f"{name}: {subjects} cannot show a difference, the smallest p is {found.smallest:.2g}")
+            continue
+        shown = np.zeros(there.shape, bool)
+        shown[there] = found.p <= LEVEL
+        record.say(f"{name}: p is at most 5 % at {shown.any(axis=0).sum()} of them, by {subjects}")
 
 
 def _plan(planned: PlannedStudy, store: Store) -> list[_Planned]:

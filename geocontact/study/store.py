@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,7 @@ from typing import Any
 from geocontact.analyses.stale_results import RUN
 from geocontact.data.errors import InputError
 from geocontact.study.address import Digests
+from geocontact.study.lock import sole_writer
 
 RESULTS = "results"
 TOLD = "trial.json"
@@ -75,19 +76,25 @@ class Store:
         (self.place(address) / TOLD).unlink(missing_ok=True)
         shutil.rmtree(self.place(address), ignore_errors=True)
 
-    def begin(self) -> None:
-        """Make the folder, and clear what an earlier run left half-written."""
-        try:
-            self.folder.mkdir(parents=True, exist_ok=True)
-            shutil.rmtree(self.folder / WORK, ignore_errors=True)
-            (self.folder / WORK).mkdir(exist_ok=True)
-        except OSError as error:
-            what = f"cannot be written to ({error.strerror})"
-            raise InputError(error.filename or self.folder, "", what, "choose another `out`") from error
+    @contextmanager
+    def begun(self) -> Iterator[None]:
+        """The folder to write into, for one study at a time; what is half-written is cleared before and after."""
+        with ExitStack() as held:
+            held.callback(self._clear_empty)
+            try:
+                self.folder.mkdir(parents=True, exist_ok=True)
+                held.enter_context(sole_writer(self.folder))
+                shutil.rmtree(self.folder / WORK, ignore_errors=True)
+                (self.folder / WORK).mkdir(exist_ok=True)
+            except OSError as error:
+                what = f"cannot be written to ({error.strerror})"
+                raise InputError(error.filename or self.folder, "", what, "choose another `out`") from error
+            try:
+                yield
+            finally:
+                shutil.rmtree(self.folder / WORK, ignore_errors=True)
 
-    def end(self) -> None:
-        """Clear what is half-written, and the folders where nothing is in them."""
-        shutil.rmtree(self.folder / WORK, ignore_errors=True)
+    def _clear_empty(self) -> None:
         for folder in (self.folder, self.folder.parent):
             with suppress(OSError):  # something is kept there
                 folder.rmdir()

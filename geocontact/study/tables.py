@@ -12,7 +12,7 @@ from jaxtyping import Float
 from geocontact.data.ensemble import mean_and_sd
 from geocontact.io.text.units import split_header
 from geocontact.study.curves import STEPS, StudyCurves
-from geocontact.study.outliers import LIMIT, scores
+from geocontact.study.statistics.outliers import LIMIT, scores
 from geocontact.study.statistics.reliability import reliability
 from geocontact.study.statistics.sign_flip import SignFlips, sign_flips
 from geocontact.view.curves.agreement import limits_of_agreement

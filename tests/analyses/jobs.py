@@ -12,6 +12,7 @@ JOBS: tuple[Job, ...] = (
     gc.pressure,
     gc.centre_of_pressure,
     gc.fit_shape,
+    gc.knee.settle,
     gc.load_cells,
     gc.modulus,
     gc.mat,

@@ -583,3 +583,32 @@ def test_the_nine_trials_of_standing_up() -> None:
             assert near(strap, one["strap [N]"]) and near(angle, max(one["angles [deg]"][:3])), (label, cell)
             assert one.get("certified", True) or (label == "without torques" and one["trial"] in ("P1", "P5"))
     assert max(told["pipelines"]["largest residual of the truth [N, N m]"]) < 1.0
+
+
+def test_the_plan_of_a_large_study() -> None:
+    """Every row of the simulation, and what a trial costs."""
+    page, told = "reference/large_study.md", results("cohort_plan")
+    figures, trials = told["figures"], told["asked"]["trials"]
+    trial, study = figures["trial"], figures["study"]
+    measured = {
+        f"`area`, the shipped knee, {trial['frames']} frames": (trial["cpu_seconds"], 1 / 3600.0),
+        "`gap diagnose`, mean of the 1000 benchmark cases": (figures["diagnosis_cpu_seconds"], 1 / 3600.0),
+        "results of `area` on disk, pages among them": (trial["bytes"] / 1e6, 1e-3),
+        "of these, tables": (trial["bytes_of_tables"] / 1e3, 1e-6),
+        "the study's own process, first run": (study["first_ms"], 1e-3 / 60.0),
+        "the same, when all is there already": (study["again_ms"], 1e-3 / 60.0),
+        "its memory": (study["memory_bytes"] / 1e3, 1e-6),
+    }
+    for label, (value, scale) in measured.items():
+        one, every = (cell.partition(" ")[0] for cell in row(page, label))
+        assert near(one, value) and near(every, value, scale * trials), label
+    simulated = [cells for cells in rows(page) if len(cells) == 10 and cells[0] in ("area", "gap diagnose")]
+    assert len(simulated) == 18 and trials == 100_000
+    for analysis, scenario, workers, hours, used, lost, *counts in simulated:
+        own = figures[f"{analysis}, {scenario}, {workers}"]
+        for cell, key in ((hours, "hours"), (lost, "lost_cpu_hours")):
+            assert all(map(near, cell.replace("(", "").replace(")", "").replace("… ", "").split(), own[key])), cell
+        assert near(used, own["share"][0], 100.0)
+        keys = ("failed", "set_aside", "set_aside_innocent", "started_again")
+        assert all(near(cell, own[key][0]) for cell, key in zip(counts, keys, strict=True)), counts
+    assert max(figures[key]["set_aside_innocent"][0] for key in figures if ", " in key) < 1.0

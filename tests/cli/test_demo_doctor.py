@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import sys
 import time
 from pathlib import Path
 
@@ -98,3 +99,20 @@ def test_doctor_asks_again_when_the_others_have_ended(monkeypatch: pytest.Monkey
     monkeypatch.setattr(doctor, "PATIENCE", 1.0)
     result = call("doctor")
     assert (result.code, result.out.splitlines()[-1]) == (0, "everything an analysis needs works")
+
+
+def test_a_library_of_an_extra_that_is_not_installed_is_one_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in [each for each in sys.modules if each.partition(".")[0] == "casadi"]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "casadi", None)
+    monkeypatch.setattr("geocontact.cli.extras.requires", lambda _: ["numpy>=2", "casadi>=3.7; extra == 'dynamics'"])
+    done = call("markers", MESHES / "leg_swing.mot", "--model", MESHES / "leg.osim", "--out", tmp_path / "m")
+    assert done.code == 0, done.err
+    refused = call("ik", tmp_path / "m" / "markers.trc", "--model", MESHES / "leg.osim", "--out", tmp_path / "out")
+    assert (refused.code, refused.err) == (
+        2,
+        "casadi is needed here and not installed; pip install 'geocontact[dynamics]'\n",
+    )
+    assert not (tmp_path / "out").exists()

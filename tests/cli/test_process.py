@@ -130,6 +130,22 @@ def test_an_interrupted_run_tells_what_it_had_finished(
     assert capsys.readouterr().err == f"interrupted; what was finished is in {tmp_path / 'second'} and 1 folder more\n"
 
 
+@pytest.mark.skipif(os.name != "posix", reason="the size of files is limited on Unix")
+def test_a_full_disk_is_one_line_and_leaves_nothing(tmp_path: Path) -> None:
+    """A limit on the size of files in place of a full disk, which benchmarks/faults.py mounts."""
+    file = tmp_path / "frames.csv"
+    file.write_text("time [s],AL,PM,AM,PL\n" + "".join(f"{k / 100},100,200,300,400\n" for k in range(400)))
+    program = (
+        "import resource, signal; signal.signal(signal.SIGXFSZ, signal.SIG_IGN); "
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000)); from geocontact.cli.main import main; main()"
+    )
+    words = ["loadcells", str(file), "--unit=N", f"--out={tmp_path / 'out'}"]
+    ended = subprocess.run([sys.executable, "-B", "-c", program, *words], cwd=ROOT, capture_output=True, text=True)
+    assert ended.returncode == 1 and len(ended.stderr.splitlines()) == 1, ended.stderr
+    assert ended.stderr.endswith("File too large; nothing was written\n"), ended.stderr
+    assert inventory(tmp_path).keys() == {"frames.csv"}
+
+
 def test_module_and_script_are_the_same_program() -> None:
     """The installed command calls what cli.py calls."""
     pyproject = (ROOT / "pyproject.toml").read_text(encoding="utf-8")

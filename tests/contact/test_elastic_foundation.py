@@ -13,10 +13,14 @@ from scipy.optimize import brentq
 
 from geocontact.contact.elastic_foundation import (
     FULL,
+    linear_energy,
     linear_pair_pressure,
     linear_pressure,
+    linear_stiffness,
+    logarithmic_energy,
     logarithmic_pair_pressure,
     logarithmic_pressure,
+    logarithmic_stiffness,
 )
 from geocontact.geometry.shapes import Sphere
 from geocontact.loads.pressure_load import PressureLoad, compartment_loads, pressure_load
@@ -150,3 +154,22 @@ def test_compartments_add_up_and_balance_about_the_common_centre() -> None:
 def test_nothing_presses() -> None:
     none = pressure_load(np.zeros(3), np.ones(3), np.eye(3), np.eye(3), "insert")
     assert (none.pressing, none.area, none.peak) == (0.0, 0.0, 0.0) and np.isnan(none.centre).all()
+
+
+@pytest.mark.parametrize("strain", [1e-4, 0.3, 0.9, 1.2])
+@pytest.mark.parametrize(
+    ("pressure", "energy", "stiffness"),
+    [
+        (linear_pressure, linear_energy, linear_stiffness),
+        (logarithmic_pressure, logarithmic_energy, logarithmic_stiffness),
+    ],
+)
+def test_pressure_is_the_slope_of_the_energy_and_stiffness_that_of_the_pressure(
+    pressure: Law, energy: Law, stiffness: Law, strain: float
+) -> None:
+    depth, step = strain * H, 1e-6 * strain * H
+    stored = quad(lambda d: float(pressure(d, H, M)), 0.0, depth, points=[min(FULL * H, depth)], epsrel=1e-11)[0]
+    assert energy(depth, H, M) == pytest.approx(stored, rel=1e-8)
+    slope = (pressure(depth + step, H, M) - pressure(depth - step, H, M)) / (2.0 * step)
+    assert stiffness(depth, H, M) == pytest.approx(slope, rel=1e-7)
+    assert energy(-depth, H, M) == stiffness(-depth, H, M) == 0.0

@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from geocontact.contact.adhesion import dmt_force, jkr_force
 from geocontact.data.parameter import Parameter
-from geocontact.elastic_modulus.area_force import LAG, MODULUS, THRESHOLD
+from geocontact.elastic_modulus.area_force import LAG, MODULUS, THRESHOLD, Adhesion
 from geocontact.elastic_modulus.identify import agreement, fitted, identify, modulus_parameter
 from geocontact.elastic_modulus.threshold_calibration import calibrated
 from tests.elsewhere import Elsewhere
@@ -159,3 +160,16 @@ def test_agreement_of_a_constant_is_nought() -> None:
     measured = np.array([1.0, 2.0, 3.0, 6.0])
     assert agreement(measured, np.full(4, 3.0)) == pytest.approx((np.sqrt(3.5), 0.0))
     assert agreement(measured, measured) == (0.0, 1.0)
+
+
+@pytest.mark.parametrize("law", ["dmt", "jkr"])
+def test_a_contact_that_sticks_gives_its_modulus_where_the_work_of_adhesion_is_given(law: str) -> None:
+    """Work so large that it takes a tenth of the force; the law of adhesion itself says what the force is."""
+    model = replace(synthetic_model("disc", frames=31), adhesion=Adhesion(law, 500.0))
+    patch = np.sqrt(model.evolution.within(4e-3) / np.pi)
+    force = {"dmt": dmt_force, "jkr": jkr_force}[law](patch, RADIUS, TRUE, 500.0)
+    np.testing.assert_allclose(model.force({MODULUS: TRUE}), force, rtol=1e-12)
+    assert force.mean() < 0.97 * replace(model, adhesion=None).force({MODULUS: TRUE}).mean()
+    assert model.refit(force[None], {}, (1e3, 1e12))[0, 0] == pytest.approx(TRUE, rel=1e-9)
+    found = identify(model, force, replicates=20, starts=1)
+    assert found.modulus == pytest.approx(TRUE, rel=1e-5)

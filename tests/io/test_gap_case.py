@@ -104,7 +104,7 @@ def test_one_trial_in_other_units_is_the_same_trial(tmp_path: Path) -> None:
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=50)
 @given(
-    arrays(np.float64, (4, 3), elements=st.floats(-1e200, 1e200)),
+    arrays(np.float64, (4, 3), elements=st.floats(-1e16, 1e16)),
     st.tuples(*(st.sampled_from(units) for units in (("rad", "deg"), ("N", "kN", "lbf"), ("m", "cm", "mm", "in")))),
 )
 def test_numbers_survive_writing_in_any_unit(tmp_path: Path, values: np.ndarray, units: tuple[str, ...]) -> None:

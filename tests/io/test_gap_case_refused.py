@@ -246,7 +246,7 @@ BAD_TRIALS = {
     "hexadecimal": ("11.5", "0x11", " line 3: '0x11' in column 'force' is not a number"),
     "infinite": ("11.5", "inf", " line 3: 'force' is infinite or too large; leave cells empty"),
     "beyond float": ("11.5", "-1e999", " line 3: 'force' is infinite or too large"),
-    "beyond float in SI": (TRIAL, TRIAL.replace("[N]", "[kN]").replace("11.5", "1e307"), " line 3: 'force' is inf"),
+    "beyond float in SI": (TRIAL, TRIAL.replace("[N]", "[kN]").replace("11.5", "1e307"), " line 3: 1e+307 in"),
     "time is empty": ("0.1,", ",", " line 3: time is missing; every row needs its time"),
     "time is NaN": ("0.1,", "nan,", " line 3: time is missing; every row needs its time"),
     "time is infinite": ("0.2,", "inf,", " line 4: 'time' is infinite or too large"),

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.magnitude import LARGEST_MEANT
 from geocontact.io.text.columns import angles_of, lengths, parse_map, resolve
 from geocontact.io.text.storage_header import unit_in_text
 from geocontact.io.text.tables import TextTable, read_table
@@ -82,7 +83,7 @@ def test_csv_time_in_other_units(tmp_path: Path, unit: str, time: list[float], k
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
-@given(arrays(np.float64, (5, 3), elements=st.floats(allow_nan=False, allow_infinity=False)))
+@given(arrays(np.float64, (5, 3), elements=st.floats(-LARGEST_MEANT, LARGEST_MEANT)))
 def test_numbers_survive_writing_and_reading_exactly(tmp_path: Path, values: np.ndarray) -> None:
     rows = ["\t".join(repr(float(x)) for x in [i, *row]) for i, row in enumerate(values)]
     read = table(tmp_path, "x\nversion=1\nnRows=5\nnColumns=4\nendheader\ntime\ta\tb\tc\n" + "\n".join(rows), "x.sto")

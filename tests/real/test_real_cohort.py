@@ -75,3 +75,42 @@ def test_a_knee_implant_at_two_thresholds(data_dir: Path, tmp_path: Path) -> Non
     assert len(narrow) == len(wide) == 101 and (narrow < wide).all() and (narrow > 0.3 * wide).all()
     assert set(made.table("values.csv")["condition"]) == {"threshold 2", "threshold 4"}
     assert made.table("trials.csv")["warnings [-]"].min() >= 2, "open surfaces are named for each trial"
+
+
+PEOPLE = """
+analysis = "area"
+[options]
+unit = "m"
+threshold = 4
+[[trials]]
+subject = "JW"
+[trials.options]
+moving = "{data}/gc4_jw_predsim_workshop/Femoral_Component_simpler.stl"
+fixed = "{data}/gc4_jw_predsim_workshop/Tibial_Insert_simpler_superior.stl"
+motion = "{data}/gc4_jw_predsim_workshop/KneeProsthesis.mot"
+osim = "{data}/gc4_jw_predsim_workshop/KneeProsthesis.osim"
+joint = "knee_joint"
+moving_body = "parent"
+angles = "deg"
+[[trials]]
+subject = "DM"
+[trials.options]
+moving = "{data}/gc6_dm_knee/stl/Femoral Component contact.stl"
+fixed = "{data}/gc6_dm_knee/stl/Tibial Insert contact.stl"
+motion = "{data}/gc6_dm_knee/fluoroscopy/Fluoroscopic Gait Data.sto"
+map = "rx=knee_flex_r,ry=knee_add_r,rz=knee_rot_r,tx=knee_ant_r,ty=knee_sup_r,tz=knee_lat_r"
+angles = "rad"
+"""
+
+
+@pytest.mark.slow
+def test_knees_of_two_laboratories_have_options_of_their_own(data_dir: Path, tmp_path: Path) -> None:
+    """JW by the joint of a model in degrees, DM by a map in radians; both areas are those of a knee implant."""
+    study = written(tmp_path / "knees.toml", PEOPLE.format(data=data_dir))
+    out = tmp_path / "out"
+    made = done(call("cohort", study, "--workers", "1", "--out", out, folder=out))
+    assert "2 of 2 trials of area have results" in made.out
+    table = pd.read_parquet(out / "tables" / "area.parquet")
+    assert table.groupby("subject").size().to_dict() == {"JW": 41, "DM": 101}
+    assert table["area_fixed [mm^2]"].between(300.0, 3500.0).all()
+    assert len(made.table("ensemble.csv")["condition"].unique()) == 1

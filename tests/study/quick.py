@@ -79,6 +79,11 @@ def run(inputs: tuple[float, str], o: QuickOptions, record: Record) -> QuickResu
             raise OSError(errno.ENOSPC, "No space left on device")
         case "slow":
             time.sleep(0.3)
+        case "hungry":
+            taken = []
+            for _ in range(60):  # 3 GB in 3 s, unless the process is ended
+                taken.append(np.ones(50_000_000 // 8))
+                time.sleep(0.05)
     time_ = np.linspace(0.0, 1.0, 5 + int(number))
     record.say(f"{number:g}")
     table = pd.DataFrame(

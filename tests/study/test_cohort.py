@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import platform
 import re
 import shutil
 import sys
@@ -12,6 +14,11 @@ import pandas as pd
 import pytest
 from scipy.io import netcdf_file
 
+from geocontact.analyses.run_record import Record
+from geocontact.study.curves import StudyCurves
+from geocontact.study.lock import LOCK, sole_writer
+from geocontact.study.page import study_figure, study_page
+from geocontact.view.page.content import Curves
 from tests.cli.calls import Call, call
 from tests.study.quick import compared, study, tables, told
 
@@ -93,6 +100,54 @@ def test_no_room_ends_the_study_and_loses_nothing(tmp_path: Path, scheduler: str
     (tmp_path / "G.txt").write_text("2", encoding="utf-8")
     done = cohort(file, out, scheduler)
     assert done.code == 0 and "7 of 7" in done.out and ", 7 of them new" not in done.out
+
+
+def test_only_one_study_at_a_time_writes_into_a_folder(tmp_path: Path, scheduler: str) -> None:
+    """A lock file that a dead process left is taken over; the lock goes with the run, also where that fails."""
+    file, out = study(tmp_path, {"A": "1"}), tmp_path / "out"
+    (out / "results").mkdir(parents=True)
+    left = out / "results" / LOCK
+    left.write_text("process 1 on elsewhere", encoding="utf-8")
+    with sole_writer(out / "results"):
+        refused = cohort(file, out, scheduler)
+        assert refused.code == 2 and refused.err == (
+            f"{out / 'results'}: another study writes here (process {os.getpid()} on {platform.node()}); "
+            "wait until it has ended, or choose another --out\n"
+        )
+    left.write_text("process 1 on elsewhere", encoding="utf-8")
+    assert cohort(file, out, scheduler).code == 0 and not left.exists()
+    (tmp_path / "A.txt").write_text("1 wrong", encoding="utf-8")
+    assert cohort(file, out, scheduler).code == 2 and not left.exists()
+
+
+def test_units_on_the_page_are_as_in_print(tmp_path: Path) -> None:
+    one = StudyCurves("area [mm^2]", ("A",), ("A",), ("all",), np.ones((1, 101)))
+    page = study_page("areas", Record("cohort", {}), [one], {"trials": pd.DataFrame({"name": ["A"], "folder": [""]})})
+    assert [part.unit for part in page.sections if isinstance(part, Curves)] == ["mm²"]
+
+
+@pytest.mark.slow
+def test_a_trial_that_takes_more_memory_than_it_may_is_set_aside(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    file = study(tmp_path, {"A": "1", "B": "2 hungry"})
+    done = call("cohort", file, "--workers", "1", "--memory", "700MB", "--out", out, folder=out)
+    assert done.code == 1 and done.complaints == ["B: its worker was killed 3 times: out of memory, or a crash"], (
+        done.err
+    )
+    assert list(done.table("trials.csv")["state"]) == ["done", "set aside"]
+
+
+@pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="no /proc here")
+def test_a_folder_that_takes_no_files_is_refused(tmp_path: Path) -> None:
+    refused = call("cohort", study(tmp_path, NUMBERS), "--out", "/proc/none")
+    assert refused.code == 2 and len(refused.complaints) == 1 and "cannot be written to" in refused.err
+
+
+def test_a_quantity_that_no_trial_has_whole_is_not_drawn() -> None:
+    names = ("A",), ("A",), ("all",)
+    whole, gaps = (StudyCurves("area [mm^2]", *names, np.full((1, 101), value)) for value in (1.0, np.nan))
+    drawn = study_figure([gaps, whole])
+    assert drawn is not None and len(drawn.axes) == 1 and study_figure([gaps]) is None
 
 
 def test_results_are_those_of_one_by_one(tmp_path: Path, scheduler: str, monkeypatch: pytest.MonkeyPatch) -> None:

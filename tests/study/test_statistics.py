@@ -25,6 +25,15 @@ def test_icc_of_the_published_example() -> None:
     assert found.consistency_interval == pytest.approx((0.342, 0.946), abs=1e-3)
 
 
+def test_icc_of_three_conditions_is_that_of_another_program() -> None:
+    """Synthetic: 12 subjects, three conditions with a bias. pingouin 0.7.0: coefficients, and intervals to 0.01."""
+    subjects = np.random.default_rng(1).normal(size=(12, 1)) * 2 + np.array([0.0, 0.5, 1.0])
+    found = reliability(subjects + np.random.default_rng(2).normal(size=(12, 3)))
+    assert (found.agreement, found.consistency) == pytest.approx((0.513872, 0.651726), abs=1e-6)
+    assert found.agreement_interval == pytest.approx((0.13, 0.81), abs=5.1e-3)
+    assert found.consistency_interval == pytest.approx((0.33, 0.87), abs=5.1e-3)
+
+
 def test_icc_does_not_depend_on_unit_and_order() -> None:
     other = reliability(3.0 * SHROUT_FLEISS[::-1, [2, 0, 3, 1]] - 7.0)
     assert other.agreement == pytest.approx(reliability(SHROUT_FLEISS).agreement, rel=1e-12)

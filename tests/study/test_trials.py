@@ -8,8 +8,8 @@ import pytest
 
 from geocontact.data.errors import InputError
 from geocontact.study import address
-from geocontact.study.study_file import read_study_file
-from geocontact.study.trials import CohortTrial, trials_of
+from geocontact.study.description.study_file import read_study_file
+from geocontact.study.description.trials import CohortTrial, trials_of
 from tests.study.quick import QuickOptions
 
 
@@ -58,6 +58,20 @@ def test_lists_alone_give_all_combinations_and_numbers_stay_numbers(tmp_path: Pa
     assert [one.options["rate"] for one in found] == [1, 2.5, 1, 2.5]
 
 
+def test_trials_that_are_listed_have_options_of_their_own(data: Path) -> None:
+    found = trials(
+        data,
+        'table = "people.csv"\n[options]\nmotion = "{subject}/{walk}.csv"\nrate = 5\n[sweep]\nthreshold = [1, 4]\n'
+        '[[trials]]\nsubject = "P1"\nwalk = "a"\n'
+        '[[trials]]\nsubject = "P2"\nwalk = "b"\noptions = { rate = 2, map = "rz={side}" }\n',
+    )
+    assert [(one.name, one.options["threshold"]) for one in found] == [
+        (f"{name} {threshold}", threshold) for name in ("P1 a left 70.0", "P2 b right 80.0") for threshold in (1, 4)
+    ]
+    assert found[0].options == {"motion": "P1/a.csv", "rate": 5, "threshold": 1}
+    assert found[2].options == {"motion": "P2/b.csv", "rate": 2, "map": "rz=right", "threshold": 1}
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
@@ -70,6 +84,11 @@ def test_lists_alone_give_all_combinations_and_numbers_stay_numbers(tmp_path: Pa
         ('[vary]\nstate = ["A"]', "`state`: is a name that every study has"),
         ('[vary]\nsubject = ["A"]\n[[leave_out]]\nsubject = "A"', "every trial is left out"),
         ("[options]\nrate = 1\n[sweep]\nrate = [1, 2]", "[sweep] rate: is in [options] too"),
+        ('[[trials]]\nsubject = "A"\n[[trials]]\nwalk = 2', "[[trials]] 2: 'subject' is not in all of them"),
+        ('[[trials]]\nsubject = ["A"]', "[[trials]] 1 subject: is no value"),
+        ("[[trials]]\noptions = 3", "[[trials]] 1 options: is no table"),
+        ("trials = 2", "[[trials]]: is no list of tables"),
+        ("[sweep]\nrate = [1, 2]\n[[trials]]\noptions = { rate = 1 }", "[sweep] rate: is in [options] too"),
         ('[summary]\nwho = "subject"', "[summary] who: is not known here"),
         ('files = "{subject}/{condition}_{trial}.csv"\ntable = "one.csv"', "one.csv: has no row for subject P2"),
     ],

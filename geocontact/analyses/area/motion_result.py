@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import pandas as pd
 
+from geocontact.analyses.area.pose_error.along import AreaUncertainty
 from geocontact.analyses.area.pressure.along import PressureEvolution
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
@@ -30,6 +31,8 @@ class MotionResult:
         Loads of every frame; None unless `pressure` was asked for.
     comparison
         Differences to measured areas; None unless `compare` names some.
+    uncertainty
+        Error of the poses carried into FIXED's area; None unless one was given.
     reservations
         What is to be doubted about this motion, each one line.
     """
@@ -40,4 +43,5 @@ class MotionResult:
     maps: DistanceMaps
     pressure: PressureEvolution | None
     comparison: pd.DataFrame | None
+    uncertainty: AreaUncertainty | None
     reservations: tuple[str, ...]

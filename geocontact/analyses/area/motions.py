@@ -10,6 +10,7 @@ from geocontact.analyses import quantities
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
+from geocontact.data.file_names import cannot_be_named, same_place
 from geocontact.data.motion import Motion
 from geocontact.geometry.fit.cylinder import fit_cylinder
 from geocontact.geometry.surface import Surface
@@ -116,10 +117,11 @@ def _refuse_names(paths: Sequence[Path]) -> None:
     """InputError for motions that cannot have a sub-folder each."""
     names = [path.stem for path in paths]
     for name in names if len(names) > 1 else ():
-        if name in ("", ".", "..") or name.lower() == "run.json":
+        if cannot_be_named(name) or name.lower() == "run.json":
             raise InputError("", "`motion`", f"a motion called {name!r} cannot name a folder", "rename its file")
-        if names.count(name) > 1:
-            raise InputError("", "`motion`", f"two motions are called {name}", "their results would share a folder")
+    twice = same_place(names)
+    if twice is not None:
+        raise InputError("", "`motion`", f"two motions are called {twice}", "their results would share a folder")
 
 
 def _swept(record: Record, o: AreaOptions, asked: tuple[str, float, float, float], moving: Surface) -> Motion:

@@ -8,6 +8,7 @@ from glob import has_magic
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
+from geocontact.analyses.layer_options import BodyPair, Thickness
 from geocontact.analyses.options import (
     AngleUnit,
     Excludes,
@@ -30,16 +31,17 @@ from geocontact.data.ranges import (
     DIFFERENCE,
     FRAME_RATE,
     JOINT_ANGLE,
-    LAYER,
     LAYER_RATIO,
     PIECE,
+    POSE,
     SHARE,
+    SHIFT,
     THRESHOLD,
     TURN,
     YOUNG,
 )
 
-RAYS, FLAT = "rays", "flat"
+FLAT = "flat"
 
 READS_NO_FILE = Excludes("sweep", "has no effect with `sweep`, which reads no motion file")
 OF_LAYER = Requires("pressure")
@@ -52,7 +54,7 @@ Sweep = Annotated[
     JOINT_ANGLE,
 ]
 Turn = Annotated[tuple[str, float], Typed("rad", "turn", '("x", gc.deg(2))'), TURN]
-Thickness = Annotated[float | Literal["rays"], Typed("m", "thickness", "gc.mm(8)"), LAYER]
+PoseSd = Annotated[tuple[float, ...], Typed("m, rad", "pose_sd", "(5e-4, 5e-4, 5e-4, *gc.deg(1, 1, 1))"), POSE]
 
 
 @dataclass(frozen=True)
@@ -132,6 +134,22 @@ class AreaOptions(Options):
     bounds
         Refine until (upper - lower) / upper is below: 0.02 or 2%; 10% unless given.
 
+    Error of the poses
+    ------------------
+    pose_sd
+        Standard deviations of the poses, typed t=0.5,r=1 or tx=0.5,ty=0.5,tz=1,rx=1,ry=1,rz=2 (mm, degrees; 0 unless
+        named): the area of FIXED gets intervals, by draws and to first order (pose_error.csv).
+    pose_axes
+        Axes of these: those of fixed (unless given) or moving. Turns are about MOVING's origin.
+    markers
+        Instead of `pose_sd`: markers that MOVING's pose was fitted to, a table x [mm], y [mm], z [mm] in its frame.
+    marker_sd
+        Standard deviation of each coordinate of a marker.
+    draws
+        How many; 400 unless given.
+    seed
+        Of the draws; 1 unless given.
+
     Beside measured areas
     ---------------------
     compare
@@ -170,6 +188,8 @@ class AreaOptions(Options):
         Of its layer: a length such as 3mm, or rays.
     piece
         Longest edge of the pieces that pressure is summed over: 0.5mm unless given.
+    bodies
+        OpenSim bodies of MOVING and FIXED, femur_r,tibia_r: forces are also written as external loads of these.
 
     Work
     ----
@@ -224,6 +244,14 @@ class AreaOptions(Options):
     region_moving: Expression | None = None
     rule: Literal["refined", "clip", "all-vertices", "any-vertex", "centroid"] = "refined"
     bounds: Annotated[Fraction | None, SHARE] = None
+    pose_sd: PoseSd | None = None
+    pose_axes: Annotated[Literal["fixed", "moving"] | None, Requires("pose_sd")] = None
+    markers: Annotated[
+        Path | None, Excludes("pose_sd", "says the error of the pose twice", "give one"), Needs("marker_sd", "as 0.5mm")
+    ] = None
+    marker_sd: Annotated[Length | None, Requires("markers"), SHIFT] = None
+    draws: Annotated[int | None, Requires("pose_sd", alternative="markers")] = None
+    seed: Annotated[int | None, Requires("pose_sd", alternative="markers")] = None
     compare: Path | None = None
     tolerance: Annotated[
         Fraction | None, Requires("compare", "give your measured areas too, or leave it out"), DIFFERENCE
@@ -243,6 +271,7 @@ class AreaOptions(Options):
     poisson_moving: Annotated[float | None, OF_SECOND, LAYER_RATIO] = None
     thickness_moving: Annotated[Thickness | None, OF_SECOND] = None
     piece: Annotated[Length | None, OF_LAYER, PIECE] = None
+    bodies: Annotated[BodyPair | None, OF_LAYER] = None
     workers: int | None = None
 
     def paths(self) -> Iterator[tuple[Path, Missing]]:
@@ -263,6 +292,7 @@ class AreaOptions(Options):
             raise InputError("", "`workers`", f"{self.workers} is less than one thread", "give 1 or more")
         self._refuse_sides()
         self._refuse_thresholds()
+        self._refuse_errors()
         if self.adduction is not None and self.adduction[0] not in ("x", "y", "z"):
             raise InputError("", "`adduction`", f"{self.adduction[0]!r} is not an axis", "turn about x, y or z")
 
@@ -271,6 +301,20 @@ class AreaOptions(Options):
             medial_side(self.split, self.side, self.medial)
         if self.medial is not None and self.side is not None and self.convention is None:
             raise InputError("", "`side`", "has no effect with `medial`, which says what is medial", "give one")
+
+    def _refuse_errors(self) -> None:
+        if self.pose_sd is None and self.markers is None:
+            return
+        if self.rule not in ("refined", "clip"):
+            raise InputError("", "`rule`", f"{self.rule} changes in jumps with the pose", "leave it out")
+        if min(self.threshold) <= 0.0:
+            raise InputError("", "`threshold`", "0 has no error of poses", "give a threshold above 0")
+        if self.draws is not None and not 20 <= self.draws <= 1_000_000:
+            raise InputError("", "`draws`", f"{self.draws} is not between 20 and 1000000", "give for example 400")
+        if self.pose_sd is not None and (len(self.pose_sd) != 6 or not max(self.pose_sd) > 0.0):
+            raise InputError("", "`pose_sd`", "needs three shifts and three turns, one above 0", "give t=0.5,r=1")
+        if self.seed is not None and self.seed < 0:
+            raise InputError("", "`seed`", f"{self.seed} is negative", "give 0 or more")
 
     def _refuse_thresholds(self) -> None:
         if not self.threshold:

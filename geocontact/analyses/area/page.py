@@ -19,7 +19,9 @@ from geocontact.analyses.area.page_sections import (
     rows,
     scene,
     strip,
+    uncertainty_curves,
 )
+from geocontact.analyses.area.pose_error.along import AreaUncertainty
 from geocontact.analyses.area.pressure.page import Pressures, pressure_sections, pressure_words
 from geocontact.analyses.area.reference_areas import Compared
 from geocontact.analyses.area.words import reviewers_words
@@ -50,6 +52,7 @@ def write_report(
     warnings: Sequence[str] = (),
     pressures: Pressures | None = None,
     compared: Compared | None = None,
+    uncertainty: AreaUncertainty | None = None,
 ) -> int:
     """Write the self-contained page of one contact-area analysis; returns its size in bytes.
 
@@ -73,13 +76,15 @@ def write_report(
         Pressures on FIXED; the page then opens with their map, in the frame with the largest force.
     compared
         Measured areas beside these.
+    uncertainty
+        Error of the poses carried into the area.
     """
     if not maps.frames:
         raise ValueError("the distance maps hold no frame; gather them with area_evolution(..., each=maps.add)")
     most = FRAMES
     while True:
         shown = shown_frames(maps, most, () if pressures is None else (pressures.heaviest,))
-        told = Told(moving, fixed, motion, settings, evolution, maps, shown, pressures, compared)
+        told = Told(moving, fixed, motion, settings, evolution, maps, shown, pressures, compared, uncertainty)
         size = write_page(contact_page(told, title, provenance, warnings), Path(path))
         most = min(most, len(told.kept)) // 2
         if size <= LARGEST_FILE or most < FEWEST:
@@ -121,6 +126,7 @@ def contact_page(
             numbers,
             *pressed,
             area_curves(told, k),
+            *uncertainty_curves(told, k),
             distance,
             *shared,
             *after,

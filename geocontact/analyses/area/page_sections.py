@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from geocontact.analyses.area.colours import colour_span
+from geocontact.analyses.area.pose_error.along import NORMAL, AreaUncertainty
 from geocontact.analyses.area.pressure.page import Pressures, face_map, pressure_rows
 from geocontact.analyses.area.reference_areas import Compared
 from geocontact.data.evolution import MM, MM2, AreaEvolution
@@ -56,6 +57,7 @@ class Told:
     kept: Int[np.ndarray, " k"]
     pressures: Pressures | None = None
     compared: Compared | None = None
+    uncertainty: AreaUncertainty | None = None
 
     @property
     def frames(self) -> Int[np.ndarray, " k"]:
@@ -154,6 +156,26 @@ def area_curves(told: Told, main: int) -> Curves:
         areas.append(Curve(f"moving body, {in_mm(e, main)}", e.moving.area[frames, main] * MM2))
     areas += [within(k) for k in range(len(e.thresholds)) if k != main]
     return Curves("Contact area", "mm²", areas, measured)
+
+
+def uncertainty_curves(told: Told, main: int) -> list[Curves]:
+    """The area with the intervals that the error of the poses gives it, by draws and to first order."""
+    u, frames = told.uncertainty, told.frames
+    if u is None:
+        return []
+    area = u.area[frames, main] * MM2
+    lower, upper = u.interval(main)[:, frames] * MM2
+    sd = NORMAL * MM2 * np.array([u.cells[frame][main].first_order for frame in frames])
+    curves = [
+        Curve(f"95 % of {len(u.error.draws)} draws", area, lower, upper),
+        Curve("first order, lower", np.maximum(area - sd, 0.0)),
+        Curve("first order, upper", area + sd),
+    ]
+    odd = sum(u.verdict(frame, main) != "yes" for frame in range(len(u.cells)))
+    title = (
+        f"Error of the pose carried into the area ({in_mm(told.evolution, main)}; first order disagrees in {odd} of "
+    )
+    return [Curves(title + f"{len(u.cells)} frames)", "mm²", curves)]
 
 
 def _measured(told: Told, k: int) -> list[Points]:

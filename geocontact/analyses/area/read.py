@@ -9,6 +9,7 @@ import numpy as np
 from geocontact.analyses import quantities
 from geocontact.analyses.area.motions import motions_given
 from geocontact.analyses.area.options import AreaOptions
+from geocontact.analyses.area.pose_error.along import pose_error_of
 from geocontact.analyses.area.reference_areas import Reference, read_reference
 from geocontact.analyses.area.refusals import refuse_plane_beside, refuse_zero_without_inside
 from geocontact.analyses.bodies import chosen_faces, read_body, refuse_two_spaces
@@ -17,6 +18,7 @@ from geocontact.analyses.sides import MedialSide, medial_side, refuse_other_axes
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import Refinement
 from geocontact.geometry.contact_area.evolution import Settings
+from geocontact.geometry.contact_area.pose_error import PoseError
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 from geocontact.view.surfaces.vtp_series import require_pyvista
@@ -45,6 +47,8 @@ class Bodies:
         Name of the sub-folder, empty when there is one motion, and poses of MOVING in FIXED.
     reference
         Measured areas to compare with; None without.
+    error
+        By which poses may be off; None without.
     """
 
     moving: Surface
@@ -52,6 +56,7 @@ class Bodies:
     settings: Settings
     motions: tuple[tuple[str, Motion], ...]
     reference: Reference | None
+    error: PoseError | None = None
 
     @property
     def title(self) -> str:
@@ -71,6 +76,9 @@ def read(o: AreaOptions, record: Record) -> Bodies:
         table = read_reference(o.compare)
         reference = Reference(o.compare, table, TOLERANCE if o.tolerance is None else o.tolerance)
         record.add_input("`compare`", o.compare)
+    error = pose_error_of(o)
+    if o.markers is not None:
+        record.add_input("`markers`", o.markers)
     closed = {body: o.assume_closed in (body, "both") for body in ("moving", "fixed")}
     moving = read_body(record, "moving", o.moving, o.unit, o.place_moving, closed["moving"])
     fixed = read_body(record, "fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
@@ -82,7 +90,7 @@ def read(o: AreaOptions, record: Record) -> Bodies:
     if o.split is not None and split is not None:
         refuse_plane_beside(o.split, split[0], fixed, settings.fixed_faces, o.unit)
         record.say(f"medial is {split[1].words} of {fixed.name}")
-    return Bodies(moving, fixed, settings, tuple(motions_given(record, o, moving)), reference)
+    return Bodies(moving, fixed, settings, tuple(motions_given(record, o, moving)), reference, error)
 
 
 def _settings(

@@ -15,12 +15,13 @@ from geocontact.analyses.area.apart import (
 from geocontact.analyses.area.motion_result import MotionResult
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.page import FRAMES
+from geocontact.analyses.area.pose_error.along import ENDS, AreaUncertainty, area_uncertainty
 from geocontact.analyses.area.pressure.along import pressure_evolution
 from geocontact.analyses.area.read import Bodies
 from geocontact.analyses.area.reference_areas import Reference, compared, largest_difference
 from geocontact.analyses.area.result import AreaResult
 from geocontact.analyses.run_record import Record
-from geocontact.data.evolution import AreaEvolution
+from geocontact.data.evolution import MM2, AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.evolution import FrameContact, Settings, area_evolution
 from geocontact.geometry.contact_area.maps import DistanceMaps
@@ -45,7 +46,10 @@ def _over(
     evolution, maps = _evaluated(record, bodies, o, name, motion)
     pressure = pressure_evolution(record, bodies, o, name, motion, maps.frames) if o.pressure else None
     comparison = None if bodies.reference is None else _compared(record, evolution, bodies.reference)
-    return MotionResult(name, motion, evolution, maps, pressure, comparison, (*shared, *record.warnings[before:]))
+    uncertainty = _uncertain(record, bodies, o, name, motion, evolution)
+    return MotionResult(
+        name, motion, evolution, maps, pressure, comparison, uncertainty, (*shared, *record.warnings[before:])
+    )
 
 
 def _evaluated(
@@ -68,6 +72,39 @@ def _evaluated(
     _summarise(record, evolution, name)
     record.say(least_distance(evolution, motion, name))
     return evolution, maps
+
+
+def _uncertain(
+    record: Record, bodies: Bodies, o: AreaOptions, name: str, motion: Motion, evolution: AreaEvolution
+) -> AreaUncertainty | None:
+    if bodies.error is None:
+        return None
+    with record.listener.progress(f"{name or 'frames'}, error of the pose", len(motion)) as step:
+        found = area_uncertainty(
+            bodies.moving, bodies.fixed, motion, bodies.settings, evolution, bodies.error, o.workers, step
+        )
+    summary: dict[str, object] = {}
+    record.results[f"{name} pose_error".lstrip()] = summary
+    for k, threshold in enumerate(evolution.thresholds):
+        lower, upper = found.interval(k) * MM2
+        odd = sum(found.verdict(frame, k) != "yes" for frame in range(len(motion)))
+        peak = np.quantile(found.drawn(k).max(axis=0), ENDS) * MM2
+        summary[f"at_{threshold * 1e3:g}_mm"] = {
+            "draws": len(bodies.error.draws),
+            "widest_interval_mm2": round(float((upper - lower).max()), 3),
+            "largest_area_ci95_mm2": [round(float(end), 3) for end in peak],
+            "frames_where_first_order_disagrees": odd,
+        }
+        record.say(
+            f"error of the pose: largest area within {threshold * 1e3:g} mm is {peak[0]:.1f} … {peak[1]:.1f} mm^2 "
+            f"(95 %); first order agrees with the draws in {len(motion) - odd} of {len(motion)} frames"
+        )
+        if odd:
+            record.warn(
+                f"first order and draws of the pose disagree in {odd} frames at {threshold * 1e3:g} mm: "
+                "trust the draws there (column agree of pose_error.csv)"
+            )
+    return found
 
 
 def _warn_of_doubts(record: Record, e: AreaEvolution, settings: Settings, asked: bool) -> None:

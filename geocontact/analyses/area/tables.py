@@ -9,18 +9,21 @@ import pandas as pd
 
 from geocontact.analyses.area.motion_result import MotionResult
 from geocontact.analyses.area.options import AreaOptions
+from geocontact.analyses.area.pose_error.along import uncertainty_table
 from geocontact.analyses.area.pressure.along import PressureEvolution
 from geocontact.data.motion import Motion
 from geocontact.loads.pressure_load import PressureLoad
 
 
 def tables_of(one: MotionResult, o: AreaOptions) -> dict[str, pd.DataFrame]:
-    """`area`, and `pressure` and `comparison` where they were asked for."""
+    """`area`, and `pressure`, `comparison` and `pose_error` where they were asked for."""
     found = {"area": area_table(one, o)}
     if one.pressure is not None:
         found["pressure"] = pressure_table(one.motion, one.pressure)
     if one.comparison is not None:
         found["comparison"] = one.comparison
+    if one.uncertainty is not None:
+        found["pose_error"] = uncertainty_table(one.motion.time, one.evolution.thresholds, one.uncertainty)
     return found
 
 

@@ -15,14 +15,15 @@ from geocontact.analyses.area.motion_result import MotionResult
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.page import write_report
 from geocontact.analyses.area.pressure.along import PressureEvolution
-from geocontact.analyses.area.pressure.figure import PressureMap, pressure_figure
 from geocontact.analyses.area.pressure.page import Pressures, shown_pressures
 from geocontact.analyses.area.read import Bodies
 from geocontact.analyses.area.reference_areas import Compared
 from geocontact.analyses.area.scene import write_paraview, write_stills
 from geocontact.analyses.area.tables import tables_of
+from geocontact.analyses.contact_loads import write_contact_loads
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.options_table import options_table
+from geocontact.analyses.pressure_figure import PressureMap, pressure_figure
 from geocontact.analyses.run_record import Record
 from geocontact.geometry.surface import Surface
 from geocontact.io.text.results import write_table
@@ -47,6 +48,9 @@ def write_motion(record: Record, o: AreaOptions, bodies: Bodies, one: MotionResu
     if one.pressure is not None:
         save_both(pressure_figure_of(bodies, one, one.pressure), folder, "pressure")
         shown = shown_pressures(one.pressure, bodies.fixed)
+        if o.bodies is not None:
+            loads = one.pressure.parts or {"total": one.pressure.loads}
+            write_contact_loads(folder, one.motion.time, loads, *o.bodies)
     _write_maps(o, bodies, one, folder)
     notes = write_stills(folder, bodies, one, heading(bodies, one)) if o.stills else []
     for note in notes:
@@ -136,4 +140,5 @@ def _write_report(
         (*one.reservations, *notes),
         shown,
         compared,
+        one.uncertainty,
     )

@@ -8,6 +8,7 @@ from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import Expression, ForceUnit, Fraction, Options, Requires
 from geocontact.data.errors import InputError
+from geocontact.data.file_names import cannot_be_named, same_place
 from geocontact.data.plausible import N, Plausible
 from geocontact.data.ranges import MASS, SHARE
 
@@ -73,7 +74,7 @@ class LoadcellOptions(Options):
             raise InputError("", "`recordings`", "names no file", "give one or several")
         names = [path.stem for path in self.recordings]
         for name in names if len(names) > 1 else []:
-            if name in ("", ".", "..") or names.count(name) > 1 or name.lower() == "run.json":
+            if cannot_be_named(name) or name == same_place(names) or name.lower() == "run.json":
                 raise InputError("", "", f"recording {name!r} cannot have a sub-folder of its own", "rename its file")
 
     @property

@@ -22,6 +22,7 @@ CELLS = (
     "the compartments is a regression, not a measurement, and shear and friction are in neither."
 )
 CYCLES, STYLES = "Cycles", "Difference to the first style (root mean square of the means)"
+SHIFTS = "Swing and time of each style beside the first, intervals of 95 % over cycles"
 ENSEMBLE = (
     "Every cycle as a thin line, the mean of each style as a thick one, mean ± SD as a band; 0 to 100 % of each "
     "cycle's own duration."

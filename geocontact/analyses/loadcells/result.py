@@ -12,9 +12,9 @@ from geocontact.analyses.figure_files import drawing, save_both
 from geocontact.analyses.loadcells.cycles import SIDES, Cut, stacked
 from geocontact.analyses.loadcells.figure import ensemble_figure, loadcell_figure
 from geocontact.analyses.loadcells.options import LoadcellOptions
-from geocontact.analyses.loadcells.page import CYCLES, NEWTON, STYLES, ForceUnit, loadcell_page
+from geocontact.analyses.loadcells.page import CYCLES, NEWTON, SHIFTS, STYLES, ForceUnit, loadcell_page
 from geocontact.analyses.loadcells.recorded import RecordedCells
-from geocontact.analyses.loadcells.tables import cycle_table, ensemble_table, style_table
+from geocontact.analyses.loadcells.tables import cycle_table, ensemble_table, shift_table, style_table
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.plain_page import write_plain_page
 from geocontact.analyses.result import Result
@@ -53,7 +53,9 @@ class LoadcellResult(Result):
         return tuple(each.folder for each in self.recordings)
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`forces`, of several recordings `NAME/forces` each; with cycles `cycles`, `ensemble`, and `styles`."""
+        """`forces`, of several recordings `NAME/forces` each; with cycles `cycles`, `ensemble`, and
+        of several styles `styles` and `shifts`.
+        """
         found = {(Path(each.folder) / "forces").as_posix(): each.table() for each in self.recordings}
         return {**found, **self._over_cycles()}
 
@@ -86,7 +88,9 @@ class LoadcellResult(Result):
         if not self.cuts:
             return {}
         found = {"cycles": cycle_table(self.cuts), "ensemble": ensemble_table(self.cuts)}
-        return {**found, "styles": style_table(self.cuts)} if len(stacked(self.cuts, SIDES[0])) > 1 else found
+        if len(stacked(self.cuts, SIDES[0])) < 2:
+            return found
+        return {**found, "styles": style_table(self.cuts), "shifts": shift_table(self.cuts)}
 
     def _ensemble(self, unit: ForceUnit = NEWTON) -> Figure | None:
         """Mean over the cycle; None without cycles, and where there are more styles than a figure tells apart."""
@@ -106,7 +110,7 @@ class LoadcellResult(Result):
         return loadcell_figure(each.forces.time, each.by_cell(self.regression), each.forces.curves, mine)
 
     def _write_report(self, file: Path, each: RecordedCells) -> None:
-        found, titles = self._over_cycles(), {"cycles": CYCLES, "styles": STYLES}
+        found, titles = self._over_cycles(), {"cycles": CYCLES, "styles": STYLES, "shifts": SHIFTS}
         shown = [frame_table(title, found[name], 5) for name, title in titles.items() if name in found]
         own = each.folder or "."
         inputs = [entry for entry in self.record.inputs if entry.get("folder", own) == own]

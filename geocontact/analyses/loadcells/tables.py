@@ -8,6 +8,7 @@ from geocontact.analyses.loadcells.cycles import SIDES, Cut, stacked
 from geocontact.data.ensemble import mean_and_sd
 from geocontact.identify.signals.cycles import STEPS
 from geocontact.identify.signals.ensemble import rms_difference
+from geocontact.identify.signals.style_shift import style_shift
 
 
 def cycle_table(cuts: list[Cut]) -> pd.DataFrame:
@@ -45,4 +46,26 @@ def style_table(cuts: list[Cut]) -> pd.DataFrame:
     for style in others:
         off = {f"rmse_{side} [N]": rms_difference(means[side][style], means[side][first]) for side in SIDES}
         rows.append({"style": style, "reference": first, **off})
+    return pd.DataFrame(rows)
+
+
+def shift_table(cuts: list[Cut]) -> pd.DataFrame:
+    """How much more every further style swings than the first, and how much later it is, with intervals of 95 %."""
+    rows: list[dict[str, object]] = []
+    first, *others = dict.fromkeys(cut.style for cut in cuts)
+    for style in others:
+        for side in SIDES:
+            curves = stacked(cuts, side)
+            found = style_shift(curves[style], curves[first])
+            row: dict[str, object] = {"style": style, "reference": first, "side": side}
+            row["cycles [-]"], row["reference_cycles [-]"] = len(curves[style]), len(curves[first])
+            for name, unit, told in (
+                ("peak_to_peak_difference", "N", found.swing),
+                ("peak_difference", "N", found.peak),
+                ("later", "%", found.later),
+                ("peak_later", "%", found.peak_later),
+            ):
+                row |= {f"{name} [{unit}]": told.value}
+                row |= {f"{name}_{end} [{unit}]": getattr(told, end) for end in ("lower", "upper")}
+            rows.append({**row, "correlation [-]": found.correlation})
     return pd.DataFrame(rows)

@@ -52,4 +52,4 @@ def model_of(
         raise InputError(i.forces.file, "", f"{what} ({clock[0]:g} to {clock[-1]:g} s)", remedy)
     frames = time[inside]
     measured = np.interp(frames + taken, clock, i.forces.forces[side])
-    return AreaForce(evolution, i.reading, frames, taken, threshold), measured
+    return AreaForce(evolution, i.reading, frames, taken, threshold, i.adhesion), measured

@@ -48,7 +48,7 @@ def describe(found: Identified) -> dict[str, Any]:
 def _numbers(side: str, each: Identification, found: Identified) -> dict[str, Any]:
     model, star, values = each.model, each.profiles[MODULUS], dict(each.fit.values)
     rmse, r2 = agreement(each.measured, each.predicted)
-    radius, count = model.evolution.radius, found.frames_once(side)
+    radius, count, sticks = model.evolution.radius, found.frames_once(side), model.adhesion
     return {
         "E_star_Pa": each.modulus,
         "E_star_ci95_Pa": [star.lower, star.upper],
@@ -56,6 +56,7 @@ def _numbers(side: str, each: Identification, found: Identified) -> dict[str, An
         "E_ci95_Pa": {f"{nu:g}": [end * (1.0 - nu**2) for end in (star.lower, star.upper)] for nu in found.poisson},
         "reading": model.reading.name,
         "reading_words": model.reading.words,
+        **({} if sticks is None else {"adhesion": sticks.law, "work_of_adhesion_J_per_m2": sticks.work}),
         "threshold_mm": values.get(THRESHOLD, model.threshold) * 1e3,
         "radius_mm": [float(radius.min()) * 1e3, float(radius.max()) * 1e3],
         "lag_s": values.get(LAG, model.taken),

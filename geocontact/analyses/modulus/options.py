@@ -23,9 +23,10 @@ from geocontact.analyses.options import (
     Typed,
 )
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import ByName
+from geocontact.data.plausible import J_PER_M2, ByName, Plausible
 from geocontact.data.ranges import DELAY, POISSON, RADIUS, STRIP, THRESHOLD, TURN
 
+ADHESION = Plausible("the work of adhesion", J_PER_M2, (1e-6, 1e3), (1e-3, 1.0))
 FREE = ByName((("threshold", THRESHOLD), ("lag", DELAY), ("adduction", TURN)))
 Free = Annotated[
     Mapping[str, tuple[float, float] | None],
@@ -78,6 +79,10 @@ class ModulusOptions(Options):
         What the area is taken for: one circle, two, a strip, a rigid cap, a rigid cap within the threshold.
     length
         Length of the strip, for the reading of that name.
+    adhesion
+        dmt or jkr: bodies that stick, for the reading disc.
+    work_of_adhesion
+        Work of adhesion w [J/m^2] of that law, which areas and forces do not tell.
     poisson
         Poisson's ratio, or several, that E is told for: 0.25,0.46. E* needs none.
 
@@ -109,6 +114,8 @@ class ModulusOptions(Options):
     angles: Annotated[AngleUnit | None, Requires("flexion", "leave it out")] = None
     reading: Literal["disc", "discs", "strip", "cap", "threshold"] = "disc"
     length: Annotated[Millimetres | None, Spelled("length-mm", "length_mm"), STRIP] = None
+    adhesion: Annotated[Literal["dmt", "jkr"] | None, Needs("work_of_adhesion", "give for example 0.05")] = None
+    work_of_adhesion: Annotated[float | None, Requires("adhesion", "say which law"), ADHESION] = None
     poisson: Annotated[Ratios, Spelled(default="0.25")] = (0.25,)
     calibrate: Annotated[Path | None, Excludes("threshold", "finds what `threshold` gives", "give one")] = None
     predict_area: tuple[Path, ...] | None = None
@@ -134,6 +141,12 @@ class ModulusOptions(Options):
                 "`flexion`",
                 "has no effect without `profile` or slope in `free`",
                 "give one of them",
+            ),
+            (
+                self.adhesion is not None and self.reading != "disc",
+                "`adhesion`",
+                f"needs the radius of a patch, which the reading {self.reading} has not",
+                "leave out `reading`",
             ),
             (self.reading == "strip" and self.length is None, "`length`", "is missing for a strip", "give it"),
             (

@@ -57,7 +57,7 @@ def predictions(inputs: ModulusInputs, sides: Mapping[str, Identification]) -> l
 def _predicted(other: OtherTrial, given_lag: float, side: str, each: Identification) -> Prediction:
     table, values = other.table, each.fit.values
     level = _level(table, each)
-    predicted = each.modulus * _evolution(table, side, each).per_modulus(each.model.reading, level)
+    predicted = _force(_evolution(table, side, each), each, level)
     if other.forces is None or side not in other.forces.forces:
         return Prediction(side, table.time, predicted, None)
     clock, at = other.forces.time, table.time + values.get(LAG, given_lag)
@@ -66,6 +66,13 @@ def _predicted(other: OtherTrial, given_lag: float, side: str, each: Identificat
         what = f"fewer than {FEWEST} frames of {table.file} lie in its time ({clock[0]:g} to {clock[-1]:g} s)"
         raise InputError(other.forces.file, "", what, "are the clocks the same? see `lag`")
     return Prediction(side, table.time, predicted, measured)
+
+
+def _force(evolution: ThresholdAreas, each: Identification, level: float) -> Float[np.ndarray, " t"]:
+    unit, sticks = evolution.per_modulus(each.model.reading, level), each.model.adhesion
+    if sticks is None:
+        return np.asarray(each.modulus * unit)
+    return sticks.force(unit, sticks.pull(evolution.within(level), evolution.radius), each.modulus)
 
 
 def _level(table: AreaTable, each: Identification) -> float:

@@ -13,7 +13,7 @@ from geocontact.analyses.modulus.options import ModulusOptions
 from geocontact.analyses.run_record import Record
 from geocontact.contact.area_hertz import READINGS, Reading
 from geocontact.data.errors import InputError
-from geocontact.elastic_modulus.area_force import ADDUCTION, ThresholdAreas
+from geocontact.elastic_modulus.area_force import ADDUCTION, Adhesion, ThresholdAreas
 from geocontact.io.recordings.area_table import AreaTable, read_area_over_force, read_area_table
 from geocontact.io.recordings.force_curves import SIDES, ForceCurves, read_force_curves
 from geocontact.io.recordings.radius_profile import RadiusProfile, read_radius_profile
@@ -49,6 +49,7 @@ class ModulusInputs:
     evolutions: Mapping[str, ThresholdAreas]
     reading: Reading
     lag: float
+    adhesion: Adhesion | None
     sides: tuple[str, ...]
     measured_areas: MeasuredAreas | None
     other: OtherTrial | None
@@ -66,7 +67,8 @@ def read(o: ModulusOptions, record: Record) -> ModulusInputs:
     sides = (BOTH,) if at_once else tuple(evolutions)
     measured = _measured_areas(record, o, table)
     lag = 0.0 if o.lag is None else o.lag
-    return ModulusInputs(table, forces, evolutions, reading, lag, sides, measured, _other(record, o, mapping))
+    sticks = None if o.adhesion is None else Adhesion(o.adhesion, o.work_of_adhesion or 0.0)
+    return ModulusInputs(table, forces, evolutions, reading, lag, sticks, sides, measured, _other(record, o, mapping))
 
 
 def _areas(record: Record, role: str, paths: tuple[Path, ...]) -> AreaTable:

@@ -37,8 +37,9 @@ def _rows(side: str, each: Identification) -> list[SensitivityRow]:
     for reading in READINGS:
         if reading.name == "strip" and not np.isfinite(each.model.evolution.length):
             continue
+        sticks = each.model.adhesion if reading.name == each.model.reading.name else None
         for level in levels:
-            model = replace(each.model, reading=reading, threshold=level)
+            model = replace(each.model, reading=reading, threshold=level, adhesion=sticks)
             rows.append(_row(side, model, each, level))
     return rows
 

@@ -54,14 +54,15 @@ class Distances:
 class Sampled:
     """One surface prepared for queries against another; all positions about its own centre.
 
-    points (n, 3) are its vertices in the order of `surface.walk`; faces (m, 3) index them and are those that count;
-    across (n,) is the signed distance to the splitting plane; edges (m, 3) are lengths opposite to each corner; area,
-    moment, negative are sums over whole faces.
+    points (n, 3) are its vertices in the order of `surface.walk`; faces (m, 3) index them and are those that count,
+    numbered `index` (m,) in `surface`; across (n,) is the signed distance to the splitting plane; edges (m, 3) are
+    lengths opposite to each corner; area, moment, negative are sums over whole faces.
     """
 
     surface: Surface
     points: Float[np.ndarray, "n 3"]
     faces: Int[np.ndarray, "m 3"]
+    index: Int[np.ndarray, " m"]
     across: Float[np.ndarray, " n"]
     edges: Float[np.ndarray, "m 3"]
     area: Float[np.ndarray, " m"]
@@ -94,6 +95,7 @@ class Sampled:
             surface=surface,
             points=points,
             faces=faces,
+            index=index,
             across=across,
             edges=surface.edge_length[index],
             area=area,

@@ -8,6 +8,7 @@ from os import fspath
 from pathlib import Path
 
 from geocontact.data.errors import InputError
+from geocontact.data.file_names import same_place
 from geocontact.data.gap.case import COMMAND, LISTED_SYSTEMS
 from geocontact.data.parameter import Parameter
 from geocontact.io.cases.case_settings import CaseSettings, ParameterSettings
@@ -78,6 +79,10 @@ def _check_trials(settings: CaseSettings, file: str) -> None:
     if both := [one for one in settings.calibration if one in settings.evaluation]:
         what = f"'{both[0]}' is listed in calibration too"
         raise InputError(file, "evaluation", what, "a held-out trial must not be one that is fitted to")
+    alike = same_place(settings.trials)
+    if alike is not None:
+        what = f"'{alike}' differs from another trial in capitals only"
+        raise InputError(file, "trials", what, "rename it: on Windows and macOS both would be one file")
     for one in settings.trial:
         if one not in settings.trials:
             remedy = f"trials are {', '.join(settings.trials[:30])}"

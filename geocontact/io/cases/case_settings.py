@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, FiniteFloat, PlainValidator, ValidationError
 
 from geocontact.data.errors import InputError
+from geocontact.data.file_names import cannot_be_named
 from geocontact.io.text.csv_text import LONGEST_NAME
 from geocontact.io.text.toml_text import toml_of
 
@@ -32,7 +33,7 @@ def _name(text: str) -> str:
 
 def _file_name(text: str) -> str:
     """A name that can be part of a file's, on every system, and that leads nowhere else."""
-    if not _FILE_NAME.fullmatch(text) or ".." in text or len(text) > LONGEST_NAME:
+    if not _FILE_NAME.fullmatch(text) or cannot_be_named(text) or ".." in text or len(text) > LONGEST_NAME:
         raise ValueError("expected letters, digits, blanks or any of _ . + - (no path), as in t01")
     return text
 

@@ -8,7 +8,7 @@ from os import fspath
 from pathlib import Path
 
 from geocontact.data.errors import InputError
-from geocontact.io.cases.case_consistency import KNOWN_SYSTEMS, check_settings
+from geocontact.io.cases.case_consistency import KNOWN_SYSTEMS, check_settings, parameters_of
 from geocontact.io.cases.case_settings import LARGEST_SETTINGS, CaseSettings, settings_of
 from geocontact.io.cases.storage_trial import EXAMPLE as EXAMPLE_COLUMN
 from geocontact.io.cases.storage_trial import StorageColumn, columns_of, is_storage
@@ -40,6 +40,7 @@ def read_gathering(path: Path) -> Gathering:
         raise InputError(path, "layout", "is what gathering writes", "leave it out")
     settings = settings_of(given, fspath(path))
     check_settings(settings, path, KNOWN_SYSTEMS)
+    parameters_of(settings, path)  # told here and not when the case is read that is written from it
     for name in settings.trials:
         if name not in stated:
             like = next((each for each in stated if isinstance(stated[each], dict)), None)

@@ -16,6 +16,7 @@ from typing import Literal
 import numpy as np
 
 from geocontact.data.errors import InputError
+from geocontact.data.magnitude import TOO_LARGE, too_large
 from geocontact.io.text.file_preflight import read_bytes
 
 PATIENCE = 8.0, 2e-7
@@ -51,6 +52,9 @@ def read_apart(path: str | PathLike[str], module: str) -> Arrays:
     declared, found = _frames_declared(data), int(arrays["frames"])
     if found < declared:  # ezc3d passes over what is missing without a word
         raise InputError(file, "", f"holds {found} of the {declared} frames it declares", "is it complete?")
+    for name, values in arrays.items():
+        if values.dtype.kind == "f" and too_large(values).any():
+            raise InputError(file, "", f"holds a number in {name.partition('_')[0]} that {TOO_LARGE}", "is it damaged?")
     return arrays
 
 

@@ -32,6 +32,10 @@ def read_csv_markers(path: str | PathLike[str]) -> MarkerTrajectories:
             positions[:, k, i] = _metres(table.file, f"{name}_{axis}", table.channels, table.units) * table.column(
                 f"{name}_{axis}"
             )
+    endless = np.flatnonzero(np.isinf(positions).any(axis=(1, 2)))
+    if len(endless):
+        line = f"line {table.lines[endless[0]]}"
+        raise InputError(table.file, line, "a place is infinite", "leave missing cells empty")
     return MarkerTrajectories(table.time, positions, names, table.file)
 
 

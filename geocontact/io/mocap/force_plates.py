@@ -143,7 +143,13 @@ def _three(table: TextTable, stem: str) -> Float[np.ndarray, "t 3"]:
             count = table.channels.count(name)
             what = f"column '{name}' occurs {count} times" if count else f"no column '{name}'"
             raise InputError(table.file, "", what, f"columns are: {listed(table.channels)}")
-    return np.column_stack([table.column(name) for name in names])
+    values = np.column_stack([table.column(name) for name in names])
+    endless = np.argwhere(np.isinf(values))
+    if len(endless):
+        row, column = endless[0]
+        what = f"'{names[column]}' is {values[row, column]}"
+        raise InputError(table.file, f"line {table.lines[row]}", what, "write NaN where nothing was measured")
+    return values
 
 
 def _from_c3d(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:

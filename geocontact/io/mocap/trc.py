@@ -57,6 +57,9 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
     if len(late) or not np.isfinite(time[0]):
         line = places[late[0] + 1] if len(late) else places[0]
         raise InputError(file, f"line {line}", "time does not increase", "every frame needs its own time")
+    endless = np.flatnonzero(np.isinf(values[:, 2:]).any(axis=1))
+    if len(endless):
+        raise InputError(file, f"line {places[endless[0]]}", "a place is infinite", "leave missing cells empty")
     positions = LENGTH[unit] * values[:, 2:].reshape(len(values), len(names), 3)
     return MarkerTrajectories(_unrounded(time, values[:, 0], declared), _seen(file, positions), names, file)
 

@@ -13,6 +13,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.magnitude import LARGEST_MEANT
 from geocontact.data.motion import Motion
 from geocontact.io.text.tables import LARGEST_FILE, TextTable
 from geocontact.io.text.units import LENGTH
@@ -127,8 +128,8 @@ def _row(line: str, file: str, number: int, size: int) -> list[float]:
         what = f"{len(cells)} cells where {size} numbers are a pose"
         raise InputError(file, f"line {number}", what, "give every frame all of its numbers")
     values = [float(cell) for cell in cells]
-    if not np.isfinite(values).all():
-        raise InputError(file, f"line {number}", "the pose is not finite", "fill the gap or cut the frame")
+    if not (np.abs(values) <= LARGEST_MEANT).all():
+        raise InputError(file, f"line {number}", "the pose is not finite or too large", "fill the gap or cut the frame")
     return values
 
 

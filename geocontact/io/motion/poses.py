@@ -11,6 +11,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.magnitude import LARGEST_MEANT
 from geocontact.data.motion import Motion
 from geocontact.data.multibody.joint import JointModel
 from geocontact.io.motion.grood_suntay import motion_from_grood_suntay
@@ -122,7 +123,7 @@ def read_pose(path: str | PathLike[str], unit: str = "m") -> RigidTransform:
         matrix = np.array([[float(cell) for cell in row] for row in rows], dtype=float)
     except ValueError:
         matrix = np.zeros(0)
-    if matrix.shape != (4, 4) or not np.all(np.isfinite(matrix)):
+    if matrix.shape != (4, 4) or not np.all(np.abs(matrix) <= LARGEST_MEANT):
         raise InputError(file, "", "not a 4x4 matrix of finite numbers", "give 4 rows of 4 numbers")
     turn = rotations(matrix[None], file, [""], EXACT)[0]
     return RigidTransform.from_components(matrix[:3, 3] * LENGTH[unit], turn)

@@ -8,8 +8,8 @@ from xml.sax.saxutils import escape, quoteattr
 
 FORCE = """\t\t\t<ExternalForce name={name}>
 \t\t\t\t<applied_to_body>{body}</applied_to_body>
-\t\t\t\t<force_expressed_in_body>ground</force_expressed_in_body>
-\t\t\t\t<point_expressed_in_body>ground</point_expressed_in_body>
+\t\t\t\t<force_expressed_in_body>{frame}</force_expressed_in_body>
+\t\t\t\t<point_expressed_in_body>{frame}</point_expressed_in_body>
 \t\t\t\t<force_identifier>{stem}_v</force_identifier>
 \t\t\t\t<point_identifier>{stem}_p</point_identifier>
 \t\t\t\t<torque_identifier>{torque}</torque_identifier>
@@ -27,8 +27,10 @@ WHOLE = """<?xml version="1.0" encoding="UTF-8" ?>
 """
 
 
-def write_external_loads(path: Path, data: str, bodies: Mapping[str, str], *, torques: bool = False) -> None:
-    """Forces in the ground's frame, with torques or without.
+def write_external_loads(
+    path: Path, data: str, bodies: Mapping[str, str], *, torques: bool = False, frame: str = "ground"
+) -> None:
+    """Forces in the ground's frame or a body's, with torques or without.
 
     Parameters
     ----------
@@ -39,11 +41,14 @@ def write_external_loads(path: Path, data: str, bodies: Mapping[str, str], *, to
     torques
         Whether there are columns of torques, named as those of the force with the word "torque": left_torque_x for
         left_force_vx.
+    frame
+        Body in whose frame forces, points and torques are.
     """
     forces = "".join(
         FORCE.format(
             name=quoteattr(stem),
             body=escape(body),
+            frame=escape(frame),
             stem=escape(stem),
             torque=escape(stem.replace("force", "torque") + "_") if torques else "",
         )

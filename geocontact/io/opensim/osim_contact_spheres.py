@@ -42,7 +42,7 @@ def read_contact_spheres(path: str | PathLike[str], body: str | None) -> SphereT
         what = f"no contact sphere on {body}" if body else "the foot is not named"
         raise InputError(file, "`body`", what, f"spheres are on {listed(bodies)}")
     own = [(e, place) for e, name, place in found if name == body]
-    radius = np.array([float(numbers_of(file, e, "radius", 1)[0]) for e, _ in own])
+    radius = np.array([_above_zero(file, e, "radius") for e, _ in own])
     names = tuple(e.get("name", "") for e, _ in own)
     moduli = _moduli(file, model)
     known = [moduli.get(name) for name in names]
@@ -69,11 +69,11 @@ def _moduli(file: str, model: Element) -> dict[str, float]:
     found: dict[str, float] = {}
     spheres = {e.get("name", "") for e in model.findall("ContactGeometrySet/objects/ContactSphere")}
     for force in model.findall(f"ForceSet/objects/{SMOOTH}"):
-        one = float(numbers_of(file, force, "stiffness", 1)[0])
+        one = _above_zero(file, force, "stiffness")
         found[basename(socket_of(force, "sphere"))] = _together(one, one)
     for force in model.findall(f"ForceSet/objects/{HUNT_CROSSLEY}"):
         each = {
-            basename(name): float(numbers_of(file, side, "stiffness", 1)[0])
+            basename(name): _above_zero(file, side, "stiffness")
             for side in force.iter()
             if side.tag.endswith("ContactParameters")
             for name in text_of(side, "geometry").split()
@@ -82,6 +82,13 @@ def _moduli(file: str, model: Element) -> dict[str, float]:
         for name in spheres & set(each):
             found[name] = _together(each[name], others[0] if others else each[name])
     return found
+
+
+def _above_zero(file: str, element: Element, child: str) -> float:
+    value = float(numbers_of(file, element, child, 1)[0])
+    if value <= 0.0:
+        raise InputError(file, f"{label(element)} <{child}>", f"{value:g} is not above 0", "correct the model")
+    return value
 
 
 def _together(one: float, other: float) -> float:

@@ -15,6 +15,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.errors import InputError
+from geocontact.data.magnitude import LARGEST_MEANT
 from geocontact.io.text.encoding import decoded
 
 LARGEST_MODEL = 32_000_000
@@ -158,7 +159,7 @@ def numbers_of(
         values = np.array([float(word) for word in text.replace(",", " ").split()], dtype=float)
     except ValueError:
         values = np.array([np.nan])
-    if not np.all(np.isfinite(values)) or (count is not None and len(values) != count):
+    if not np.all(np.abs(values) <= LARGEST_MEANT) or (count is not None and len(values) != count):
         expected = "finite numbers" if count is None else f"{count} finite number{'s' * (count > 1)}"
         raise InputError(file, f"{label(element)} <{child}>", f"'{text[:60]}' where {expected} are expected")
     return values

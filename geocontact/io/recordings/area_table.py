@@ -96,7 +96,7 @@ def _read(path: Path) -> pd.DataFrame:
         numbers = pd.to_numeric(table[name], errors="coerce").to_numpy(float)
         bad = np.flatnonzero(~np.isfinite(numbers) | ((numbers < 0.0) & (name not in (TIME, OFFSET))))
         if len(bad):
-            what = f"'{name}' is {table[name].iloc[int(bad[0])]}, not a number of 0 or more"
+            what = f"'{name}' is {str(table[name].iloc[int(bad[0])])[:40]}, not a number of 0 or more"
             raise InputError(path, f"row {int(bad[0]) + 2}", what, "is it an area.csv?")
         table[name] = numbers
     return table

@@ -8,6 +8,7 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 
 from geocontact.data.errors import InputError
+from geocontact.data.magnitude import LARGEST_MEANT, TOO_LARGE
 from geocontact.io.text.csv_text import text_of
 
 LARGEST = 1_000_000
@@ -63,6 +64,8 @@ def read_contact_intervals(path: Path, names: Collection[str]) -> dict[str, tupl
                 continue
             if not (math.isfinite(low) and math.isfinite(high)):
                 continue
+            if max(abs(low), abs(high)) > LARGEST_MEANT:
+                raise InputError(path, row["parameter"], f"an end of its interval {TOO_LARGE}", "calibrate it again")
             if not low < high:
                 what = f"no room between {low:g} and {high:g}"
                 raise InputError(path, row["parameter"], what, "give lower < upper, or leave both empty")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from os import fspath
@@ -14,9 +13,9 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.errors import InputError
-from geocontact.io.text.csv_text import text_of
 from geocontact.io.text.side_table import LARGEST_TABLE, read_side_table
 from geocontact.io.text.tables import CELLS, TextTable, listed, read_table
+from geocontact.io.text.toml_text import toml_of
 from geocontact.io.text.units import DIMENSIONS, si_unit
 
 FORCES = DIMENSIONS["N"]
@@ -126,11 +125,8 @@ def read_regression(path: Path) -> CellRegression:
 
 
 def _from_toml(path: Path) -> RegressionFile:
-    text = text_of(path, LARGEST_TABLE, "a TOML file").decode("utf-8")
     try:
-        return RegressionFile.model_validate(tomllib.loads(text))
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(path, "", f"is not TOML ({error})", "write lines such as medial = [0.97, 0.99]") from error
+        return RegressionFile.model_validate(toml_of(path, LARGEST_TABLE))
     except ValidationError as error:
         first = error.errors()[0]
         what = "is not known here" if first["type"] == "extra_forbidden" else first["msg"].lower()

@@ -32,8 +32,9 @@ def read_radius_profile(path: Path) -> dict[str, RadiusProfile]:
     for side, rows in table.groupby("side", sort=False):
         numbers = rows[list(NAMES[1:])].apply(pd.to_numeric, errors="coerce").dropna().sort_values(NAMES[1])
         flexion, radius = np.radians(numbers[NAMES[1]].to_numpy(float)), numbers[NAMES[2]].to_numpy(float) * 1e-3
-        if len(flexion) < 2 or (radius <= 0.0).any() or (np.diff(flexion) <= 0.0).any():
-            what = f"side {side!r}: radii must be above 0 at 2 angles or more, each angle once"
+        sound = np.isfinite([flexion, radius]).all() and (radius > 0.0).all() and (np.diff(flexion) > 0.0).all()
+        if len(flexion) < 2 or not sound:
+            what = f"side {side!r:.60}: radii must be above 0 at 2 angles or more, each angle once"
             raise InputError(path, "", what, "give the profile.csv of geocontact fit")
         found[str(side)] = RadiusProfile(flexion, radius)
     if not found:

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import re
-import tomllib
 import warnings
 from dataclasses import dataclass
 from os import PathLike, fspath
+from pathlib import Path
 
 import numpy as np
 from jaxtyping import Bool, Float
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.magnitude import too_large
 from geocontact.io.text.column_names import spelled_as
 from geocontact.io.text.file_preflight import read_bytes
 from geocontact.io.text.plain_table import open_plain
 from geocontact.io.text.spreadsheet import is_sheet
+from geocontact.io.text.toml_text import toml_of
 from geocontact.io.text.units import LENGTH, split_header
 
 LARGEST_TABLE = 16_000_000
@@ -105,10 +107,11 @@ def read_spheres(path: str | PathLike[str]) -> SphereTable:
 def read_law(path: str | PathLike[str]) -> LawFile:
     """Numbers of a force law in a .toml: k, b, n, delta_full, mu_s, mu_k, v_th (SI), and k, b, mu_s, mu_k of zones."""
     file = fspath(path)
+    content = toml_of(Path(path), LARGEST_TABLE)
+    if not content:
+        raise InputError(file, "", "holds no number", "write lines such as n = 1.2")
     try:
-        return LawFile.model_validate(tomllib.loads(_text(path)))
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(file, "", f"is not TOML ({error})", "write lines such as n = 1.2") from error
+        return LawFile.model_validate(content)
     except ValidationError as error:
         first = error.errors()[0]
         place = ".".join(map(str, first["loc"]))
@@ -153,6 +156,7 @@ class _Cells:
         """Finite numbers of a column; InputError names the line of the first cell that holds none."""
         values = np.array([self._number(name, line, text) for line, text in self.column(name)])
         self.refuse(name, values, ~np.isfinite(values), "must be finite")
+        self.refuse(name, values, too_large(values), "must be a number that is meant")
         return values
 
     def lengths(self, name: str) -> Float[np.ndarray, " n"]:

@@ -37,6 +37,7 @@ from pathlib import Path
 from typing import Any
 
 from geocontact.data.errors import InputError
+from geocontact.data.file_names import same_place
 from geocontact.data.plausible import KG, Plausible
 from geocontact.data.units import m
 from geocontact.io.recordings.shoulder_device import stated_number
@@ -131,8 +132,7 @@ def read_standing_study(path: Path) -> StandingStudy:
     if not isinstance(trials, list) or not trials:
         raise InputError(path, "", "no [[trials]]", "name coordinates, plates and feet of each")
     found = tuple(_trial(path, k, each) for k, each in enumerate(trials, 1))
-    names = [each.name for each in found]
-    twice = next((name for name in names if names.count(name) > 1), None)
+    twice = same_place(each.name for each in found)
     if twice is not None:
         raise InputError(path, "[[trials]]", f"two have the name {twice!r}", "give each its own name")
     free, tracks = (_names(path, content, key) for key in ("free", "tracks"))

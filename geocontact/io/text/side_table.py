@@ -12,6 +12,7 @@ from pathlib import Path
 import pandas as pd
 
 from geocontact.data.errors import InputError
+from geocontact.data.magnitude import LARGEST_MEANT
 from geocontact.io.text.csv_text import Column, open_csv
 from geocontact.io.text.frame import named
 
@@ -60,7 +61,7 @@ def _number(text: str, column: Column, file: str, place: str) -> float:
         value = float(text) if text.isascii() and "_" not in text else math.nan
     except ValueError:
         value = math.nan
-    if not math.isfinite(value * column.factor):
+    if not abs(value * column.factor) <= LARGEST_MEANT:
         what = f"{text.strip()[:40]!r} in column '{column.name}' is not a finite number"
         raise InputError(file, place, what, "write decimal points and leave no cell empty")
     return value * column.factor

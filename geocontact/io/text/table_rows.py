@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
+from geocontact.data.magnitude import TOO_LARGE, too_large
 
 _BLOCK = 2048
 _NOT_A_NUMBER = ("", "1.#qnan", "-1.#qnan", "1.#ind", "-1.#ind")
@@ -46,12 +47,23 @@ def _numbers(
     rows: list[list[str]], lines: list[int], names: tuple[str, ...], file: str, plain: bool
 ) -> Float[np.ndarray, "r c"]:
     """Cells as floats; `plain` rules out what Python takes for a number and a table does not mean as one."""
-    if plain:
-        try:
-            return np.array(rows, dtype=np.float64)
-        except ValueError:
-            pass
-    return np.array([list(_row(row, line, names, file)) for row, line in zip(rows, lines, strict=True)], dtype=float)
+    values = _plain(rows) if plain else None
+    if values is None:
+        values = np.array([list(_row(row, line, names, file)) for row, line in zip(rows, lines, strict=True)], float)
+    odd = np.argwhere(too_large(values))
+    if len(odd):
+        row, column = odd[0]
+        what = f"{values[row, column]:g} in column '{names[column]}' {TOO_LARGE}"
+        raise InputError(file, f"line {lines[row]}", what, "is the file damaged?")
+    return values
+
+
+def _plain(rows: list[list[str]]) -> Float[np.ndarray, "r c"] | None:
+    """All cells at once; None where one is no number for numpy."""
+    try:
+        return np.array(rows, dtype=np.float64)
+    except ValueError:
+        return None
 
 
 def _row(row: list[str], line: int, names: tuple[str, ...], file: str) -> Iterator[float]:

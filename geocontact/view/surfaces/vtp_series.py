@@ -61,7 +61,7 @@ def write_vtp_series(series: ContactSeries, folder: Path, program: str) -> tuple
     for collection, bodies in (("both", BODIES), ("fixed", BODIES[:1]), ("moving", BODIES[1:])):
         written.append(folder / f"{collection}.pvd")
         rows = [(float(series.time[k]), body, names[body][k]) for k in range(len(series)) for body in bodies]
-        written[-1].write_text(_collection(rows, bodies), encoding="utf-8")
+        written[-1].write_text(pvd_text(rows, bodies), encoding="utf-8")
     return tuple(written)
 
 
@@ -123,7 +123,8 @@ def encoded_vtp(surface: PolyData) -> bytes:
     return cast("bytes", writer.GetOutputString())
 
 
-def _collection(rows: list[tuple[float, str, str]], bodies: tuple[str, ...]) -> str:
+def pvd_text(rows: list[tuple[float, str, str]], bodies: tuple[str, ...]) -> str:
+    """Text of a .pvd file from times, bodies and the files that show them."""
     lines = [
         f'    <DataSet timestep="{time!r}" part="{bodies.index(body)}" name={quoteattr(body.upper())} '
         f"file={quoteattr(file)}/>"

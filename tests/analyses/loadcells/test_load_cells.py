@@ -130,11 +130,14 @@ def styles(folder: Path) -> LoadcellResult:
 def test_root_mean_square_between_synthetic_styles(tmp_path: Path) -> None:
     """The second style is the first one 20 % higher, so the difference is 20 % of the root mean square of the first."""
     result = styles(tmp_path)
-    assert list(result.tables()) == ["normal/forces", "bouncy/forces", "cycles", "ensemble", "styles"]
+    assert list(result.tables()) == ["normal/forces", "bouncy/forces", "cycles", "ensemble", "styles", "shifts"]
     table = result.table("styles")
     assert table[["style", "reference"]].to_numpy().tolist() == [["bouncy", "normal"]]
+    shifts = result.table("shifts").set_index("side")
+    np.testing.assert_allclose(shifts["later [%]"], 0.0, atol=1e-6)
     for side, values in sides(gait(0.2 + PERIOD * np.arange(101) / 100.0)).items():
         assert table[f"rmse_{side} [N]"][0] == pytest.approx(0.2 * np.sqrt(np.mean(values**2)), rel=2e-3)
+        assert shifts["peak_to_peak_difference [N]"][side] == pytest.approx(0.2 * np.ptp(values), rel=0.01)
     ratio = result.table("bouncy/forces")["total [N]"] / result.table("normal/forces")["total [N]"]
     np.testing.assert_allclose(ratio, 1.2, rtol=1e-12)
 

@@ -16,6 +16,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.law import NAMES
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
+from geocontact.data.magnitude import LARGEST_MEANT
 
 
 @dataclass(frozen=True)
@@ -50,8 +51,8 @@ def _law(file: Path) -> ComparedLaw:
         content = json.loads(file.read_text(encoding="utf-8"))
         told, centre = content["numbers"], content["pressure_mmHg"] or 0.0
         numbers = {name: float(told[key_of(name)]) / PER_SI[name] for name in NAMES}
-        if not np.isfinite([*numbers.values(), float(centre)]).all():
-            raise ValueError("a number is not finite")
-    except (OSError, ValueError, KeyError, TypeError) as error:
+        if not (np.abs([*numbers.values(), float(centre)]) <= LARGEST_MEANT).all():
+            raise ValueError("a number is not finite or too large")
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise InputError(file, "", f"holds no law of an elbow ({error})", "give elbow.json of elbow fit") from error
     return ComparedLaw(numbers, float(centre) * MMHG)

@@ -17,6 +17,7 @@ from geocontact.analyses.misalignment.checks import (
 from geocontact.analyses.misalignment.law_numbers import NUMBERS, STROKE, require_names
 from geocontact.analyses.options import AngleUnit, Excludes, Expression, Millimetres, Options, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
+from geocontact.data.file_names import same_place
 from geocontact.data.plausible import Plausible
 from geocontact.data.ranges import BAND, CUFF, LENGTH_OF_TRIAL, MEMORY, NOISE, RATE, SHIFT
 from geocontact.data.units import deg
@@ -123,8 +124,7 @@ class SimulateOptions(Options):
 
     def refuse_impossible(self) -> None:
         """Two recordings of one name, and values that cannot be."""
-        names = [path.stem for path in self.recordings]
-        twice = next((name for name in names if names.count(name) > 1), None)
+        twice = same_place(path.stem for path in self.recordings)
         if twice is not None:
             raise InputError("", "", f"two recordings are named {twice!r}", "rename one")
         require_names(self.numbers, "`numbers`")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -11,12 +10,14 @@ from typing import Any
 
 from geocontact.data.errors import InputError
 from geocontact.io.text.side_table import read_side_table
-from geocontact.study.study_file import RESERVED, StudyFile, Value
+from geocontact.study.description.found_files import NAME, found_files
+from geocontact.study.description.study_file import OWN, RESERVED, StudyFile, Value
 
 FILE = "file"
 """Name of a trial's file, where they are found by a pattern."""
-_NAME = re.compile(r"\{(\w+)\}")
-Factors = dict[str, Value]
+Factors = dict[str, Any]
+"""Values by name, and a trial's own options under `APART`."""
+APART = "[options]"
 
 
 @dataclass(frozen=True)
@@ -44,35 +45,19 @@ def trials_of(study: StudyFile) -> list[CohortTrial]:
 
 
 def _sources(study: StudyFile) -> Iterator[tuple[str, list[Factors]]]:
+    if study.trials:
+        yield "[[trials]]", [{APART if name == OWN else name: each[name] for name in each} for each in study.trials]
     if study.files:
-        yield study.files, _found_files(study)
+        found = found_files(study.home, study.files, study.path)
+        yield study.files, [{**names, FILE: path} for path, names in found]
     if study.table:
         table = read_side_table(study.home / study.table)
         yield study.table, [{str(key): value for key, value in row.items()} for row in table.to_dict("records")]
 
 
-def _found_files(study: StudyFile) -> list[Factors]:
-    """What the names in a pattern stand for, for each file that it fits."""
-    names = _NAME.findall(study.files)
-    parts = _NAME.split(study.files)
-    expression, seen = "", set[str]()
-    for k, part in enumerate(parts):
-        if k % 2 == 0:
-            expression += "[^/]*".join(map(re.escape, part.split("*")))
-        else:
-            expression += f"(?P={part})" if part in seen else f"(?P<{part}>[^/]+?)"
-            seen.add(part)
-    pattern = re.compile(expression)
-    matches = sorted(each.relative_to(study.home).as_posix() for each in study.home.glob(_NAME.sub("*", study.files)))
-    fits = [(path, fit) for path in matches if (fit := pattern.fullmatch(path))]
-    if not fits:
-        raise InputError(study.path, "`files`", f"no file fits {study.files!r}", f"paths start from {study.home}")
-    return [{**{name: fit[name] for name in names}, FILE: path} for path, fit in fits]
-
-
 def _joined(study: StudyFile, source: str, rows: list[Factors], more: list[Factors]) -> list[Factors]:
     """Each row with what fits to it: equal in all names that both have."""
-    shared = [name for name in rows[0] if name in more[0]]
+    shared = [name for name in rows[0] if name in more[0] and name != APART]
     found = [{**row, **each} for row in rows for each in more if all(str(row[n]) == str(each[n]) for n in shared)]
     lonely = [row for row in rows if not any(all(str(row[n]) == str(each[n]) for n in shared) for each in more)]
     if lonely:
@@ -94,6 +79,8 @@ def _varied(study: StudyFile, rows: Iterable[Factors]) -> Iterator[tuple[Factors
 def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> CohortTrial | None:
     """The trial of a row; None where it is left out."""
     given, swept = row
+    own = given.get(APART, {})
+    given = {name: value for name, value in given.items() if name != APART}
     reserved = next((name for name in (*given, *swept) if name in RESERVED and name != FILE), None)
     if reserved is not None:
         raise InputError(study.path, f"`{reserved}`", "is a name that every study has", "choose another one")
@@ -101,7 +88,7 @@ def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> CohortTrial | None
     for left in study.leave_out:
         if all(str(factors.get(name)) == str(value) for name, value in left.items()):
             return None
-    options = {name: _filled(study, name, value, given) for name, value in study.options.items()}
+    options = {name: filled(study, name, value, given) for name, value in {**study.options, **own}.items()}
     twice = next((name for name in swept if name in options), None)
     if twice is not None:
         raise InputError(study.path, f"[sweep] {twice}", "is in [options] too", "give it once")
@@ -109,15 +96,15 @@ def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> CohortTrial | None
     return CohortTrial(name, factors, {**options, **swept})
 
 
-def _filled(study: StudyFile, name: str, value: Any, factors: Factors) -> Any:
+def filled(study: StudyFile, name: str, value: Any, factors: Mapping[str, Value], where: str = "[options]") -> Any:
     """A value with what `{name}` stands for; a number where it stands alone for one."""
     if isinstance(value, list):
-        return [_filled(study, name, each, factors) for each in value]
+        return [filled(study, name, each, factors, where) for each in value]
     if not isinstance(value, str):
         return value
-    unknown = next((each for each in _NAME.findall(value) if each not in factors), None)
+    unknown = next((each for each in NAME.findall(value) if each not in factors), None)
     if unknown is not None:
         known = ", ".join(factors) or "none"
-        raise InputError(study.path, f"[options] {name}", f"no trial has {{{unknown}}}", f"names are {known}")
-    alone = _NAME.fullmatch(value)
-    return factors[alone[1]] if alone else _NAME.sub(lambda found: str(factors[found[1]]), value)
+        raise InputError(study.path, f"{where} {name}", f"no trial has {{{unknown}}}", f"names are {known}")
+    alone = NAME.fullmatch(value)
+    return factors[alone[1]] if alone else NAME.sub(lambda found: str(factors[found[1]]), value)

@@ -1,0 +1,1 @@
+"""Error of poses or markers carried into the contact area."""

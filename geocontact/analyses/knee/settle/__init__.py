@@ -1,0 +1,1 @@
+"""Contact equilibrium of a knee implant."""

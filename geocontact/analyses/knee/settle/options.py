@@ -1,0 +1,176 @@
+"""What a contact equilibrium may be asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated, ClassVar, Literal
+
+from geocontact.analyses.layer_options import BodyPair, Thickness
+from geocontact.analyses.options import (
+    AngleUnit,
+    Excludes,
+    Expression,
+    Length,
+    MeshUnit,
+    Options,
+    Pressure,
+    Spelled,
+    Typed,
+)
+from geocontact.analyses.sides import Side
+from geocontact.data.errors import InputError
+from geocontact.data.plausible import N, Plausible
+from geocontact.data.ranges import LAYER_RATIO, PIECE, YOUNG
+
+MAY_SETTLE = ("adduction", "anterior", "mediolateral", "rotation")
+"""Coordinates besides the axial one, which always settles, and flexion, which never does."""
+
+LOAD = Plausible("the axial load", N, (1e-3, 1e5), (1.0, 10_000.0))
+Free = Annotated[
+    tuple[str, ...],
+    Typed("-", "knee.settle.typed:names", '("adduction", "rotation")'),
+    Spelled(default="adduction"),
+]
+Springs = Annotated[
+    Mapping[str, float],
+    Typed("-", "knee.settle.typed:springs", '{"anterior": 30e3, "rotation": 20.6}'),
+]
+
+
+@dataclass(frozen=True)
+class SettleOptions(Options):
+    """Contact equilibrium of a knee implant: flexion and axial load given, the rest settles on an elastic foundation.
+
+    FIXED is the tibial insert in a frame with x anterior, y proximal, z to the subject's right; MOVING the femoral
+    component.
+
+    Parameters
+    ----------
+    moving
+        Femoral component, rigid (.stl .ply .obj .vtp).
+    fixed
+        Tibial insert, the elastic layer, in whose frame results are given.
+    unit
+        Unit of both meshes; never guessed.
+    motion
+        Poses of MOVING in FIXED (.csv) or coordinates (.mot .sto): flexion and whatever does not settle.
+    side
+        Side of the body: which of +z and -z is medial, and which turns are varus and internal.
+
+    Motion
+    ------
+    osim
+        OpenSim model whose joint turns coordinates into poses: FIXED is the parent body, MOVING the child.
+    joint
+        Name of that joint.
+    moving_body
+        parent: MOVING is the joint's parent body, as the femur of a knee joint is; child unless given.
+    map
+        Columns instead of a model: rz=knee_flexion,rx=knee_adduction,ry=-knee_rotation,tx=knee_tx
+    order
+        Order of intrinsic rotations: XYZ is R = Rx Ry Rz.
+    angles
+        Unit of angles where the file does not say.
+
+    Placement
+    ---------
+    place_moving
+        Where the mesh sits in its body: a file with a 4x4 matrix, or model.osim:body.
+    place_fixed
+        The same for FIXED.
+    assume_closed
+        Treat a surface as closed although its edges do not show it.
+
+    Load and coordinates
+    --------------------
+    load
+        Axial load [N], the same in every frame: MOVING is pressed along -y of FIXED.
+    forces
+        Instead of `load`: forces.csv of `loadcells` or another table with `total [N]` over time.
+    free
+        What settles besides the axial translation, none or of adduction, anterior, mediolateral, rotation.
+    springs
+        Springs at rest where the motion is, for what is free: anterior=30,rotation=0.36 (N/mm, N m/deg; in Python in
+        N/m and N m/rad).
+    load_point
+        x,y,z: point of MOVING in its frame and the mesh unit that the load acts at and whose translations are the
+        coordinates; MOVING's origin unless given.
+
+    Elastic layer
+    -------------
+    modulus
+        Young's modulus of FIXED: 463MPa.
+    poisson
+        Poisson's ratio of FIXED, below 0.5.
+    thickness
+        Of FIXED's layer: a length such as 8mm, or rays (measured along the normal, which is the default).
+    foundation
+        linear or logarithmic (finite strain).
+    region
+        Faces of FIXED that are the layer: "ny>0.25" in x y z nx ny nz (mesh unit), or a file of face numbers.
+    split
+        Where medial and lateral meet: z, or z=1.5 (mesh unit).
+    piece
+        Longest edge of the pieces that pressure is summed over: 0.5mm unless given.
+
+    Results
+    -------
+    bodies
+        OpenSim bodies of MOVING and FIXED, femur_r,tibia_r: contact forces are written as external loads of these.
+    paraview
+        Also write FIXED with its pressures and MOVING in every frame for ParaView (folder paraview).
+    """
+
+    over_time: ClassVar[bool] = True
+
+    moving: Path
+    fixed: Path
+    _: KW_ONLY
+    unit: MeshUnit
+    motion: Path
+    side: Side
+    modulus: Annotated[Pressure, YOUNG]
+    poisson: Annotated[float, LAYER_RATIO]
+    load: Annotated[float | None, LOAD] = None
+    forces: Annotated[Path | None, Excludes("load", "says the load again", "give one")] = None
+    free: Free = ("adduction",)
+    springs: Springs | None = None
+    load_point: Expression | None = None
+    osim: Path | None = None
+    joint: str | None = None
+    moving_body: Annotated[Literal["child", "parent"] | None, Spelled("moving")] = None
+    map: Annotated[Expression | None, Excludes("osim", "with `osim` names the columns twice", "give one")] = None
+    order: Annotated[str | None, Excludes("osim", "has no effect with `osim`: the joint gives the order")] = None
+    angles: AngleUnit | None = None
+    place_moving: str | None = None
+    place_fixed: str | None = None
+    assume_closed: Literal["moving", "fixed", "both"] | None = None
+    thickness: Thickness | None = None
+    foundation: Literal["linear", "logarithmic"] = "linear"
+    region: Expression | None = None
+    split: str = "z"
+    piece: Annotated[Length | None, PIECE] = None
+    bodies: BodyPair | None = None
+    paraview: bool = False
+
+    def refuse_impossible(self) -> None:
+        """A load said twice or not at all, coordinates that do not settle, springs of what is held."""
+        if self.load is None and self.forces is None:
+            raise InputError("", "`load`", "or `forces`: one says the axial load", "give for example 2000")
+        if self.moving_body is not None and self.osim is None:
+            what = f"{self.moving_body} needs a joint"
+            raise InputError("", "`moving_body`", what, "swap the two meshes, or give `osim` and `joint`")
+        for option, names in (("free", self.free), ("springs", self.springs or ())):
+            for name in names:
+                if name not in (*MAY_SETTLE, *(("axial",) if option == "free" else ())):
+                    what = f"{name!r} is none of {', '.join(MAY_SETTLE)}"
+                    raise InputError("", f"`{option}`", what, "axial always settles, flexion never")
+                if name not in (*self.free, "axial"):
+                    what = f"{name} is held, and its spring has no effect"
+                    raise InputError("", f"`{option}`", what, f"add {name} to `free`")
+        if any(not value > 0.0 for value in (self.springs or {}).values()):
+            raise InputError("", "`springs`", "one is not positive", "leave it out")
+        if self.split.partition("=")[0].strip() != "z":
+            raise InputError("", "`split`", f"{self.split!r} does not lie across z", "write z, or for example z=1.5")

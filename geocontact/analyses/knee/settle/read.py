@@ -1,0 +1,158 @@
+"""What a contact equilibrium rests on: bodies, layer, motion and load, as the options say."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from geocontact.analyses import quantities
+from geocontact.analyses.bodies import chosen_faces, read_body, refuse_two_spaces
+from geocontact.analyses.knee.settle.options import SettleOptions
+from geocontact.analyses.layer_thickness import confined_modulus, measured_thickness
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.sides import medial_side
+from geocontact.data.errors import InputError
+from geocontact.data.motion import Motion
+from geocontact.geometry.phong_offset import corner_normals, phong_offset
+from geocontact.geometry.surface import Surface
+from geocontact.geometry.surface_quadrature import surface_quadrature
+from geocontact.io.motion.motion import read_motion
+from geocontact.io.recordings.force_curves import read_force_curves
+from geocontact.loads.foundation import Layer
+from geocontact.loads.settling.coordinates import NAMES
+from geocontact.loads.settling.potential import Bed
+from geocontact.view.surfaces.vtp_series import require_pyvista
+
+PIECE = 0.5e-3  # m; longest edge of a piece unless given
+FAR = 3.0  # sizes of MOVING that its point may be away from it
+
+
+@dataclass(frozen=True, eq=False)
+class SettleInputs:
+    """Bodies, the layer, and what is given in each frame.
+
+    Parameters
+    ----------
+    fixed
+        The body that the layer belongs to.
+    bed
+        MOVING over the layer.
+    motion
+        Poses of MOVING in FIXED.
+    load
+        Axial load of each frame [N].
+    springs
+        Of each coordinate [N/m, N m/rad].
+    free
+        Which coordinates settle, in the order of `NAMES`.
+    """
+
+    fixed: Surface
+    bed: Bed
+    motion: Motion
+    load: Float[np.ndarray, " t"]
+    springs: Float[np.ndarray, " 6"]
+    free: Bool[np.ndarray, " 6"]
+
+    @property
+    def clock(self) -> str:
+        """Column of the frames' times."""
+        return "time [s]" if self.motion.time_unit == "s" else "cycle [%]"
+
+    @property
+    def title(self) -> str:
+        """Heading of figures and pages."""
+        return f"MOVING {self.bed.moving.name} at rest on FIXED {self.fixed.name}"
+
+
+def read(o: SettleOptions, record: Record) -> SettleInputs:
+    """Everything the options name."""
+    if o.paraview:
+        require_pyvista()
+    closed = {body: o.assume_closed in (body, "both") for body in ("moving", "fixed")}
+    moving = read_body(record, "moving", o.moving, o.unit, o.place_moving, closed["moving"])
+    fixed = read_body(record, "fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
+    refuse_two_spaces(moving, fixed)
+    if not moving.closed:
+        what = f"{moving.name} is open ({moving.topology.why_open}): it has no inside, so there is no depth"
+        raise InputError("", "", what, "close it, or see `assume_closed` moving")
+    motion = _motion(record, o)
+    bed = Bed(layer_of(record, fixed, o), moving, corner_normals(moving), _point(o, moving))
+    springs = np.array([(o.springs or {}).get(name, 0.0) for name in NAMES])
+    free = np.array([name in (*o.free, "axial") for name in NAMES])
+    return SettleInputs(fixed, bed, motion, _load(record, o, motion), springs, free)
+
+
+def layer_of(record: Record, fixed: Surface, o: SettleOptions) -> Layer:
+    """FIXED's layer in pieces, medial and lateral apart."""
+    faces = chosen_faces(record, "`region`", o.region, fixed, o.unit)
+    try:
+        pieces = surface_quadrature(fixed, PIECE if o.piece is None else o.piece, faces)
+    except ValueError as error:
+        raise InputError("", "`piece`", str(error), "give a longer edge") from error
+    thickness = measured_thickness(record, fixed, pieces.point, pieces.normal, o.thickness, "`thickness`")
+    medial = medial_side(o.split, o.side, None)
+    plane = quantities.splitting_plane(o.split, o.unit)
+    on_it = plane.height(pieces.point) * medial.sign > 0.0
+    record.say(f"medial is {medial.words} of {fixed.name}")
+    height = phong_offset(fixed, corner_normals(fixed), pieces.face, pieces.point)
+    parts = {"medial": on_it, "lateral": ~on_it}
+    return Layer(pieces, thickness, confined_modulus(o.modulus, o.poisson), o.foundation, parts, height)
+
+
+def _motion(record: Record, o: SettleOptions) -> Motion:
+    """Poses; every frame is at rest, so that a cycle in per cent will do."""
+    motion = read_motion(
+        o.motion,
+        osim=o.osim,
+        joint=o.joint,
+        moving=o.moving_body or "child",
+        mapping=o.map,
+        order=o.order,
+        angles=o.angles,
+    )
+    for option in ("order", "angles"):
+        if o.given(option) and option not in motion.heeded:
+            raise InputError("", f"`{option}`", f"has no effect here: {o.motion} is read without it", "leave it out")
+    if o.forces is not None and motion.time_unit != "s":
+        raise InputError(o.motion, "", "time is in per cent of a cycle, that of `forces` in s", "give `load`")
+    record.add_input("motion", o.motion, frames=len(motion), source=motion.source)
+    if o.osim is not None:
+        record.add_input("model", o.osim, joint=o.joint)
+    return motion
+
+
+def _point(o: SettleOptions, moving: Surface) -> Float[np.ndarray, " 3"]:
+    """Point of MOVING that the load acts at [m]."""
+    if o.load_point is not None:
+        return np.asarray(quantities.centre(o.load_point, o.unit, "`load_point`"), float)
+    size = float(np.linalg.norm(moving.local[moving.used], axis=1).max())
+    away = float(np.linalg.norm(moving.centre))
+    if away > FAR * size:
+        what = f"is missing: the origin of {moving.name} is {away * 1e3:.0f} mm away from it, too far for a load"
+        x, y, z = moving.centre
+        raise InputError("", "`load_point`", what, f"give a point in it; its middle is {x:.4g},{y:.4g},{z:.4g} m")
+    return np.zeros(3)
+
+
+def _load(record: Record, o: SettleOptions, motion: Motion) -> Float[np.ndarray, " t"]:
+    """Axial load at the motion's times [N]."""
+    if o.forces is None:
+        return np.full(len(motion), o.load, float)
+    curves = read_force_curves(o.forces, None, {})
+    record.add_input("`forces`", o.forces)
+    if "total" not in curves.forces:
+        raise InputError(o.forces, "", "no column total, and not both sides", "give total [N] over time [s]")
+    time, total = curves.time, curves.forces["total"]
+    if motion.time[0] < time[0] or motion.time[-1] > time[-1]:
+        what = f"is known from {time[0]:g} to {time[-1]:g} s, the motion runs from "
+        what += f"{motion.time[0]:g} to {motion.time[-1]:g} s"
+        raise InputError(o.forces, "", what, "cut the motion to times at which the force is known")
+    load = np.interp(motion.time, time, total)
+    if not (load > 0.0).all():
+        when = float(motion.time[np.argmin(load)])
+        what = f"the load is {load.min():.4g} N at {when:g} s: nothing presses the bodies together"
+        raise InputError(o.forces, "", what, "cut the motion to times under load")
+    return np.asarray(load)

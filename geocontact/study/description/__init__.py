@@ -1,0 +1,1 @@
+"""What a study says of itself: analysis, options, trials, what is compared."""

@@ -1,0 +1,1 @@
+"""Statistics on surfaces whose points correspond from subject to subject."""

@@ -1,0 +1,37 @@
+"""Error of poses carried into the area, as the analysis gives it: a plate that comes up to a ball."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from geocontact.data.errors import InputError
+from tests.analyses.area.calls import area
+from tests.cli.calls import PLATE, SPHERE, poses, written
+
+SD = (0.0, 0.3e-3, 0.0, 0.0, 0.0, 0.0)
+
+
+def test_both_intervals_agree_but_where_contact_vanishes(tmp_path: Path) -> None:
+    motion = poses(tmp_path, (0, -21.5, 0), (0, -23.9, 0), (0, -30, 0))
+    result = area(PLATE, SPHERE, motion, threshold=4e-3, pose_sd=SD, draws=100)
+    table = result.tables()["pose_error"]
+    assert table["agree"][0] == table["agree"][2] == "yes"
+    assert table["agree"][1].startswith("no: contact vanishes in")
+    rate = 2.0 * np.pi * 20.0  # mm^2/mm
+    assert table["first_order_sd [mm^2]"][0] == pytest.approx(0.3 * rate, rel=0.01)
+    assert table["drawn_sd [mm^2]"][0] == pytest.approx(0.3 * rate, rel=0.25)
+    assert table["slope_ty [mm^2/mm]"][0] == pytest.approx(rate, rel=0.01)
+    assert table["drawn_lower [mm^2]"][0] < table["area_fixed [mm^2]"][0] < table["drawn_upper [mm^2]"][0]
+    again = area(PLATE, SPHERE, motion, threshold=4e-3, pose_sd=SD, draws=100, workers=2)
+    assert table.equals(again.tables()["pose_error"])
+    result.write(tmp_path / "out")
+    assert (tmp_path / "out" / "pose_error.csv").read_text().count("no: contact vanishes") == 1
+
+
+def test_markers_in_one_line_are_refused(tmp_path: Path) -> None:
+    markers = written(tmp_path / "markers.csv", "x [mm], y [mm], z [mm]\n0, 0, 0\n10, 0, 0\n20, 0, 0\n")
+    with pytest.raises(InputError, match="lie in one line"):
+        area(PLATE, SPHERE, poses(tmp_path, (0, -21.5, 0)), markers=markers, marker_sd=5e-4)

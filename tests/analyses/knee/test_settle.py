@@ -1,0 +1,118 @@
+"""Contact equilibrium of the shipped knee: tables, poses that `area` reads again, external loads, refusals."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.job import Job
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.io.motion.motion import read_motion
+from tests.cli.calls import FEMUR, INSERT, KNEE, MESHES, PLATE, SPHERE, call, done, gait, poses
+from tests.elsewhere import Elsewhere
+from tests.opensim_oracle import external_wrenches
+
+GAIT = MESHES / "gait.csv"
+LAYER = {"modulus": gc.MPa(463), "poisson": 0.46}
+BODIES = ("femoral_component", "tibial_insert")
+
+
+@pytest.fixture(scope="module")
+def motion(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Three frames of the shipped cycle."""
+    return gait(tmp_path_factory.mktemp("motion"), (0, 30, 60))
+
+
+@pytest.fixture(scope="module")
+def written(motion: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Results with external loads and maps."""
+    found = gc.knee.settle(
+        FEMUR, INSERT, unit="mm", motion=motion, side="right", load=1800.0, bodies=BODIES, paraview=True, **LAYER
+    )
+    return found.write(tmp_path_factory.mktemp("settled") / "out")
+
+
+def test_every_frame_is_at_rest_under_the_load(written: Path) -> None:
+    table = pd.read_csv(written / "settle.csv")
+    assert len(table) == 3 and (table["residual [N]"] < 2e-3 * 1800).all()
+    np.testing.assert_allclose(table["force_total [N]"], 1800.0, rtol=2e-3)
+    np.testing.assert_allclose(table["force_medial [N]"] + table["force_lateral [N]"], table["force_total [N]"])
+    assert (table[["force_medial [N]", "force_lateral [N]"]] > 400.0).all().all()
+    for name in ("report.html", "settle.svg", "paraview/both.pvd", "paraview/frames/fixed_002.vtp", "run.json"):
+        assert (written / name).stat().st_size > 0
+
+
+def test_area_reads_the_poses_again(written: Path) -> None:
+    """Rows of poses.csv and knee angles of settled.mot are the same poses."""
+    rows = read_motion(written / "poses.csv")
+    knee = read_motion(written / "settled.mot", grood_suntay_side="right", moving="parent")
+    np.testing.assert_allclose(knee.poses.translation, rows.poses.translation, atol=1e-8)
+    assert (knee.poses.rotation.inv() * rows.poses.rotation).magnitude().max() < 1e-8
+
+
+def test_opensim_applies_the_forces_of_the_table(written: Path, opensim: Elsewhere) -> None:
+    """Equal and opposite on both bodies, at the centre of pressure, in FIXED's frame."""
+    table = pd.read_csv(written / "settle.csv")
+    time = float(table["time [s]"][1])
+    found = opensim(external_wrenches, KNEE, written / "contact_loads.xml", time)
+    for side in ("medial", "lateral"):
+        body, frame, numbers = found[f"contact_{side}_force"]
+        other, back_frame, back = found[f"contact_back_{side}_force"]
+        assert (body, other, frame, back_frame) == (BODIES[1], BODIES[0], BODIES[1], BODIES[1])
+        assert numbers[0, 1] == pytest.approx(-table[f"force_{side} [N]"][1], rel=1e-8)
+        centre = [table[f"cop_{side}_{axis} [mm]"][1] * 1e-3 for axis in "xyz"]
+        np.testing.assert_allclose(numbers[1], centre, atol=1e-9)
+        np.testing.assert_allclose(back, numbers * [[-1.0], [1.0], [-1.0]], rtol=1e-9, atol=1e-12)
+
+
+def refused(job: Job, *meshes: Path, **options: object) -> str:
+    with pytest.raises(InputError) as error:
+        job(*meshes, unit="mm", side="right", **{**LAYER, **options})
+    return str(error.value)
+
+
+def test_what_nothing_holds_is_refused_by_name(tmp_path: Path) -> None:
+    """A ball on a plate rolls and slides; a spring holds what it is for."""
+    over = poses(tmp_path, (0, 40, 0))
+    given = {"motion": over, "load": 500.0, "region": "ny>0.9"}
+    line = refused(gc.knee.settle, SPHERE, PLATE, free=("anterior", "rotation"), **given)
+    assert "nothing holds anterior and rotation" in line and "`springs`" in line
+    held = gc.knee.settle(
+        SPHERE, PLATE, unit="mm", side="right", free=("anterior",), springs={"anterior": 1e4}, **LAYER, **given
+    )
+    assert abs(held.table()["anterior [mm]"][0]) < 0.1
+
+
+def test_bodies_that_miss_each_other_are_told(tmp_path: Path) -> None:
+    line = refused(gc.knee.settle, SPHERE, PLATE, motion=poses(tmp_path, (400, 40, 0)), load=500.0)
+    assert "no contact found" in line and "region" in line
+    some = poses(tmp_path, (0, 40, 0), (400, 40, 0), name="some.csv")
+    with pytest.warns(InputWarning, match=r"1 of 2 frames: no contact found \(at 1 s\)"):
+        found = gc.knee.settle(SPHERE, PLATE, unit="mm", side="right", motion=some, load=500.0, free=(), **LAYER)
+    assert found.table()["force_total [N]"].isna().tolist() == [False, True]
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({}, "one says the axial load"),
+        ({"load": 500.0, "free": ("flexion",)}, "'flexion' is none of"),
+        ({"load": 500.0, "springs": {"anterior": 1e4}}, "anterior is held"),
+        ({"load": 500.0, "split": "x"}, "does not lie across z"),
+    ],
+)
+def test_refused_before_a_file_is_read(options: dict[str, object], words: str) -> None:
+    assert words in refused(gc.knee.settle, FEMUR, INSERT, motion=GAIT, **options)
+
+
+def test_the_command_takes_springs_and_no_free_coordinates(motion: Path, tmp_path: Path) -> None:
+    command = ["knee", "settle", str(FEMUR), str(INSERT), "--unit", "mm", "--motion", str(motion), "--side", "right"]
+    command += ["--load", "900", "--modulus", "463MPa", "--poisson", "0.46", "--piece", "1mm"]
+    springs, out = ["--free", "anterior,rotation", "--springs", "anterior=30,rotation=0.36"], tmp_path / "out"
+    result = done(call(*command, *springs, "--out", out, folder=out))
+    options = result.record()["options_si"]
+    assert options["free"] == ["anterior", "rotation"] and options["springs"]["anterior"] == 30e3
