@@ -15,14 +15,18 @@ from website.examples import differences
 ENTRIES = entries()
 WITH, WITHOUT = ([one for one in ENTRIES if bool(one.example) is kind] for kind in (True, False))
 LACKING = 28  # may only fall
-LONG = {
+LONG = {  # more than three CPU seconds
     "diagnose",
     "discriminability",
     "inject",
     "mat",
+    "misalignment.compare",
+    "misalignment.design",
+    "misalignment.identify",
+    "pressure",
     "prosthesis.scale",
     "shoulder.optimise",
-}  # more than three CPU s
+}
 
 
 def name(entry: Entry) -> str:
