@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.machine import commit, machine
+from benchmarks.machine import as_json, commit, machine
 from geocontact.analyses.gap.benchmark.case import Worked
 from geocontact.analyses.gap.benchmark.journal import Journal
 from geocontact.gap_benchmark.drawing import SYSTEMS, Lot
@@ -235,7 +235,7 @@ def main() -> int:
         words = f"{planted} -> {said['verdict']} {', '.join(said['effects'])}"
         print(f"{lot.system} {lot.laboratory} {lot.place}: {words}, {became.cpu:.0f} s {became.trouble}", flush=True)
         rows = [journal.done[one] for one in chosen if one in journal.done]
-        o.out.write_text(json.dumps(report(o, rows), indent=1) + "\n", encoding="utf-8")
+        o.out.write_text(as_json(report(o, rows)), encoding="utf-8")
     return 0
 
 
