@@ -20,6 +20,7 @@ LONG = {
     "discriminability",
     "inject",
     "mat",
+    "knee.settle",
     "prosthesis.scale",
     "shoulder.optimise",
 }  # more than three CPU s
