@@ -31,7 +31,7 @@ from geocontact.gap_benchmark.synthetic.laboratories.kinds import SIDES, kinds_o
 COUNTED = {"none": "none", "single": "single", "unknown": "outside", "pairs": "pair"}
 """Options, and the kinds of cases that they count."""
 WORDS = {
-    "false_alarms": "false alarms",
+    "false_alarms": "false alarms, cases that lack nothing",
     "sure_alarms": "– with p ≥ 0.9",
     "ahead": "visible singles that are ahead by 3 nats",
     "first_ahead": "– of these first",
@@ -42,11 +42,11 @@ WORDS = {
     "in_small_set": "in a set of three, all visible singles",
     "named_right": "named, all visible singles",
     "missed": "called no gap, all visible singles",
-    "confidently_wrong": "confidently wrong",
+    "confidently_wrong": "confidently wrong, all cases",
     "both_found": "both of two",
-    "unknown_called": "outside the table called unknown",
+    "unknown_called": "outside the table, called unknown",
     "coverage": "reductions inside ci95",
-    "reduction_error": "error of reduction, mean",
+    "reduction_error": "mean error of reduction",
     "reduction_error_median": "– median",
     "log_score": "log score, 0 constant, 1 certain",
     "seconds_median": "CPU seconds per case, median",
@@ -153,7 +153,8 @@ def told(figures: LaboratoryFigures) -> dict[str, Any]:
 def read_back(row: Mapping[str, Any]) -> LaboratoryFigures:
     """The same from JSON."""
     shares = {name: Rate(one["hits"], one["count"]) for name, one in row["shares"].items()}
-    return LaboratoryFigures(row["cases"], shares, row["numbers"])
+    numbers = {name: np.nan if one is None else one for name, one in row["numbers"].items()}
+    return LaboratoryFigures(row["cases"], shares, numbers)
 
 
 def report(o: argparse.Namespace, rows: Sequence[Worked]) -> dict[str, Any]:
