@@ -75,7 +75,7 @@ def test_several_recordings_have_a_folder_each(tmp_path: Path) -> None:
     table = written(tmp_path / "cycles.csv", text)
     result = done(loadcells(tmp_path, "--cycles", table, files=files, picture=True))
     both = {f"{name}/{file}" for name in ("normal", "bouncy") for file in FILES}
-    assert set(inventory(result.folder)) == {"normal", "bouncy", "styles.csv", "run.json", *CYCLES, *both}
+    assert set(inventory(result.folder)) == {"normal", "bouncy", "styles.csv", "run.json", "shifts.csv", *CYCLES, *both}
     assert b"Difference to the first style" in result.bytes("bouncy/report.html")
     assert set(json.loads(result.bytes("bouncy/run.json"))["files"]) == FILES
     roles = {entry["role"]: entry["file"] for entry in result.record()["inputs"]}

@@ -27,8 +27,8 @@ RESULTS: Mapping[str, str] = MappingProxyType(
 CASES: Mapping[str, str] = MappingProxyType({si: si for si in RESULTS})
 """Unit of tables that gap cases are made of, and of what is written about a case: SI."""
 
-BESIDE = ("cycle [%]", "pressure [mmHg]")
-"""A place in a cycle, and a cuff's pressure as its gauge shows it."""
+BESIDE = (r"cycle \[%\]", r"(peak_)?later(_lower|_upper)? \[%\]", r"pressure \[mmHg\]")
+"""A place in a cycle, how much later in it something is, and a cuff's pressure as its gauge shows it."""
 
 KEPT = (r"(plate_|difference_)?cop_[xyz] \[m\]", r"max_depth \[m\]", r"peak\S* \[MPa\]")
 """Columns of cop.csv, its comparison.csv and pressure.csv that had another unit before there was one for each kind."""
@@ -42,6 +42,6 @@ def misfits(columns: Iterable[object], convention: Mapping[str, str]) -> list[st
 def _fits(column: str, convention: Mapping[str, str]) -> bool:
     _, unit = split_header(column)
     known = si_unit(unit) if unit else None
-    if known is None or convention.get(known[0], unit) == unit or column in BESIDE:
+    if known is None or convention.get(known[0], unit) == unit:
         return True
-    return any(re.fullmatch(each, column) for each in KEPT)
+    return any(re.fullmatch(each, column) for each in (*BESIDE, *KEPT))

@@ -27,6 +27,8 @@ def test_both_intervals_agree_but_where_contact_vanishes(tmp_path: Path) -> None
     assert table["drawn_lower [mm^2]"][0] < table["area_fixed [mm^2]"][0] < table["drawn_upper [mm^2]"][0]
     again = area(PLATE, SPHERE, motion, threshold=4e-3, pose_sd=SD, draws=100, workers=2)
     assert table.equals(again.tables()["pose_error"])
+    turned = area(PLATE, SPHERE, motion, threshold=4e-3, pose_sd=SD, draws=20, pose_axes="moving")
+    assert turned.tables()["pose_error"]["slope_ty [mm^2/mm]"][0] == pytest.approx(rate, rel=0.01)
     result.write(tmp_path / "out")
     assert (tmp_path / "out" / "pose_error.csv").read_text().count("no: contact vanishes") == 1
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
 from collections.abc import Callable
+from io import StringIO
 from pathlib import Path
 
 import numpy as np
@@ -202,3 +204,15 @@ def test_the_page_shows_the_path_of_the_centre_of_pressure(tmp_path: Path) -> No
     assert np.ptp(corners, axis=0) == pytest.approx([80.0, 80.0])
     assert sentence(shown, course, "ball", "floor").startswith("ball presses on floor with up to ")
     assert len(facts(shown, course)) == 3
+
+
+def test_forces_are_external_loads_of_both_bodies(tmp_path: Path) -> None:
+    """What OpenSim is given is what the table has, and its opposite on the other body."""
+    result = pressed(tmp_path, bodies=("femur", "tibia"))
+    result.write(tmp_path / "out")
+    table, loads = result.table(), ET.parse(tmp_path / "out" / "contact_loads.xml")
+    assert [one.findtext("applied_to_body") for one in loads.iter("ExternalForce")] == ["tibia", "femur"]
+    _, _, rows = (tmp_path / "out" / "contact_loads.mot").read_text(encoding="utf-8").partition("endheader\n")
+    given = pd.read_csv(StringIO(rows), sep="\t")
+    for name, sign in (("contact_total", 1.0), ("contact_back_total", -1.0)):
+        np.testing.assert_allclose(given[f"{name}_force_vy"], sign * table["force_y [N]"], rtol=1e-6, atol=1e-9)

@@ -113,8 +113,8 @@ def test_stages_are_told_as_they_begin(found: DiagnoseResult) -> None:
         for stage in (
             "the base model and the noise",
             "every effect alone",
-            "whatever else it may be",
             "two effects together",
+            "whatever else it may be",
             "whether held-out trials are predicted better",
             "what is left over",
             "what would be invisible",
