@@ -10,7 +10,8 @@ from geocontact.loads.settling.newton import ARM, scales
 
 HELD = 0.05
 """Of load over 20 mm: the least stiffness that counts as holding a coordinate. A load that rests in a valley with a
-radius of 0.4 m has this much; pieces of half a millimetre make up to 0.01 where there is none."""
+radius of 0.4 m has this much. Pieces of half a millimetre make up to 0.016 where there is none; those of one millimetre
+make up to 0.08, so that what nothing holds may pass there."""
 
 SHARE = 0.3
 """Least part of a coordinate in a direction that is not held for it to be named."""
