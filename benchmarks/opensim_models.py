@@ -56,6 +56,8 @@ def main() -> None:
             with another_process() as call:  # of each model: OpenSim may end it
                 rows.append({"model": name, **compared(file, call)})
             print(_line(rows[-1]), flush=True)
+    if not rows:
+        parser.error("no .osim file in these folders")
     report = {
         **stamp({"casadi", "numpy", "scipy", "opensim"}),
         "seed": SEED,
