@@ -24,9 +24,11 @@ ENDS = (0.025, 0.975)
 NORMAL = 1.959963984540054
 """97.5 % quantile of the normal distribution."""
 ALIKE = 0.1
-"""Share by which the two standard deviations may differ, beside twice the error of the drawn one."""
+"""Share by which the two standard deviations may differ, beside the chance of the draws."""
 SHIFTED = 0.25
-"""Standard deviations that the mean of the draws may be off the area itself."""
+"""Standard deviations that the mean of the draws may be off the area itself, beside their chance."""
+CHANCE = 3.0
+"""Standard errors of the draws that are their chance: the same draws serve all frames, and all would disagree."""
 COLUMNS = ["x [m]", "y [m]", "z [m]"]
 
 
@@ -52,17 +54,22 @@ class AreaUncertainty:
 
     def verdict(self, frame: int, k: int) -> str:
         """Whether first order and draws agree, or why not."""
-        cell = self.cells[frame][k]
-        without = float((cell.drawn <= 0.0).mean())
-        if 0.0 < without < 1.0:
-            what = "vanishes" if cell.nominal > 0.0 else "appears"
-            return f"no: contact {what} in {without if cell.nominal > 0.0 else 1.0 - without:.0%} of the draws"
-        sd, n = float(cell.drawn.std(ddof=1)), len(cell.drawn)
-        if abs(cell.first_order - sd) > (ALIKE + 2.0 / np.sqrt(2.0 * (n - 1))) * sd:
-            return "no: the area is not linear in the pose over these errors"
-        if abs(float(cell.drawn.mean()) - cell.nominal) > (SHIFTED + 2.0 / np.sqrt(n)) * sd:
-            return "no: the mean of the draws is off the area"
-        return "yes"
+        return agreement(self.cells[frame][k])
+
+
+def agreement(cell: ErrorOfArea) -> str:
+    """Whether first order and draws agree, or why not."""
+    without = float((cell.drawn <= 0.0).mean())
+    if 0.0 < without < 1.0:
+        what = "vanishes" if cell.nominal > 0.0 else "appears"
+        return f"no: contact {what} in {without if cell.nominal > 0.0 else 1.0 - without:.0%} of the draws"
+    sd, n = float(cell.drawn.std(ddof=1)), len(cell.drawn)
+    larger = max(sd, cell.first_order)
+    if abs(cell.first_order - sd) > (ALIKE + CHANCE / np.sqrt(2.0 * (n - 1))) * larger:
+        return "no: the area is not linear in the pose over these errors"
+    if abs(float(cell.drawn.mean()) - cell.nominal) > (SHIFTED + CHANCE / np.sqrt(n)) * larger:
+        return "no: the mean of the draws is off the area"
+    return "yes"
 
 
 def pose_error_of(o: AreaOptions) -> PoseError | None:
