@@ -31,7 +31,7 @@ class PressureSeries:
 
     time: Float[np.ndarray, " t"]
     fixed: tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]
-    moving: tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]
+    moving: tuple[Float[np.ndarray, "k 3"], Int[np.ndarray, "j 3"]]
     poses: RigidTransform
     pressure: Callable[[int], Float[np.ndarray, " m"]]
 
