@@ -96,7 +96,6 @@ def layer_of(record: Record, fixed: Surface, o: SettleOptions) -> Layer:
     medial = medial_side(o.split, o.side, None)
     plane = quantities.splitting_plane(o.split, o.unit)
     on_it = plane.height(pieces.point) * medial.sign > 0.0
-    record.say(f"medial is {medial.words} of {fixed.name}")
     height = phong_offset(fixed, corner_normals(fixed), pieces.face, pieces.point)
     parts = {"medial": on_it, "lateral": ~on_it}
     return Layer(pieces, thickness, confined_modulus(o.modulus, o.poisson), o.foundation, parts, height)

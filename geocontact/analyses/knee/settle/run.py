@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.analyses.knee.settle.options import SettleOptions
 from geocontact.analyses.knee.settle.read import SettleInputs
 from geocontact.analyses.knee.settle.result import SettleResult
 from geocontact.analyses.knee.settle.settled import Settled
 from geocontact.analyses.run_record import Record
+from geocontact.analyses.sides import medial_side
 from geocontact.data.errors import InputError
 from geocontact.loads.settling.along import Frame, settle_along
 from geocontact.loads.settling.coordinates import coordinates_of
@@ -37,6 +39,7 @@ def run(i: SettleInputs, o: SettleOptions, record: Record) -> SettleResult:
     rest = frames[heaviest].rest
     balance = None if rest is None else energy_balance(i.bed, frames[heaviest].pull, rest, i.free)
     _summarise(i, settled, balance, record)
+    record.say(f"medial is {medial_side(o.split, o.side, None).words} of {i.fixed.name}")
     return SettleResult(record=record, options=o, settled=settled, balance=balance)
 
 
@@ -72,13 +75,19 @@ def _warn_of_lost(i: SettleInputs, s: Settled, record: Record) -> None:
             record.warn(f"{len(frames)} of {len(s.frames)} frames: {what} (at {times}{more} s); their rows are empty")
 
 
+def _between(values: Float[np.ndarray, " t"], form: str) -> str:
+    """Smallest and largest in words, once where they are written alike."""
+    low, high = format(np.nanmin(values), form), format(np.nanmax(values), form)
+    return low if low == high else f"{low} … {high}"
+
+
 def _summarise(i: SettleInputs, s: Settled, balance: EnergyBalance | None, record: Record) -> None:
     peak, area = s.peaks * 1e-6, s.areas * 1e6
     shares = s.forces("medial") / s.forces("total")
     record.say(
-        f"{int(s.converged.sum())} of {len(s.frames)} frames at rest under {i.load.min():.0f} … {i.load.max():.0f} N: "
-        f"contact area {np.nanmin(area):.1f} … {np.nanmax(area):.1f} mm^2, pressure up to {np.nanmax(peak):.2f} MPa, "
-        f"{np.nanmin(shares):.0%} … {np.nanmax(shares):.0%} of the force medial"
+        f"{int(s.converged.sum())} of {len(s.frames)} frames at rest under {_between(i.load, '.0f')} N: "
+        f"contact area {_between(area, '.1f')} mm^2, pressure up to {np.nanmax(peak):.2f} MPa, "
+        f"{_between(100.0 * shares, '.0f')} % of the force medial"
     )
     strain = s.largest_strain
     if i.bed.layer.law == "linear" and strain > STRAINED:
