@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from benchmarks.machine import machine, versions
+from benchmarks.machine import as_json, stamp
 from geocontact.analyses.knee.settle import run as settle_run
 from geocontact.analyses.knee.settle.options import SettleOptions
 from geocontact.analyses.knee.settle.read import read
@@ -50,7 +50,7 @@ def main() -> None:
     parser.add_argument("--data", type=Path, help="folder of the real recordings")
     parser.add_argument("--out", type=Path, default=HERE / "results")
     options = parser.parse_args()
-    report: dict[str, Any] = {"machine": machine(), "versions": versions({"scipy"}), "rows": []}
+    report: dict[str, Any] = {**stamp({"scipy"}), "rows": []}
     finest: dict[object, pd.DataFrame] = {}
     for case in [*shipped(), *(real(options.data) if options.data else ())]:
         row, table = measured(case)
@@ -59,7 +59,7 @@ def main() -> None:
             row["largest_difference_to_finest"] = apart(table, finest.setdefault(key, table))
         report["rows"].append(row)
         print(json.dumps(row), flush=True)
-        (options.out / "equilibrium.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+        (options.out / "equilibrium.json").write_text(as_json(report), encoding="utf-8")
 
 
 def shipped() -> Iterator[Case]:
@@ -111,9 +111,16 @@ def measured(case: Case) -> tuple[dict[str, Any], pd.DataFrame | None]:
         "largest_residual_of_load": float(np.nanmax(s.residuals / inputs.load)),
         "balance_of_energy": None if result.balance is None else result.balance.difference,
         **(told if isinstance(told, dict) else {}),
-        "warnings": record.warnings,
+        "warnings": [_without_folders(line, case.options) for line in record.warnings],
     }
     return row, result.table()
+
+
+def _without_folders(line: str, options: dict[str, Any]) -> str:
+    """A warning with names of files in place of their paths."""
+    for value in options.values():
+        line = line.replace(str(value), value.name) if isinstance(value, Path) else line
+    return line
 
 
 def thinned(inputs: Any) -> Any:

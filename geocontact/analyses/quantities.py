@@ -182,21 +182,6 @@ def turn(text: str, option: str) -> tuple[str, float]:
     return axis.strip(), value * ANGLE["deg"]
 
 
-def pose_sd(text: str, option: str) -> tuple[float, ...]:
-    """ "t=0.5,r=1" or "tx=0.5,rz=2" (mm, degrees) to three lengths [m] and three angles [rad]; 0 where not named."""
-    names, found = ("tx", "ty", "tz", "rx", "ry", "rz"), dict[str, float]()
-    for part in text.split(","):
-        name, _, value = (piece.strip() for piece in part.partition("="))
-        meant = [each for each in names if each == name or each[0] == name]
-        if not meant or not value or any(each in found for each in meant):
-            raise InputError("", option, f"{part.strip()!r} is no standard deviation", f"write {option} t=0.5,r=1")
-        for each in meant:
-            found[each] = number(value, option, "t=0.5,r=1") * (LENGTH["mm"] if each[0] == "t" else ANGLE["deg"])
-    if min(found.values()) < 0.0:
-        raise InputError("", option, f"{text!r} is negative", "a standard deviation is not")
-    return tuple(found.get(each, 0.0) for each in names)
-
-
 def angle_range(text: str, option: str, example: str) -> tuple[float, float, float]:
     """ "0:90:1" to start, stop, step [rad]; degrees are typed, and the step is 1 unless given."""
     parts = text.split(":")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 
 import pytest
@@ -18,7 +19,9 @@ def test_results_of_benchmarks_are_strict_json(file: Path) -> None:
     def refused(word: str) -> None:
         pytest.fail(f"{word} is not JSON; write with benchmarks.machine.as_json")
 
-    json.loads(file.read_text(encoding="utf-8"), parse_constant=refused)
+    text = file.read_text(encoding="utf-8")
+    json.loads(text, parse_constant=refused)
+    assert re.findall(r'["\s](?:/(?!proc/|dev/|tmp/)[\w.-]+/|[A-Z]:\\\\)[^"\n]*', text) == [], "a path of some machine"
 
 
 def test_what_is_not_finite_is_null() -> None:

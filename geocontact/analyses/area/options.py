@@ -54,7 +54,11 @@ Sweep = Annotated[
     JOINT_ANGLE,
 ]
 Turn = Annotated[tuple[str, float], Typed("rad", "turn", '("x", gc.deg(2))'), TURN]
-PoseSd = Annotated[tuple[float, ...], Typed("m, rad", "pose_sd", "(5e-4, 5e-4, 5e-4, *gc.deg(1, 1, 1))"), POSE]
+PoseSd = Annotated[
+    tuple[float, ...],
+    Typed("m, rad", "area.pose_error.typed:pose_sd", "(5e-4, 5e-4, 5e-4, *gc.deg(1, 1, 1))"),
+    POSE,
+]
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.gap.case import GapCase
-from geocontact.data.motion import Signals
-from geocontact.data.trial import Trial as CaseTrial
 from geocontact.gap_benchmark.synthetic.base_fit import refit, starts
 from geocontact.gap_benchmark.synthetic.catalogue import CONFOUNDED, NO_GAP, plans
 from geocontact.gap_benchmark.synthetic.course import Path
@@ -26,6 +23,7 @@ from geocontact.gap_benchmark.synthetic.magnitudes import magnitudes_of
 from geocontact.gap_benchmark.synthetic.outside.catalogue import unknown_effects
 from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, NotFoundError, SyntheticMagnitudes
 from geocontact.gap_benchmark.synthetic.reach import Reach, reach
+from geocontact.gap_benchmark.synthetic.recorded_case import case_of
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 from geocontact.gap_benchmark.synthetic.scenes import SCENES
 from geocontact.gap_benchmark.synthetic.slight import slightly_wrong
@@ -351,38 +349,6 @@ FINDERS: Mapping[Kind, Callable[[Rng, Stage, str | None, float | None], DrawnCas
     "fault": mistake,
     "shift": single,
 }
-
-
-def case_of(
-    rng: Rng, scene: SyntheticScene, recordings: Sequence[SyntheticTrial], learn: int, name: str
-) -> tuple[GapCase, tuple[str, ...]]:
-    """The recordings as a case that does not tell what was injected."""
-    trials = []
-    for i, one in enumerate(recordings):
-        outputs = one.outputs.copy()
-        for row in scene.body.patchy:
-            if rng.random() < 0.1:
-                outputs[row, rng.random(outputs.shape[1]) < 0.02] = np.nan
-        values = np.column_stack([*one.inputs, *outputs])
-        signals = Signals(one.time, values, (*scene.inputs, *scene.outputs), scene.units)
-        trials.append(CaseTrial(f"t{i + 1:02d}", signals, one.setting))
-    known = {c: noise.sd for c, noise in zip(scene.outputs, scene.noise, strict=True)}
-    lot = rng.random()
-    if lot < 0.25:
-        known = {}
-    elif lot < 0.4:
-        known = {c: sd for c, sd in known.items() if rng.random() < 0.5}
-    case = GapCase(
-        name,
-        scene.system,
-        tuple(trials[:learn]),
-        tuple(trials[learn:]),
-        scene.parameters,
-        scene.constants,
-        known,
-        scene.tables,
-    )
-    return case, tuple(one.name for one in trials)
 
 
 def label_of(

@@ -130,7 +130,6 @@ def areas_at(tree, cells, points, faces, area, start, chunks, threshold, signed,
                     total += area[face]
                 if within == 0 or within == 3:
                     continue
-                odd = 0
                 for j in range(3):
                     v = faces[face, j]
                     if kind[v] != MEASURED:
@@ -138,14 +137,23 @@ def areas_at(tree, cells, points, faces, area, start, chunks, threshold, signed,
                             boxes, child, leaves, slots, fill, normal, places, signed, v, where, cell, kind, value,
                             unit, nodes, keys, square, fan,
                         )  # fmt: skip
-                    f[j] = value[v] - threshold
-                    if (f[j] <= 0.0) == (within == 1):
-                        odd = j
-                total += area[face] * _slopes(f, odd, share)
-                for j in range(3):
-                    _pull(slope[pose], area[face] * share[j], where[faces[face, j]], unit[faces[face, j]])
+                total += _cut(faces[face], area[face], threshold, value, where, unit, within, f, share, slope[pose])
         found[pose] = total
     return found, slope, doubt
+
+
+@kernel
+def _cut(corners, area, threshold, value, where, unit, within, f, share, slope):
+    """Area of a triangle that is cut, `within` corners of it inside; its derivative is added to `slope` (6,)."""
+    odd = 0
+    for j in range(3):
+        f[j] = value[corners[j]] - threshold
+        if (f[j] <= 0.0) == (within == 1):
+            odd = j
+    part = area * _slopes(f, odd, share)
+    for j in range(3):
+        _pull(slope, area * share[j], where[corners[j]], unit[corners[j]])
+    return part
 
 
 @kernel
