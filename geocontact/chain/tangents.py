@@ -2,13 +2,12 @@
 
 Loads take nearly all of the time of a simulation. Their changes along all parameters are had at once, exact; balance
 and sensor, which are cheap, are read a second time with loads and parameters so little further on that differences
-show the derivative to seven digits.
+show the derivative to seven digits. A balance sums loads of one sample, its modifiers what they like.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -17,7 +16,7 @@ from jaxtyping import Float
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.implicit import NotConverged
 from geocontact.chain.law_parameters import LawParameters
-from geocontact.chain.links import Law, Loads, Values
+from geocontact.chain.links import Law, Loads, Values, passed_on
 from geocontact.chain.system import System
 from geocontact.data.trial import Trial
 
@@ -68,16 +67,20 @@ def tangents(
     if found is None:
         return {}
     loads, ways = found
-
-    def read(carried: Loads, known: Values) -> Float[np.ndarray, "t c"]:
-        return system.sensor.read(system.balance.read(carried, movement, known), movement, known)
-
-    before = read(loads, numbers)
+    known = {name: more for name, more in zip(others, ways, strict=True) if more is not None}
+    totals = system.balance.total(_stacked(loads, list(known.values())))
+    before, *after = (
+        system.sensor.read(passed_on(system.balance.modifiers, total, movement, own), movement, own)
+        for total, own in zip(
+            totals.reshape(1 + len(known), len(movement.time), -1),
+            (numbers, *(others[name] for name in known)),
+            strict=True,
+        )
+    )
     slopes = {}
-    for (name, other), more in zip(others.items(), ways, strict=True):
-        if more is not None:
-            change = (read(_sum(loads, more), other) - before) / steps[name]
-            slopes[name] = np.where(np.isfinite(change), change, 0.0)
+    for name, own in zip(known, after, strict=True):
+        change = (own - before) / steps[name]
+        slopes[name] = np.where(np.isfinite(change), change, 0.0)
     return slopes
 
 
@@ -86,11 +89,18 @@ def _same(one: DifferentiatedInputs, other: DifferentiatedInputs) -> bool:
     return all(a is b or np.array_equal(a, b, equal_nan=True) for a, b in arrays)
 
 
-def _sum(loads: Loads, more: Loads) -> Loads:
-    """Loads and what is more of them; where they act stays."""
-    return replace(
-        loads,
-        normal=loads.normal + more.normal,
-        tangential=loads.tangential + more.tangential,
-        moved=loads.moved + more.moved,
+def _stacked(loads: Loads, changes: Sequence[Loads]) -> Loads:
+    """Loads, and below them loads with each change, for a balance that takes every sample by itself.
+
+    Where loads act stays.
+    """
+
+    def below(own: Float[np.ndarray, "t n"], more: Sequence[Float[np.ndarray, "t n"]]) -> Float[np.ndarray, "m n"]:
+        return np.concatenate([own, *(own + each for each in more)])
+
+    return Loads(
+        below(loads.normal, [each.normal for each in changes]),
+        below(loads.tangential, [each.tangential for each in changes]),
+        np.tile(loads.arm, (1 + len(changes), 1)),
+        below(loads.moved, [each.moved for each in changes]),
     )

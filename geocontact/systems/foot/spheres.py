@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import cos, sin
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from geocontact.chain.contact_law import contact_force, friction_coefficient
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
@@ -180,9 +181,16 @@ class FootSpheres:
 
     def spheres(self, values: Values) -> Float[np.ndarray, "five n"]:
         """Places, radii, stiffness and damping of the spheres."""
-        k = [values[f"k_{zone}"] for zone in self.zone]
-        b = [values[f"b_{zone}"] for zone in self.zone]
+        of_sphere, stiffness, damping = self._zones
+        k, b = (np.array([values[name] for name in names])[of_sphere] for names in (stiffness, damping))
         return np.array([self.px, self.py, self.radius, k, b])
+
+    @cached_property
+    def _zones(self) -> tuple[Int[np.ndarray, " n"], list[str], list[str]]:
+        """Which zone each sphere is of, and what stiffness and damping of the zones are called."""
+        zones = list(dict.fromkeys(self.zone))
+        at = np.array([zones.index(zone) for zone in self.zone], int)
+        return at, [f"k_{zone}" for zone in zones], [f"b_{zone}" for zone in zones]
 
     def deflection(
         self, movement: DifferentiatedInputs, values: Values

@@ -75,7 +75,7 @@ class ShoulderArm:
         own, numbers = self.slots.numbers(values), law.slots.numbers(values)
         if own[COMPLIANCE] != 0.0 or numbers[UNKNOWN[0]] != 0.0:
             return None
-        _, unsolved, path = self._swung(movement, law, values)
+        motion, unsolved, path = self._swung(movement, law, values)
         if unsolved:
             return None
         dn, dlaw = towards(self.slots, values, others), towards(law.slots, values, others)
@@ -92,7 +92,7 @@ class ShoulderArm:
             Loads(force, nothing, nothing, angle) if there else None
             for (angle, force), there in zip(found, known, strict=True)
         ]
-        return self.loads(movement, law, values), more
+        return Loads(motion[1][:, None], nothing, nothing, motion[0][:, None]), more
 
     def _swung(
         self, movement: DifferentiatedInputs, law: Law, values: Values
