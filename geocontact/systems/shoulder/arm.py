@@ -20,9 +20,10 @@ from geocontact.systems.shoulder.swing_slopes import swing_slopes
 
 COMPLIANCE = 11
 """Place among the arm's numbers of a spring in series, behind which derivatives are not known."""
-REMEMBERED = 256
-"""Motions of a trial, 150 kB each."""
-_SEEN: OrderedDict[tuple[float | bytes, ...], tuple[np.ndarray, int, np.ndarray]] = OrderedDict()
+REMEMBERED, RECENT = 256, 32
+"""Motions of a trial, 25 kB each, and their steps, some 150 kB each."""
+_SEEN: OrderedDict[tuple[float | bytes, ...], tuple[np.ndarray, int]] = OrderedDict()
+_STEPS: OrderedDict[tuple[float | bytes, ...], np.ndarray] = OrderedDict()
 
 
 @dataclass(frozen=True)
@@ -75,8 +76,8 @@ class ShoulderArm:
         own, numbers = self.slots.numbers(values), law.slots.numbers(values)
         if own[COMPLIANCE] != 0.0 or numbers[UNKNOWN[0]] != 0.0:
             return None
-        motion, unsolved, path = self._swung(movement, law, values)
-        if unsolved:
+        motion, unsolved, path = self._swung(movement, law, values, along=True)
+        if unsolved or path is None:
             return None
         dn, dlaw = towards(self.slots, values, others), towards(law.slots, values, others)
         known = ~((dn[:, COMPLIANCE] != 0.0) | dlaw[:, UNKNOWN].any(axis=1))
@@ -95,16 +96,22 @@ class ShoulderArm:
         return Loads(motion[1][:, None], nothing, nothing, motion[0][:, None]), more
 
     def _swung(
-        self, movement: DifferentiatedInputs, law: Law, values: Values
-    ) -> tuple[Float[np.ndarray, "four t"], int, Float[np.ndarray, "rows nineteen"]]:
-        """Motion of the exoskeleton's arm and its steps; sensors do not change them, the last ones are remembered."""
+        self, movement: DifferentiatedInputs, law: Law, values: Values, *, along: bool = False
+    ) -> tuple[Float[np.ndarray, "four t"], int, Float[np.ndarray, "rows nineteen"] | None]:
+        """Motion of the exoskeleton's arm; its steps, if anything goes `along` with them or they are still there.
+
+        What a sensor adds does not change it, so the last ones are remembered.
+        """
         row = movement.row("arm")
         arrays = (movement.time, movement.position[row], movement.rate[row])
         numbers = (self.slots.numbers(values), self.table, law.slots.numbers(values))
         key = (self.longest, *(each.tobytes() for each in (*arrays, *numbers)))
-        found = _SEEN.get(key)
-        if found is None:
-            found = _SEEN[key] = swing(*arrays, self.longest, *numbers)
-            while len(_SEEN) > REMEMBERED:
-                _SEEN.popitem(last=False)
-        return found
+        found, path = _SEEN.get(key), _STEPS.get(key)
+        if found is None or (along and path is None):
+            motion, unsolved, path = swing(*arrays, self.longest, *numbers)
+            found, _STEPS[key] = (motion, unsolved), path
+            _SEEN[key] = found
+            for kept, most in ((_SEEN, REMEMBERED), (_STEPS, RECENT)):
+                while len(kept) > most:
+                    kept.popitem(last=False)
+        return *found, path

@@ -345,4 +345,4 @@ def swing(
         along = w[WX] * sine - w[WY] * cosine
         out[2, i] = -(w[WX] * cosine + w[WY] * sine)
         out[3, i] = before[RATE] * along - w[WX_RATE] * cosine - w[WY_RATE] * sine
-    return out, unsolved, path[:steps]
+    return out, unsolved, path[:steps].copy()
