@@ -21,7 +21,7 @@ from geocontact.systems.shoulder.swing_slopes import swing_slopes
 COMPLIANCE = 11
 """Place among the arm's numbers of a spring in series, behind which derivatives are not known."""
 REMEMBERED, RECENT = 256, 32
-"""Motions of a trial, 25 kB each, and their steps, some 150 kB each."""
+"""Motions of a trial, 25 kB each, and their steps, some 300 kB each."""
 _SEEN: OrderedDict[tuple[float | bytes, ...], tuple[np.ndarray, int]] = OrderedDict()
 _STEPS: OrderedDict[tuple[float | bytes, ...], np.ndarray] = OrderedDict()
 

@@ -280,8 +280,10 @@ def recorded(
         longer[:at] = path
         path = longer
     path[at, SMOOTH], path[at, ARM], path[at, ARM_RATE], path[at, SAMPLE] = 1.0 if smooth else 0.0, arm, rate, sample
-    path[at, STATE:REMEMBERED] = state
-    path[at, REMEMBERED:] = memory
+    for k in range(state.size):
+        path[at, STATE + k] = state[k]
+    for k in range(memory.size):
+        path[at, REMEMBERED + k] = memory[k]
     return path
 
 
@@ -345,4 +347,4 @@ def swing(
         along = w[WX] * sine - w[WY] * cosine
         out[2, i] = -(w[WX] * cosine + w[WY] * sine)
         out[3, i] = before[RATE] * along - w[WX_RATE] * cosine - w[WY_RATE] * sine
-    return out, unsolved, path[:steps].copy()
+    return out, unsolved, path[:steps]
