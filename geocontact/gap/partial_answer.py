@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from geocontact.data.gap.diagnosis import Partial
 from geocontact.gap.attribute import Attribution
+from geocontact.gap.levels import SURE, WORTH_NAMING
 from geocontact.gap.reduction.error_reduction import error_reduction
-from geocontact.gap.selection.held_out_rules import WORTH_NAMING
-from geocontact.gap.selection.verdict import PAIR, SURE
+from geocontact.gap.selection.verdict import PAIR
 
 
 def partial(found: Attribution) -> Partial | None:

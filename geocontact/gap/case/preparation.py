@@ -24,7 +24,6 @@ from geocontact.gap.inputs.filter_cutoff import filters_of, likely_noise
 from geocontact.gap.inputs.spectrum import measured_inputs
 
 TAKEN_OFF = 1.25  # times what is believed of an input's noise, that is taken off it at the most
-SEED = 0  # of the noise that is added to inputs
 
 
 @dataclass(frozen=True)
@@ -83,7 +82,7 @@ class Denoised:
     @classmethod
     def of(cls, calibration: Measured, evaluation: Measured, levels: Mapping[str, float], passed: Filters) -> Denoised:
         """Noise of these standard deviations taken off recordings."""
-        recorded, rng = together(calibration, evaluation), np.random.default_rng(SEED)
+        recorded, rng = together(calibration, evaluation), np.random.default_rng(0)
         shaken_trials = tuple(shaken(trial, levels, passed, rng) for trial in recorded.trials)
         kept = {n: left(recorded.trials, n, sd, passed[n]) for n, sd in levels.items()}
         first, later = (

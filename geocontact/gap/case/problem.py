@@ -9,15 +9,16 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import FAR, System
-from geocontact.gap.case.refit import NO_VALUE, Measured, Refit, at, free
+from geocontact.gap.case.refit import Measured, Refit, at, free
 from geocontact.gap.case.whitening import Share, Whitening
 from geocontact.gap.inputs.denoise import Filters
 from geocontact.identify.noise.covariance import Layout, Whitener
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_search import most_likely
 from geocontact.identify.noise.trial_variation import Products, variation
+from geocontact.identify.optimise.least_squares import NO_VALUE
 
-USUALLY, BARELY = 4.0, 1.0  # trials that the usual variation of a parameter counts as; where the trials are to speak
+USUALLY = 4.0  # trials that the usual variation of a parameter counts as; one where the trials are to speak
 MEMORY = 2.0  # times its usual correlation time that low noise may remember
 MOST_VARIATION = 3.0  # times what is usual; a trial that deviates more misses something else
 
@@ -144,7 +145,7 @@ class Problem:
     def _variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
         """Of parameters around their fitted values; of what is not fitted around its mean over the trials."""
         kinds = [self.fitted, len(self.usual) - self.fitted]
-        weight, spent = np.repeat([USUALLY, BARELY], kinds), np.repeat([0.0, 1.0], kinds)
+        weight, spent = np.repeat([USUALLY, 1.0], kinds), np.repeat([0.0, 1.0], kinds)
         found = variation(self._products(self.calibration_layouts, model, levels), self.usual, weight, spent)
         return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
 
@@ -157,7 +158,7 @@ class Problem:
 
     def seen_variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
         """How much all trials do differ, little believed beforehand, around parameters that were fitted to all."""
-        found = variation(self._products(self.layouts, model, levels), self.usual, BARELY, spent=1.0)
+        found = variation(self._products(self.layouts, model, levels), self.usual, 1.0, spent=1.0)
         return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
 
     def fitting(self, noise: Noise, model: Refit) -> list[Whitening]:

@@ -14,11 +14,11 @@ from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.identify.optimise.bounded_gauss_newton import GaussNewtonResult, least
+from geocontact.identify.optimise.least_squares import NO_VALUE
 
 STEP = 1e-5  # of a parameter's magnitude, for differences
 ENOUGH = 0.01  # nats that a search does not go on for
 LITTLE = 0.05  # nats that another start must promise to be followed
-NO_VALUE = 3.0  # residual, in rough noise levels, where something was measured and the model has no value
 
 
 Whiten = Callable[[Float[np.ndarray, "t c p"]], Float[np.ndarray, "n p"]]
@@ -212,7 +212,7 @@ class RefitSearch:
             return np.asarray(-self._weighed(self.slopes(z.tobytes())) * self.scale)
 
         z = np.array([start.get(p.name, p.start) for p in self.parameters]) / self.scale
-        inside = np.clip(z, self.lower + 1e-6, self.upper - 1e-6)
+        inside = np.clip(z, self.lower + 0.1 * STEP, self.upper - 0.1 * STEP)
         return least(residual, slope, inside, self.lower, self.upper, rounds, ENOUGH, useful)
 
     def reached(self, z: Float[np.ndarray, " p"]) -> Refit:

@@ -11,17 +11,17 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs, rate_of_waves
-from geocontact.chain.links import Modifier
+from geocontact.chain.links import LAST, Modifier
 from geocontact.chain.system import System
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs.responses import responses
+from geocontact.gap.levels import INPUT_NOISE
 from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.input_noise import InputNoise, Instant
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 
-INPUT_NOISE = 2e-3  # of an input's half-range
 ALIKE, OWN = 0.8, 0.5  # standard deviations of the logarithm of input noise: of a unit, and of one input beyond that
 LOUDER = 2.0  # times what is believed of an input's noise that it may be
 SENSOR_LOUDER = 1.2  # times the stated noise of a sensor
@@ -33,7 +33,6 @@ SLOW, SLOW_TIME = 30.0, 0.7  # samples, that slow noise usually remembers, and s
 QUICK = 2.0  # samples, that quick noise usually remembers
 SLOW_SHARE, SLOW_LEVEL = 0.3, 0.8  # of the quick noise, that it usually is, and of the logarithm of its level
 BUMP, RATE = 1e-4, 0.06  # of an input's half-range; and per sample
-LAST = 1e6  # rank of the bump: after everything that is wrong with the motion
 
 
 @runtime_checkable

@@ -19,13 +19,12 @@ from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Measured, Refit, Whiten, refit
 from geocontact.gap.data_errors.correction import corrected
-from geocontact.gap.data_errors.gross import gross, recognised
+from geocontact.gap.data_errors.gross import ROUNDS, gross, recognised
 from geocontact.gap.selection.evidence import Judged, by_smoothing
 from geocontact.gap.selection.model_comparison import Contender, base_contender
 from geocontact.gap.selection.tails import Tails
 
 MODEST = 20.0  # factor of a unit up to which a wrong one may hide in parameters
-ROUNDS = 8
 ASSIGNMENTS = 3  # times that trials are told apart anew
 
 

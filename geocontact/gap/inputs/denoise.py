@@ -28,7 +28,6 @@ CHANCE = 1e-3  # that the noise of an input is higher than the limit that its sp
 BLACKMAN = 1.73  # bins as wide as one under the window (Harris 1978, Proc. IEEE 66:51)
 SMOOTH = 5  # bins that the spectrum of a stretch is averaged over
 PERIODS, FEWEST = 8.0, 8  # of the corner in a stretch, and samples in a quarter of it at the least
-WINDOWS = 1.5  # sum of the squares of Hann windows that stand a quarter of their width apart
 Filters = Mapping[str, LowPass]
 """What each input came through."""
 
@@ -272,7 +271,7 @@ class Stretches:
         off = np.zeros(int(self.begin[-1]) + self.width)
         for begin, part in zip(self.begin, np.fft.irfft(shares * self.spectra, self.width), strict=True):
             off[begin : begin + self.width] += self.window * part
-        return np.asarray(off[self.width : self.width + self.count] / WINDOWS)
+        return np.asarray(off[self.width : self.width + self.count] / (4.0 * np.mean(self.window**2)))
 
 
 def noise_in(values: Float[np.ndarray, " n"], step: float, sd: float, passed: LowPass) -> Float[np.ndarray, " n"]:

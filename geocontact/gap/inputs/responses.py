@@ -11,12 +11,12 @@ from jaxtyping import Bool, Float
 from geocontact.chain.differentiated_inputs import NEIGHBOURS
 from geocontact.chain.system import FAR, System
 from geocontact.data.trial import Trial
+from geocontact.gap.levels import SLIGHT
 from geocontact.identify.noise.input_noise import Lasting
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 
 BUMP = 1e-3  # of an input's half-range
 PLACES = (0.2, 0.35, 0.5, 0.65)  # of a trial, where it is seen how long a response lasts
-FADED = 0.02  # of its largest value, below which a response is over
 AT_MOST, LONGEST = 0.4, 150  # of a trial, and samples, that a response is followed
 
 
@@ -63,7 +63,7 @@ def _lasting(
     for place in PLACES:
         at = int(place * count)
         answer = np.abs(_answer(system, trial, values, name, plain, np.array([at])))
-        large: Bool[np.ndarray, " t"] = (answer > FADED * answer.max(axis=0)).any(axis=1) & (answer.max() > 0.0)
+        large: Bool[np.ndarray, " t"] = (answer > SLIGHT * answer.max(axis=0)).any(axis=1) & (answer.max() > 0.0)
         last = int(np.flatnonzero(large)[-1]) if large.any() else at
         longest = max(longest, last - at)
     return longest

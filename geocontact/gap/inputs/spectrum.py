@@ -16,7 +16,6 @@ ROUNDED = 1e-5  # of a half-range, up to which a white rest is rounding at any r
 TREND = 3  # degree of the polynomial that is taken off before the window
 APART = 3  # bins from which spectral values under the window count as independent
 FEWEST = 24  # samples of a trial that has a spectrum
-BOTH = 2  # values of an input that goes on and off
 
 
 @dataclass(frozen=True)
@@ -44,7 +43,7 @@ class Spectrum:
 def switches(trials: Sequence[Trial], name: str) -> bool:
     """Whether an input only goes on and off, or stands still: then it is no measurement, and has no noise."""
     values = np.concatenate([trial.column(name) for trial in trials])
-    return len(np.unique(values[np.isfinite(values)])) <= BOTH
+    return len(np.unique(values[np.isfinite(values)])) <= 2
 
 
 def measured_inputs(trials: Sequence[Trial], inputs: Sequence[str]) -> list[str]:

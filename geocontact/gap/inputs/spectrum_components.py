@@ -1,9 +1,9 @@
 """A spectrum of a measured input taken apart: movement, noise as a filter leaves it, a white rest.
 
 S = A exp(-(f/b)^q) + B/(1 + (f/f_t)^4)² + N H²(f) + R, by Whittle's likelihood (Whittle 1953, J. R. Stat. Soc.
-B 15:125). The first term is a movement that falls off with frequency. The second, for which TAILED nats must speak, is
-the tail of one that is put together of pieces: where its third derivative jumps, the power falls off with the eighth
-power of the frequency (Bracewell, The Fourier Transform and Its Applications, 2000, ch. 8). H² is the filter
+B 15:125). The first term is a movement that falls off with frequency. The second, for which half of SURE nats must
+speak, is the tail of one that is put together of pieces: where its third derivative jumps, the power falls off with the
+eighth power of the frequency (Bracewell, The Fourier Transform and Its Applications, 2000, ch. 8). H² is the filter
 (`identify.signals.low_pass`), R rounding. Noise much higher or lower than usual is believed less, and so is a rest that
 is higher than rounding, so that noise which nobody filtered is not taken for it.
 """
@@ -20,23 +20,23 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.gap.inputs.spectrum import Spectrum
+from geocontact.gap.levels import INPUT_NOISE, SURE
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.identify.optimise.fisher_scoring import Batch, Scored, least
+from geocontact.identify.optimise.tolerances import CLOSE
 from geocontact.identify.signals.low_pass import LowPass
 
-LEVEL, LOUDER = 2e-3, 2.0  # usual noise of an input in half-ranges, and standard deviation of its power's logarithm
+LOUDER = 2.0  # standard deviation of the logarithm of the power of an input's noise
 OVER = 1.0  # standard deviation of the logarithm of a rest's power beyond rounding
 TAIL = 0.02  # cycles per sample, from which a movement's tail falls off
-TAILED = 3.0  # nats that must speak for it
 FLATTEST, STEEPEST = np.log([0.7, 3.0])  # bounds of log q
 SLOWEST, QUICKEST = np.log([1e-4, 0.5])  # of log b
 FALLS, STEEPS = (0.001, 0.004, 0.012, 0.03, 0.08), (0.9, 1.6)  # b, per sample, and q that a search starts from
 BROAD = ((0.08, 0.7), (0.2, 0.7))  # the same of movements that fill the spectrum
 FIRST, BEST = 40, 4  # steps from all starts, and how many of them, for each filter, go on
 MANY = 400  # values of a spectrum that are not pooled
-FAINT = 600.0  # exponent beyond which a movement is nothing
-LARGEST = float(np.log(FAINT))
-BENT = 1e6  # ratio of power to what is expected that counts in the curvature at the most
+LARGEST = float(np.log(-np.log(np.finfo(float).tiny)))  # logarithm of the exponent beyond which a movement is nothing
+BENT = 1.0 / CLOSE  # ratio of power to what is expected that counts in the curvature at the most
 
 
 @dataclass(frozen=True)
@@ -57,9 +57,9 @@ def split(seen: Spectrum, filters: Sequence[LowPass]) -> Split:
     """
     parts = Parts.of(seen, filters)
     plain, tailed = (_likeliest(parts, with_tail) for with_tail in (False, True))
-    better = tailed.unlikely + TAILED < plain.unlikely
+    better = tailed.unlikely + 0.5 * SURE < plain.unlikely
     return Split(
-        np.where(better, tailed.unlikely + TAILED, plain.unlikely), np.where(better, tailed.noise, plain.noise)
+        np.where(better, tailed.unlikely + 0.5 * SURE, plain.unlikely), np.where(better, tailed.noise, plain.noise)
     )
 
 
@@ -96,7 +96,7 @@ class Parts:
         even = np.linspace(0.0, 0.5 / filters[0].step, 400)
         part = np.array([one.power(even).mean() for one in filters])
         passed = np.array([one.power(frequency) for one in filters])
-        usual = 2.0 * np.log(LEVEL * seen.half_range) - np.log(part)
+        usual = 2.0 * np.log(INPUT_NOISE * seen.half_range) - np.log(part)
         return cls(frequency * filters[0].step, power, count, passed, part, usual, 2.0 * float(np.log(seen.rounding)))
 
     def scored(self, x: Batch, which: Int[np.ndarray, " b"]) -> Scored:

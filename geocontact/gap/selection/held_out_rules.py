@@ -33,18 +33,15 @@ from geocontact.gap.case.problem import Noise, Problem
 from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.case.refit import free, refit
 from geocontact.gap.case.whitening import Whitening
+from geocontact.gap.levels import LEFT_OVER, SLIGHT, SURE, WORTH_NAMING
 from geocontact.gap.selection.calibration_share import changes
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.held_out_error import TrialWeight, taken_away
 from geocontact.gap.selection.model_comparison import Contender, finished
 from geocontact.gap.selection.surrogate import Surrogate
 
-WORTH_NAMING = 0.1  # of a channel's squared error, that must go: a twentieth of the error, less than anybody would see
-FEW = 0.02  # of the samples, that no verdict may hang on
 GAINS, NOISE = 0.05, 4.0  # of a level, five times what gains differ by from trial to trial, and standard deviations of
 # noise, that a recording may pass a level by at which it is cut off
-ENOUGH = 6.0  # nats that the others must gain
-LEFT_OVER = 0.2  # of what a named effect changes, or of an error, in squares, that may be left over
 ONLY_NOISE = f"with the noise of the inputs taken off it takes less than {WORTH_NAMING:.0%} of the squared error away"
 TOO_LITTLE = f"in no channel it takes {WORTH_NAMING:.0%} of the squared error away"
 
@@ -153,7 +150,7 @@ class HeldOutRules:
             level = one.judged.model.values[each.ceiling]
             passed = level * (1.0 + GAINS) + NOISE * self.problem.recorded.rough[c]
             seen = np.abs(np.concatenate(measured_columns(self.problem, c)))
-            if (seen > passed).mean() > FEW:
+            if (seen > passed).mean() > SLIGHT:
                 return f"{(seen > passed).mean():.0%} of the samples of {each.channel} lie beyond {level:.4g}"
         return ""
 
@@ -228,8 +225,8 @@ class HeldOutRules:
         by_trial = [float(each.sum()) for each in by_sample]
         if sum(by_trial) - max(by_trial) <= 0.0:
             return "without one trial nothing speaks for it"
-        if trimmed(np.concatenate(by_sample)) <= ENOUGH:
-            return f"without {FEW:.0%} of the samples nothing speaks for it"
+        if trimmed(np.concatenate(by_sample)) <= SURE:
+            return f"without {SLIGHT:.0%} of the samples nothing speaks for it"
         return ""
 
     def unnamed(self, found: Surrogate, before: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
@@ -284,8 +281,8 @@ def left_out_residuals(problem: Problem, one: Judged, noise: Noise) -> list[Floa
 
 
 def trimmed(gains: Float[np.ndarray, " n"]) -> float:
-    """Sum of what samples gain, `FEW` of them left out at either end."""
-    ends = int(np.ceil(FEW * len(gains)))
+    """Sum of what samples gain, `SLIGHT` of them left out at either end."""
+    ends = int(np.ceil(SLIGHT * len(gains)))
     return float(np.sort(gains)[ends : len(gains) - ends].sum())
 
 

@@ -16,17 +16,16 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap.case.problem import Problem
+from geocontact.gap.levels import SURE
 from geocontact.gap.selection.evidence import Judged
 from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.identify.noise.student import StudentNoise, student_noise
 
-SURE = 12.0
-"""Nats that heavy tails must gain in a channel over what they gain where noise is normal."""
 ROUNDS = 4
 """Times that weights are found anew: a sample that is off misleads about those next to it."""
-PHASES, FEWEST = 20, 2
-"""Parts of a trial in which tails are compared between trials; trials and parts that it takes at the least."""
+PHASES = 20
+"""Parts of a trial in which tails are compared between trials."""
 RETURNING = 0.3
 """Correlation from which they return: noise that depends on the movement, or a gap, three standard deviations of chance
 in five trials."""
@@ -73,7 +72,7 @@ def tails(problem: Problem, one: Judged, explained: Sequence[Float[np.ndarray, "
         for c in range(len(problem.system.outputs)):
             columns = [sharp(each[:, c]) for each in off]
             own = student_noise(np.concatenate([each[np.isfinite(each)] for each in columns]))
-            if own.gain > SURE + normal[c] and returning([own.weights(each) for each in columns]) < RETURNING:
+            if own.gain > 2.0 * SURE + normal[c] and returning([own.weights(each) for each in columns]) < RETURNING:
                 found[c] = own
         louder = [_louder(layout, each, found) for layout, each in zip(layouts, off, strict=True)]
         if not found:
@@ -119,7 +118,7 @@ def returning(weights: Sequence[Float[np.ndarray, " _"]]) -> float:
             if np.isfinite(part).any():
                 profile[k] = np.nanmean(part)
     profiles = profiles[:, np.isfinite(profiles).all(axis=0)]
-    if min(profiles.shape) < FEWEST:
+    if min(profiles.shape) < 2:
         return 0.0
     others = (profiles.sum(axis=0) - profiles) / (len(profiles) - 1)
     both = [(a - a.mean(), b - b.mean()) for a, b in zip(profiles, others, strict=True)]

@@ -15,10 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.identify.optimise.tolerances import CLOSE
+
 DEGREES = (1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
 """Degrees of freedom that are tried; with more a sample of four standard deviations still weighs a third or more."""
-ROUNDS, CLOSE = 50, 1e-6
-"""Rounds of the search of a scale, and the relative change that ends it."""
+ROUNDS = 50
+"""Of the search of a scale."""
 NARROWEST = 1e-3
 """Of the variance, that a scale squared is at the least: samples that happen to agree exactly are no noise level."""
 

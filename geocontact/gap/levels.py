@@ -1,0 +1,10 @@
+"""Numbers that more than one room of the diagnosis decides by: how sure is sure, how much is little, how many lead."""
+
+from __future__ import annotations
+
+SURE = 6.0  # nats below which a gain may be luck: odds of 400 to 1
+SLIGHT = 0.02  # share of an error, of samples or of a gain that makes no difference
+WORTH_NAMING = 0.1  # share that is worth a name; of a squared error, a twentieth of the error: nobody would see less
+LEFT_OVER = 0.2  # share of what there is to explain that may be left over
+LEADING = 3  # models that lead: a second effect is tried on them, everyone is compared under their noise
+INPUT_NOISE = 2e-3  # usual noise of an input, of its half-range
