@@ -26,7 +26,6 @@ from geocontact.gap.selection.tails import Tails, tails
 from geocontact.gap.selection.verdict import Answer, answer, borne_out, most_of, ranking, with_mistake, with_refused
 from geocontact.identify.noise.student import StudentNoise
 
-WORTH_A_PAIR = 8.0  # nats that a single must gain before a second effect is looked for
 CLIPPED = "saturation"  # what a flat top speaks for
 ODD = 5.0  # nats from which an anomaly counts as something unknown
 
@@ -167,7 +166,7 @@ def _contest(
     at("every effect alone")
     single = _with_clipped(clean, base, singles(clean, base, entered, ends), candidates, flat)
     contenders = [*single]
-    if single[0].nats - base.nats > WORTH_A_PAIR:
+    if single[0].nats - base.nats > SURE:
         at("two effects together")
         contenders += _credited(pairs(clean, _different(single)[:LEADING], candidates, ends), flat)
     base, *contenders = compared(clean, [base, *contenders])

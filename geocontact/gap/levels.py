@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 SURE = 6.0  # nats below which a gain may be luck: odds of 400 to 1
+DEVIATIONS = float(np.sqrt(2.0 * SURE))  # standard deviations of a normal number that are as many nats
 SLIGHT = 0.02  # share of an error, of samples or of a gain that makes no difference
 WORTH_NAMING = 0.1  # share that is worth a name; of a squared error, a twentieth of the error: nobody would see less
 LEFT_OVER = 0.2  # share of what there is to explain that may be left over

@@ -12,6 +12,7 @@ from geocontact.chain.system import FAR, System
 from geocontact.gap.case.refit import Measured, Refit, at, free
 from geocontact.gap.case.whitening import Share, Whitening
 from geocontact.gap.inputs.denoise import Filters
+from geocontact.gap.levels import DEVIATIONS
 from geocontact.identify.noise.covariance import Layout, Whitener
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_search import most_likely
@@ -20,7 +21,6 @@ from geocontact.identify.optimise.least_squares import NO_VALUE
 
 USUALLY = 4.0  # trials that the usual variation of a parameter counts as; one where the trials are to speak
 MEMORY = 2.0  # times its usual correlation time that low noise may remember
-MOST_VARIATION = 3.0  # times what is usual; a trial that deviates more misses something else
 
 
 @dataclass(frozen=True)
@@ -147,7 +147,7 @@ class Problem:
         kinds = [self.fitted, len(self.usual) - self.fitted]
         weight, spent = np.repeat([USUALLY, 1.0], kinds), np.repeat([0.0, 1.0], kinds)
         found = variation(self._products(self.calibration_layouts, model, levels), self.usual, weight, spent)
-        return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
+        return np.asarray(np.minimum(found, DEVIATIONS * self.usual))
 
     def _products(self, layouts: Sequence[Layout], model: Refit, levels: NoiseLevels) -> list[Products]:
         products = []
@@ -159,7 +159,7 @@ class Problem:
     def seen_variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
         """How much all trials do differ, little believed beforehand, around parameters that were fitted to all."""
         found = variation(self._products(self.layouts, model, levels), self.usual, 1.0, spent=1.0)
-        return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
+        return np.asarray(np.minimum(found, DEVIATIONS * self.usual))
 
     def fitting(self, noise: Noise, model: Refit) -> list[Whitening]:
         """Whitening of the calibration trials."""

@@ -18,7 +18,6 @@ from geocontact.identify.optimise.least_squares import NO_VALUE
 
 STEP = 1e-5  # of a parameter's magnitude, for differences
 ENOUGH = 0.01  # nats that a search does not go on for
-LITTLE = 0.05  # nats that another start must promise to be followed
 
 
 Whiten = Callable[[Float[np.ndarray, "t c p"]], Float[np.ndarray, "n p"]]
@@ -162,7 +161,7 @@ def refit(
 ) -> Refit:
     """Bounded least squares of the weighed residuals, the best of several starts.
 
-    `rounds` are those of each start. A start is left as soon as it does not promise to come `LITTLE` below
+    `rounds` are those of each start. A start is left as soon as it does not promise to come `ENOUGH` below
     those before it, and below the cost `useful`.
     """
     if not free(system):
@@ -170,7 +169,7 @@ def refit(
     search = RefitSearch(system, measured, whitenings)
     best, cost = None, np.inf
     for start in starts:
-        found = search.from_start(start, rounds, min(useful, cost - LITTLE))
+        found = search.from_start(start, rounds, min(useful, cost - ENOUGH))
         if found.cost < cost:
             best, cost = search.reached(found.x), found.cost
     if best is None:

@@ -18,9 +18,8 @@ from geocontact.chain.system import System
 from geocontact.gap.case.plain_fit import Plain, base_starts
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Measured, Refit, refit
+from geocontact.gap.levels import DEVIATIONS, LEFT_OVER, WORTH_NAMING
 
-GROSS = 0.3  # residual over measured, root mean squares of a channel in a trial
-FIXED_BY = 0.15  # of the misfit may be left when a mistake is undone
 ROUNDS = 8
 SMOOTHED = 7.0  # samples to either side, that rates are smoothed over
 FEW = 4  # calibration trials of which every set is tried
@@ -57,7 +56,7 @@ def data_error_of(problem: Problem, candidates: Sequence[Candidate]) -> DataErro
         return None
     cost, one, some = best
     before = _cost(problem, problem.system, problem.calibration, problem.plain.values).sum()
-    if cost > FIXED_BY * before:
+    if cost > LEFT_OVER * before:
         return None
     return _over_all_trials(problem, one, some, float(cost / before))
 
@@ -74,7 +73,9 @@ def gross(problem: Problem, measured: Measured, model: Refit) -> bool:
     """Whether a model misses some channel of some trial by a large share of its size."""
     for residual, outputs in zip(measured.residuals(model.system, model.values), measured.outputs, strict=True):
         size = np.sqrt(np.nanmean(outputs**2, axis=0))
-        if (np.sqrt(np.mean(residual**2, axis=0)) > GROSS * np.maximum(size, 3.0 * problem.floor_of_noise)).any():
+        if (
+            np.mean(residual**2, axis=0) > WORTH_NAMING * np.maximum(size, DEVIATIONS * problem.floor_of_noise) ** 2
+        ).any():
             return True
     return False
 
@@ -158,7 +159,7 @@ def _better_with(problem: Problem, one: Candidate, system: System, values: dict[
     without = _cost(problem, system, problem.evaluation, values)
     having = _cost(problem, one.only(names).apply(system), problem.evaluation, values)
     trials = problem.evaluation.trials
-    return [t.name for t, a, b in zip(trials, without, having, strict=True) if b < FIXED_BY * a]
+    return [t.name for t, a, b in zip(trials, without, having, strict=True) if b < LEFT_OVER * a]
 
 
 def _held_out_only(problem: Problem, mistakes: list[Candidate]) -> DataError | None:

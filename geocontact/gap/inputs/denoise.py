@@ -20,11 +20,11 @@ from jaxtyping import Complex, Float, Int
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs.even_grid import even_grid
 from geocontact.gap.inputs.filter_cutoff import HIGHEST, USUAL
+from geocontact.gap.levels import SURE
 from geocontact.identify.signals.low_pass import LowPass
 
 PLATEAU = (0.25, 0.42, 0.58, 0.75, 0.92)  # of the corner
 FLAT = 2.5  # largest over smallest power of a plateau
-CHANCE = 1e-3  # that the noise of an input is higher than the limit that its spectrum sets
 BLACKMAN = 1.73  # bins as wide as one under the window (Harris 1978, Proc. IEEE 66:51)
 SMOOTH = 5  # bins that the spectrum of a stretch is averaged over
 PERIODS, FEWEST = 8.0, 8  # of the corner in a stretch, and samples in a quarter of it at the least
@@ -105,7 +105,7 @@ def highest_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
         bands = in_bands(recordings, passed, corner)
         if not bands:
             return float("inf")
-        least = CHANCE / len(bands)
+        least = float(np.exp(-SURE)) / len(bands)
         freedom = [2.0 * band.values / BLACKMAN for band in bands]
         found.append(min(band.variance * f / chi2.ppf(least, f) for band, f in zip(bands, freedom, strict=True)))
     return float(np.sqrt(max(found)))

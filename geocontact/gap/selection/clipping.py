@@ -17,10 +17,9 @@ from jaxtyping import Float
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.inputs.quantisation import resolution
+from geocontact.gap.levels import SURE
 
 NEXT = 5  # values below the extreme that it is compared with
-SURE_OF_IT = 5.0  # nats from which a top counts as flat
-SUREST = 20.0  # nats that it may speak for saturation
 
 
 @dataclass(frozen=True)
@@ -51,8 +50,8 @@ def clipped_channels(problem: Problem) -> tuple[ClippedChannel, ...]:
         most = float(np.abs(values).max())
         for side in (1.0, -1.0):
             level, count, nats = pile(side * values, step)
-            if level > 0.5 * most and nats - looks > SURE_OF_IT:
-                found.append(ClippedChannel(name, side * level, count, min(float(nats - looks), SUREST)))
+            if level > 0.5 * most and nats - looks > SURE:
+                found.append(ClippedChannel(name, side * level, count, min(float(nats - looks), 2.0 * SURE)))
     return tuple(found)
 
 

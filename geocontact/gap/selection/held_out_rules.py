@@ -29,19 +29,18 @@ from jaxtyping import Float
 from geocontact.chain.candidate import Candidate
 from geocontact.gap.case.change_amplitude import Amplitude, amplitude
 from geocontact.gap.case.measured_fit import measured_fit, smoothed_fit
+from geocontact.gap.case.placement import GAIN
 from geocontact.gap.case.problem import Noise, Problem
 from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.case.refit import free, refit
 from geocontact.gap.case.whitening import Whitening
-from geocontact.gap.levels import LEFT_OVER, SLIGHT, SURE, WORTH_NAMING
+from geocontact.gap.levels import DEVIATIONS, LEFT_OVER, SLIGHT, SURE, WORTH_NAMING
 from geocontact.gap.selection.calibration_share import changes
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.held_out_error import TrialWeight, taken_away
 from geocontact.gap.selection.model_comparison import Contender, finished
 from geocontact.gap.selection.surrogate import Surrogate
 
-GAINS, NOISE = 0.05, 4.0  # of a level, five times what gains differ by from trial to trial, and standard deviations of
-# noise, that a recording may pass a level by at which it is cut off
 ONLY_NOISE = f"with the noise of the inputs taken off it takes less than {WORTH_NAMING:.0%} of the squared error away"
 TOO_LITTLE = f"in no channel it takes {WORTH_NAMING:.0%} of the squared error away"
 
@@ -142,13 +141,13 @@ class HeldOutRules:
         return ""
 
     def _of_recording(self, one: Contender) -> str:
-        """A level that the recording itself passes is none that it was cut off at."""
+        """A level that the recording itself passes, by more than noise and gains that differ, is none that it was cut off at."""
         for each in one.candidates:
             if not each.ceiling:
                 continue
             c = self.problem.system.outputs.index(each.channel)
             level = one.judged.model.values[each.ceiling]
-            passed = level * (1.0 + GAINS) + NOISE * self.problem.recorded.rough[c]
+            passed = level + DEVIATIONS * (GAIN * level + self.problem.recorded.rough[c])
             seen = np.abs(np.concatenate(measured_columns(self.problem, c)))
             if (seen > passed).mean() > SLIGHT:
                 return f"{(seen > passed).mean():.0%} of the samples of {each.channel} lie beyond {level:.4g}"

@@ -10,13 +10,13 @@ from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
 from geocontact.gap.case.problem import Noise, Problem, evaluated
-from geocontact.gap.case.refit import Refit, free, refit
+from geocontact.gap.case.refit import ENOUGH, Refit, free, refit
 from geocontact.gap.case.whitening import Whitening
 from geocontact.gap.levels import LEADING
 from geocontact.gap.selection.evidence import Judged, judged, without_discrepancy
 from geocontact.gap.selection.model_discrepancy import discrepancy_basis
 
-ROUNDS, ENOUGH = 4, 0.05  # times that noise and parameters of a leader are fitted in turn; nats from which it goes on
+ROUNDS = 4  # times that noise and parameters of a leader are fitted in turn
 FEW = 5  # free parameters up to which a joint fit also sets out from the case's own start
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.levels import SURE
+from geocontact.gap.levels import DEVIATIONS, SURE
 from geocontact.gap.selection.evidence import Judged
 from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.noise_levels import NoiseLevels
@@ -26,9 +26,6 @@ ROUNDS = 4
 """Times that weights are found anew: a sample that is off misleads about those next to it."""
 PHASES = 20
 """Parts of a trial in which tails are compared between trials."""
-RETURNING = 0.3
-"""Correlation from which they return: noise that depends on the movement, or a gap, three standard deviations of chance
-in five trials."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +69,9 @@ def tails(problem: Problem, one: Judged, explained: Sequence[Float[np.ndarray, "
         for c in range(len(problem.system.outputs)):
             columns = [sharp(each[:, c]) for each in off]
             own = student_noise(np.concatenate([each[np.isfinite(each)] for each in columns]))
-            if own.gain > 2.0 * SURE + normal[c] and returning([own.weights(each) for each in columns]) < RETURNING:
+            if own.gain > 2.0 * SURE + normal[c] and returning([own.weights(each) for each in columns]) < by_chance(
+                len(columns)
+            ):
                 found[c] = own
         louder = [_louder(layout, each, found) for layout, each in zip(layouts, off, strict=True)]
         if not found:
@@ -108,6 +107,11 @@ def sharp(off: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
     beside = np.concatenate([off[1:2], 0.5 * (off[:-2] + off[2:]), off[-2:-1]])
     apart = (off - np.where(np.isfinite(beside), beside, 0.0)) / np.sqrt(1.5)
     return np.asarray(np.where(np.abs(apart) < np.abs(off), apart, off))
+
+
+def by_chance(trials: int) -> float:
+    """Correlation that `returning` has by chance: beyond it noise depends on the movement, or there is a gap."""
+    return DEVIATIONS / float(np.sqrt(PHASES * trials))
 
 
 def returning(weights: Sequence[Float[np.ndarray, " _"]]) -> float:

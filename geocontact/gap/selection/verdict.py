@@ -18,10 +18,7 @@ from geocontact.gap.selection.model_comparison import Contender
 
 Verdict = Literal["explained", "no_gap", "unknown", "unresolved"]
 
-PAIR = 0.12  # of what is explained that a second effect must add
-ALIVE = 0.03  # least probability of a candidate that is still in question
 BEYOND = 0.3  # part of what a gain exceeds that by that counts
-ALLOWED = 4.0  # nats that luck may add on held-out trials
 MOST = 4  # candidates still in question beyond which nothing is named
 
 
@@ -42,7 +39,7 @@ def borne_out(total: float, calibration: float, share: float) -> float:
     An effect that is there shows in the trials that it was fitted to as much as in the others, in proportion to what it
     changes there. `share` is the calibration trials' part of that. What is lost there is a price, and stays as it is.
     """
-    expected = max(calibration, 0.0) / max(share, SLIGHT) + min(calibration, 0.0) + ALLOWED
+    expected = max(calibration, 0.0) / max(share, SLIGHT) + min(calibration, 0.0) + SURE
     return total if total <= expected else expected + BEYOND * (total - expected)
 
 
@@ -105,7 +102,7 @@ def ranking(
     }
     over_base = {c.label: gain_of(c, base, shares[c.label]) - chosen_from[c.label] for c in contenders}
     best_single = max((over_base[c.label] for c in single), default=0.0)
-    needed = SURE + PAIR * max(best_single, 0.0)
+    needed = SURE + WORTH_NAMING * max(best_single, 0.0)
     pairs = [c for c in contenders if len(c.candidates) == 2 and over_base[c.label] - best_single > needed]
     living = tuple(c for c in (*single, *pairs) if c.label not in refused)
     gains = {c.label: over_base[c.label] - (needed if len(c.candidates) == 2 else 0.0) for c in living}
@@ -214,7 +211,7 @@ def _said(
 ) -> Answer:
     order = sorted(shared, key=lambda name: -shared[name])
     probabilities = {name: shared[name] for name in order}
-    alive = tuple(name for name in order if name not in ("none", "unknown") and shared[name] >= ALIVE)
+    alive = tuple(name for name in order if name not in ("none", "unknown") and shared[name] >= SLIGHT)
     effects_odds = 1.0 - joint[("none",)] - joint[("unknown",)]
     top = max(joint, key=lambda names: joint[names])
     if joint[("none",)] >= max(effects_odds, joint[("unknown",)]):
