@@ -72,10 +72,8 @@ def recognised(problem: Problem, one: Candidate, model: Refit) -> DataError:
 def gross(problem: Problem, measured: Measured, model: Refit) -> bool:
     """Whether a model misses some channel of some trial by a large share of its size."""
     for residual, outputs in zip(measured.residuals(model.system, model.values), measured.outputs, strict=True):
-        size = np.sqrt(np.nanmean(outputs**2, axis=0))
-        if (
-            np.mean(residual**2, axis=0) > WORTH_NAMING * np.maximum(size, DEVIATIONS * problem.floor_of_noise) ** 2
-        ).any():
+        size = np.maximum(np.nanmean(outputs**2, axis=0), (DEVIATIONS * problem.floor_of_noise) ** 2)
+        if (np.mean(residual**2, axis=0) > WORTH_NAMING * size).any():
             return True
     return False
 

@@ -69,9 +69,8 @@ def tails(problem: Problem, one: Judged, explained: Sequence[Float[np.ndarray, "
         for c in range(len(problem.system.outputs)):
             columns = [sharp(each[:, c]) for each in off]
             own = student_noise(np.concatenate([each[np.isfinite(each)] for each in columns]))
-            if own.gain > 2.0 * SURE + normal[c] and returning([own.weights(each) for each in columns]) < by_chance(
-                len(columns)
-            ):
+            alike = returning([own.weights(each) for each in columns])
+            if own.gain > 2.0 * SURE + normal[c] and alike < by_chance(len(columns)):
                 found[c] = own
         louder = [_louder(layout, each, found) for layout, each in zip(layouts, off, strict=True)]
         if not found:
