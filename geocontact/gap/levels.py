@@ -10,4 +10,6 @@ SLIGHT = 0.02  # share of an error, of samples or of a gain that makes no differ
 WORTH_NAMING = 0.1  # share that is worth a name; of a squared error, a twentieth of the error: nobody would see less
 LEFT_OVER = 0.2  # share of what there is to explain that may be left over
 LEADING = 3  # models that lead: a second effect is tried on them, everyone is compared under their noise
+FEWEST = 20  # samples that tell anything
+TWOFOLD = float(np.log(2.0))  # standard deviation of the logarithm of what is known to a factor of two
 INPUT_NOISE = 2e-3  # usual noise of an input, of its half-range

@@ -18,12 +18,10 @@ from geocontact.gap.case.rate_smoothing import REACHES, with_smoothed_rates
 from geocontact.gap.case.refit import Measured, Refit, free
 from geocontact.gap.case.rough_noise import rough_noise, typical_step, with_rounding
 from geocontact.gap.case.tolerated_noise import tolerated
-from geocontact.gap.case.whitening import layouts_of, usual_levels
+from geocontact.gap.case.whitening import SENSOR_LOUDER, layouts_of, usual_levels
 from geocontact.gap.inputs.denoise import Filters, Left, denoised, highest_noise, left, seen_noise, shaken
 from geocontact.gap.inputs.filter_cutoff import filters_of, likely_noise
 from geocontact.gap.inputs.spectrum import measured_inputs
-
-TAKEN_OFF = 1.25  # times what is believed of an input's noise, that is taken off it at the most
 
 
 @dataclass(frozen=True)
@@ -159,6 +157,6 @@ def _posed(
 
 def _taken_off(problem: Problem, noise: Noise, inputs: InputBeliefs) -> dict[str, float]:
     """Standard deviation of the noise of each measured input that is taken off it."""
-    low_noise = np.minimum(noise.levels.inputs, TAKEN_OFF * problem.beliefs.middle.inputs)
+    low_noise = np.minimum(noise.levels.inputs, SENSOR_LOUDER * problem.beliefs.middle.inputs)
     levels = dict(zip(problem.system.inputs, map(float, low_noise), strict=True))
     return {name: shown or min(levels[name], inputs.most[name]) for name, shown in inputs.shown.items()}

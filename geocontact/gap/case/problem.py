@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from geocontact.chain.system import FAR, System
 from geocontact.gap.case.refit import Measured, Refit, at, free
-from geocontact.gap.case.whitening import Share, Whitening
+from geocontact.gap.case.whitening import LOUDER, Share, Whitening
 from geocontact.gap.inputs.denoise import Filters
 from geocontact.gap.levels import DEVIATIONS
 from geocontact.identify.noise.covariance import Layout, Whitener
@@ -20,7 +20,6 @@ from geocontact.identify.noise.trial_variation import Products, variation
 from geocontact.identify.optimise.least_squares import NO_VALUE
 
 USUALLY = 4.0  # trials that the usual variation of a parameter counts as; one where the trials are to speak
-MEMORY = 2.0  # times its usual correlation time that low noise may remember
 
 
 @dataclass(frozen=True)
@@ -133,7 +132,7 @@ class Problem:
             noise.levels,
             white=np.minimum(noise.levels.white, usual.white),
             coloured=np.minimum(noise.levels.coloured, usual.coloured),
-            memory=np.minimum(noise.levels.memory, MEMORY * usual.memory),
+            memory=np.minimum(noise.levels.memory, LOUDER * usual.memory),
             inputs=np.minimum(np.array(best), usual.inputs),
         )
         x = self.beliefs.point(levels)

@@ -14,25 +14,24 @@ from geocontact.chain.differentiated_inputs import DifferentiatedInputs, rate_of
 from geocontact.chain.links import LAST, Modifier
 from geocontact.chain.system import System
 from geocontact.data.trial import Trial
-from geocontact.gap.inputs.responses import responses
-from geocontact.gap.levels import INPUT_NOISE
+from geocontact.gap.inputs.filter_cutoff import USUAL
+from geocontact.gap.inputs.responses import BUMP, responses
+from geocontact.gap.levels import INPUT_NOISE, TWOFOLD
 from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.input_noise import InputNoise, Instant
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 
-ALIKE, OWN = 0.8, 0.5  # standard deviations of the logarithm of input noise: of a unit, and of one input beyond that
 LOUDER = 2.0  # times what is believed of an input's noise that it may be
 SENSOR_LOUDER = 1.2  # times the stated noise of a sensor
 QUIETEST = 0.1  # of `INPUT_NOISE`, that an input's limit is at the least: resolution, slow errors
 Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
 """Of power that is left, by frequency [Hz]."""
 
-SLOW, SLOW_TIME = 30.0, 0.7  # samples, that slow noise usually remembers, and standard deviation of the logarithm
+SLOW = 30.0  # samples, that slow noise usually remembers
 QUICK = 2.0  # samples, that quick noise usually remembers
-SLOW_SHARE, SLOW_LEVEL = 0.3, 0.8  # of the quick noise, that it usually is, and of the logarithm of its level
-BUMP, RATE = 1e-4, 0.06  # of an input's half-range; and per sample
+SLOW_SHARE = 0.3  # of the quick noise, that it usually is
 
 
 @runtime_checkable
@@ -112,7 +111,7 @@ def sensitivity(
 ) -> Instant:
     """How the outputs answer to each input's value and rate, sample by sample, by central differences."""
     answers = []
-    for kind, per_second in (("position", 1.0), ("rate", RATE / system.scale.step)):
+    for kind, per_second in (("position", 1.0), ("rate", USUAL / system.scale.step)):
         columns = []
         for row, name in enumerate(system.inputs):
             step = BUMP * per_second * system.scale.span.get(name, 1.0)
@@ -143,7 +142,7 @@ def usual_levels(
     """What is believed of the noise before the residuals are looked at.
 
     The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
-    stands in and is believed less. Quick noise remembers a few samples, slow noise some tens. Inputs are
+    stands in and is believed half as well. All is known to a factor of two. Quick noise remembers a few samples, slow noise some tens. Inputs are
     known as well as their spectra show (`seen`), 0.2 % of their half-range at the least unless `most` is less, and
     those of one unit about equally well, since they come from the same markers; what is stated of one is believed. A
     sensor is hardly noisier than `SENSOR_LOUDER` times what was stated, an input than `LOUDER` times what is believed,
@@ -156,10 +155,9 @@ def usual_levels(
     own = np.array([max(INPUT_NOISE * system.scale.span.get(name, 1.0), seen.get(name, 0.0)) for name in system.inputs])
     inputs = np.exp(alike @ np.log(own) / alike.sum(axis=1))
     inputs = np.array([stated.get(name, level) for name, level in zip(system.inputs, inputs, strict=True)])
-    covariance = ALIKE**2 * alike + OWN**2 * np.eye(len(units))
-    white, quick = np.where(known, 0.5, 1.0), np.where(known, 0.7, 1.2)
-    sure = np.ones(len(sd))
-    widths = np.concatenate([white, quick, SLOW_LEVEL * sure, sure, SLOW_TIME * sure])
+    covariance = TWOFOLD**2 * (alike + np.eye(len(units)))
+    own_level, sure = TWOFOLD * np.where(known, 1.0, 2.0), np.ones(len(sd))
+    widths = np.concatenate([own_level, own_level, *[TWOFOLD * sure] * 3])
     factor = np.zeros((len(widths) + len(units),) * 2)
     factor[: len(widths), : len(widths)] = np.diag(widths)
     factor[len(widths) :, len(widths) :] = np.linalg.cholesky(covariance)

@@ -11,11 +11,11 @@ from jaxtyping import Float
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs.even_grid import even_grid
 from geocontact.gap.inputs.quantisation import resolution
+from geocontact.gap.levels import FEWEST
 
 ROUNDED = 1e-5  # of a half-range, up to which a white rest is rounding at any rate: five digits
 TREND = 3  # degree of the polynomial that is taken off before the window
 APART = 3  # bins from which spectral values under the window count as independent
-FEWEST = 24  # samples of a trial that has a spectrum
 
 
 @dataclass(frozen=True)
