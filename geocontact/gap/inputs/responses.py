@@ -25,7 +25,7 @@ def responses(system: System, trial: Trial, values: Mapping[str, float], spectra
 
     Samples that do not feel each other any more are changed at once, so that as many simulations are needed as a
     response has samples (Curtis, Powell & Reid 1974, J. Inst. Math. Appl. 13:117). That grows with the sampling rate:
-    200 Hz over 20 s take seconds, 1 kHz over a minute minutes. A response is cut off where a block of the covariance ends.
+    200 Hz over 20 s take seconds, 1 kHz over a minute minutes. A response ends with a block of the covariance.
     """
     count = len(trial)
     step = float(np.median(np.diff(trial.time))) if count > 1 else 1.0

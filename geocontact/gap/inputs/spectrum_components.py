@@ -111,15 +111,13 @@ class Parts:
         """
         arrays = (np.log(self.frequency), self.power, self.count, self._tail, self.passed)
         value, gradient, curved = whittle(*arrays, x, which)
-        off, over = (
-            (x[:, 3] - self.usual[which]) / (2.0 * TWOFOLD),
-            np.maximum(x[:, 4] - self.rounding, 0.0) / (2.0 * TWOFOLD),
-        )
-        gradient[:, 3] += off / (2.0 * TWOFOLD)
-        gradient[:, 4] += over / (2.0 * TWOFOLD)
-        curved[:, 3, 3] += (2.0 * TWOFOLD) ** -2
-        curved[:, 4, 4] += (over > 0.0) * (2.0 * TWOFOLD) ** -2
-        return value + 0.5 * (off**2 + over**2), gradient, curved
+        off, over = x[:, 3] - self.usual[which], np.maximum(x[:, 4] - self.rounding, 0.0)
+        believed = (2.0 * TWOFOLD) ** -2  # of the logarithm of a power
+        gradient[:, 3] += believed * off
+        gradient[:, 4] += believed * over
+        curved[:, 3, 3] += believed
+        curved[:, 4, 4] += believed * (over > 0.0)
+        return value + 0.5 * believed * (off**2 + over**2), gradient, curved
 
     @cached_property
     def _tail(self) -> Float[np.ndarray, " f"]:
@@ -160,10 +158,8 @@ def whittle(
                 total += slope[5]
             met = power[f] / total
             value[row] += count[f] * (log(total) + met)
-            pull, weight = (
-                count[f] * (1.0 - met) / total,
-                0.5 * count[f] * (1.0 + min(met, 1.0 / CLOSE)) / (total * total),
-            )
+            pull = count[f] * (1.0 - met) / total
+            weight = 0.5 * count[f] * (1.0 + min(met, 1.0 / CLOSE)) / (total * total)
             for i in range(size):
                 gradient[row, i] += pull * slope[i]
                 own = weight * slope[i]
@@ -176,7 +172,7 @@ def whittle(
 
 
 def _pooled(seen: Spectrum) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"], Float[np.ndarray, " f"]]:
-    """Frequencies, powers, and how many values each is the mean of: neighbours, where there are more than `FREQUENCIES`.
+    """Frequencies, powers, and how many values each is the mean of: neighbours, where there are too many.
 
     The likelihood of values that share what is expected is that of their mean, as often as there are of them.
     """

@@ -141,7 +141,7 @@ class HeldOutRules:
         return ""
 
     def _of_recording(self, one: Contender) -> str:
-        """A level that a recording passes by more than its noise and gain account for is none that it was cut off at."""
+        """A level that a recording passes by more than its noise and gain tell is none that it was cut off at."""
         for each in one.candidates:
             if not each.ceiling:
                 continue
