@@ -12,4 +12,5 @@ LEFT_OVER = 0.2  # share of what there is to explain that may be left over
 LEADING = 3  # models that lead: a second effect is tried on them, everyone is compared under their noise
 FEWEST = 20  # samples that tell anything
 TWOFOLD = float(np.log(2.0))  # standard deviation of the logarithm of what is known to a factor of two
+TURNS = 4  # times that two things that depend on each other are found in turn
 INPUT_NOISE = 2e-3  # usual noise of an input, of its half-range

@@ -15,8 +15,6 @@ from geocontact.gap.case.plain_fit import Plain, plain_fit
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Refit, refit
 
-ROUNDS = 20
-
 
 def measured_fit(
     problem: Problem, model: Refit, floor: Float[np.ndarray, " c"]
@@ -33,11 +31,11 @@ def measured_fit(
     count, whole = len(problem.calibration.trials), problem.recorded
     first = replace(whole, trials=whole.trials[:count], outputs=whole.outputs[:count])
     system = model.system.as_measured()
-    values = refit(system, first, [Plain(there, floor) for there in first.present], [model.values], ROUNDS).values
+    values = refit(system, first, [Plain(there, floor) for there in first.present], [model.values]).values
     return values, whole.residuals(system, values)
 
 
 def smoothed_fit(problem: Problem, model: Refit, floor: Float[np.ndarray, " c"]) -> list[Float[np.ndarray, "_ c"]]:
     """Residuals of the held-out trials, inputs and rates as the contest has them, fitted as in `measured_fit`."""
-    values = plain_fit(model.system, problem.calibration, floor, [model.values], ROUNDS).values
+    values = plain_fit(model.system, problem.calibration, floor, [model.values]).values
     return problem.evaluation.residuals(model.system, values)

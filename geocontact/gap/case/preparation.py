@@ -15,7 +15,7 @@ from geocontact.gap.case.plain_fit import base_starts, plain_fit
 from geocontact.gap.case.problem import Noise, Problem, differences, floor_of
 from geocontact.gap.case.quotient_noise import noise_spread
 from geocontact.gap.case.rate_smoothing import REACHES, with_smoothed_rates
-from geocontact.gap.case.refit import Measured, Refit, free
+from geocontact.gap.case.refit import ROUNDS, Measured, Refit, free
 from geocontact.gap.case.rough_noise import rough_noise, typical_step, with_rounding
 from geocontact.gap.case.tolerated_noise import tolerated
 from geocontact.gap.case.whitening import SENSOR_LOUDER, layouts_of, usual_levels
@@ -96,21 +96,21 @@ def problem_of(case: GapCase, system: System) -> Problem:
     stated, rough = with_rounding(case), rough_noise(system, case)
     calibration, evaluation = (Measured.of(system, some, rough) for some in (case.calibration, case.evaluation))
     recorded = together(calibration, evaluation)
-    plain = plain_fit(system, calibration, rough, base_starts(system), rounds=40)
+    plain = plain_fit(system, calibration, rough, base_starts(system), 2 * ROUNDS)
     inputs = InputBeliefs.of(system, recorded, calibration.trials, stated)
     inputs = inputs.tolerated(system, calibration, evaluation, plain, stated)
     system = with_smoothed_rates(system, stated, calibration, plain, inputs.passed, inputs.seen, inputs.most)
-    plain = plain_fit(system, calibration, rough, base_starts(system), rounds=40)
+    plain = plain_fit(system, calibration, rough, base_starts(system), 2 * ROUNDS)
     as_came = Denoised(calibration, evaluation, {}, recorded)
     problem = _posed(system, stated, inputs, recorded, as_came, plain, calibration)
     noise = problem.weighed(plain)
     calm = Denoised.of(calibration, evaluation, _taken_off(problem, noise, inputs), inputs.passed)
     everything = together(calm.calibration, calm.evaluation)
-    plain = plain_fit(problem.system, calm.calibration, floor_of(problem, noise, plain), [plain.values], rounds=20)
+    plain = plain_fit(problem.system, calm.calibration, floor_of(problem, noise, plain), [plain.values])
     problem = _posed(problem.system, stated, inputs, recorded, calm, plain, everything)
     noise = problem.weighed(plain, others=[noise])
     floor = floor_of(problem, noise, plain)
-    plain = plain_fit(problem.system, calm.calibration, floor, [plain.values], rounds=20)
+    plain = plain_fit(problem.system, calm.calibration, floor, [plain.values])
     residuals = everything.residuals(problem.system, plain.values)
     passed_on = differences(calm.shaken, problem.system, plain.values, residuals)
     return replace(problem, plain=plain, floor=floor, passed_on=passed_on, noise=noise)

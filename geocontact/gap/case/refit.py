@@ -16,6 +16,7 @@ from geocontact.data.trial import Trial
 from geocontact.identify.optimise.bounded_gauss_newton import GaussNewtonResult, least
 from geocontact.identify.optimise.least_squares import NO_VALUE
 
+ROUNDS = 20  # of a search, twice as many from far away, a quarter of it where it sets out near the end
 STEP = 1e-5  # of a parameter's magnitude, for differences
 ENOUGH = 0.01  # nats that a search does not go on for
 
@@ -156,7 +157,7 @@ def refit(
     measured: Measured,
     whitenings: Sequence[Whiten],
     starts: Sequence[Mapping[str, float]],
-    rounds: int = 12,
+    rounds: int = ROUNDS,
     useful: float = np.inf,
 ) -> Refit:
     """Bounded least squares of the weighed residuals, the best of several starts.

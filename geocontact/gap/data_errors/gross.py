@@ -17,11 +17,10 @@ from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.gap.case.plain_fit import Plain, base_starts
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.refit import Measured, Refit, refit
+from geocontact.gap.case.rate_smoothing import REACHES
+from geocontact.gap.case.refit import ROUNDS, Measured, Refit, refit
 from geocontact.gap.levels import DEVIATIONS, LEFT_OVER, WORTH_NAMING
 
-ROUNDS = 8
-SMOOTHED = 7.0  # samples to either side, that rates are smoothed over
 FEW = 4  # calibration trials of which every set is tried
 
 
@@ -85,7 +84,7 @@ def _as_recorded(problem: Problem) -> Problem:
     def part(some: slice) -> Measured:
         return replace(recorded, trials=recorded.trials[some], outputs=recorded.outputs[some])
 
-    system = problem.system.reaching(SMOOTHED * problem.system.scale.step)
+    system = problem.system.reaching(REACHES[0] * problem.system.scale.step)
     return replace(problem, system=system, calibration=part(slice(count)), evaluation=part(slice(count, None)))
 
 
@@ -124,11 +123,11 @@ def _costs(problem: Problem, mistakes: list[Candidate], some: frozenset[str]) ->
         starts = base_starts(problem.system)[:2]
         found = []
         for one in mistakes:
-            model = refit(one.apply(problem.system), measured, whiten, starts, ROUNDS)
+            model = refit(one.apply(problem.system), measured, whiten, starts, ROUNDS // 2)
             found.append((one, model.cost))
         return found
     whiten = [Plain(there, scale) for there in others.present]
-    values = refit(problem.system, others, whiten, [{}, problem.plain.values], ROUNDS).values
+    values = refit(problem.system, others, whiten, [{}, problem.plain.values], ROUNDS // 2).values
     known = float(_cost(problem, problem.system, others, values).sum())
     suspects = _part(measured, some)
     return [
@@ -143,7 +142,7 @@ def _over_all_trials(problem: Problem, one: Candidate, some: frozenset[str], lef
     candidate = one if some == names else one.only(some)
     system = candidate.apply(problem.system)
     whiten = [Plain(there, problem.floor_of_noise) for there in problem.calibration.present]
-    values = refit(system, problem.calibration, whiten, [*base_starts(system)[:2], problem.plain.values], 20).values
+    values = refit(system, problem.calibration, whiten, [*base_starts(system)[:2], problem.plain.values]).values
     also = frozenset(_better_with(problem, one, problem.system, values))
     everywhere = some | also
     held_out = {t.name for t in problem.evaluation.trials}

@@ -20,7 +20,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.gap.inputs.spectrum import Spectrum
-from geocontact.gap.levels import INPUT_NOISE, SURE, TWOFOLD
+from geocontact.gap.levels import INPUT_NOISE, LEADING, SURE, TWOFOLD
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.identify.noise.noise_spectrum import FREQUENCIES
 from geocontact.identify.optimise.fisher_scoring import Batch, Scored, least
@@ -32,7 +32,7 @@ FLATTEST, STEEPEST = np.log([0.7, 3.0])  # bounds of log q
 SLOWEST = np.log(1e-4)  # least log b
 FALLS, STEEPS = (0.001, 0.004, 0.012, 0.03, 0.08), (0.9, 1.6)  # b, per sample, and q that a search starts from
 BROAD = ((0.08, 0.7), (0.2, 0.7))  # the same of movements that fill the spectrum
-FIRST, BEST = 40, 4  # steps from all starts, and how many of them, for each filter, go on
+FIRST = 40  # steps from all starts, the best of which, for each filter, go on
 LARGEST = float(np.log(-np.log(np.finfo(float).tiny)))  # logarithm of the exponent beyond which a movement is nothing
 
 
@@ -197,7 +197,7 @@ def _likeliest(parts: Parts, with_tail: bool) -> Split:
     chosen = slice(6 if with_tail else 5)
     low, high, start = low[chosen], high[chosen], start[:, chosen]
     first = least(lambda x, rows: parts.scored(x, which[rows]), start, low, high, FIRST)
-    order = np.argsort(first.value.reshape(-1, places), axis=1, kind="stable")[:, :BEST]
+    order = np.argsort(first.value.reshape(-1, places), axis=1, kind="stable")[:, :LEADING]
     best = (order + places * np.arange(len(order))[:, None]).ravel()
     found = least(lambda x, rows: parts.scored(x, which[best][rows]), first.at[best], low, high)
     value, noise = (each.reshape(order.shape) for each in (found.value, found.at[:, 3]))

@@ -10,13 +10,12 @@ from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
 from geocontact.gap.case.problem import Noise, Problem, evaluated
-from geocontact.gap.case.refit import ENOUGH, Refit, free, refit
+from geocontact.gap.case.refit import ENOUGH, ROUNDS, Refit, free, refit
 from geocontact.gap.case.whitening import Whitening
-from geocontact.gap.levels import LEADING
+from geocontact.gap.levels import LEADING, TURNS
 from geocontact.gap.selection.evidence import Judged, judged, without_discrepancy
 from geocontact.gap.selection.model_discrepancy import discrepancy_basis
 
-ROUNDS = 4  # times that noise and parameters of a leader are fitted in turn
 FEW = 5  # free parameters up to which a joint fit also sets out from the case's own start
 
 
@@ -96,7 +95,7 @@ def finished(
     The search for that sets out from the likeliest of those that are known, `others` beside the one it was fitted with.
     """
     noise = problem.weighed(model, before, others)
-    again = refit(model.system, problem.calibration, problem.fitting(noise, model), [model.values], rounds=6)
+    again = refit(model.system, problem.calibration, problem.fitting(noise, model), [model.values], ROUNDS // 4)
     everywhere = evaluated(problem, again)
     one = judged(problem, everywhere, noise, discrepancy_basis(problem, candidates, everywhere))
     return Contender(candidates, one)
@@ -107,7 +106,7 @@ def settled_in(problem: Problem, one: Contender) -> Contender:
 
     Each is fitted in turn, the noise to what the discrepancies of the effects leave, until nothing is gained any more.
     """
-    for _ in range(ROUNDS):
+    for _ in range(TURNS):
         model = replace(one.judged.model, residuals=without_discrepancy(one.judged))
         other = replace(one, judged=finished(problem, one.candidates, model, one.judged.noise).judged)
         if other.judged.nats < one.judged.nats + ENOUGH:

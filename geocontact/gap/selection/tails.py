@@ -16,14 +16,12 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.levels import DEVIATIONS, SURE
+from geocontact.gap.levels import DEVIATIONS, SURE, TURNS
 from geocontact.gap.selection.evidence import Judged
 from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.identify.noise.student import StudentNoise, student_noise
 
-ROUNDS = 4
-"""Times that weights are found anew: a sample that is off misleads about those next to it."""
 PHASES = 20
 """Parts of a trial in which tails are compared between trials."""
 
@@ -61,7 +59,7 @@ def tails(problem: Problem, one: Judged, explained: Sequence[Float[np.ndarray, "
     louder = [np.ones(part.shape) for part in left]
     normal = gained_by_normal(problem.layouts, one.noise.levels, varied)
     found: dict[int, StudentNoise] = {}
-    for _ in range(ROUNDS):
+    for _ in range(TURNS):
         layouts = [layout.louder(times) for layout, times in zip(problem.layouts, louder, strict=True)]
         parts = zip(layouts, left, varied, louder, strict=True)
         off = [standing_out(layout, one.noise.levels, r, v) * times for layout, r, v, times in parts]

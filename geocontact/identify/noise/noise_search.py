@@ -2,7 +2,7 @@
 
 Far from the end, curvature is the average of observed and expected information (Gilmour, Thompson & Cullis 1995,
 Biometrics 51:1440), which needs no product of matrices and takes no step too far where noise is much too low. From
-where a step gains less than `NEAR`, secants amend it (BFGS, damped as by Powell 1978, Lecture Notes in Mathematics
+where a step gains less than a nat, secants amend it (BFGS, damped as by Powell 1978, Lecture Notes in Mathematics
 630:144), since it leaves out how variances bend with their logarithms.
 """
 
@@ -22,7 +22,6 @@ from geocontact.identify.optimise.tolerances import BROKEN, CLOSE, DAMPED, KEPT,
 
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
 LONGEST = 2.0  # that a correlation time is: longer, and noise becomes what the model misses
-NEAR = 1.0  # nats gained by a step, below which secants amend the curvature
 CURVED = 0.2  # of what was expected, curvature along a step that a secant is believed
 
 
@@ -161,8 +160,8 @@ def most_likely(
             here, gradient = there, slope
             if fall < CLOSE and kept > BROKEN:
                 break
-            if not near or fall >= NEAR:
-                curvature, near = surface.information(here), fall < NEAR
+            if not near or fall >= 1.0:
+                curvature, near = surface.information(here), fall < 1.0
         elif damping > 1.0 / ROUNDING:
             break
     return here.levels, 0.5 * float(here.x @ here.x), -here.cost

@@ -15,12 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.identify.optimise.tolerances import BROKEN, DAMPED, KEPT, ROUNDING, TENFOLD
+from geocontact.identify.optimise.tolerances import BROKEN, DAMPED, KEPT, LIMIT, ROUNDING, TENFOLD
 
 TRUSTED = 3.0
 """Times what the linear model promises that a search is trusted to come down yet: kinks hide some of it."""
-TURNS = 10
-"""Times the number of unknowns, turns in which a step finds out which of them end on a bound."""
 
 Residual = Callable[[Float[np.ndarray, " p"]], Float[np.ndarray, " n"]]
 Slope = Callable[[Float[np.ndarray, " p"]], Float[np.ndarray, "n p"]]
@@ -61,7 +59,7 @@ class QuadraticModel:
         out, free = np.zeros(len(low)), self.free.copy()
         own = np.diag(self.curvature)
         damped = self.curvature + np.diag(damping * own + ROUNDING * max(float(own.max()), 1e-300))
-        for _ in range(TURNS * len(low)):
+        for _ in range(LIMIT):
             pull = self.gradient + damped @ out
             move = np.zeros(len(low))
             move[free] = -np.linalg.solve(damped[np.ix_(free, free)], pull[free])

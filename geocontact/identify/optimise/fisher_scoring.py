@@ -14,9 +14,7 @@ from typing import TypeAlias
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.identify.optimise.tolerances import CLOSE, DAMPED, ROUNDING, TENFOLD
-
-ROUNDS = 200
+from geocontact.identify.optimise.tolerances import CLOSE, DAMPED, LIMIT, ROUNDING, TENFOLD
 
 Batch: TypeAlias = Float[np.ndarray, "k p"]
 Scored: TypeAlias = tuple[Float[np.ndarray, " k"], Batch, Float[np.ndarray, "k p p"]]
@@ -35,7 +33,7 @@ def least(
     start: Batch,
     low: Float[np.ndarray, " p"],
     high: Float[np.ndarray, " p"],
-    rounds: int = ROUNDS,
+    rounds: int = LIMIT,
 ) -> ScoringResult:
     """The least values near the starts.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+LIMIT = 200  # steps of a search that ends by itself
 CLOSE = 1e-6  # nats, or a share, that is not searched for any further
 ROUNDING = float(np.sqrt(np.finfo(float).eps))  # share that half the digits of a number do not show
 
