@@ -117,8 +117,8 @@ def in_question(case: Any, system: Any, pair: tuple[str, ...]) -> Any:
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.attribute import Attribution
     from geocontact.gap.case.preparation import problem_of
-    from geocontact.gap.selection.model_comparison import base_contender, singles
     from geocontact.gap.levels import SLIGHT
+    from geocontact.gap.selection.model_comparison import base_contender, singles
     from geocontact.gap.selection.verdict import Answer
 
     problem = problem_of(case, system)

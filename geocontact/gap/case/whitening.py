@@ -145,8 +145,9 @@ def usual_levels(
     stands in and is believed half as well. All is known to a factor of two. Quick noise remembers a few samples, slow
     noise some tens. Inputs are known as well as their spectra show (`seen`), 0.2 % of their half-range at the least
     unless `most` is less, and those of one unit about equally well, since they come from the same markers; what is
-    stated of one is believed. A sensor is hardly noisier than `SENSOR_LOUDER` times what was stated, an input than `LOUDER` times what is believed,
-    or than `most` (a tenth of the 0.2 % at the least); nothing more is believed of it than that.
+    stated of one is believed. A sensor is hardly noisier than `SENSOR_LOUDER` times what was stated, an input than
+    `LOUDER` times what is believed, or than `most` (a tenth of the 0.2 % at the least); nothing more is believed of it
+    than that.
     """
     known = np.array([name in stated for name in system.outputs])
     sd = np.array([stated.get(name, each) for name, each in zip(system.outputs, rough, strict=True)]) / np.sqrt(2.0)

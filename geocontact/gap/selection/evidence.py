@@ -20,6 +20,8 @@ from geocontact.gap.case.problem import Noise, Problem
 from geocontact.gap.case.refit import ENOUGH, STEP, Refit, free, magnitude
 from geocontact.gap.case.whitening import Whitening
 
+FLAT = float(np.sqrt(12.0))  # range of a flat prior over its standard deviation
+
 
 @dataclass(frozen=True)
 class Judged:
@@ -167,7 +169,7 @@ def prior_spread(system: System, values: dict[str, float]) -> Float[np.ndarray, 
     for p in free(system):
         width = p.upper - p.lower
         held = min(values[p.name] - p.lower, p.upper - values[p.name]) < 10.0 * STEP * magnitude(p)
-        spread.append(0.0 if held else width / np.sqrt(12.0) if np.isfinite(width) else 100.0 * magnitude(p))
+        spread.append(0.0 if held else width / FLAT if np.isfinite(width) else 100.0 * magnitude(p))
     return np.array(spread)
 
 
