@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from benchmarks.constants_of import constants, put
+from benchmarks.constants_of import bare, constants, put
 from benchmarks.gap_constants import ROOMS, figures, searched
 from geocontact.gap import levels, partial_answer
 from geocontact.gap.selection import clipping, verdict
@@ -43,4 +43,9 @@ def test_a_group_is_halved_down_to_what_moves_an_answer() -> None:
         return {"moved": ["a"] if any(one.name == "SLIGHT" for one in group) else []}
 
     searched(named, 2.0, tried)
-    assert [names for names in asked if len(names) == 1] == [["DEVIATIONS"], ["SLIGHT"]] and len(asked) < len(named)
+    assert [names for names in asked if len(names) == 1] == [["SLIGHT"]] and len(asked) < len(named)
+
+
+def test_choices_do_not_become_more_again() -> None:
+    assert len(constants(ROOMS)) <= 97
+    assert len(bare(ROOMS)) <= 67
