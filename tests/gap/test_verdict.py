@@ -97,7 +97,7 @@ def test_an_oscillation_weighs_by_its_share_of_the_error() -> None:
 def test_a_gain_is_borne_out_in_proportion_to_what_changes_in_the_calibration_trials() -> None:
     assert borne_out(100.0, 60.0, 0.6) == 100.0
     assert borne_out(100.0, 10.0, 0.1) == 100.0
-    assert borne_out(100.0, 10.0, 0.5) == pytest.approx(24.0 + BEYOND * 76.0)
+    assert borne_out(100.0, 10.0, 0.5) == pytest.approx(20.0 + SURE + BEYOND * (80.0 - SURE))
     assert borne_out(500.0, 10.0, SLIGHT / 10.0) == borne_out(500.0, 10.0, SLIGHT)
 
 

@@ -4,7 +4,7 @@ Motion is slow; above its own frequencies a recording holds noise up to the corn
 The spectrum of every input is taken apart into movement, noise and a white rest (`gap/inputs/spectrum_components.py`),
 with one f_c for all inputs that were filtered. Frequencies are in cycles per sample: 6 Hz of motion capture at 100 Hz
 are 0.06. Corners far from the usual one are believed less: where the movement hides the noise, f_c stays near that.
-That none was must be sure; that some were and others not, twice as sure.
+Usually all inputs were filtered, or none; that some were and others not is believed least.
 """
 
 from __future__ import annotations
@@ -17,11 +17,12 @@ from jaxtyping import Float
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs.spectrum import spectrum
 from geocontact.gap.inputs.spectrum_components import split
-from geocontact.gap.levels import SURE, TWOFOLD
+from geocontact.gap.levels import SURE
 from geocontact.identify.signals.low_pass import BELOW_NYQUIST, LowPass
 
-USUAL = 0.08  # per sample: 6 Hz at 75 (Winter 2009)
+USUAL, USUALLY = 0.08, 0.9  # per sample, and the standard deviation of its logarithm: 6 Hz at 75 (Winter 2009)
 CORNERS = 21  # that are compared, from one as far below the usual one as the highest that can be told is above it
+UNFILTERED = 4.0  # nats that must speak for no filter of any input
 
 
 def filters_of(trials: Sequence[Trial], inputs: Sequence[str]) -> Mapping[str, LowPass]:
@@ -36,9 +37,9 @@ def filters_of(trials: Sequence[Trial], inputs: Sequence[str]) -> Mapping[str, L
     filters = [*(LowPass(f, step) for f in corners), LowPass.none(step)]
     costs = np.array([split(each, filters).unlikely for each in seen.values()])
     through, free = costs[:, :-1], costs[:, -1]
-    far = 0.5 * (np.log(corners * step / USUAL) / TWOFOLD) ** 2
+    far = 0.5 * (np.log(corners * step / USUAL) / USUALLY) ** 2
     everyone, each = far + through.sum(axis=0), far + np.minimum(through, free[:, None]).sum(axis=0) + 2.0 * SURE
-    if free.sum() + SURE < min(everyone.min(), each.min()):
+    if free.sum() + UNFILTERED < min(everyone.min(), each.min()):
         return dict.fromkeys(inputs, LowPass.none(step))
     raw = (free < through[:, np.argmin(each)]) & (each.min() < everyone.min())
     differ = {name: LowPass.none(step) for name, own in zip(seen, raw, strict=True) if own}

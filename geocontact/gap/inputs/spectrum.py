@@ -65,7 +65,7 @@ def spectrum(trials: Sequence[Trial], name: str, step: float) -> Spectrum | None
     for trial in trials:
         column = trial.column(name)
         there = np.isfinite(column)
-        if there.sum() < FEWEST:
+        if there.sum() <= FEWEST:
             continue
         grid = even_grid(trial.time[there])
         even = CubicSpline(trial.time[there], column[there])(grid)

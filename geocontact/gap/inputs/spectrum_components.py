@@ -20,13 +20,14 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.gap.inputs.spectrum import Spectrum
-from geocontact.gap.levels import INPUT_NOISE, LEADING, SURE, TWOFOLD
+from geocontact.gap.levels import INPUT_NOISE, LEADING, SURE
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.identify.noise.noise_spectrum import FREQUENCIES
 from geocontact.identify.optimise.fisher_scoring import Batch, Scored, least
 from geocontact.identify.optimise.tolerances import CLOSE
 from geocontact.identify.signals.low_pass import LowPass
 
+LOUDER = 2.0  # standard deviation of the logarithm of the power of an input's noise; one of that of a rest
 TAIL = 0.02  # cycles per sample, from which a movement's tail falls off
 FLATTEST, STEEPEST = np.log([0.7, 3.0])  # bounds of log q
 SLOWEST = np.log(1e-4)  # least log b
@@ -111,13 +112,12 @@ class Parts:
         """
         arrays = (np.log(self.frequency), self.power, self.count, self._tail, self.passed)
         value, gradient, curved = whittle(*arrays, x, which)
-        off, over = x[:, 3] - self.usual[which], np.maximum(x[:, 4] - self.rounding, 0.0)
-        believed = (2.0 * TWOFOLD) ** -2  # of the logarithm of a power
-        gradient[:, 3] += believed * off
-        gradient[:, 4] += believed * over
-        curved[:, 3, 3] += believed
-        curved[:, 4, 4] += believed * (over > 0.0)
-        return value + 0.5 * believed * (off**2 + over**2), gradient, curved
+        off, over = (x[:, 3] - self.usual[which]) / LOUDER, np.maximum(x[:, 4] - self.rounding, 0.0)
+        gradient[:, 3] += off / LOUDER
+        gradient[:, 4] += over
+        curved[:, 3, 3] += LOUDER**-2
+        curved[:, 4, 4] += over > 0.0
+        return value + 0.5 * (off**2 + over**2), gradient, curved
 
     @cached_property
     def _tail(self) -> Float[np.ndarray, " f"]:
