@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from geocontact.gap.case.plain_fit import Plain, plain_fit
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.refit import Refit, refit
+from geocontact.gap.case.refit import ROUNDS, Refit, refit
 
 
 def measured_fit(
@@ -31,7 +31,7 @@ def measured_fit(
     count, whole = len(problem.calibration.trials), problem.recorded
     first = replace(whole, trials=whole.trials[:count], outputs=whole.outputs[:count])
     system = model.system.as_measured()
-    values = refit(system, first, [Plain(there, floor) for there in first.present], [model.values]).values
+    values = refit(system, first, [Plain(there, floor) for there in first.present], [model.values], ROUNDS).values
     return values, whole.residuals(system, values)
 
 

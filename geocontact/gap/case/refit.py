@@ -16,7 +16,7 @@ from geocontact.data.trial import Trial
 from geocontact.identify.optimise.bounded_gauss_newton import GaussNewtonResult, least
 from geocontact.identify.optimise.least_squares import NO_VALUE
 
-ROUNDS = 20  # of a search, twice as many from far away, a quarter of it where it sets out near the end
+ROUNDS = 24  # of a search to its end; twice as many from far away, half of it or a quarter where it sets out nearer
 STEP = 1e-5  # of a parameter's magnitude, for differences
 ENOUGH = 0.01  # nats that a search does not go on for
 
@@ -157,7 +157,7 @@ def refit(
     measured: Measured,
     whitenings: Sequence[Whiten],
     starts: Sequence[Mapping[str, float]],
-    rounds: int = ROUNDS,
+    rounds: int = ROUNDS // 2,
     useful: float = np.inf,
 ) -> Refit:
     """Bounded least squares of the weighed residuals, the best of several starts.

@@ -142,7 +142,7 @@ def _over_all_trials(problem: Problem, one: Candidate, some: frozenset[str], lef
     candidate = one if some == names else one.only(some)
     system = candidate.apply(problem.system)
     whiten = [Plain(there, problem.floor_of_noise) for there in problem.calibration.present]
-    values = refit(system, problem.calibration, whiten, [*base_starts(system)[:2], problem.plain.values]).values
+    values = refit(system, problem.calibration, whiten, [*base_starts(system)[:2], problem.plain.values], ROUNDS).values
     also = frozenset(_better_with(problem, one, problem.system, values))
     everywhere = some | also
     held_out = {t.name for t in problem.evaluation.trials}

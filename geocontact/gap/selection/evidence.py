@@ -17,8 +17,9 @@ from jaxtyping import Float
 
 from geocontact.chain.system import System
 from geocontact.gap.case.problem import Noise, Problem
-from geocontact.gap.case.refit import ENOUGH, STEP, Refit, free, magnitude
+from geocontact.gap.case.refit import STEP, Refit, free, magnitude
 from geocontact.gap.case.whitening import Whitening
+from geocontact.identify.optimise.tolerances import ROUNDING
 
 FLAT = float(np.sqrt(12.0))  # range of a flat prior over its standard deviation
 
@@ -157,7 +158,7 @@ def log_mean(fall: float, bend: float) -> float:
     """
     from scipy.special import erfcx
 
-    c = np.sqrt(0.5 * max(bend, ENOUGH))
+    c = np.sqrt(0.5 * max(bend, ROUNDING))
     a = 0.5 * fall / c
     mean = 0.5 * np.sqrt(np.pi) / c * (erfcx(a) - np.exp(-2.0 * a * c - c**2) * erfcx(a + c))
     return float(np.log(max(mean, 1e-300)))
