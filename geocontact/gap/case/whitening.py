@@ -142,7 +142,7 @@ def usual_levels(
     """What is believed of the noise before the residuals are looked at.
 
     The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
-    stands in and is believed half as well. All is known to a factor of two. Quick noise remembers a few samples, slow
+    stands in and is believed half as well. Levels are known to a factor of two. Quick noise remembers a few samples, slow
     noise some tens. Inputs are known as well as their spectra show (`seen`), 0.2 % of their half-range at the least
     unless `most` is less, and those of one unit about equally well, since they come from the same markers; what is
     stated of one is believed. A sensor is hardly noisier than `SENSOR_LOUDER` times what was stated, an input than
@@ -156,7 +156,7 @@ def usual_levels(
     own = np.array([max(INPUT_NOISE * system.scale.span.get(name, 1.0), seen.get(name, 0.0)) for name in system.inputs])
     inputs = np.exp(alike @ np.log(own) / alike.sum(axis=1))
     inputs = np.array([stated.get(name, level) for name, level in zip(system.inputs, inputs, strict=True)])
-    covariance = TWOFOLD**2 * (alike + np.eye(len(units)))
+    covariance = TWOFOLD**2 * alike + 0.5**2 * np.eye(len(units))
     white, sure = np.where(known, 0.5, 1.0), np.ones(len(sd))
     widths = np.concatenate([white, 2.0 * TWOFOLD * white, TWOFOLD * sure, sure, TWOFOLD * sure])
     factor = np.zeros((len(widths) + len(units),) * 2)
