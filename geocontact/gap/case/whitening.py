@@ -32,6 +32,7 @@ Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
 SLOW = 30.0  # samples, that slow noise usually remembers
 QUICK = 2.0  # samples, that quick noise usually remembers
 SLOW_SHARE = 0.3  # of the quick noise, that it usually is
+GROWN, GROWN_LEVEL = 0.2, 0.35  # of its noise, that grows to the largest signal, at the least; and of the logarithm
 
 
 @runtime_checkable
@@ -138,12 +139,14 @@ def usual_levels(
     rough: Float[np.ndarray, " c"],
     seen: Mapping[str, float],
     most: Mapping[str, float],
+    growth: Float[np.ndarray, " c"],
 ) -> NoisePriors:
     """What is believed of the noise before the residuals are looked at.
 
     The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
-    stands in and is believed half as well. Levels are known to a factor of two. Quick noise remembers a few samples, slow
-    noise some tens. Inputs are known as well as their spectra show (`seen`), 0.2 % of their half-range at the least
+    stands in and is believed half as well. All is known to a factor of two. Quick noise remembers a few samples, slow
+    noise some tens. What grows with the signal is as much as the recording shows (`growth`, per unit of it), and
+    little at the least. Inputs are known as well as their spectra show (`seen`), 0.2 % of their half-range at the least
     unless `most` is less, and those of one unit about equally well, since they come from the same markers; what is
     stated of one is believed. A sensor is hardly noisier than `SENSOR_LOUDER` times what was stated, an input than
     `LOUDER` times what is believed, or than `most` (a tenth of the 0.2 % at the least); nothing more is believed of it
@@ -158,7 +161,9 @@ def usual_levels(
     inputs = np.array([stated.get(name, level) for name, level in zip(system.inputs, inputs, strict=True)])
     covariance = TWOFOLD**2 * alike + 0.5**2 * np.eye(len(units))
     white, sure = np.where(known, 0.5, 1.0), np.ones(len(sd))
-    widths = np.concatenate([white, 2.0 * TWOFOLD * white, TWOFOLD * sure, sure, TWOFOLD * sure])
+    levels = [white, 2.0 * TWOFOLD * white, TWOFOLD * sure]
+    widths = np.concatenate([*levels, sure, TWOFOLD * sure, GROWN_LEVEL * sure])
+    largest = np.array([system.scale.of(name) for name in system.outputs])
     factor = np.zeros((len(widths) + len(units),) * 2)
     factor[: len(widths), : len(widths)] = np.diag(widths)
     factor[len(widths) :, len(widths) :] = np.linalg.cholesky(covariance)
@@ -171,7 +176,9 @@ def usual_levels(
     limits = zip(system.inputs, highest_noise, strict=True)
     highest_noise = np.array([SENSOR_LOUDER * stated[n] if n in stated else limit for n, limit in limits])
     inputs = np.minimum(inputs, highest_noise)
-    return NoisePriors(NoiseLevels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, highest_noise)
+    growing = np.maximum(growth, GROWN * np.sqrt(2.0) * sd / largest)
+    usual = NoiseLevels(sd, np.array([sd, SLOW_SHARE * sd]), memory, growing, inputs)
+    return NoisePriors(usual, factor, sensors, highest_noise)
 
 
 def layouts_of(
@@ -182,10 +189,11 @@ def layouts_of(
     passed: Mapping[str, LowPass],
     left: Mapping[str, Share],
     spread: Sequence[Float[np.ndarray, "_ c"]],
+    signal: Sequence[Float[np.ndarray, "_ c"]],
 ) -> list[Layout]:
     """One per trial, inputs' noise (see `propagated_input_noise`) seen through the model at `values`."""
     spectra = spectra_of(system, passed, left)  # their tables are the same in all trials
     return [
-        Layout.of(t.time, there, _felt(system, t, values, spectra), own)
-        for t, there, own in zip(trials, present, spread, strict=True)
+        Layout.of(t.time, there, _felt(system, t, values, spectra), own, size)
+        for t, there, own, size in zip(trials, present, spread, signal, strict=True)
     ]

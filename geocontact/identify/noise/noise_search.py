@@ -21,7 +21,7 @@ from geocontact.identify.optimise.bounded_gauss_newton import QuadraticModel
 from geocontact.identify.optimise.tolerances import BROKEN, CLOSE, DAMPED, KEPT, ROUNDING, TENFOLD
 
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
-LONGEST = 2.0  # that a correlation time is: longer, and noise becomes what the model misses
+LONGEST = 2.0  # that a correlation time is, and how noise grows: longer, and noise becomes what the model misses
 CURVED = 0.2  # of what was expected, curvature along a step that a secant is believed
 
 
@@ -169,7 +169,8 @@ def most_likely(
 
 def searched(beliefs: NoisePriors) -> Float[np.ndarray, " h"]:
     """How many standard deviations of the prior each number is searched in, either way."""
-    kinds = beliefs.middle.white.size + beliefs.middle.coloured.size, beliefs.middle.memory.size
+    middle = beliefs.middle
+    kinds = middle.white.size + middle.coloured.size, middle.memory.size + middle.growing.size
     return np.repeat([FARTHEST, LONGEST, FARTHEST], [*kinds, beliefs.middle.inputs.size])
 
 
