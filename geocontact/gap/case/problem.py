@@ -135,6 +135,7 @@ class Problem:
             white=np.minimum(noise.levels.white, usual.white),
             coloured=np.minimum(noise.levels.coloured, usual.coloured),
             memory=np.minimum(noise.levels.memory, MEMORY * usual.memory),
+            growing=np.minimum(noise.levels.growing, usual.growing),
             inputs=np.minimum(np.array(best), usual.inputs),
         )
         x = self.beliefs.point(levels)
