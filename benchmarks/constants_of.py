@@ -46,6 +46,19 @@ def constants(rooms: Sequence[str]) -> list[Constant]:
     return found
 
 
+def bare(rooms: Sequence[str]) -> list[tuple[str, float | int]]:
+    """Numbers without a name in functions of these rooms, with their module: no counts to two, halves, powers of ten.
+
+    Nor what stands in words, or numbers the places of a sequence.
+    """
+    found = []
+    for module in _modules(rooms):
+        for node in ast.walk(ast.parse(inspect.getsource(module))):
+            if isinstance(node, (ast.FunctionDef, ast.Lambda)):
+                found += [(module.__name__, each) for each in _numbers(node) if not _plain(each)]
+    return found
+
+
 def put(changed: Mapping[Constant, float | int]) -> None:
     """Put other numbers in place of these constants, in all modules that have been loaded, for this process.
 
@@ -70,6 +83,25 @@ def _names(node: ast.stmt) -> list[str]:
         return []
     targets = [part for target in node.targets for part in (target.elts if isinstance(target, ast.Tuple) else [target])]
     return [each.id for each in targets if isinstance(each, ast.Name) and each.id.isupper()]
+
+
+def _numbers(node: ast.FunctionDef | ast.Lambda) -> Iterator[float | int]:
+    """Of a function, those of functions in it aside."""
+    body = node.body if isinstance(node.body, list) else [node.body]
+    waiting: list[ast.AST] = [*body, *node.args.defaults, *(each for each in node.args.kw_defaults if each is not None)]
+    while waiting:
+        one = waiting.pop()
+        if isinstance(one, ast.Constant) and type(one.value) in (int, float):
+            yield one.value
+        if isinstance(one, ast.Subscript) and isinstance(one.slice, ast.Constant):
+            waiting.append(one.value)
+        elif not isinstance(one, (ast.FunctionDef, ast.Lambda)):
+            waiting += ast.iter_child_nodes(one)
+
+
+def _plain(number: float | int) -> bool:
+    """Whether it is no choice by itself: a count to two, a half, a power of ten."""
+    return number in (0, 0.5, 1, 2) or f"{number:e}".startswith("1.000000e")
 
 
 def _imported(module: ModuleType, constant: Constant) -> list[str]:

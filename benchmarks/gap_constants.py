@@ -26,7 +26,7 @@ from geocontact.gap_benchmark.drawing import SYSTEMS, Lot, lots
 
 HERE = Path(__file__).resolve().parent
 ROOMS = (
-    "gap.attribute", "gap.case", "gap.data_errors", "gap.inputs", "gap.selection",
+    "gap.attribute", "gap.case", "gap.data_errors", "gap.inputs", "gap.levels", "gap.selection",
     "identify.noise", "identify.optimise",
 )  # fmt: skip
 """What is left out only draws, tells or proposes: localise, reduction, identifiability, experiment."""

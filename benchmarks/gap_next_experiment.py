@@ -117,14 +117,15 @@ def in_question(case: Any, system: Any, pair: tuple[str, ...]) -> Any:
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.attribute import Attribution
     from geocontact.gap.case.preparation import problem_of
+    from geocontact.gap.levels import SLIGHT
     from geocontact.gap.selection.model_comparison import base_contender, singles
-    from geocontact.gap.selection.verdict import ALIVE, Answer
+    from geocontact.gap.selection.verdict import Answer
 
     problem = problem_of(case, system)
     base = base_contender(problem)
     known = [one for one in candidates(problem.system) if one.name in pair and one.parameters]
     ranked = singles(problem, base, known)
-    near = [c for c in ranked if c.judged.nats > ranked[0].judged.nats + np.log(ALIVE)]
+    near = [c for c in ranked if c.judged.nats > ranked[0].judged.nats + np.log(SLIGHT)]
     names = tuple(dict.fromkeys(name for c in near for name in c.names))
     said = Answer("explained", names[:1], {}, names, ranked[0])
     nothing = {"odd": (), "recorder": (), "objections": {}, "flat": ()}

@@ -15,6 +15,8 @@ from geocontact.data.trial import Trial
 
 RECORDING = 100.0
 """Rank of what a recording leaves out; what a sensor does has a smaller one, mistakes in the data a larger one."""
+LAST = float("inf")
+"""Rank of what is done after everything that is wrong with what passes."""
 
 Values = Mapping[str, float]
 T = TypeVar("T")

@@ -14,6 +14,7 @@ from geocontact.gap.case.problem import Problem
 from geocontact.gap.data_errors.correction import corrected
 from geocontact.gap.data_errors.gross import DataError, data_error_of, recognised
 from geocontact.gap.data_errors.hidden import hidden_mistakes, undone
+from geocontact.gap.levels import LEADING, SURE
 from geocontact.gap.selection.calibration_share import calibration_share, changes
 from geocontact.gap.selection.clipping import ClippedChannel, clipped_channels
 from geocontact.gap.selection.evidence import Judged, settled
@@ -26,10 +27,6 @@ from geocontact.gap.selection.tails import Tails, tails
 from geocontact.gap.selection.verdict import Answer, answer, borne_out, most_of, ranking, with_mistake, with_refused
 from geocontact.identify.noise.student import StudentNoise
 
-FIRSTS = 3  # singles that a second effect is tried on
-LEADING = 3  # contenders under whose noise everyone is compared
-WORTH_A_PAIR = 8.0  # nats that a single must gain before a second effect is looked for
-WORTH_UNDOING = 12.0  # nats that a mistake may be behind for its noise to be looked at where it is undone
 CLIPPED = "saturation"  # what a flat top speaks for
 ODD = 5.0  # nats from which an anomaly is told
 
@@ -170,14 +167,14 @@ def _contest(
     at("every effect alone")
     single = _with_clipped(clean, base, singles(clean, base, entered, ends), candidates, flat)
     contenders = [*single]
-    if single[0].nats - base.nats > WORTH_A_PAIR:
+    if single[0].nats - base.nats > SURE:
         at("two effects together")
-        contenders += _credited(pairs(clean, _different(single)[:FIRSTS], candidates, ends), flat)
+        contenders += _credited(pairs(clean, _different(single)[:LEADING], candidates, ends), flat)
     base, *contenders = compared(clean, [base, *contenders])
     most = max(c.nats for c in contenders)
     contenders = [
         undone(clean, case, c, heavy)
-        if c.candidates[0] in hidden and len(c.candidates) == 1 and c.nats > most - WORTH_UNDOING
+        if c.candidates[0] in hidden and len(c.candidates) == 1 and c.nats > most - 2.0 * SURE
         else c
         for c in contenders
     ]

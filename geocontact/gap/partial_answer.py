@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from geocontact.data.gap.diagnosis import Partial
 from geocontact.gap.attribute import Attribution
+from geocontact.gap.levels import SURE, WORTH_NAMING
 from geocontact.gap.reduction.error_reduction import error_reduction
-from geocontact.gap.selection.held_out_rules import WORTH_NAMING
-from geocontact.gap.selection.verdict import PAIR, SURE
 
 
 def partial(found: Attribution) -> Partial | None:
@@ -21,7 +20,7 @@ def partial(found: Attribution) -> Partial | None:
     free = [one for one in able if one.label not in found.objections]
     alone = max((one for one in free if len(one.names) == 1), key=lambda one: one.nats, default=found.base)
     both = max(free, key=lambda one: one.nats, default=found.base)
-    needed = SURE + PAIR * max(alone.nats - found.base.nats, 0.0)
+    needed = SURE + WORTH_NAMING * max(alone.nats - found.base.nats, 0.0)
     best = both if both.nats - alone.nats > needed else alone
     gain = best.nats - found.base.nats
     if gain < SURE:

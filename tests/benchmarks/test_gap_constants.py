@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from benchmarks.constants_of import constants, put
-from benchmarks.gap_constants import figures, searched
-from geocontact.gap import partial_answer
+from benchmarks.constants_of import bare, constants, put
+from benchmarks.gap_constants import ROOMS, figures, searched
+from geocontact.gap import levels, partial_answer
 from geocontact.gap.selection import clipping, verdict
 
 
 def test_a_number_is_another_one_wherever_it_was_imported() -> None:
-    found = {one.label: one for one in constants(["gap.selection", "gap.case"])}
-    sure = found["gap.selection.verdict.SURE"]
-    assert sure.value == verdict.SURE and "gap.selection.clipping.NEXT" in found
-    assert found["gap.case.problem.USUALLY"].value == 4.0  # one of two that a line names
+    found = {one.label: one for one in constants(ROOMS)}
+    sure = found["gap.levels.SURE"]
+    assert sure.value == levels.SURE and "gap.selection.clipping.NEXT" in found
+    assert found["identify.optimise.tolerances.BROKEN"].value == 0.25  # one of two that a line names
     assert "gap.selection.surrogate.ALONG" not in found  # a table, no number
-    before, other = sure.value, clipping.SURE_OF_IT
+    before, other = sure.value, clipping.NEXT
     try:
         put({sure: sure.times(2.0)})
-        used = [verdict.SURE, partial_answer.SURE, clipping.SURE_OF_IT]
-        assert used == [2.0 * before, 2.0 * before, other]
+        used = [levels.SURE, partial_answer.SURE, verdict.SURE, clipping.NEXT]
+        assert used == [*[2.0 * before] * 3, other]
     finally:
         put({sure: before})
     assert used[0] != partial_answer.SURE
@@ -36,11 +36,16 @@ def test_answers_are_counted_by_what_they_were_and_are() -> None:
 
 
 def test_a_group_is_halved_down_to_what_moves_an_answer() -> None:
-    named, asked = constants(["gap.selection.verdict"]), []
+    named, asked = constants(["gap.levels"]), []
 
     def tried(group: list, factor: float) -> dict:
         asked.append([one.name for one in group])
-        return {"moved": ["a"] if any(one.name == "FORM" for one in group) else []}
+        return {"moved": ["a"] if any(one.name == "SLIGHT" for one in group) else []}
 
     searched(named, 2.0, tried)
-    assert [names for names in asked if len(names) == 1] == [["SURE"], ["FORM"]] and len(asked) < len(named)
+    assert [names for names in asked if len(names) == 1] == [["SLIGHT"]] and len(asked) < len(named)
+
+
+def test_choices_do_not_become_more_again() -> None:
+    assert len(constants(ROOMS)) <= 104
+    assert len(bare(ROOMS)) <= 69

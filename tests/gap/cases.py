@@ -205,7 +205,7 @@ def contest_work(*, cut: bool) -> tuple[list[str], list[str], int, int]:
     problem = problem_of(case, system_of(case))
     base = base_contender(problem)
     offered = [one for one in candidates(problem.system) if one.name in ("damping", "inertia_load", "end_stop")]
-    few = {"SECOND": 99, "FINALISTS": 1, "FORERUNNERS": 1, "PAIRS": 1}
+    few = {"LEADING": 1}
     more = {} if cut else {"to_undercut": lambda *_: np.inf}
     with (
         patch.multiple(contest, **few, **more),

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from geocontact.chain.system import FAR
-from geocontact.gap.case.refit import NO_VALUE
 from geocontact.gap.selection.calibration_share import calibration_share, changes
+from geocontact.identify.optimise.least_squares import NO_VALUE
 
 FLOOR, ROUGH = np.array([2.0, 0.5]), np.array([1.0, 0.3])
 PROBLEM = cast(Any, SimpleNamespace(floor=FLOOR, calibration=SimpleNamespace(trials=[0, 1], rough=ROUGH)))

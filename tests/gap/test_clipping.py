@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.gap.selection.clipping import SURE_OF_IT, pile
+from geocontact.gap.levels import SURE
+from geocontact.gap.selection.clipping import pile
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Clip, diagnosis, flat, held
 
@@ -16,7 +17,7 @@ def test_values_at_the_end_of_a_range_are_counted() -> None:
     x = np.sin(np.linspace(0.0, 20.0, 500))
     assert pile(np.minimum(x, 0.99), 0.0)[:2] == (0.99, int((x >= 0.99).sum()))
     assert pile(np.minimum(x, 0.99), 0.0)[2] > 20.0
-    assert pile(x, 0.0)[2] < SURE_OF_IT
+    assert pile(x, 0.0)[2] < SURE
 
 
 @pytest.mark.parametrize("step", [0.02, 0.05, 0.1])
@@ -24,7 +25,7 @@ def test_the_top_of_a_movement_in_steps_is_not_flat(step: float) -> None:
     """The last step below a parabola's top holds up to 2.4 times what the one below it does."""
     for top in np.linspace(1.0, 1.0 + step, 7):
         x = np.floor(top * np.sin(np.linspace(0.0, 20.0, 500)) / step) * step
-        assert pile(x, step)[2] < SURE_OF_IT
+        assert pile(x, step)[2] < SURE
 
 
 @pytest.mark.slow

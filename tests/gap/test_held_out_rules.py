@@ -12,9 +12,9 @@ from geocontact.gap.case.change_amplitude import amplitude
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import evaluated, floor_of
 from geocontact.gap.case.refit import refit
+from geocontact.gap.levels import SLIGHT
 from geocontact.gap.selection.held_out_error import TrialWeight, taken_away
 from geocontact.gap.selection.held_out_rules import (
-    FEW,
     ONLY_NOISE,
     TOO_LITTLE,
     WORTH_NAMING,
@@ -267,8 +267,8 @@ def test_the_share_that_is_gone_is_that_of_the_channel_that_gains_most():
 
 def test_few_samples_count_for_nothing():
     gains = np.full(1000, -0.01)
-    gains[: int(FEW * 1000)] = 50.0
+    gains[: int(SLIGHT * 1000)] = 50.0
     assert gains.sum() > 900.0
     assert trimmed(gains) < 0.0
     even = np.full(1000, 0.02)
-    assert trimmed(even) == pytest.approx(20.0 * (1.0 - 2.0 * FEW))
+    assert trimmed(even) == pytest.approx(20.0 * (1.0 - 2.0 * SLIGHT))

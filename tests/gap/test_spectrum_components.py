@@ -10,7 +10,8 @@ from jaxtyping import Float
 from scipy.optimize import minimize
 
 from geocontact.gap.inputs.spectrum import Spectrum
-from geocontact.gap.inputs.spectrum_components import TAIL, TAILED, Parts, split
+from geocontact.gap.inputs.spectrum_components import TAIL, Parts, split
+from geocontact.gap.levels import SURE
 from geocontact.identify.signals.low_pass import LowPass
 
 STEP = 0.01
@@ -79,7 +80,7 @@ def test_no_other_start_finds_anything_likelier(expected: Float[np.ndarray, " f"
         return float(value[0]), slope[0]
 
     others = []
-    for count, price in ((5, 0.0), (6, TAILED)):
+    for count, price in ((5, 0.0), (6, 0.5 * SURE)):
         low = np.array([top - 20.0, np.log(0.02), np.log(0.7), top - 60.0, top - 80.0, top - 60.0])[:count]
         high = np.array([top + 40.0, np.log(20.0), np.log(3.0), top + 2.0, top, top + 20.0])[:count]
         for _ in range(25):
@@ -103,7 +104,7 @@ def test_a_tail_of_the_movement_is_not_taken_for_noise(monkeypatch: pytest.Monke
     answer = split(seen, FILTERS)
     assert int(np.argmin(answer.unlikely)) == len(FILTERS) - 1
     assert answer.noise[-1] == pytest.approx(1e-4, rel=0.3)
-    monkeypatch.setattr("geocontact.gap.inputs.spectrum_components.TAILED", 1e9)
+    monkeypatch.setattr("geocontact.gap.inputs.spectrum_components.SURE", 1e9)
     assert int(np.argmin(split(seen, FILTERS).unlikely)) < 5
 
 

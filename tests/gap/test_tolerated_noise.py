@@ -15,7 +15,8 @@ from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.plain_fit import plain_fit
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.tolerated_noise import HARM, worse_somewhere
+from geocontact.gap.case.tolerated_noise import worse_somewhere
+from geocontact.gap.levels import SLIGHT
 from geocontact.systems.elastic_joint.model import JOINT
 
 STEP = 0.04
@@ -50,7 +51,7 @@ def test_the_base_misses_no_more_once_noise_is_taken_off(problem: Problem) -> No
     recorded, floor = problem.recorded, problem.floor_of_noise
     first = replace(recorded, trials=recorded.trials[:3], outputs=recorded.outputs[:3])
     before, after = (plain_fit(problem.system, some, floor, [{}], 20).cost for some in (first, problem.calibration))
-    assert after < (1.0 + HARM) * before
+    assert after < (1.0 + SLIGHT) * before
 
 
 def test_a_damper_has_the_size_that_was_planted(problem: Problem) -> None:

@@ -9,14 +9,11 @@ from geocontact.data.parameter import Parameter
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.problem import Noise
 from geocontact.gap.case.refit import Refit
+from geocontact.gap.levels import SLIGHT, SURE
 from geocontact.gap.selection.evidence import Judged
 from geocontact.gap.selection.model_comparison import Contender
 from geocontact.gap.selection.verdict import (
-    ALLOWED,
     BEYOND,
-    FORM,
-    LEAST,
-    SURE,
     answer,
     borne_out,
     most_of,
@@ -92,13 +89,13 @@ def test_what_a_known_effect_explains_is_nothing_unknown_though_it_is_too_small_
 def test_a_gain_is_borne_out_in_proportion_to_what_changes_in_the_calibration_trials() -> None:
     assert borne_out(100.0, 60.0, 0.6) == 100.0
     assert borne_out(100.0, 10.0, 0.1) == 100.0
-    assert borne_out(100.0, 10.0, 0.5) == pytest.approx(24.0 + BEYOND * 76.0)
-    assert borne_out(500.0, 10.0, LEAST / 10.0) == borne_out(500.0, 10.0, LEAST)
+    assert borne_out(100.0, 10.0, 0.5) == pytest.approx(20.0 + SURE + BEYOND * (80.0 - SURE))
+    assert borne_out(500.0, 10.0, SLIGHT / 10.0) == borne_out(500.0, 10.0, SLIGHT)
 
 
 @pytest.mark.parametrize("share", [0.01, 0.1, 0.6])
 def test_a_price_that_calibration_trials_paid_is_no_loss_in_all(share: float) -> None:
-    assert borne_out(100.0, -2.0, share) == pytest.approx(ALLOWED - 2.0 + BEYOND * (102.0 - ALLOWED))
+    assert borne_out(100.0, -2.0, share) == pytest.approx(SURE - 2.0 + BEYOND * (102.0 - SURE))
 
 
 def test_everyone_is_borne_out_by_what_it_changes_itself() -> None:
@@ -113,7 +110,7 @@ def test_variants_share_what_is_believed_of_their_effect() -> None:
     even = said(*competitors).probabilities
     assert even["damping"] == pytest.approx(even["dry_friction"])
     odds = said(*competitors, variants={"dry_friction": 2}).probabilities
-    assert odds["damping"] / odds["dry_friction"] == pytest.approx(2.0 ** (1.0 / (1.0 + 30.0 * FORM)), rel=0.01)
+    assert odds["damping"] / odds["dry_friction"] == pytest.approx(2.0 ** (1.0 / (1.0 + 30.0 * SLIGHT)), rel=0.01)
 
 
 def test_a_second_effect_must_add_its_share() -> None:

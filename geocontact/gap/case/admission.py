@@ -10,9 +10,7 @@ from geocontact.chain.system import System
 from geocontact.data.errors import InputError
 from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
-
-LEAST = 20
-"""Samples of a trial, and measured values of an output over all calibration trials."""
+from geocontact.gap.levels import FEWEST
 
 
 def admitted(case: GapCase, system: System) -> GapCase:
@@ -26,9 +24,9 @@ def admitted(case: GapCase, system: System) -> GapCase:
     for side, trials in (("calibration", case.calibration), ("evaluation", case.evaluation)):
         for name in system.outputs:
             count = sum(int(np.isfinite(trial.column(name)).sum()) for trial in trials)
-            if count < (LEAST if side == "calibration" else 1):
+            if count < (FEWEST if side == "calibration" else 1):
                 what = f"{name} has {count} measured values in the {side} trials"
-                raise _refusal(case, side, what, f"at least {LEAST} are needed" if count else "choose other trials")
+                raise _refusal(case, side, what, f"at least {FEWEST} are needed" if count else "choose other trials")
     _require_movement(case, system)
     for site, cells in case.cells.items():
         if cells.channel not in system.outputs:
@@ -42,11 +40,11 @@ def admitted(case: GapCase, system: System) -> GapCase:
 
 
 def _require_samples(case: GapCase, system: System, trial: Trial) -> None:
-    if len(trial) < LEAST:
-        raise _refusal(case, f"trial {trial.name}", f"{len(trial)} samples", f"at least {LEAST} are needed")
+    if len(trial) < FEWEST:
+        raise _refusal(case, f"trial {trial.name}", f"{len(trial)} samples", f"at least {FEWEST} are needed")
     for name in system.inputs:
-        if int(np.isfinite(trial.column(name)).sum()) < LEAST:
-            what = f"input {name} has fewer than {LEAST} measured values"
+        if int(np.isfinite(trial.column(name)).sum()) < FEWEST:
+            what = f"input {name} has fewer than {FEWEST} measured values"
             raise _refusal(case, f"trial {trial.name}", what, "a model cannot be driven by what was not measured")
 
 

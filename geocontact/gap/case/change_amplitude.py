@@ -18,11 +18,11 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.gap.levels import SLIGHT
+from geocontact.identify.intervals.quantile_intervals import CONFIDENCE
+from geocontact.identify.optimise.tolerances import ROUNDING
+
 BLOCKS = 16  # per trial
-SURE = 0.975  # one-sided
-HALF = 0.5  # amplitude below which a change makes the error larger
-NOTHING = 1e-12  # of the squared residual, below which a prediction is not changed
-HARM = 0.02  # of a channel's squared error, that it may surely grow by; the sum over the channels may not grow at all
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Amplitude:
     @property
     def better(self) -> bool:
         """Whether the error surely falls."""
-        return self.low > HALF
+        return self.low > 0.5
 
     @property
     def words(self) -> str:
@@ -55,7 +55,7 @@ class Amplitude:
     @property
     def worse(self) -> bool:
         """Whether the error surely grows, by more than what makes no difference."""
-        return self.high < HALF and self.grown > HARM
+        return self.high < 0.5 and self.grown > SLIGHT
 
 
 def block_edges(count: int) -> Int[np.ndarray, " b"]:
@@ -81,7 +81,7 @@ def amplitude(
         powers.append(np.add.reduceat((moved**2).sum(axis=1), edges))
         squares += float((own**2).sum())
     power, work = float(np.sum(powers)), float(np.sum(works))
-    if not NOTHING * squares < power < np.inf:
+    if not ROUNDING * squares < power < np.inf:
         return None
     value = work / power
     off = [w - value * p for w, p in zip(works, powers, strict=True)]
@@ -92,5 +92,5 @@ def amplitude(
     count = power**2 / float(np.sum(np.square(powers)))
     freedom = max(count - 1.0, 0.5)
     error = float(np.sqrt(spread * (count / freedom))) / power
-    reach = float(t.ppf(SURE, freedom)) * error
+    reach = float(t.ppf(0.5 + 0.5 * CONFIDENCE, freedom)) * error
     return Amplitude(value, value - reach, value + reach, (power - 2.0 * work) / max(squares, 1e-300))

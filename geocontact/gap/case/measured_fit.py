@@ -13,9 +13,7 @@ from jaxtyping import Float
 
 from geocontact.gap.case.plain_fit import Plain, plain_fit
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.refit import Refit, refit
-
-ROUNDS = 20
+from geocontact.gap.case.refit import ROUNDS, Refit, refit
 
 
 def measured_fit(
@@ -39,5 +37,5 @@ def measured_fit(
 
 def smoothed_fit(problem: Problem, model: Refit, floor: Float[np.ndarray, " c"]) -> list[Float[np.ndarray, "_ c"]]:
     """Residuals of the held-out trials, inputs and rates as the contest has them, fitted as in `measured_fit`."""
-    values = plain_fit(model.system, problem.calibration, floor, [model.values], ROUNDS).values
+    values = plain_fit(model.system, problem.calibration, floor, [model.values]).values
     return problem.evaluation.residuals(model.system, values)

@@ -16,18 +16,16 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
-from geocontact.chain.links import Modifier
+from geocontact.chain.links import LAST, Modifier
 from geocontact.chain.system import FAR, System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 
 LENGTH = 0.006  # of the device's largest length: 1 mm of 17 cm
 ANGLE = 0.0087  # rad: half a degree
-SPAN = 0.01  # of the half-range of an input that is neither a length nor an angle
-GAIN = 0.01  # of a channel
+GAIN = 0.01  # of a channel, and of the half-range of an input that is neither a length nor an angle
 ZERO = 0.005  # of a channel's largest magnitude
 SHARE = 0.04  # of a base parameter that is neither a length nor an angle
-LAST = 1e6  # rank of a shifted zero: after everything that is wrong with the motion
 
 
 def varies_by(system: System, parameter: Parameter, value: float) -> float:
@@ -83,7 +81,7 @@ def zero_of_input(system: System, name: str) -> float:
     unit = system.unit(name)
     if unit == "m":
         return LENGTH * system.length
-    return ANGLE if unit == "rad" else SPAN * system.scale.span.get(name, 1.0)
+    return ANGLE if unit == "rad" else GAIN * system.scale.span.get(name, 1.0)
 
 
 def shifted(system: System, row: int, by: float) -> System:

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import System
-from geocontact.gap.case.refit import Measured, Refit, free, refit
+from geocontact.gap.case.refit import ROUNDS, Measured, Refit, free, refit
 
 STARTS = 4  # of the base fit, besides the case's own
 
@@ -32,7 +32,7 @@ def plain_fit(
     measured: Measured,
     floor: Float[np.ndarray, " c"],
     starts: Sequence[Mapping[str, float]],
-    rounds: int,
+    rounds: int = ROUNDS,
 ) -> Refit:
     """The base model refitted to measured trials, every channel divided by `floor`, the best of several starts."""
     return refit(system, measured, [Plain(there, floor) for there in measured.present], starts, rounds)

@@ -15,17 +15,14 @@ from geocontact.gap.case.plain_fit import base_starts, plain_fit
 from geocontact.gap.case.problem import Noise, Problem, differences, floor_of
 from geocontact.gap.case.quotient_noise import noise_spread
 from geocontact.gap.case.rate_smoothing import REACHES, with_smoothed_rates
-from geocontact.gap.case.refit import Measured, Refit, free
+from geocontact.gap.case.refit import ROUNDS, Measured, Refit, free
 from geocontact.gap.case.rough_noise import rough_noise, typical_step, with_rounding
 from geocontact.gap.case.signal_size import seen_growth, signal_size
 from geocontact.gap.case.tolerated_noise import tolerated
-from geocontact.gap.case.whitening import layouts_of, usual_levels
+from geocontact.gap.case.whitening import SENSOR_LOUDER, layouts_of, usual_levels
 from geocontact.gap.inputs.denoise import Filters, Left, denoised, highest_noise, left, seen_noise, shaken
 from geocontact.gap.inputs.filter_cutoff import filters_of, likely_noise
 from geocontact.gap.inputs.spectrum import measured_inputs
-
-TAKEN_OFF = 1.25  # times what is believed of an input's noise, that is taken off it at the most
-SEED = 0  # of the noise that is added to inputs
 
 
 @dataclass(frozen=True)
@@ -84,7 +81,7 @@ class Denoised:
     @classmethod
     def of(cls, calibration: Measured, evaluation: Measured, levels: Mapping[str, float], passed: Filters) -> Denoised:
         """Noise of these standard deviations taken off recordings."""
-        recorded, rng = together(calibration, evaluation), np.random.default_rng(SEED)
+        recorded, rng = together(calibration, evaluation), np.random.default_rng(0)
         shaken_trials = tuple(shaken(trial, levels, passed, rng) for trial in recorded.trials)
         kept = {n: left(recorded.trials, n, sd, passed[n]) for n, sd in levels.items()}
         first, later = (
@@ -100,21 +97,21 @@ def problem_of(case: GapCase, system: System) -> Problem:
     stated, rough = with_rounding(case), rough_noise(system, case)
     calibration, evaluation = (Measured.of(system, some, rough) for some in (case.calibration, case.evaluation))
     recorded = together(calibration, evaluation)
-    plain = plain_fit(system, calibration, rough, base_starts(system), rounds=40)
+    plain = plain_fit(system, calibration, rough, base_starts(system), 2 * ROUNDS)
     inputs = InputBeliefs.of(system, recorded, calibration.trials, stated)
     inputs = inputs.tolerated(system, calibration, evaluation, plain, stated)
     system = with_smoothed_rates(system, stated, calibration, plain, inputs.passed, inputs.seen, inputs.most)
-    plain = plain_fit(system, calibration, rough, base_starts(system), rounds=40)
+    plain = plain_fit(system, calibration, rough, base_starts(system), 2 * ROUNDS)
     as_came = Denoised(calibration, evaluation, {}, recorded)
     problem = _posed(system, stated, inputs, recorded, as_came, plain, calibration)
     noise = problem.weighed(plain)
     calm = Denoised.of(calibration, evaluation, _taken_off(problem, noise, inputs), inputs.passed)
     everything = together(calm.calibration, calm.evaluation)
-    plain = plain_fit(problem.system, calm.calibration, floor_of(problem, noise, plain), [plain.values], rounds=20)
+    plain = plain_fit(problem.system, calm.calibration, floor_of(problem, noise, plain), [plain.values])
     problem = _posed(problem.system, stated, inputs, recorded, calm, plain, everything)
     noise = problem.weighed(plain, others=[noise])
     floor = floor_of(problem, noise, plain)
-    plain = plain_fit(problem.system, calm.calibration, floor, [plain.values], rounds=20)
+    plain = plain_fit(problem.system, calm.calibration, floor, [plain.values])
     residuals = everything.residuals(problem.system, plain.values)
     passed_on = differences(calm.shaken, problem.system, plain.values, residuals)
     return replace(problem, plain=plain, floor=floor, passed_on=passed_on, noise=noise)
@@ -163,6 +160,6 @@ def _posed(
 
 def _taken_off(problem: Problem, noise: Noise, inputs: InputBeliefs) -> dict[str, float]:
     """Standard deviation of the noise of each measured input that is taken off it."""
-    low_noise = np.minimum(noise.levels.inputs, TAKEN_OFF * problem.beliefs.middle.inputs)
+    low_noise = np.minimum(noise.levels.inputs, SENSOR_LOUDER * problem.beliefs.middle.inputs)
     levels = dict(zip(problem.system.inputs, map(float, low_noise), strict=True))
     return {name: shown or min(levels[name], inputs.most[name]) for name, shown in inputs.shown.items()}

@@ -9,17 +9,17 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import FAR, System
-from geocontact.gap.case.refit import NO_VALUE, Measured, Refit, at, free
-from geocontact.gap.case.whitening import Share, Whitening
+from geocontact.gap.case.refit import Measured, Refit, at, free
+from geocontact.gap.case.whitening import LOUDER, Share, Whitening
 from geocontact.gap.inputs.denoise import Filters
+from geocontact.gap.levels import DEVIATIONS
 from geocontact.identify.noise.covariance import Layout, Whitener
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_search import most_likely
 from geocontact.identify.noise.trial_variation import Products, variation
+from geocontact.identify.optimise.least_squares import NO_VALUE
 
-USUALLY, BARELY = 4.0, 1.0  # trials that the usual variation of a parameter counts as; where the trials are to speak
-MEMORY = 2.0  # times its usual correlation time that low noise may remember
-MOST_VARIATION = 3.0  # times what is usual; a trial that deviates more misses something else
+USUALLY = 4.0  # trials that the usual variation of a parameter counts as; one where the trials are to speak
 
 
 @dataclass(frozen=True)
@@ -134,7 +134,7 @@ class Problem:
             noise.levels,
             white=np.minimum(noise.levels.white, usual.white),
             coloured=np.minimum(noise.levels.coloured, usual.coloured),
-            memory=np.minimum(noise.levels.memory, MEMORY * usual.memory),
+            memory=np.minimum(noise.levels.memory, LOUDER * usual.memory),
             growing=np.minimum(noise.levels.growing, usual.growing),
             inputs=np.minimum(np.array(best), usual.inputs),
         )
@@ -147,9 +147,9 @@ class Problem:
     def _variation(self, model: Refit, whiteners: Sequence[Whitener]) -> Float[np.ndarray, " q"]:
         """Of parameters around their fitted values; of what is not fitted around its mean over the trials."""
         kinds = [self.fitted, len(self.usual) - self.fitted]
-        weight, spent = np.repeat([USUALLY, BARELY], kinds), np.repeat([0.0, 1.0], kinds)
+        weight, spent = np.repeat([USUALLY, 1.0], kinds), np.repeat([0.0, 1.0], kinds)
         found = variation(self._products(whiteners, model), self.usual, weight, spent)
-        return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
+        return np.asarray(np.minimum(found, DEVIATIONS * self.usual))
 
     def _products(self, whiteners: Sequence[Whitener], model: Refit) -> list[Products]:
         return [
@@ -159,8 +159,8 @@ class Problem:
 
     def seen_variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
         """How much all trials do differ, little believed beforehand, around parameters that were fitted to all."""
-        found = variation(self._products(self._whiteners(levels), model), self.usual, BARELY, spent=1.0)
-        return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
+        found = variation(self._products(self._whiteners(levels), model), self.usual, 1.0, spent=1.0)
+        return np.asarray(np.minimum(found, DEVIATIONS * self.usual))
 
     def fitting(self, noise: Noise, model: Refit) -> list[Whitening]:
         """Whitening of the calibration trials."""

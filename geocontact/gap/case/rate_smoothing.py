@@ -10,7 +10,7 @@ from geocontact.chain.system import System
 from geocontact.gap.case.placement import varies_by
 from geocontact.gap.case.plain_fit import plain_fit
 from geocontact.gap.case.quotient_noise import noise_spread
-from geocontact.gap.case.refit import Measured, Refit, free
+from geocontact.gap.case.refit import ROUNDS, Measured, Refit, free
 from geocontact.gap.case.signal_size import seen_growth, signal_size
 from geocontact.gap.case.whitening import layouts_of, sensitivity, usual_levels
 from geocontact.gap.inputs.denoise import Filters
@@ -45,10 +45,10 @@ def with_smoothed_rates(
 
     def likelihood(reach: float) -> float:
         other = system.reaching(reach)
-        model = plain_fit(other, measured, rough, [plain.values], rounds=6)
+        model = plain_fit(other, measured, rough, [plain.values], ROUNDS // 4)
         layouts = layouts_of(other, measured.trials, model.values, measured.present, passed, {}, spread, signal)
         varied = [j[..., : len(usual)] * usual for j in model.jacobian]
-        return most_likely(layouts, model.residuals, varied, beliefs, beliefs.middle, rounds=15)[2]
+        return most_likely(layouts, model.residuals, varied, beliefs, beliefs.middle, ROUNDS)[2]
 
     return system.reaching(best_of(likelihood, [each * system.scale.step for each in REACHES]))
 

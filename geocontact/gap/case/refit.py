@@ -15,12 +15,12 @@ from geocontact.chain.tangents import tangents
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.identify.optimise.bounded_gauss_newton import GaussNewtonResult, least
+from geocontact.identify.optimise.least_squares import NO_VALUE
 
+ROUNDS = 24  # of a search to its end; twice as many from far away, half of it or a quarter where it sets out nearer
 STEP = 1e-5  # of a parameter's magnitude, for differences
 NEAR = 1e-7  # the same, for differences of what is linear but for balance and sensor
 ENOUGH = 0.01  # nats that a search does not go on for
-LITTLE = 0.05  # nats that another start must promise to be followed
-NO_VALUE = 3.0  # residual, in rough noise levels, where something was measured and the model has no value
 
 
 Whiten = Callable[[Float[np.ndarray, "t c p"]], Float[np.ndarray, "n p"]]
@@ -175,12 +175,12 @@ def refit(
     measured: Measured,
     whitenings: Sequence[Whiten],
     starts: Sequence[Mapping[str, float]],
-    rounds: int = 12,
+    rounds: int = ROUNDS // 2,
     useful: float = np.inf,
 ) -> Refit:
     """Bounded least squares of the weighed residuals, the best of several starts.
 
-    `rounds` are those of each start. A start is left as soon as it does not promise to come `LITTLE` below
+    `rounds` are those of each start. A start is left as soon as it does not promise to come `ENOUGH` below
     those before it, and below the cost `useful`.
     """
     if not free(system):
@@ -188,7 +188,7 @@ def refit(
     search = RefitSearch(system, measured, whitenings)
     best, cost = None, np.inf
     for start in starts:
-        found = search.from_start(start, rounds, min(useful, cost - LITTLE))
+        found = search.from_start(start, rounds, min(useful, cost - ENOUGH))
         if found.cost < cost:
             best, cost = search.reached(found.x), found.cost
     if best is None:
@@ -230,7 +230,7 @@ class RefitSearch:
             return np.asarray(-self._weighed(self.slopes(z.tobytes())) * self.scale)
 
         z = np.array([start.get(p.name, p.start) for p in self.parameters]) / self.scale
-        inside = np.clip(z, self.lower + 1e-6, self.upper - 1e-6)
+        inside = np.clip(z, self.lower + 0.1 * STEP, self.upper - 0.1 * STEP)
         return least(residual, slope, inside, self.lower, self.upper, rounds, ENOUGH, useful)
 
     def reached(self, z: Float[np.ndarray, " p"]) -> Refit:

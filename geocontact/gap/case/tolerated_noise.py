@@ -16,12 +16,11 @@ from jaxtyping import Float
 from geocontact.chain.system import System
 from geocontact.gap.case.change_amplitude import amplitude
 from geocontact.gap.case.plain_fit import plain_fit
-from geocontact.gap.case.refit import Measured
+from geocontact.gap.case.refit import ROUNDS, Measured
 from geocontact.gap.inputs.denoise import Filters, denoised
+from geocontact.gap.levels import SLIGHT
 
-HARM = 0.02  # of the base model's squared error, that it may grow by
 HALVINGS = 6  # of a level, before nothing is believed of it
-ROUNDS = 4  # of a fit that sets out where the base model is
 
 
 def tolerated(
@@ -52,12 +51,12 @@ def tolerated(
             replace(some, trials=tuple(denoised(trial, noise, passed) for trial in some.trials))
             for some in (measured, held_out)
         )
-        fitted = plain_fit(system, first, measured.rough, [values], ROUNDS)
+        fitted = plain_fit(system, first, measured.rough, [values], ROUNDS // 4)
         return fitted.cost, later.residuals(system, fitted.values)
 
     def harmless(name: str, level: float) -> bool:
         cost, after = without({name: level})
-        return cost <= (1.0 + HARM) * whole and not worse_somewhere(before, after)
+        return cost <= (1.0 + SLIGHT) * whole and not worse_somewhere(before, after)
 
     (whole, before), found = without({}), {}
     for name, level in levels.items():

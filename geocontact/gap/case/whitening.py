@@ -11,30 +11,28 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs, rate_of_waves
-from geocontact.chain.links import Modifier
+from geocontact.chain.links import LAST, Modifier
 from geocontact.chain.system import System
 from geocontact.data.trial import Trial
-from geocontact.gap.inputs.responses import responses
+from geocontact.gap.inputs.filter_cutoff import USUAL
+from geocontact.gap.inputs.responses import BUMP, responses
+from geocontact.gap.levels import INPUT_NOISE, TWOFOLD
 from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.input_noise import InputNoise, Instant
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 
-INPUT_NOISE = 2e-3  # of an input's half-range
-ALIKE, OWN = 0.8, 0.5  # standard deviations of the logarithm of input noise: of a unit, and of one input beyond that
 LOUDER = 2.0  # times what is believed of an input's noise that it may be
 SENSOR_LOUDER = 1.2  # times the stated noise of a sensor
 QUIETEST = 0.1  # of `INPUT_NOISE`, that an input's limit is at the least: resolution, slow errors
 Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
 """Of power that is left, by frequency [Hz]."""
 
-SLOW, SLOW_TIME = 30.0, 0.7  # samples, that slow noise usually remembers, and standard deviation of the logarithm
+SLOW = 30.0  # samples, that slow noise usually remembers
 QUICK = 2.0  # samples, that quick noise usually remembers
-SLOW_SHARE, SLOW_LEVEL = 0.3, 0.8  # of the quick noise, that it usually is, and of the logarithm of its level
+SLOW_SHARE = 0.3  # of the quick noise, that it usually is
 GROWN, GROWN_LEVEL = 0.2, 0.35  # of its noise, that grows to the largest signal, at the least; and of the logarithm
-BUMP, RATE = 1e-4, 0.06  # of an input's half-range; and per sample
-LAST = 1e6  # rank of the bump: after everything that is wrong with the motion
 
 
 @runtime_checkable
@@ -114,7 +112,7 @@ def sensitivity(
 ) -> Instant:
     """How the outputs answer to each input's value and rate, sample by sample, by central differences."""
     answers = []
-    for kind, per_second in (("position", 1.0), ("rate", RATE / system.scale.step)):
+    for kind, per_second in (("position", 1.0), ("rate", USUAL / system.scale.step)):
         columns = []
         for row, name in enumerate(system.inputs):
             step = BUMP * per_second * system.scale.span.get(name, 1.0)
@@ -146,12 +144,13 @@ def usual_levels(
     """What is believed of the noise before the residuals are looked at.
 
     The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
-    stands in and is believed less. Quick noise remembers a few samples, slow noise some tens. What grows with
-    the signal is as much as the recording shows (`growth`, per unit of the signal), and little at the least. Inputs are
-    known as well as their spectra show (`seen`), 0.2 % of their half-range at the least unless `most` is less, and
-    those of one unit about equally well, since they come from the same markers; what is stated of one is believed. A
-    sensor is hardly noisier than `SENSOR_LOUDER` times what was stated, an input than `LOUDER` times what is believed,
-    or than `most` (a tenth of the 0.2 % at the least); nothing more is believed of it than that.
+    stands in and is believed half as well. All is known to a factor of two. Quick noise remembers a few samples, slow
+    noise some tens. What grows with the signal is as much as the recording shows (`growth`, per unit of it), and
+    little at the least. Inputs are known as well as their spectra show (`seen`), 0.2 % of their half-range at the least
+    unless `most` is less, and those of one unit about equally well, since they come from the same markers; what is
+    stated of one is believed. A sensor is hardly noisier than `SENSOR_LOUDER` times what was stated, an input than
+    `LOUDER` times what is believed, or than `most` (a tenth of the 0.2 % at the least); nothing more is believed of it
+    than that.
     """
     known = np.array([name in stated for name in system.outputs])
     sd = np.array([stated.get(name, each) for name, each in zip(system.outputs, rough, strict=True)]) / np.sqrt(2.0)
@@ -160,10 +159,10 @@ def usual_levels(
     own = np.array([max(INPUT_NOISE * system.scale.span.get(name, 1.0), seen.get(name, 0.0)) for name in system.inputs])
     inputs = np.exp(alike @ np.log(own) / alike.sum(axis=1))
     inputs = np.array([stated.get(name, level) for name, level in zip(system.inputs, inputs, strict=True)])
-    covariance = ALIKE**2 * alike + OWN**2 * np.eye(len(units))
-    white, quick = np.where(known, 0.5, 1.0), np.where(known, 0.7, 1.2)
-    sure = np.ones(len(sd))
-    widths = np.concatenate([white, quick, SLOW_LEVEL * sure, sure, SLOW_TIME * sure, GROWN_LEVEL * sure])
+    covariance = TWOFOLD**2 * alike + 0.5**2 * np.eye(len(units))
+    white, sure = np.where(known, 0.5, 1.0), np.ones(len(sd))
+    levels = [white, 2.0 * TWOFOLD * white, TWOFOLD * sure]
+    widths = np.concatenate([*levels, sure, TWOFOLD * sure, GROWN_LEVEL * sure])
     largest = np.array([system.scale.of(name) for name in system.outputs])
     factor = np.zeros((len(widths) + len(units),) * 2)
     factor[: len(widths), : len(widths)] = np.diag(widths)

@@ -17,12 +17,10 @@ from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.gap.case.plain_fit import Plain, base_starts
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.refit import Measured, Refit, refit
+from geocontact.gap.case.rate_smoothing import REACHES
+from geocontact.gap.case.refit import ROUNDS, Measured, Refit, refit
+from geocontact.gap.levels import DEVIATIONS, LEFT_OVER, WORTH_NAMING
 
-GROSS = 0.3  # residual over measured, root mean squares of a channel in a trial
-FIXED_BY = 0.15  # of the misfit may be left when a mistake is undone
-ROUNDS = 8
-SMOOTHED = 7.0  # samples to either side, that rates are smoothed over
 FEW = 4  # calibration trials of which every set is tried
 
 
@@ -57,7 +55,7 @@ def data_error_of(problem: Problem, candidates: Sequence[Candidate]) -> DataErro
         return None
     cost, one, some = best
     before = _cost(problem, problem.system, problem.calibration, problem.plain.values).sum()
-    if cost > FIXED_BY * before:
+    if cost > LEFT_OVER * before:
         return None
     return _over_all_trials(problem, one, some, float(cost / before))
 
@@ -73,8 +71,8 @@ def recognised(problem: Problem, one: Candidate, model: Refit) -> DataError:
 def gross(problem: Problem, measured: Measured, model: Refit) -> bool:
     """Whether a model misses some channel of some trial by a large share of its size."""
     for residual, outputs in zip(measured.residuals(model.system, model.values), measured.outputs, strict=True):
-        size = np.sqrt(np.nanmean(outputs**2, axis=0))
-        if (np.sqrt(np.mean(residual**2, axis=0)) > GROSS * np.maximum(size, 3.0 * problem.floor_of_noise)).any():
+        size = np.maximum(np.nanmean(outputs**2, axis=0), (DEVIATIONS * problem.floor_of_noise) ** 2)
+        if (np.mean(residual**2, axis=0) > WORTH_NAMING * size).any():
             return True
     return False
 
@@ -86,7 +84,7 @@ def _as_recorded(problem: Problem) -> Problem:
     def part(some: slice) -> Measured:
         return replace(recorded, trials=recorded.trials[some], outputs=recorded.outputs[some])
 
-    system = problem.system.reaching(SMOOTHED * problem.system.scale.step)
+    system = problem.system.reaching(REACHES[0] * problem.system.scale.step)
     return replace(problem, system=system, calibration=part(slice(count)), evaluation=part(slice(count, None)))
 
 
@@ -125,11 +123,11 @@ def _costs(problem: Problem, mistakes: list[Candidate], some: frozenset[str]) ->
         starts = base_starts(problem.system)[:2]
         found = []
         for one in mistakes:
-            model = refit(one.apply(problem.system), measured, whiten, starts, ROUNDS)
+            model = refit(one.apply(problem.system), measured, whiten, starts, ROUNDS // 2)
             found.append((one, model.cost))
         return found
     whiten = [Plain(there, scale) for there in others.present]
-    values = refit(problem.system, others, whiten, [{}, problem.plain.values], ROUNDS).values
+    values = refit(problem.system, others, whiten, [{}, problem.plain.values], ROUNDS // 2).values
     known = float(_cost(problem, problem.system, others, values).sum())
     suspects = _part(measured, some)
     return [
@@ -144,7 +142,7 @@ def _over_all_trials(problem: Problem, one: Candidate, some: frozenset[str], lef
     candidate = one if some == names else one.only(some)
     system = candidate.apply(problem.system)
     whiten = [Plain(there, problem.floor_of_noise) for there in problem.calibration.present]
-    values = refit(system, problem.calibration, whiten, [*base_starts(system)[:2], problem.plain.values], 20).values
+    values = refit(system, problem.calibration, whiten, [*base_starts(system)[:2], problem.plain.values], ROUNDS).values
     also = frozenset(_better_with(problem, one, problem.system, values))
     everywhere = some | also
     held_out = {t.name for t in problem.evaluation.trials}
@@ -158,7 +156,7 @@ def _better_with(problem: Problem, one: Candidate, system: System, values: dict[
     without = _cost(problem, system, problem.evaluation, values)
     having = _cost(problem, one.only(names).apply(system), problem.evaluation, values)
     trials = problem.evaluation.trials
-    return [t.name for t, a, b in zip(trials, without, having, strict=True) if b < FIXED_BY * a]
+    return [t.name for t, a, b in zip(trials, without, having, strict=True) if b < LEFT_OVER * a]
 
 
 def _held_out_only(problem: Problem, mistakes: list[Candidate]) -> DataError | None:

@@ -17,16 +17,15 @@ from geocontact.data.gap.case import GapCase
 from geocontact.gap.case.plain_fit import base_starts
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.refit import Measured, Refit, Whiten, refit
+from geocontact.gap.case.refit import ROUNDS, Measured, Refit, Whiten, refit
 from geocontact.gap.data_errors.correction import corrected
 from geocontact.gap.data_errors.gross import gross, recognised
+from geocontact.gap.levels import TURNS
 from geocontact.gap.selection.evidence import Judged, by_smoothing
 from geocontact.gap.selection.model_comparison import Contender, base_contender
 from geocontact.gap.selection.tails import Tails
 
 MODEST = 20.0  # factor of a unit up to which a wrong one may hide in parameters
-ROUNDS = 8
-ASSIGNMENTS = 3  # times that trials are told apart anew
 
 
 def hidden_mistakes(problem: Problem, base: Judged, candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
@@ -93,7 +92,7 @@ def _where(problem: Problem, one: Candidate, whitenings: Sequence[Whiten]) -> Ca
     turned = _turned(problem, one, calibration, fitted, start)
     patterns = [every]
     for some in (turned, every - turned):
-        for _ in range(ASSIGNMENTS):
+        for _ in range(TURNS):
             model = _fitted(problem, one, some, calibration, fitted)
             again = _turned(problem, one, calibration, fitted, model.values)
             if again == some:
@@ -119,7 +118,7 @@ def _fitted(
 ) -> Refit:
     """The base model with the mistake in some trials."""
     system = one.only(some).apply(problem.system)
-    return refit(system, measured, whitenings, [*base_starts(problem.system)[:2], problem.plain.values], ROUNDS)
+    return refit(system, measured, whitenings, [*base_starts(problem.system)[:2], problem.plain.values], ROUNDS // 2)
 
 
 def _turned(

@@ -36,8 +36,9 @@ from geocontact.gap.identifiability.signatures import (
     rest_of,
     sized,
 )
+from geocontact.gap.levels import SLIGHT, SURE
 from geocontact.gap.selection.evidence import FLAT
-from geocontact.gap.selection.verdict import FORM, SURE, borne_out
+from geocontact.gap.selection.verdict import borne_out
 
 POWER = 0.8  # share of repetitions in which an effect of the stated amplitude is seen
 REPETITIONS = 2000
@@ -167,7 +168,7 @@ def power(ground: BaseState, one: Sized, others: Sequence[Gainer], variants: int
 def _outweighs(gains: Float[np.ndarray, "e r"]) -> Float[np.ndarray, " r"]:
     """Where effects together are more probable than none, as `gap.selection.verdict.answer` weighs them: 1, else 0."""
     most = np.maximum(gains.max(axis=0), 0.0)
-    tolerance = 1.0 + FORM * most
+    tolerance = 1.0 + SLIGHT * most
     effects = np.exp((gains - most) / tolerance).sum(axis=0)
     return np.asarray(effects > np.exp((SURE - most) / tolerance), dtype=float)
 

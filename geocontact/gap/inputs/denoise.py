@@ -19,16 +19,15 @@ from jaxtyping import Complex, Float, Int
 
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs.even_grid import even_grid
-from geocontact.gap.inputs.filter_cutoff import HIGHEST, USUAL
-from geocontact.identify.signals.low_pass import LowPass
+from geocontact.gap.inputs.filter_cutoff import USUAL
+from geocontact.gap.levels import FEWEST, SURE
+from geocontact.identify.signals.low_pass import BELOW_NYQUIST, LowPass
 
 PLATEAU = (0.25, 0.42, 0.58, 0.75, 0.92)  # of the corner
 FLAT = 2.5  # largest over smallest power of a plateau
-CHANCE = 1e-3  # that the noise of an input is higher than the limit that its spectrum sets
 BLACKMAN = 1.73  # bins as wide as one under the window (Harris 1978, Proc. IEEE 66:51)
 SMOOTH = 5  # bins that the spectrum of a stretch is averaged over
-PERIODS, FEWEST = 8.0, 8  # of the corner in a stretch, and samples in a quarter of it at the least
-WINDOWS = 1.5  # sum of the squares of Hann windows that stand a quarter of their width apart
+PERIODS = 8.0  # of the corner in a stretch
 Filters = Mapping[str, LowPass]
 """What each input came through."""
 
@@ -71,7 +70,7 @@ def changed(
     for name in names:
         column = trial.signals.channels.index(name)
         there = np.isfinite(values[:, column])
-        if there.sum() < 4 * FEWEST:
+        if there.sum() < FEWEST:
             continue
         even = np.interp(grid, time[there], values[there, column])
         values[there, column] += np.interp(time[there], grid, change(name, even, float(grid[1] - grid[0])))
@@ -106,7 +105,7 @@ def highest_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
         bands = in_bands(recordings, passed, corner)
         if not bands:
             return float("inf")
-        least = CHANCE / len(bands)
+        least = float(np.exp(-SURE)) / len(bands)
         freedom = [2.0 * band.values / BLACKMAN for band in bands]
         found.append(min(band.variance * f / chi2.ppf(least, f) for band, f in zip(bands, freedom, strict=True)))
     return float(np.sqrt(max(found)))
@@ -118,7 +117,7 @@ def _evenly(trials: Sequence[Trial], name: str) -> list[tuple[Float[np.ndarray, 
     for trial in trials:
         column, grid = trial.column(name), even_grid(trial.time)
         there = np.isfinite(column)
-        if there.sum() > 4 * FEWEST:
+        if there.sum() > FEWEST:
             recordings.append((np.interp(grid, trial.time[there], column[there]), float(grid[1] - grid[0])))
     return recordings
 
@@ -191,7 +190,7 @@ def left(trials: Sequence[Trial], name: str, sd: float, passed: LowPass) -> Left
     found = []
     for trial in trials:
         there, grid = np.isfinite(trial.column(name)), even_grid(trial.time)
-        if there.sum() < 4 * FEWEST:
+        if there.sum() < FEWEST:
             continue
         even = np.interp(grid, trial.time[there], trial.column(name)[there])
         own = Stretches.of(even, float(grid[1] - grid[0]), passed)
@@ -240,7 +239,7 @@ class Stretches:
     @classmethod
     def of(cls, values: Float[np.ndarray, " n"], step: float, passed: LowPass) -> Stretches:
         """Of values `step` seconds apart."""
-        hop = max(round(0.25 * PERIODS / min(passed.corner * step, HIGHEST)), FEWEST)
+        hop = max(round(0.25 * PERIODS / min(passed.corner * step, 0.5 * BELOW_NYQUIST)), FEWEST // 4)
         width = 4 * hop
         longer = np.pad(values, (width, 2 * width), mode="reflect", reflect_type="odd")
         window = np.sin(np.pi * (np.arange(width) + 0.5) / width) ** 2
@@ -272,7 +271,7 @@ class Stretches:
         off = np.zeros(int(self.begin[-1]) + self.width)
         for begin, part in zip(self.begin, np.fft.irfft(shares * self.spectra, self.width), strict=True):
             off[begin : begin + self.width] += self.window * part
-        return np.asarray(off[self.width : self.width + self.count] / WINDOWS)
+        return np.asarray(off[self.width : self.width + self.count] / (4.0 * np.mean(self.window**2)))
 
 
 def noise_in(values: Float[np.ndarray, " n"], step: float, sd: float, passed: LowPass) -> Float[np.ndarray, " n"]:

@@ -17,17 +17,19 @@ from jaxtyping import Float
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs.spectrum import spectrum
 from geocontact.gap.inputs.spectrum_components import split
-from geocontact.identify.signals.low_pass import LowPass
+from geocontact.gap.levels import SURE
+from geocontact.identify.signals.low_pass import BELOW_NYQUIST, LowPass
 
 USUAL, USUALLY = 0.08, 0.9  # per sample, and the standard deviation of its logarithm: 6 Hz at 75 (Winter 2009)
-LOWEST, HIGHEST, CORNERS = 0.0125, 0.44, 21  # per sample, that are compared, and how many
-UNFILTERED, MIXED = 4.0, 12.0  # nats that must speak for no filter: of any input, of some and not of others
+CORNERS = 21  # that are compared, from one as far below the usual one as the highest that can be told is above it
+UNFILTERED = 4.0  # nats that must speak for no filter of any input
 
 
 def filters_of(trials: Sequence[Trial], inputs: Sequence[str]) -> Mapping[str, LowPass]:
     """The filter, if any, of each input that makes the spectra most likely; the usual one without spectra."""
     step = float(np.median(np.concatenate([np.diff(trial.time) for trial in trials])))
-    corners = np.geomspace(LOWEST, HIGHEST, CORNERS) / step
+    highest = 0.5 * BELOW_NYQUIST
+    corners = np.geomspace(USUAL**2 / highest, highest, CORNERS) / step
     found = {name: spectrum(trials, name, step) for name in inputs}
     seen = {name: each for name, each in found.items() if each is not None}
     if not seen:
@@ -36,7 +38,7 @@ def filters_of(trials: Sequence[Trial], inputs: Sequence[str]) -> Mapping[str, L
     costs = np.array([split(each, filters).unlikely for each in seen.values()])
     through, free = costs[:, :-1], costs[:, -1]
     far = 0.5 * (np.log(corners * step / USUAL) / USUALLY) ** 2
-    everyone, each = far + through.sum(axis=0), far + np.minimum(through, free[:, None]).sum(axis=0) + MIXED
+    everyone, each = far + through.sum(axis=0), far + np.minimum(through, free[:, None]).sum(axis=0) + 2.0 * SURE
     if free.sum() + UNFILTERED < min(everyone.min(), each.min()):
         return dict.fromkeys(inputs, LowPass.none(step))
     raw = (free < through[:, np.argmin(each)]) & (each.min() < everyone.min())

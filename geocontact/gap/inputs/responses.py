@@ -11,13 +11,13 @@ from jaxtyping import Bool, Float
 from geocontact.chain.differentiated_inputs import NEIGHBOURS
 from geocontact.chain.system import FAR, System
 from geocontact.data.trial import Trial
+from geocontact.gap.levels import SLIGHT
+from geocontact.identify.noise.covariance import BLOCK_ROWS
 from geocontact.identify.noise.input_noise import Lasting
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 
 BUMP = 1e-3  # of an input's half-range
 PLACES = (0.2, 0.35, 0.5, 0.65)  # of a trial, where it is seen how long a response lasts
-FADED = 0.02  # of its largest value, below which a response is over
-AT_MOST, LONGEST = 0.4, 150  # of a trial, and samples, that a response is followed
 
 
 def responses(system: System, trial: Trial, values: Mapping[str, float], spectra: tuple[NoiseSpectrum, ...]) -> Lasting:
@@ -25,13 +25,13 @@ def responses(system: System, trial: Trial, values: Mapping[str, float], spectra
 
     Samples that do not feel each other any more are changed at once, so that as many simulations are needed as a
     response has samples (Curtis, Powell & Reid 1974, J. Inst. Math. Appl. 13:117). That grows with the sampling rate:
-    200 Hz over 20 s take seconds, 1 kHz over a minute minutes. A response is cut off after `LONGEST`.
+    200 Hz over 20 s take seconds, 1 kHz over a minute minutes. A response ends with a block of the covariance.
     """
     count = len(trial)
     step = float(np.median(np.diff(trial.time))) if count > 1 else 1.0
     ahead = max(int(np.ceil(2.0 * system.motion.reach / step)), NEIGHBOURS) + _longest_gap(system, trial)
     plain = system.simulate(trial, values)
-    most = min(int(AT_MOST * count), LONGEST)
+    most = min(int((1.0 - PLACES[-1]) * count), BLOCK_ROWS)
     faded = {name: min(max(_lasting(system, trial, values, name, plain), ahead), most) for name in system.driving}
     longest = ahead + max(faded.values(), default=0) + 1
     found = np.zeros((len(system.inputs), count, plain.shape[1], longest))
@@ -63,7 +63,7 @@ def _lasting(
     for place in PLACES:
         at = int(place * count)
         answer = np.abs(_answer(system, trial, values, name, plain, np.array([at])))
-        large: Bool[np.ndarray, " t"] = (answer > FADED * answer.max(axis=0)).any(axis=1) & (answer.max() > 0.0)
+        large: Bool[np.ndarray, " t"] = (answer > SLIGHT * answer.max(axis=0)).any(axis=1) & (answer.max() > 0.0)
         last = int(np.flatnonzero(large)[-1]) if large.any() else at
         longest = max(longest, last - at)
     return longest

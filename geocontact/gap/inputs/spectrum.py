@@ -11,12 +11,11 @@ from jaxtyping import Float
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs.even_grid import even_grid
 from geocontact.gap.inputs.quantisation import resolution
+from geocontact.gap.levels import FEWEST
 
 ROUNDED = 1e-5  # of a half-range, up to which a white rest is rounding at any rate: five digits
 TREND = 3  # degree of the polynomial that is taken off before the window
 APART = 3  # bins from which spectral values under the window count as independent
-FEWEST = 24  # samples of a trial that has a spectrum
-BOTH = 2  # values of an input that goes on and off
 
 
 @dataclass(frozen=True)
@@ -44,7 +43,7 @@ class Spectrum:
 def switches(trials: Sequence[Trial], name: str) -> bool:
     """Whether an input only goes on and off, or stands still: then it is no measurement, and has no noise."""
     values = np.concatenate([trial.column(name) for trial in trials])
-    return len(np.unique(values[np.isfinite(values)])) <= BOTH
+    return len(np.unique(values[np.isfinite(values)])) <= 2
 
 
 def measured_inputs(trials: Sequence[Trial], inputs: Sequence[str]) -> list[str]:
@@ -66,7 +65,7 @@ def spectrum(trials: Sequence[Trial], name: str, step: float) -> Spectrum | None
     for trial in trials:
         column = trial.column(name)
         there = np.isfinite(column)
-        if there.sum() < FEWEST:
+        if there.sum() <= FEWEST:
             continue
         grid = even_grid(trial.time[there])
         even = CubicSpline(trial.time[there], column[there])(grid)

@@ -1,9 +1,9 @@
 """A spectrum of a measured input taken apart: movement, noise as a filter leaves it, a white rest.
 
 S = A exp(-(f/b)^q) + B/(1 + (f/f_t)^4)² + N H²(f) + R, by Whittle's likelihood (Whittle 1953, J. R. Stat. Soc.
-B 15:125). The first term is a movement that falls off with frequency. The second, for which TAILED nats must speak, is
-the tail of one that is put together of pieces: where its third derivative jumps, the power falls off with the eighth
-power of the frequency (Bracewell, The Fourier Transform and Its Applications, 2000, ch. 8). H² is the filter
+B 15:125). The first term is a movement that falls off with frequency. The second, for which half of SURE nats must
+speak, is the tail of one that is put together of pieces: where its third derivative jumps, the power falls off with the
+eighth power of the frequency (Bracewell, The Fourier Transform and Its Applications, 2000, ch. 8). H² is the filter
 (`identify.signals.low_pass`), R rounding. Noise much higher or lower than usual is believed less, and so is a rest that
 is higher than rounding, so that noise which nobody filtered is not taken for it.
 """
@@ -20,23 +20,21 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.gap.inputs.spectrum import Spectrum
+from geocontact.gap.levels import INPUT_NOISE, LEADING, SURE
 from geocontact.geometry.kernels.compile import kernel
+from geocontact.identify.noise.noise_spectrum import FREQUENCIES
 from geocontact.identify.optimise.fisher_scoring import Batch, Scored, least
+from geocontact.identify.optimise.tolerances import CLOSE
 from geocontact.identify.signals.low_pass import LowPass
 
-LEVEL, LOUDER = 2e-3, 2.0  # usual noise of an input in half-ranges, and standard deviation of its power's logarithm
-OVER = 1.0  # standard deviation of the logarithm of a rest's power beyond rounding
+LOUDER = 2.0  # standard deviation of the logarithm of the power of an input's noise; one of that of a rest
 TAIL = 0.02  # cycles per sample, from which a movement's tail falls off
-TAILED = 3.0  # nats that must speak for it
 FLATTEST, STEEPEST = np.log([0.7, 3.0])  # bounds of log q
-SLOWEST, QUICKEST = np.log([1e-4, 0.5])  # of log b
+SLOWEST = np.log(1e-4)  # least log b
 FALLS, STEEPS = (0.001, 0.004, 0.012, 0.03, 0.08), (0.9, 1.6)  # b, per sample, and q that a search starts from
 BROAD = ((0.08, 0.7), (0.2, 0.7))  # the same of movements that fill the spectrum
-FIRST, BEST = 40, 4  # steps from all starts, and how many of them, for each filter, go on
-MANY = 400  # values of a spectrum that are not pooled
-FAINT = 600.0  # exponent beyond which a movement is nothing
-LARGEST = float(np.log(FAINT))
-BENT = 1e6  # ratio of power to what is expected that counts in the curvature at the most
+FIRST = 40  # steps from all starts, the best of which, for each filter, go on
+LARGEST = float(np.log(-np.log(np.finfo(float).tiny)))  # logarithm of the exponent beyond which a movement is nothing
 
 
 @dataclass(frozen=True)
@@ -57,9 +55,9 @@ def split(seen: Spectrum, filters: Sequence[LowPass]) -> Split:
     """
     parts = Parts.of(seen, filters)
     plain, tailed = (_likeliest(parts, with_tail) for with_tail in (False, True))
-    better = tailed.unlikely + TAILED < plain.unlikely
+    better = tailed.unlikely + 0.5 * SURE < plain.unlikely
     return Split(
-        np.where(better, tailed.unlikely + TAILED, plain.unlikely), np.where(better, tailed.noise, plain.noise)
+        np.where(better, tailed.unlikely + 0.5 * SURE, plain.unlikely), np.where(better, tailed.noise, plain.noise)
     )
 
 
@@ -93,10 +91,10 @@ class Parts:
     def of(cls, seen: Spectrum, filters: Sequence[LowPass]) -> Parts:
         """Of a spectrum below Nyquist's frequency."""
         frequency, power, count = _pooled(seen)
-        even = np.linspace(0.0, 0.5 / filters[0].step, 400)
+        even = np.linspace(0.0, 0.5 / filters[0].step, FREQUENCIES)
         part = np.array([one.power(even).mean() for one in filters])
         passed = np.array([one.power(frequency) for one in filters])
-        usual = 2.0 * np.log(LEVEL * seen.half_range) - np.log(part)
+        usual = 2.0 * np.log(INPUT_NOISE * seen.half_range) - np.log(part)
         return cls(frequency * filters[0].step, power, count, passed, part, usual, 2.0 * float(np.log(seen.rounding)))
 
     def scored(self, x: Batch, which: Int[np.ndarray, " b"]) -> Scored:
@@ -114,11 +112,11 @@ class Parts:
         """
         arrays = (np.log(self.frequency), self.power, self.count, self._tail, self.passed)
         value, gradient, curved = whittle(*arrays, x, which)
-        off, over = (x[:, 3] - self.usual[which]) / LOUDER, np.maximum(x[:, 4] - self.rounding, 0.0) / OVER
+        off, over = (x[:, 3] - self.usual[which]) / LOUDER, np.maximum(x[:, 4] - self.rounding, 0.0)
         gradient[:, 3] += off / LOUDER
-        gradient[:, 4] += over / OVER
+        gradient[:, 4] += over
         curved[:, 3, 3] += LOUDER**-2
-        curved[:, 4, 4] += (over > 0.0) * OVER**-2
+        curved[:, 4, 4] += over > 0.0
         return value + 0.5 * (off**2 + over**2), gradient, curved
 
     @cached_property
@@ -160,7 +158,8 @@ def whittle(
                 total += slope[5]
             met = power[f] / total
             value[row] += count[f] * (log(total) + met)
-            pull, weight = count[f] * (1.0 - met) / total, 0.5 * count[f] * (1.0 + min(met, BENT)) / (total * total)
+            pull = count[f] * (1.0 - met) / total
+            weight = 0.5 * count[f] * (1.0 + min(met, 1.0 / CLOSE)) / (total * total)
             for i in range(size):
                 gradient[row, i] += pull * slope[i]
                 own = weight * slope[i]
@@ -173,15 +172,15 @@ def whittle(
 
 
 def _pooled(seen: Spectrum) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"], Float[np.ndarray, " f"]]:
-    """Frequencies, powers, and how many values each is the mean of: neighbours, where there are more than `MANY`.
+    """Frequencies, powers, and how many values each is the mean of: neighbours, where there are too many.
 
     The likelihood of values that share what is expected is that of their mean, as often as there are of them.
     """
     order = np.argsort(seen.frequency, kind="stable")
     frequency, power = seen.frequency[order], seen.power[order]
-    if len(frequency) <= MANY:
+    if len(frequency) <= FREQUENCIES:
         return frequency, power, np.ones(len(frequency))
-    edges = np.geomspace(frequency[0], frequency[-1], MANY)
+    edges = np.geomspace(frequency[0], frequency[-1], FREQUENCIES)
     _, first = np.unique(np.searchsorted(edges, frequency, side="right"), return_index=True)
     count = np.diff(np.append(first, len(frequency))).astype(float)
     return np.add.reduceat(frequency, first) / count, np.add.reduceat(power, first) / count, count
@@ -191,14 +190,14 @@ def _likeliest(parts: Parts, with_tail: bool) -> Split:
     """Of all starts, for each filter."""
     top = float(np.log(parts.power.max()))
     low = np.array([top - 20.0, SLOWEST, FLATTEST, top - 60.0, top - 80.0, top - 60.0])
-    high = np.array([top + 40.0, QUICKEST, STEEPEST, top + 2.0, top, top + 20.0])
+    high = np.array([top + 40.0, float(np.log(0.5)), STEEPEST, top + 2.0, top, top + 20.0])
     start = _starts(parts)
     places = len(start) // len(parts.part)
     which = np.repeat(np.arange(len(parts.part)), places)
     chosen = slice(6 if with_tail else 5)
     low, high, start = low[chosen], high[chosen], start[:, chosen]
     first = least(lambda x, rows: parts.scored(x, which[rows]), start, low, high, FIRST)
-    order = np.argsort(first.value.reshape(-1, places), axis=1, kind="stable")[:, :BEST]
+    order = np.argsort(first.value.reshape(-1, places), axis=1, kind="stable")[:, :LEADING]
     best = (order + places * np.arange(len(order))[:, None]).ravel()
     found = least(lambda x, rows: parts.scored(x, which[best][rows]), first.at[best], low, high)
     value, noise = (each.reshape(order.shape) for each in (found.value, found.at[:, 3]))

@@ -13,10 +13,9 @@ from jaxtyping import Bool, Float
 
 from geocontact.chain.system import FAR
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.refit import NO_VALUE
+from geocontact.gap.case.refit import ENOUGH
 from geocontact.gap.selection.model_comparison import Contender
-
-ROUNDING = 1e-2  # of the noise floor squared, over all samples, up to which a change is that of a search's end
+from geocontact.identify.optimise.least_squares import NO_VALUE
 
 
 def changes(problem: Problem, base: Contender, one: Contender) -> list[Float[np.ndarray, "_ c"]]:
@@ -40,6 +39,6 @@ def calibration_share(problem: Problem, changed: Sequence[Float[np.ndarray, "_ c
     """
     count = len(problem.calibration.trials)
     size = np.array([float(np.sum((each / problem.floor) ** 2)) for each in changed])
-    if not ROUNDING < size.sum() < np.inf:
+    if not ENOUGH < size.sum() < np.inf:
         size = np.array([float(each.size) for each in changed])
     return float(size[:count].sum() / size.sum())

@@ -2,9 +2,9 @@
 
 Many laws bend the top of a curve, but none makes it the same to the last digit, so values are counted: how many lie at
 the largest of a channel, and how many at most at one of the next below. Values are all different, unless samples are
-held or recorded in steps; of a smooth top the last step holds up to 1/(√2 - 1) times what the one below it does, since
-the time within a step of the top of a parabola goes with the root of the step. As many or more by chance have the
-probability of a Poisson count.
+held or recorded in steps; of a smooth top the last step holds up to 1/(√2 - 1) = 1 + √2 times what the one below it
+does, since the time within a step of the top of a parabola goes with the root of the step. As many or more by chance
+have the probability of a Poisson count.
 """
 
 from __future__ import annotations
@@ -17,12 +17,9 @@ from jaxtyping import Float
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.inputs.quantisation import resolution
+from geocontact.gap.levels import SURE
 
-ROUND_TOP = 1.0 / (np.sqrt(2.0) - 1.0)
 NEXT = 5  # values below the extreme that it is compared with
-OUTER = 0.5  # of the largest magnitude; an extreme below is where a channel rests, not where it clips
-SURE_OF_IT = 5.0  # nats from which a top counts as flat
-SUREST = 20.0  # nats that it may speak for saturation
 
 
 @dataclass(frozen=True)
@@ -53,8 +50,8 @@ def clipped_channels(problem: Problem) -> tuple[ClippedChannel, ...]:
         most = float(np.abs(values).max())
         for side in (1.0, -1.0):
             level, count, nats = pile(side * values, step)
-            if level > OUTER * most and nats - looks > SURE_OF_IT:
-                found.append(ClippedChannel(name, side * level, count, min(float(nats - looks), SUREST)))
+            if level > 0.5 * most and nats - looks > SURE:
+                found.append(ClippedChannel(name, side * level, count, min(float(nats - looks), 2.0 * SURE)))
     return tuple(found)
 
 
@@ -64,5 +61,5 @@ def pile(values: Float[np.ndarray, " n"], step: float) -> tuple[float, int, floa
 
     whole = np.round(values / step) * step if step > 0.0 else values
     levels, counts = np.unique(whole, return_counts=True)
-    usual = float(counts[-1 - NEXT : -1].max(initial=1)) * (ROUND_TOP if step > 0.0 else 1.0)
+    usual = float(counts[-1 - NEXT : -1].max(initial=1)) * (1.0 + np.sqrt(2.0) if step > 0.0 else 1.0)
     return float(levels[-1]), int(counts[-1]), -float(poisson.logsf(counts[-1] - 1, usual))

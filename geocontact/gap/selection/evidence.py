@@ -17,11 +17,10 @@ from jaxtyping import Float
 
 from geocontact.chain.system import System
 from geocontact.gap.case.problem import Noise, Problem
-from geocontact.gap.case.refit import Refit, free, magnitude
+from geocontact.gap.case.refit import STEP, Refit, free, magnitude
 from geocontact.gap.case.whitening import Whitening
+from geocontact.identify.optimise.tolerances import ROUNDING
 
-AT_BOUND = 1e-4  # of a parameter's magnitude
-FLATTEST = 1e-4  # curvature over a range below which it makes no difference
 FLAT = float(np.sqrt(12.0))  # range of a flat prior over its standard deviation
 
 
@@ -159,7 +158,7 @@ def log_mean(fall: float, bend: float) -> float:
     """
     from scipy.special import erfcx
 
-    c = np.sqrt(0.5 * max(bend, FLATTEST))
+    c = np.sqrt(0.5 * max(bend, ROUNDING))
     a = 0.5 * fall / c
     mean = 0.5 * np.sqrt(np.pi) / c * (erfcx(a) - np.exp(-2.0 * a * c - c**2) * erfcx(a + c))
     return float(np.log(max(mean, 1e-300)))
@@ -170,7 +169,7 @@ def prior_spread(system: System, values: dict[str, float]) -> Float[np.ndarray, 
     spread = []
     for p in free(system):
         width = p.upper - p.lower
-        held = min(values[p.name] - p.lower, p.upper - values[p.name]) < AT_BOUND * magnitude(p)
+        held = min(values[p.name] - p.lower, p.upper - values[p.name]) < 10.0 * STEP * magnitude(p)
         spread.append(0.0 if held else width / FLAT if np.isfinite(width) else 100.0 * magnitude(p))
     return np.array(spread)
 

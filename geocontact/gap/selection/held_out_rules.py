@@ -29,22 +29,18 @@ from jaxtyping import Float
 from geocontact.chain.candidate import Candidate
 from geocontact.gap.case.change_amplitude import Amplitude, amplitude
 from geocontact.gap.case.measured_fit import measured_fit, smoothed_fit
+from geocontact.gap.case.placement import GAIN
 from geocontact.gap.case.problem import Noise, Problem
 from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.case.refit import free, refit
 from geocontact.gap.case.whitening import Whitening
+from geocontact.gap.levels import DEVIATIONS, LEFT_OVER, SLIGHT, SURE, WORTH_NAMING
 from geocontact.gap.selection.calibration_share import changes
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.held_out_error import TrialWeight, taken_away
 from geocontact.gap.selection.model_comparison import Contender, finished
 from geocontact.gap.selection.surrogate import Surrogate
 
-WORTH_NAMING = 0.1  # of a channel's squared error, that must go: a twentieth of the error, less than anybody would see
-FEW = 0.02  # of the samples, that no verdict may hang on
-GAINS, NOISE = 0.05, 4.0  # of a level, five times what gains differ by from trial to trial, and standard deviations of
-# noise, that a recording may pass a level by at which it is cut off
-ENOUGH = 6.0  # nats that the others must gain
-LEFT_OVER = 0.2  # of what a named effect changes, or of an error, in squares, that may be left over
 ONLY_NOISE = f"with the noise of the inputs taken off it takes less than {WORTH_NAMING:.0%} of the squared error away"
 TOO_LITTLE = f"in no channel it takes {WORTH_NAMING:.0%} of the squared error away"
 
@@ -145,15 +141,15 @@ class HeldOutRules:
         return ""
 
     def _of_recording(self, one: Contender) -> str:
-        """A level that the recording itself passes is none that it was cut off at."""
+        """A level that a recording passes by more than its noise and gain tell is none that it was cut off at."""
         for each in one.candidates:
             if not each.ceiling:
                 continue
             c = self.problem.system.outputs.index(each.channel)
             level = one.judged.model.values[each.ceiling]
-            passed = level * (1.0 + GAINS) + NOISE * self.problem.recorded.rough[c]
+            passed = level + DEVIATIONS * (GAIN * level + self.problem.recorded.rough[c])
             seen = np.abs(np.concatenate(measured_columns(self.problem, c)))
-            if (seen > passed).mean() > FEW:
+            if (seen > passed).mean() > SLIGHT:
                 return f"{(seen > passed).mean():.0%} of the samples of {each.channel} lie beyond {level:.4g}"
         return ""
 
@@ -228,8 +224,8 @@ class HeldOutRules:
         by_trial = [float(each.sum()) for each in by_sample]
         if sum(by_trial) - max(by_trial) <= 0.0:
             return "without one trial nothing speaks for it"
-        if trimmed(np.concatenate(by_sample)) <= ENOUGH:
-            return f"without {FEW:.0%} of the samples nothing speaks for it"
+        if trimmed(np.concatenate(by_sample)) <= SURE:
+            return f"without {SLIGHT:.0%} of the samples nothing speaks for it"
         return ""
 
     def unnamed(self, found: Surrogate, before: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
@@ -284,8 +280,8 @@ def left_out_residuals(problem: Problem, one: Judged, noise: Noise) -> list[Floa
 
 
 def trimmed(gains: Float[np.ndarray, " n"]) -> float:
-    """Sum of what samples gain, `FEW` of them left out at either end."""
-    ends = int(np.ceil(FEW * len(gains)))
+    """Sum of what samples gain, `SLIGHT` of them left out at either end."""
+    ends = int(np.ceil(SLIGHT * len(gains)))
     return float(np.sort(gains)[ends : len(gains) - ends].sum())
 
 

@@ -10,17 +10,12 @@ from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
 from geocontact.gap.case.problem import Noise, Problem, evaluated
-from geocontact.gap.case.refit import Refit, free, refit
+from geocontact.gap.case.refit import ENOUGH, ROUNDS, Refit, free, refit
 from geocontact.gap.case.whitening import Whitening
+from geocontact.gap.levels import LEADING, TURNS
 from geocontact.gap.selection.evidence import Judged, judged, without_discrepancy
 from geocontact.gap.selection.model_discrepancy import discrepancy_basis
 
-SECOND = 18  # candidates that are fitted again under the noise that suits the best
-FINALISTS = 6
-FORERUNNERS = 3  # leading under low noise
-MATE_TRIALS = 6  # second effects that are fitted on top of a first
-PAIRS = 6  # of two effects each that get noise of their own
-ROUNDS, ENOUGH = 4, 0.05  # times that noise and parameters of a leader are fitted in turn; nats from which it goes on
 FEW = 5  # free parameters up to which a joint fit also sets out from the case's own start
 
 
@@ -100,7 +95,7 @@ def finished(
     The search for that sets out from the likeliest of those that are known, `others` beside the one it was fitted with.
     """
     noise = problem.weighed(model, before, others)
-    again = refit(model.system, problem.calibration, problem.fitting(noise, model), [model.values], rounds=6)
+    again = refit(model.system, problem.calibration, problem.fitting(noise, model), [model.values], ROUNDS // 4)
     everywhere = evaluated(problem, again)
     one = judged(problem, everywhere, noise, discrepancy_basis(problem, candidates, everywhere))
     return Contender(candidates, one)
@@ -111,7 +106,7 @@ def settled_in(problem: Problem, one: Contender) -> Contender:
 
     Each is fitted in turn, the noise to what the discrepancies of the effects leave, until nothing is gained any more.
     """
-    for _ in range(ROUNDS):
+    for _ in range(TURNS):
         model = replace(one.judged.model, residuals=without_discrepancy(one.judged))
         other = replace(one, judged=finished(problem, one.candidates, model, one.judged.noise).judged)
         if other.judged.nats < one.judged.nats + ENOUGH:
@@ -134,7 +129,7 @@ def singles(
     rounds: list[dict[str, Refit]] = []
     ends = Ends() if ends is None else ends
     entered = ends.in_order(candidates)
-    for kept in (SECOND, FINALISTS):
+    for kept in (2 * LEADING**2, 2 * LEADING):
         whitenings = problem.fitting(noise, reference)
         found: dict[str, Refit] = {}
         for one in entered:
@@ -151,7 +146,7 @@ def singles(
         reference = min(found.values(), key=lambda model: model.cost)
         noise = problem.weighed(reference, base.judged.noise)
     first, second = rounds
-    ahead = sorted(candidates, key=lambda one: first[one.label].cost)[:FORERUNNERS]
+    ahead = sorted(candidates, key=lambda one: first[one.label].cost)[:LEADING]
     chosen = [*((one, second) for one in entered), *((one, first) for one in ahead)]
     done: dict[str, Contender] = {}
     for one, fits in chosen:
@@ -178,7 +173,7 @@ def pairs(
 
     Noise that was fitted to one effect explains away what the other does, so all pairs are fitted under noise no higher
     than was stated, the same for all, and the search for their own noise sets out from there; one linear step tells
-    which to fit, and those that do not promise to be among the `PAIRS` best are not fitted to the end.
+    which to fit, and those that do not promise to be among the best are not fitted to the end.
     """
     low_noise = problem.with_lower_noise(firsts[0].judged.noise)
     ends = Ends() if ends is None else ends
@@ -189,13 +184,13 @@ def pairs(
         for one in promising(problem, first, whitenings, candidates):
             label = f"{first.label} + {one.label}"
             starts = ends.of(one, label) or [{**model.values, **start} for start in one.starts]
-            useful = to_undercut([pair for _, pair in best.values()], PAIRS)
+            useful = to_undercut([pair for _, pair in best.values()], 2 * LEADING)
             both = refit(one.apply(model.system), problem.calibration, whitenings, starts, useful=useful)
             ends.fits[label] = both
             names = tuple(sorted((*first.names, one.name)))
             if names not in best or both.cost < best[names][1].cost:
                 best[names] = ((*first.candidates, one), both)
-    leading = sorted(best.values(), key=lambda pair: pair[1].cost)[:PAIRS]
+    leading = sorted(best.values(), key=lambda pair: pair[1].cost)[: 2 * LEADING]
     done = [finished(problem, together, model, low_noise) for together, model in leading]
     return sorted(done, key=lambda c: -c.judged.nats)
 
@@ -232,7 +227,7 @@ def promising(
             if one.label not in promise or gain > promise[one.label][0]:
                 promise[one.label] = (gain, one)
     ranked = sorted(promise.values(), key=lambda each: -each[0])
-    return [one for _, one in ranked[:MATE_TRIALS]]
+    return [one for _, one in ranked[: 2 * LEADING]]
 
 
 def _whitened(whitenings: Sequence[Whitening], parts: Sequence[Float[np.ndarray, "_ c p"]]) -> Float[np.ndarray, "n p"]:

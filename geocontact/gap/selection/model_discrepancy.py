@@ -17,11 +17,11 @@ from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.system import System
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Refit
+from geocontact.identify.optimise.tolerances import CLOSE
 
 BENT = 0.15  # root mean square of the bending, as a share of the effect's
 POWERS = ((1, 0), (2, 0), (0, 1), (0, 2), (1, 1))  # of an input's position and of its rate
 TIMES = (1, 2, 3, 4, 5)  # of time within a trial: two turns of a slow drift
-FAINT = 1e-6  # of the largest singular value, below which a direction adds nothing
 
 
 def discrepancy_basis(
@@ -74,7 +74,7 @@ def _of_one_effect(
         columns[:, c, c] = net[:, c, None] * every
     flat = columns.reshape(net.size, -1)
     left, singular, _ = np.linalg.svd(flat, full_matrices=False)
-    kept = left[:, singular > FAINT * max(singular[0], 1e-300)]
+    kept = left[:, singular > CLOSE * max(singular[0], 1e-300)]
     size = BENT * float(np.linalg.norm(whole)) / np.sqrt(max(kept.shape[1], 1))
     out = (kept * size).reshape(len(net), channels, -1) * problem.floor[:, None]
     return np.split(out, np.cumsum([len(b) for b in monomials])[:-1])

@@ -18,16 +18,15 @@ from geocontact.chain.differentiated_inputs import recorded
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.selection.evidence import Judged, log_evidence, prior_spread
 from geocontact.gap.selection.evidence import judged as judged_as
+from geocontact.identify.optimise.tolerances import CLOSE
 
 ALONG = (12, 30)  # bumps over one input's position or rate, wide ones and narrow ones
 ACROSS = (6,)  # bumps per side over position and rate together
 THROUGH = (6, 16, 40)  # bumps over a trial
 ALONE = (5, 12)  # bumps over a trial that are a trial's own
-CLOSER = 2  # times as close as bumps are wide they stand, so that none falls in between
 STRETCHES = 8  # of a trial, that parameters may differ between
 RENEWED = 2  # times that the noise is estimated anew with the surrogate in place
 DEEPEST = 24  # bumps that are taken at most
-RIDGE = 1e-6  # against parameters that do nothing
 SIZES = (0.3, 1.0, 3.0, 10.0, 30.0)  # standard deviation of the weights, in noise levels of the channel
 
 
@@ -165,7 +164,7 @@ def chosen(
     nothing = Choice([], none, none, 0.0, 0.0, price)
     if not columns.shape[1]:
         return nothing
-    basis, _ = np.linalg.qr(np.concatenate([known, RIDGE * np.eye(known.shape[1])]))
+    basis, _ = np.linalg.qr(np.concatenate([known, CLOSE * np.eye(known.shape[1])]))
     basis = basis[: len(known)]
     left, free = residual - basis @ (basis.T @ residual), columns - basis @ (basis.T @ columns)
     each = float(np.log(columns.shape[1] * len(SIZES)))
@@ -193,7 +192,7 @@ def chosen(
 
     def told(by: slice) -> FittedWeights:
         weights = _posterior(left[by], design[by], spread)
-        ridge = RIDGE * np.eye(known.shape[1])
+        ridge = CLOSE * np.eye(known.shape[1])
         apart = np.concatenate([residual[by] - columns[by][:, taken] @ weights, np.zeros(known.shape[1])])
         return FittedWeights(weights, np.linalg.lstsq(np.concatenate([known[by], ridge]), apart, rcond=None)[0])
 
@@ -243,11 +242,11 @@ def _apart(features: list[Float[np.ndarray, "_ c m"]]) -> list[Float[np.ndarray,
 
 
 def _line(
-    values: list[Float[np.ndarray, " _"]], counts: Sequence[int], closer: int = CLOSER
+    values: list[Float[np.ndarray, " _"]], counts: Sequence[int], closer: int = 2
 ) -> list[Float[np.ndarray, "_ m"]]:
     """Gaussian bumps, evenly spaced over the range that 98 % of the samples are in.
 
-    As wide as their distance if there were `counts` of them; they stand `closer` times as close.
+    As wide as their distance if there were `counts` of them; they stand `closer` times as close: none falls in between.
     """
     low, high = np.percentile(np.concatenate(values), [1.0, 99.0])
     clipped = [np.clip(v, low, high)[:, None] for v in values]

@@ -16,20 +16,14 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap.case.problem import Problem
+from geocontact.gap.levels import DEVIATIONS, SURE, TURNS
 from geocontact.gap.selection.evidence import Judged
 from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.identify.noise.student import StudentNoise, student_noise
 
-SURE = 12.0
-"""Nats that heavy tails must gain in a channel over what they gain where noise is normal."""
-ROUNDS = 4
-"""Times that weights are found anew: a sample that is off misleads about those next to it."""
-PHASES, FEWEST = 20, 2
-"""Parts of a trial in which tails are compared between trials; trials and parts that it takes at the least."""
-RETURNING = 0.3
-"""Correlation from which they return: noise that depends on the movement, or a gap, three standard deviations of chance
-in five trials."""
+PHASES = 20
+"""Parts of a trial in which tails are compared between trials."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +59,7 @@ def tails(problem: Problem, one: Judged, explained: Sequence[Float[np.ndarray, "
     louder = [np.ones(part.shape) for part in left]
     normal = gained_by_normal(problem.layouts, one.noise.levels, varied)
     found: dict[int, StudentNoise] = {}
-    for _ in range(ROUNDS):
+    for _ in range(TURNS):
         layouts = [layout.louder(times) for layout, times in zip(problem.layouts, louder, strict=True)]
         parts = zip(layouts, left, varied, louder, strict=True)
         off = [standing_out(layout, one.noise.levels, r, v) * times for layout, r, v, times in parts]
@@ -73,7 +67,8 @@ def tails(problem: Problem, one: Judged, explained: Sequence[Float[np.ndarray, "
         for c in range(len(problem.system.outputs)):
             columns = [sharp(each[:, c]) for each in off]
             own = student_noise(np.concatenate([each[np.isfinite(each)] for each in columns]))
-            if own.gain > SURE + normal[c] and returning([own.weights(each) for each in columns]) < RETURNING:
+            alike = returning([own.weights(each) for each in columns])
+            if own.gain > 2.0 * SURE + normal[c] and alike < by_chance(len(columns)):
                 found[c] = own
         louder = [_louder(layout, each, found) for layout, each in zip(layouts, off, strict=True)]
         if not found:
@@ -111,6 +106,11 @@ def sharp(off: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
     return np.asarray(np.where(np.abs(apart) < np.abs(off), apart, off))
 
 
+def by_chance(trials: int) -> float:
+    """Correlation that `returning` has by chance: beyond it noise depends on the movement, or there is a gap."""
+    return DEVIATIONS / float(np.sqrt(PHASES * trials))
+
+
 def returning(weights: Sequence[Float[np.ndarray, " _"]]) -> float:
     """How alike the places in a trial are where samples weigh little: correlation with the mean of the other trials."""
     profiles = np.full((len(weights), PHASES), np.nan)
@@ -119,7 +119,7 @@ def returning(weights: Sequence[Float[np.ndarray, " _"]]) -> float:
             if np.isfinite(part).any():
                 profile[k] = np.nanmean(part)
     profiles = profiles[:, np.isfinite(profiles).all(axis=0)]
-    if min(profiles.shape) < FEWEST:
+    if min(profiles.shape) < 2:
         return 0.0
     others = (profiles.sum(axis=0) - profiles) / (len(profiles) - 1)
     both = [(a - a.mean(), b - b.mean()) for a, b in zip(profiles, others, strict=True)]

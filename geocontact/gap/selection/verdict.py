@@ -13,20 +13,12 @@ from typing import Literal
 
 import numpy as np
 
+from geocontact.gap.levels import LEFT_OVER, SLIGHT, SURE, WORTH_NAMING
 from geocontact.gap.selection.model_comparison import Contender
 
 Verdict = Literal["explained", "no_gap", "unknown", "unresolved"]
 
-SURE = 6.0  # nats below which a gain may be luck
-FORM = 0.02  # tolerance of form, as a share of what is explained
-LEFT_OVER = 0.2  # of all there is to explain may be left by the effect that is named
-PAIR = 0.12  # of what is explained that a second effect must add
-ALIVE = 0.03  # least probability of a candidate that is still in question
 BEYOND = 0.3  # part of what a gain exceeds that by that counts
-STRANGER = 3.0  # nats more that something without a name must gain: a surrogate also finds what models smooth away
-ANY_FORM = 0.1  # of what something without a name gains, it gains because it has any form
-LEAST = 0.02  # share of what changes below which their gain counts for no more: fifty times as much at the most
-ALLOWED = 4.0  # nats that luck may add on held-out trials
 MOST = 4  # candidates still in question beyond which nothing is named
 
 
@@ -47,7 +39,7 @@ def borne_out(total: float, calibration: float, share: float) -> float:
     An effect that is there shows in the trials that it was fitted to as much as in the others, in proportion to what it
     changes there. `share` is the calibration trials' part of that. What is lost there is a price, and stays as it is.
     """
-    expected = max(calibration, 0.0) / max(share, LEAST) + min(calibration, 0.0) + ALLOWED
+    expected = max(calibration, 0.0) / max(share, SLIGHT) + min(calibration, 0.0) + SURE
     return total if total <= expected else expected + BEYOND * (total - expected)
 
 
@@ -110,7 +102,7 @@ def ranking(
     }
     over_base = {c.label: gain_of(c, base, shares[c.label]) - chosen_from[c.label] for c in contenders}
     best_single = max((over_base[c.label] for c in single), default=0.0)
-    needed = SURE + PAIR * max(best_single, 0.0)
+    needed = SURE + WORTH_NAMING * max(best_single, 0.0)
     pairs = [c for c in contenders if len(c.candidates) == 2 and over_base[c.label] - best_single > needed]
     living = tuple(c for c in (*single, *pairs) if c.label not in refused)
     gains = {c.label: over_base[c.label] - (needed if len(c.candidates) == 2 else 0.0) for c in living}
@@ -137,16 +129,16 @@ def answer(held: Ranking, unnamed: float, strange: float, rest: float, little: f
     base, living, gains = held.base, held.living, held.gains
     unnamed = unnamed - little
     rest = min(rest, max(unnamed, 0.0) + strange)
-    unnamed = (1.0 - ANY_FORM) * max(unnamed - STRANGER, 0.0) + strange
+    unnamed = (1.0 - WORTH_NAMING) * max(unnamed - 0.5 * SURE, 0.0) + strange
     named = max([*gains.values(), 0.0])
     most = max(named, unnamed)
-    tolerance = 1.0 + FORM * most
+    tolerance = 1.0 + SLIGHT * most
     weights: dict[tuple[str, ...], float] = {("none",): np.exp((SURE - most) / tolerance)}
     for c in living:
         names = ("unknown",) if c.cut_short else c.names
         weights[names] = max(weights.get(names, 0.0), np.exp((gains[c.label] - most) / tolerance))
     excess = rest - SURE - LEFT_OVER * most
-    doubt = 1.0 / (1.0 + np.exp(-excess / (1.0 + 0.5 * FORM * most + 0.1 * abs(rest))))
+    doubt = 1.0 / (1.0 + np.exp(-excess / (1.0 + 0.5 * SLIGHT * most + 0.1 * abs(rest))))
     doubted = sum(weights.values()) * doubt / max(1.0 - doubt, 1e-9)
     weights[("unknown",)] = weights.get(("unknown",), 0.0) + np.exp((unnamed - most) / tolerance) + doubted
     total = sum(weights.values())
@@ -212,7 +204,7 @@ def _said(
 ) -> Answer:
     order = sorted(shared, key=lambda name: -shared[name])
     probabilities = {name: shared[name] for name in order}
-    alive = tuple(name for name in order if name not in ("none", "unknown") and shared[name] >= ALIVE)
+    alive = tuple(name for name in order if name not in ("none", "unknown") and shared[name] >= SLIGHT)
     effects_odds = 1.0 - joint[("none",)] - joint[("unknown",)]
     top = max(joint, key=lambda names: joint[names])
     if joint[("none",)] >= max(effects_odds, joint[("unknown",)]):

@@ -19,12 +19,12 @@ from scipy.optimize import brentq
 from scipy.stats import t as student
 
 from geocontact.identify.noise.autoregressive import AutoregressiveNoise
+from geocontact.identify.optimise.tolerances import ROUNDING
 
 GRID = 30  # correlation times
 SHORTEST = 0.2  # of a step: no memory at all
 LONGEST = 1.0 / 3.0  # of the duration: more cannot be distinguished from a wrong model
 PAUSE = 20.0  # usual steps: a longer one is a pause and does not count as duration
-LEAST = 1e-8  # of the largest singular value: below, parameters act as one
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +86,7 @@ def autocorrelation_of(
         square = max(float(rest @ rest), np.finfo(float).tiny)
         variance[k] = square / (n - p)
         sizes = np.linalg.svd(design, compute_uv=False)
-        information = 2.0 * float(np.log(np.maximum(sizes, LEAST * sizes[0])).sum())
+        information = 2.0 * float(np.log(np.maximum(sizes, ROUNDING * sizes[0])).sum())
         likelihood = -0.5 * (n - p) * np.log(square) - noise.log_scale(time, residual[:, None])
         logs[k] = likelihood - 0.5 * information + _log_prior(time, each)
     weight = np.exp(logs - logs.max())
@@ -113,7 +113,7 @@ def spread(jacobian: Float[np.ndarray, "n p"]) -> Float[np.ndarray, "p p"]:
     """(J'J)^-1, whatever the units of the parameters; its pseudo-inverse where some of them act as one."""
     size = np.linalg.norm(jacobian, axis=0)
     columns = jacobian / size
-    return np.asarray(np.linalg.pinv(columns.T @ columns, rcond=LEAST, hermitian=True) / np.outer(size, size))
+    return np.asarray(np.linalg.pinv(columns.T @ columns, rcond=ROUNDING, hermitian=True) / np.outer(size, size))
 
 
 def _log_prior(time: Float[np.ndarray, " n"], tau: float) -> float:

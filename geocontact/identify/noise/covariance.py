@@ -27,7 +27,6 @@ from geocontact.identify.noise.input_noise import InputNoise
 from geocontact.identify.noise.noise_levels import NoiseLevels
 
 BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
-RAISED = 1e-7  # of the diagonal, first try where a covariance has no factor
 JITTER = 1e-9  # of the diagonal, so that a factor always exists
 
 
@@ -206,7 +205,7 @@ def factor_of(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "
     Tables of the low-pass kernel are exact to a few digits; where input noise dwarfs the rest, the diagonal is raised
     until there is a factor.
     """
-    raised, more = covariance, RAISED
+    raised, more = covariance, 10.0 * JITTER
     while True:
         factor, failed = lapack.dpotrf(
             raised.T, lower=1, clean=1

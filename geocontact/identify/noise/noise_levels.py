@@ -12,8 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.identify.optimise.tolerances import CLOSE
+
 BEYOND = 0.3  # of the logarithm, that a level can come to exceed what it is limited to
-REACHABLE = 1.0 - 1e-6  # share of that, at which levels are taken to be that exceed it more
 
 
 @dataclass(frozen=True)
@@ -133,5 +134,5 @@ def _steepness(excess: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
 
 def _released(left: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
     """What was taken off logarithms of which this excess is left."""
-    over = np.minimum(np.maximum(left, 0.0) / BEYOND, REACHABLE)
+    over = np.minimum(np.maximum(left, 0.0) / BEYOND, 1.0 - CLOSE)
     return np.asarray(BEYOND * np.arctanh(over) - np.maximum(left, 0.0))

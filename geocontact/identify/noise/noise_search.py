@@ -2,7 +2,7 @@
 
 Far from the end, curvature is the average of observed and expected information (Gilmour, Thompson & Cullis 1995,
 Biometrics 51:1440), which needs no product of matrices and takes no step too far where noise is much too low. From
-where a step gains less than `NEAR`, secants amend it (BFGS, damped as by Powell 1978, Lecture Notes in Mathematics
+where a step gains less than a nat, secants amend it (BFGS, damped as by Powell 1978, Lecture Notes in Mathematics
 630:144), since it leaves out how variances bend with their logarithms.
 """
 
@@ -17,21 +17,11 @@ from scipy.linalg import lapack
 
 from geocontact.identify.noise.covariance import Layout, NoiseBlock, factor_of
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
-from geocontact.identify.optimise.bounded_gauss_newton import (
-    BROKEN,
-    DAMPED,
-    KEPT,
-    LEAST,
-    LOWER,
-    MOST,
-    RAISE,
-    QuadraticModel,
-)
+from geocontact.identify.optimise.bounded_gauss_newton import QuadraticModel
+from geocontact.identify.optimise.tolerances import BROKEN, CLOSE, DAMPED, KEPT, ROUNDING, TENFOLD
 
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
 LONGEST = 2.0  # that a correlation time is, and how noise grows: longer, and noise becomes what the model misses
-ENOUGH = 1e-6  # nats that a step of the search must gain for another
-NEAR = 1.0  # nats gained by a step, below which secants amend the curvature
 CURVED = 0.2  # of what was expected, curvature along a step that a secant is believed
 
 
@@ -153,7 +143,7 @@ def most_likely(
     for _ in range(rounds - 1):
         low, high = -farthest - here.x, farthest - here.x
         bend = QuadraticModel.within(gradient, curvature, low, high)
-        if bend.promise(bend.step(0.0, low, high)) < ENOUGH:
+        if bend.promise(bend.step(0.0, low, high)) < CLOSE:
             break
         step = bend.step(damping, low, high)
         x = np.clip(here.x + step, -farthest, farthest)
@@ -168,11 +158,11 @@ def most_likely(
             curvature = secant(curvature, there.x - here.x, slope - gradient)
         if fall > 0.0:
             here, gradient = there, slope
-            if fall < ENOUGH and kept > BROKEN:
+            if fall < CLOSE and kept > BROKEN:
                 break
-            if not near or fall >= NEAR:
-                curvature, near = surface.information(here), fall < NEAR
-        elif damping > MOST:
+            if not near or fall >= 1.0:
+                curvature, near = surface.information(here), fall < 1.0
+        elif damping > 1.0 / ROUNDING:
             break
     return here.levels, 0.5 * float(here.x @ here.x), -here.cost
 
@@ -187,8 +177,8 @@ def searched(beliefs: NoisePriors) -> Float[np.ndarray, " h"]:
 def damped(damping: float, kept: float) -> float:
     """Damping of the next step, by the share of its promise that the last one kept."""
     if kept > KEPT:
-        return max(LOWER * damping, LEAST)
-    return damping if kept > BROKEN else max(RAISE * damping, DAMPED)
+        return max(damping / TENFOLD, ROUNDING)
+    return damping if kept > BROKEN else max(TENFOLD * damping, DAMPED)
 
 
 def secant(

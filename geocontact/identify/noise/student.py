@@ -15,10 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.identify.optimise.tolerances import CLOSE, LIMIT
+
 DEGREES = (1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
 """Degrees of freedom that are tried; with more a sample of four standard deviations still weighs a third or more."""
-ROUNDS, CLOSE = 50, 1e-6
-"""Rounds of the search of a scale, and the relative change that ends it."""
 NARROWEST = 1e-3
 """Of the variance, that a scale squared is at the least: samples that happen to agree exactly are no noise level."""
 
@@ -65,7 +65,7 @@ def _with_degrees(residuals: Float[np.ndarray, " n"], degrees: float) -> Student
     squares = residuals**2
     variance = float(squares.mean())
     power = variance
-    for _ in range(ROUNDS):
+    for _ in range(LIMIT):
         new = float(((degrees + 1.0) * squares / (degrees + squares / power)).mean())
         done = abs(new - power) < CLOSE * power
         power = max(new, NARROWEST * variance)

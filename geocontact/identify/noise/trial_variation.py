@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-LARGEST = 1e4  # times its prior, that a standard deviation is looked for
+from geocontact.identify.optimise.tolerances import CLOSE
 
 
 @dataclass(frozen=True)
@@ -56,8 +56,7 @@ def variation(
         squares = unsure + ((means - spent * means.mean(axis=0)) ** 2).sum(axis=0)
         identified = 1.0 - unsure / np.maximum(len(trials) * sd**2, 1e-300)
         new = np.sqrt((weight * prior_sd**2 + squares) / (weight + len(trials) - spent * identified))
-        new = np.minimum(new, LARGEST * prior_sd)
-        done = bool(np.allclose(new, sd, rtol=1e-6))
+        done = bool(np.allclose(new, sd, rtol=CLOSE))
         sd = new
         if done:
             break

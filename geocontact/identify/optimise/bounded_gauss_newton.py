@@ -15,18 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
-DAMPED = 1e-3
-"""Damping that a search sets out with, as a share of the curvature along each unknown."""
-LOWER, RAISE, LEAST, MOST = 0.1, 8.0, 1e-9, 1e12
-"""Factors of the damping after a step that kept its promise and one that did not; its ends."""
-KEPT, BROKEN = 0.75, 0.25
-"""Shares of its promise that a step keeps, beyond which damping is lowered and below which it is raised."""
-FLAT = 1e-12
-"""Of the largest curvature, damping that every unknown has: one that does nothing stays where it is."""
+from geocontact.identify.optimise.tolerances import BROKEN, DAMPED, KEPT, LIMIT, ROUNDING, TENFOLD
+
 TRUSTED = 3.0
 """Times what the linear model promises that a search is trusted to come down yet: kinks hide some of it."""
-TURNS = 10
-"""Times the number of unknowns, turns in which a step finds out which of them end on a bound."""
 
 Residual = Callable[[Float[np.ndarray, " p"]], Float[np.ndarray, " n"]]
 Slope = Callable[[Float[np.ndarray, " p"]], Float[np.ndarray, "n p"]]
@@ -66,8 +58,8 @@ class QuadraticModel:
         """The step between `low` and `high` that the damped model gains most by: an active-set search from no step."""
         out, free = np.zeros(len(low)), self.free.copy()
         own = np.diag(self.curvature)
-        damped = self.curvature + np.diag(damping * own + FLAT * max(float(own.max()), 1e-300))
-        for _ in range(TURNS * len(low)):
+        damped = self.curvature + np.diag(damping * own + ROUNDING * max(float(own.max()), 1e-300))
+        for _ in range(LIMIT):
             pull = self.gradient + damped @ out
             move = np.zeros(len(low))
             move[free] = -np.linalg.solve(damped[np.ix_(free, free)], pull[free])
@@ -132,15 +124,15 @@ def least(
         fall, hoped = cost - 0.5 * float(tried @ tried), bend.promise(step)
         kept = fall / hoped if hoped > 0.0 else 0.0
         if kept > KEPT:
-            damping = max(LOWER * damping, LEAST)
+            damping = max(damping / TENFOLD, ROUNDING)
         elif not kept > BROKEN:
-            damping *= RAISE
+            damping *= TENFOLD
         if fall > 0.0:
             x, cost = there, cost - fall
             if fall < enough and kept > BROKEN:
                 return GaussNewtonResult(x, cost, True)
             bend = _bend(x, tried, slope(x), lower, upper)
-        elif damping > MOST:
+        elif damping > 1.0 / ROUNDING:
             break
     return GaussNewtonResult(x, cost, spent < rounds)
 

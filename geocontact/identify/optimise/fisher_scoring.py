@@ -14,11 +14,7 @@ from typing import TypeAlias
 import numpy as np
 from jaxtyping import Float, Int
 
-ROUNDS = 200
-CLOSE, TWICE = 1e-6, 2  # nats that a step gains at the least, else this many such steps are the last
-DAMPED, EASED, RAISED = 1e-2, 0.2, 5.0  # damping at the start; what it is multiplied by after a good and a bad step
-FREE, STUCK = 1e-7, 1e8  # least damping, and that from which nothing helps
-FLAT = 1e-3  # curvature below which a parameter is damped as if it had that
+from geocontact.identify.optimise.tolerances import CLOSE, DAMPED, LIMIT, ROUNDING, TENFOLD
 
 Batch: TypeAlias = Float[np.ndarray, "k p"]
 Scored: TypeAlias = tuple[Float[np.ndarray, " k"], Batch, Float[np.ndarray, "k p p"]]
@@ -37,7 +33,7 @@ def least(
     start: Batch,
     low: Float[np.ndarray, " p"],
     high: Float[np.ndarray, " p"],
-    rounds: int = ROUNDS,
+    rounds: int = LIMIT,
 ) -> ScoringResult:
     """The least values near the starts.
 
@@ -75,9 +71,9 @@ def least(
         at[better] = new[good]
         value[better], gradient[better], curved[better] = (each[good] for each in tried)
         idle[better] = np.where(gain[good] < CLOSE, idle[better] + 1, 0)
-        damping[better] = np.maximum(damping[better] * EASED, FREE)
-        damping[worse] *= RAISED
-        going = going[(idle[going] < TWICE) & (damping[going] < STUCK)]
+        damping[better] = np.maximum(damping[better] / TENFOLD, ROUNDING)
+        damping[worse] *= TENFOLD
+        going = going[(idle[going] < 2) & (damping[going] < 1.0 / ROUNDING)]
         if not len(going):
             break
     return ScoringResult(at, value)
@@ -95,5 +91,5 @@ def _step(
     held = ((at <= low) & (gradient > 0.0)) | ((at >= high) & (gradient < 0.0))
     matrix = np.where(held[:, :, None] | held[:, None, :], 0.0, curved)
     diagonal = np.einsum("kpp->kp", matrix)
-    diagonal += np.where(held, 1.0, damping[:, None] * (diagonal + FLAT) + np.finfo(float).tiny)
+    diagonal += np.where(held, 1.0, damping[:, None] * (diagonal + DAMPED) + np.finfo(float).tiny)
     return np.asarray(-np.linalg.solve(matrix, np.where(held, 0.0, gradient)[..., None])[..., 0])

@@ -14,14 +14,11 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.identify.optimise.tolerances import DAMPED, LIMIT, ROUNDING
+
 Vector = Float[np.ndarray, " p"]
 Residual = Callable[[Vector], Float[np.ndarray, " n"]]
 Jacobian = Callable[[Vector], Float[np.ndarray, "n p"]]
-
-MOST = 200  # steps
-SMALL_STEP, SMALL_GAIN = 1e-9, 1e-12
-"""Of a parameter's scale, and of the sum of squares: a smaller step or gain ends the search."""
-FIRST, HARDEST = 1e-3, 1e12  # damping to begin with, and from which on no step helps
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,10 +42,10 @@ def levenberg_marquardt(
     """Least squares from one start; `scale` is the magnitude of each parameter."""
     z = np.clip(start, lower, upper)
     off = residual(z)
-    cost, damping = 0.5 * float(off @ off), FIRST
+    cost, damping = 0.5 * float(off @ off), DAMPED
     slopes = jacobian(z) * scale
     widest = np.zeros(len(z))
-    for count in range(1, MOST + 1):
+    for count in range(1, LIMIT + 1):
         gradient, hessian = slopes.T @ off, slopes.T @ slopes
         widest = np.maximum(widest, np.diag(hessian))
         free = ~(((z <= lower) & (gradient > 0.0)) | ((z >= upper) & (gradient < 0.0)))
@@ -59,17 +56,17 @@ def levenberg_marquardt(
             moved = float(np.abs((tried - z) / scale).max())
             there = residual(tried)
             lower_cost = 0.5 * float(there @ there)
-            if lower_cost < cost or moved <= SMALL_STEP or damping > HARDEST:
+            if lower_cost < cost or moved <= ROUNDING or damping > 1.0 / ROUNDING:
                 break
             damping *= 4.0
         if not lower_cost < cost:
             return LevenbergMarquardtResult(z, cost, True, count)
         gain = cost - lower_cost
         z, off, cost, damping = tried, there, lower_cost, max(damping / 9.0, 1e-15)
-        if gain <= SMALL_GAIN * (cost + gain) or moved <= SMALL_STEP:
+        if gain <= ROUNDING**2 * (cost + gain) or moved <= ROUNDING:
             return LevenbergMarquardtResult(z, cost, True, count)
         slopes = jacobian(z) * scale
-    return LevenbergMarquardtResult(z, cost, False, MOST)
+    return LevenbergMarquardtResult(z, cost, False, LIMIT)
 
 
 def _stepped(

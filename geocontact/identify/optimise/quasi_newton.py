@@ -12,11 +12,10 @@ from scipy.optimize import minimize
 from scipy.stats import qmc
 
 from geocontact.data.parameter import Parameter
-from geocontact.identify.optimise.least_squares import Fit, Predict, divided, fit
+from geocontact.identify.optimise.least_squares import STEP, Fit, Predict, divided, fit
+from geocontact.identify.optimise.tolerances import ROUNDING
 
 DECADES = 100.0  # bounds farther apart than this factor: the search is in the logarithm
-STEP = 1e-6  # of a search coordinate, for differences
-SMALLEST = 1e-8  # mean square residual, in floors, added before the logarithm is taken
 OPTIONS: Any = {"maxiter": 200, "ftol": 1e-10, "gtol": 1e-7}
 
 
@@ -94,7 +93,7 @@ def search(
             step[k] = STEP
             ahead, behind = (residual(coordinates.values(z + way * step)) for way in (1.0, -1.0))
             slope[k] = off @ (ahead - behind) / (2.0 * STEP)
-        square = float(off @ off) / len(off) + SMALLEST
+        square = float(off @ off) / len(off) + ROUNDING
         return float(np.log(square)), 2.0 * slope / (len(off) * square)
 
     searches = []
@@ -107,4 +106,4 @@ def search(
     count = int(sum(np.isfinite(m).sum() for m in measured))
     _, values = min(searches, key=lambda found: found[0])
     polished = fit(predict, measured, parameters, floor, [dict(zip(names, map(float, values), strict=True))])
-    return replace(polished, costs=tuple(0.5 * count * max(float(np.exp(low)) - SMALLEST, 0.0) for low, _ in searches))
+    return replace(polished, costs=tuple(0.5 * count * max(float(np.exp(low)) - ROUNDING, 0.0) for low, _ in searches))
