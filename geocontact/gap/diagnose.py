@@ -22,6 +22,7 @@ from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.refit import free
 from geocontact.gap.experiment.proposal import first_of, next_experiment
 from geocontact.gap.identifiability.non_identifiable import non_identifiable
+from geocontact.gap.levels import SURE
 from geocontact.gap.localise.gap_map import gap_map, windows
 from geocontact.gap.localise.on_surface import on_surface
 from geocontact.gap.partial_answer import nearest, partial
@@ -31,7 +32,6 @@ from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors, raw_input_errors
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import Contender, base_contender
-from geocontact.gap.selection.verdict import SURE
 
 Z95 = 1.959964
 TOLD = 0.5  # of the prior's spread that the fit's may be, for a parameter that the trials tell

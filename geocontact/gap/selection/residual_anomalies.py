@@ -19,8 +19,8 @@ from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.inputs.quantisation import resolution
 from geocontact.gap.inputs.spectrum import switches
+from geocontact.gap.levels import LEFT_OVER
 from geocontact.gap.selection.evidence import Judged, without_discrepancy
-from geocontact.gap.selection.verdict import LEFT_OVER
 
 WINDOWS = (4, 8, 16, 32, 64)  # samples
 SHORTEST = 64  # samples of a trial whose spectrum is looked at
