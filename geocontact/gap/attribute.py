@@ -18,6 +18,7 @@ from geocontact.gap.selection.calibration_share import calibration_share, change
 from geocontact.gap.selection.clipping import ClippedChannel, clipped_channels
 from geocontact.gap.selection.evidence import Judged, settled
 from geocontact.gap.selection.held_out_rules import TOO_LITTLE, HeldOutRules
+from geocontact.gap.selection.lapses import with_lapses
 from geocontact.gap.selection.model_comparison import Contender, Ends, base_contender, pairs, settled_in, singles
 from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, recorder_remarks, residual_anomalies
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
@@ -215,6 +216,7 @@ def _answered(
     remaining = {"none": missing, best.label: rest}
     if data_error is not None:
         said = with_mistake(said, data_error.candidate.name)
+    said = with_lapses(said, (one.name for one in contest.entered))
     return Attribution(
         problem, data_error, clean, base, contenders, remaining, odd, recorder, objections, contest.flat, said
     )

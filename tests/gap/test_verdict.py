@@ -36,7 +36,7 @@ SHARE = 0.6
 def contender(nats: float, *labels: str, **values: float) -> Contender:
     """A model that gains so much, on calibration trials as much as on the others; effects where they set out."""
     one = np.ones(1)
-    noise = Noise(NoiseLevels(one, one[None], one[None], one), one, 0.0, ())
+    noise = Noise(NoiseLevels(one, one[None], one[None], one, one), one, 0.0, ())
     offered = tuple(OFFERED[label] for label in labels)
     there = {p.name: p.start for one in offered for p in one.parameters} | values
     model = Refit(SYSTEM, {**SYSTEM.start, **there}, [], [], np.zeros(10), np.zeros((10, 3)))
