@@ -64,7 +64,7 @@ def _by_difference(
     theta[k] = kept - h
     below = _force(beta, rate, pressure, theta, n)
     theta[k] = kept
-    return (above - below) / (2.0 * h)
+    return float((above - below) / (2.0 * h))
 
 
 @kernel

@@ -69,6 +69,10 @@ def _say_what_is_open(record: Record, found: Fitted) -> None:
             "angle and force hardly tell the compliance c of the upper arm's fixation from that of the cuff, which is "
             f"in series with it ({told}): know k or c (`known`), or give a prior (`prior`)"
         )
+    driven = [r.name for r in found.recordings if r.torque is not None and r.torque.any()]
+    if driven and found.estimate.named["c"] != 0.0:
+        told = f"{', '.join(driven)}: an actuator's torque pushes a fixation that yields"
+        record.warn(f"{told}; the fit takes it as 0, as if nobody drove the exoskeleton")
     ends = [each.words for each in found.intervals if each.lower_open or each.upper_open]
     if ends:
         record.warn(f"no limit within the bounds to {', '.join(ends)}, on one side or both")
