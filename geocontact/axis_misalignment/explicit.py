@@ -113,6 +113,14 @@ def require_no_pole(beta: Float[np.ndarray, " n"], offsets: Offsets) -> None:
     raise ValueError(f"{what}, with {offsets.words}")
 
 
+def require_no_pole_at(beta: Float[np.ndarray, " n"], bottom: Float[np.ndarray, " n"], link: float) -> None:
+    """ValueError with the angle where the denominator of tan γ [m] under load has come near 0, or below."""
+    below = bottom <= POLE_SHARE * link
+    if below.any():
+        at = float(np.degrees(beta[int(np.argmax(below))]))
+        raise ValueError(f"tan γ reaches a pole at {at:.4g} degrees, with the offsets that the load leaves")
+
+
 def pole_angles(offsets: Offsets) -> tuple[float, ...]:
     """Angles within ± 180 degrees at which l + y cos β - x sin β = 0 [rad]; none where the offset is below the link."""
     size = float(np.hypot(offsets.x, offsets.y))

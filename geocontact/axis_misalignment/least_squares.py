@@ -81,7 +81,7 @@ class ElbowProblem:
         """Whether nothing known sets that factor, neither a prior nor a free joint's displacement."""
         return self.scalable and self.scale is None and not set(self.priors) & set(SCALED)
 
-    def theta(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, " 7"]:
+    def theta(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, " 8"]:
         """All numbers, given the free ones."""
         full = self._starts.copy()
         full[self.free] = values
@@ -97,7 +97,8 @@ class ElbowProblem:
     def jacobian(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, "m p"]:
         """Derivative of the residual."""
         theta = self.theta(values)
-        slopes = self.law.slopes(theta)[:, self.free] * self.weight[:, None]
+        yields = not self.parameters[NAMES.index("c")].fixed
+        slopes = self.law.slopes(theta, fixation=yields)[:, self.free] * self.weight[:, None]
         scale = [] if self.scale is None else [self.scale.slopes(theta)[None, self.free]]
         return np.vstack([slopes, *scale, np.diag(1.0 / self._prior_sd)[self._known]])
 
@@ -124,7 +125,7 @@ class ElbowProblem:
         return levenberg_marquardt(self.residual, self.jacobian, start, lower, upper, scale)
 
     @cached_property
-    def _starts(self) -> Float[np.ndarray, " 7"]:
+    def _starts(self) -> Float[np.ndarray, " 8"]:
         return np.array([p.start for p in self.parameters])
 
     @cached_property
@@ -155,7 +156,7 @@ class ElbowFit:
     """
 
     problem: ElbowProblem
-    theta: Float[np.ndarray, " 7"]
+    theta: Float[np.ndarray, " 8"]
     values: Float[np.ndarray, " p"]
     cost: float
     converged: bool

@@ -17,8 +17,8 @@ from jaxtyping import Float
 from geocontact.axis_misalignment.end_stop import FEWEST, BinMeans, RecordedStroke, slope_over
 from geocontact.axis_misalignment.law import ElbowLaw
 
-TOTAL = {0: 1.0, 5: 0.0, 6: 0.0}
-"""k, b and s with which the law's force is d_tot."""
+TOTAL = {0: 1.0, 5: 0.0, 6: 0.0, 7: 0.0}
+"""k, b, s and c with which the law's force is d_tot: without force the upper arm's fixation does not yield."""
 LINEAR = {**TOTAL, 4: 0.0}
 """And z, with which it is d_lin: what a free joint slides by where a rotary joint beside it is free as well."""
 
@@ -50,13 +50,13 @@ class DisplacementScale:
     trials: int
     rest: Mapping[int, float] = field(default_factory=lambda: dict(TOTAL))
 
-    def residual(self, theta: Float[np.ndarray, " 7"]) -> float:
+    def residual(self, theta: Float[np.ndarray, " 8"]) -> float:
         """What the law's slope is too large by, in standard errors."""
         return (float(self.share @ self.law.force(self._at_rest(theta))) - self.slope) / self.error
 
-    def slopes(self, theta: Float[np.ndarray, " 7"]) -> Float[np.ndarray, " 7"]:
-        """Derivative of the residual with respect to each number; k, b and s have none."""
-        found = self.share @ self.law.slopes(self._at_rest(theta)) / self.error
+    def slopes(self, theta: Float[np.ndarray, " 8"]) -> Float[np.ndarray, " 8"]:
+        """Derivative of the residual with respect to each number; k, b, s and c have none."""
+        found = self.share @ self.law.slopes(self._at_rest(theta), fixation=False) / self.error
         found[list(self.rest)] = 0.0
         return np.asarray(found)
 
@@ -64,7 +64,7 @@ class DisplacementScale:
         """As it could have been measured."""
         return replace(self, slope=float(rng.normal(self.slope, self.error)))
 
-    def _at_rest(self, theta: Float[np.ndarray, " 7"]) -> Float[np.ndarray, " 7"]:
+    def _at_rest(self, theta: Float[np.ndarray, " 8"]) -> Float[np.ndarray, " 8"]:
         rest = theta.copy()
         rest[list(self.rest)] = list(self.rest.values())
         return rest

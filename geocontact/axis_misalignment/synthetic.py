@@ -17,12 +17,14 @@ from scipy.signal import lfilter
 
 from geocontact.axis_misalignment.compensation import taken_up
 from geocontact.axis_misalignment.explicit import Offsets, constraint_force, displacement
+from geocontact.axis_misalignment.fixation import Yielded, yielded
 from geocontact.data.elbow_recording import ElbowRecording
 
-PAPER = {"k": 222.43, "x": 0.048, "y": 0.059, "l": 0.169, "z": 0.127, "b": 0.0, "s": 0.0}
+PAPER = {"k": 222.43, "x": 0.048, "y": 0.059, "l": 0.169, "z": 0.127, "b": 0.0, "s": 0.0, "c": 0.0}
 """What the explicit model's paper identified (sec. IV.C): one point of the line on which forces do not change.
 
-Its fit has no damping (sec. III.D) and no stiffness that follows the pressure, so b and s are 0.
+Its fit has no damping (sec. III.D), no stiffness that follows the pressure and a rigid fixation of the upper arm (sec.
+II.B), so b, s and c are 0.
 """
 SINES = 6
 """Sines of the tracking signal. Assumed: the paper gives their band, not their number."""
@@ -71,6 +73,14 @@ class Design:
     pressures: tuple[float, float] | None = None
 
 
+@dataclass(frozen=True, eq=False)
+class SyntheticTrial:
+    """A recording that was made, and the law's numbers in it: the offsets differ from trial to trial by donning."""
+
+    recording: ElbowRecording
+    numbers: Mapping[str, float]
+
+
 def multisine(time: Float[np.ndarray, " t"], design: Design, rng: np.random.Generator) -> Float[np.ndarray, " t"]:
     """Angle of one trial [rad]: sines of random frequencies, amplitudes and phases, from end to end of the reach."""
     frequency = rng.uniform(*design.band, SINES)
@@ -88,31 +98,40 @@ def synthetic(
     rng: np.random.Generator,
     stroke: tuple[float, float] | None = None,
     mean_pressure: float = 0.0,
-) -> ElbowRecording:
-    """One synthetic recording; with a stroke of the compensation joint [m] it is free and its displacement recorded.
+    torque: float | None = None,
+    turning: float = 0.0,
+) -> SyntheticTrial:
+    """One synthetic recording with its own numbers.
+
+    With a stroke of the compensation joint [m] the joint is free and its displacement recorded.
 
     Parameters
     ----------
     numbers
-        k, x, y, l, z, b, s in SI units, as `elbow_law`.
+        k, x, y, l, z, b, s, c in SI units, as `law`.
     mean_pressure
         Pressure at which the stiffness is k [Pa].
+    torque, turning
+        Of the actuator [N m], None where there is none; stiffness of the cuff against turning [N m/rad].
     """
     time = np.arange(round(design.seconds * design.rate) + 1) / design.rate
     beta = multisine(time, design, rng)
     pressure = None if design.pressures is None else float(rng.uniform(*design.pressures))
     shift = design.donning * rng.standard_normal(2)
     moved = {**numbers, "x": numbers["x"] + shift[0], "y": numbers["y"] + shift[1]}
-    force, joint = ideal(time, beta, moved, stroke, 0.0 if pressure is None else pressure - mean_pressure)
+    tight = 0.0 if pressure is None else pressure - mean_pressure
+    force, joint = ideal(time, beta, moved, stroke, tight, torque or 0.0, turning)
     noisy = force + _remembered(len(time), design, rng)
-    return ElbowRecording(
+    recording = ElbowRecording(
         name,
         time,
         _converted(beta, "beta", design.bits),
         _converted(noisy, "force", design.bits),
         None if stroke is None else _converted(joint, "displacement", design.bits),
         None if pressure is None else np.full(len(time), pressure),
+        None if torque is None else np.full(len(time), torque),
     )
+    return SyntheticTrial(recording, moved)
 
 
 def ideal(
@@ -121,12 +140,17 @@ def ideal(
     numbers: Mapping[str, float],
     stroke: tuple[float, float] | None = None,
     pressure: float | Float[np.ndarray, " t"] = 0.0,
+    torque: float | Float[np.ndarray, " t"] = 0.0,
+    turning: float = 0.0,
 ) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"]]:
     """Force [N] by the explicit model and displacement of the compensation joint [m] along recorded angles.
 
-    ValueError where the model has a pole or folds. Damping acts on what is left for the cuff.
+    ValueError where the model has a pole or folds. Damping acts on what is left for the cuff. The actuator's torque
+    [N m] and the cuff's stiffness against turning [N m/rad] reach the force through a fixation that yields only.
     """
-    offsets = Offsets(l=numbers["l"], z=numbers["z"], x=numbers["x"], y=numbers["y"])
+    offsets = offsets_in(numbers)
+    if numbers["c"] != 0.0:
+        return _yielding(time, beta, numbers, stroke, pressure, torque, turning)
     stiffness = numbers["k"] * (1.0 + numbers["s"] * np.asarray(pressure))
     if stroke is None:
         rate = np.gradient(beta, time)
@@ -135,6 +159,49 @@ def ideal(
         return np.asarray(stiffness * unit + numbers["b"] * speed), np.zeros_like(beta)
     joint, left = taken_up(displacement(beta, offsets).total, stroke)
     return np.asarray(stiffness * left + numbers["b"] * np.gradient(left, time)), joint
+
+
+def at_rest(
+    time: Float[np.ndarray, " t"],
+    beta: Float[np.ndarray, " t"],
+    numbers: Mapping[str, float],
+    stroke: tuple[float, float] | None = None,
+    pressure: float | Float[np.ndarray, " t"] = 0.0,
+    torque: float | Float[np.ndarray, " t"] = 0.0,
+    turning: float = 0.0,
+) -> Yielded:
+    """Force and offsets under load along recorded angles, the fixation of the upper arm yielding by `numbers["c"]`."""
+    return yielded(
+        beta,
+        np.gradient(beta, time),
+        offsets_in(numbers),
+        numbers["k"] * (1.0 + numbers["s"] * np.asarray(pressure)),
+        damping=numbers["b"],
+        turning=turning,
+        compliance=numbers["c"],
+        torque=torque,
+        stroke=stroke or (0.0, 0.0),
+    )
+
+
+def _yielding(
+    time: Float[np.ndarray, " t"],
+    beta: Float[np.ndarray, " t"],
+    numbers: Mapping[str, float],
+    stroke: tuple[float, float] | None,
+    pressure: float | Float[np.ndarray, " t"],
+    torque: float | Float[np.ndarray, " t"],
+    turning: float,
+) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"]]:
+    """`ideal` with a fixation that yields."""
+    found = at_rest(time, beta, numbers, stroke, pressure, torque, turning)
+    joint = np.zeros_like(beta) if stroke is None else taken_up(found.deflection(beta, offsets_in(numbers)), stroke)[0]
+    return found.force, joint
+
+
+def offsets_in(numbers: Mapping[str, float]) -> Offsets:
+    """Lengths among the numbers."""
+    return Offsets(l=numbers["l"], z=numbers["z"], x=numbers["x"], y=numbers["y"])
 
 
 def _remembered(count: int, design: Design, rng: np.random.Generator) -> Float[np.ndarray, " t"]:

@@ -15,12 +15,13 @@ from jaxtyping import Float
 from scipy.stats import t as student
 
 from geocontact.axis_misalignment.bins import FORCE, Binned
-from geocontact.axis_misalignment.law import LENGTHS, NAMES, SCALED
+from geocontact.axis_misalignment.law import GROWING, NAMES, SCALED
 from geocontact.axis_misalignment.least_squares import ElbowFit, ElbowProblem, best_from, law_at
 from geocontact.identify.intervals.profile_likelihood import POINTS, Profile, profile_of
 from geocontact.identify.noise.autocorrelation import spread
 
 DISTINCT = 1e-2  # of a number: minima that lie closer are one
+SERIES = 1e-4  # of a column: what differences leave of one that is another's multiple
 FLAT = 1e-6  # of the largest singular value: below, the data say nothing in this direction
 
 
@@ -137,7 +138,7 @@ def _near(problem: ElbowProblem, values: Float[np.ndarray, " p"], name: str, val
     best = float(values[problem.names.index(name)])
     if not problem.scalable or name not in SCALED or value * best <= 0.0:
         return values
-    factor = value / best if name in LENGTHS else best / value
+    factor = value / best if name in GROWING else best / value
     return np.asarray(_scaled(problem.theta(values), np.array([factor]))[0][problem.free])
 
 
@@ -181,6 +182,47 @@ def _scores(data: Binned, e: ElbowFit) -> tuple[Float[np.ndarray, "g p"], int]:
     return np.column_stack([np.bincount(stretch, column) for column in share.T]), len(numbers)
 
 
+@dataclass(frozen=True, eq=False)
+class Separability:
+    """How far a yielding fixation of the upper arm can be told from a softer cuff.
+
+    Parameters
+    ----------
+    from_cuff
+        Share of the force's change by c that no change of k makes; 0 where both are in series and nothing else.
+    from_all
+        That no change of the free numbers makes, c left out.
+    """
+
+    from_cuff: float
+    from_all: float
+
+    @property
+    def told(self) -> bool:
+        """Whether angle and force tell the two apart at all."""
+        return self.from_all > SERIES
+
+
+def separability(e: ElbowFit) -> Separability:
+    """Of the compliance c, at the numbers found, weighted as in the fit; without priors.
+
+    Where the attachment is on the limb's line (z = 0) c and 1/k are in series exactly, F = d_tot/(1/k + c). Beside it
+    the force across the limb, which z brings about, turns the limb and makes the rest.
+    """
+    slopes = e.problem.law.slopes(e.theta) * e.problem.weight[:, None]
+    others = [k for k in e.problem.free if NAMES[k] != "c"]
+    return Separability(_share_outside(slopes[:, 7], slopes[:, :1]), _share_outside(slopes[:, 7], slopes[:, others]))
+
+
+def _share_outside(column: Float[np.ndarray, " n"], others: Float[np.ndarray, "n p"]) -> float:
+    """Length of what is left of a column beside others, over its own; 0 where it has none."""
+    own = float(np.linalg.norm(column))
+    sizes = np.linalg.norm(others, axis=0)
+    scaled = others[:, sizes > 0.0] / sizes[sizes > 0.0]
+    fitted = scaled @ np.linalg.lstsq(scaled, column, rcond=None)[0]
+    return float(np.linalg.norm(column - fitted)) / own if own > 0.0 else 0.0
+
+
 def direction(e: ElbowFit, names: tuple[str, ...] = SCALED) -> Direction:
     """Singular values and the direction identified least, of numbers that need not be free, in their logarithms.
 
@@ -197,14 +239,15 @@ def direction(e: ElbowFit, names: tuple[str, ...] = SCALED) -> Direction:
     return Direction(names, values, np.asarray(least if least[-1] >= 0.0 else -least))
 
 
-def along_the_scale(e: ElbowFit, factors: Float[np.ndarray, " m"]) -> Float[np.ndarray, "m 7"]:
-    """Numbers (k/s, s times the lengths) for each factor s; every row gives the same force."""
+def along_the_scale(e: ElbowFit, factors: Float[np.ndarray, " m"]) -> Float[np.ndarray, "m 8"]:
+    """Numbers (k/s, s times the lengths and the compliance) for each factor s; every row gives the same force."""
     return _scaled(e.theta, factors)
 
 
-def _scaled(theta: Float[np.ndarray, " 7"], factors: Float[np.ndarray, " m"]) -> Float[np.ndarray, "m 7"]:
+def _scaled(theta: Float[np.ndarray, " 8"], factors: Float[np.ndarray, " m"]) -> Float[np.ndarray, "m 8"]:
     rows = np.tile(theta, (len(factors), 1))
     rows[:, 0] /= factors
     rows[:, 1:5] *= factors[:, None]
     rows[:, 5] /= factors
+    rows[:, 7] *= factors
     return rows

@@ -26,6 +26,8 @@ class ElbowRecording:
         Of the compensation joint along the limb [m]; None where it was not recorded.
     pressure
         Of the cuff [Pa]; None where it was not recorded.
+    torque
+        Of the actuator about the exoskeleton's axis, flexion positive [N m]; None where it was not recorded.
     """
 
     name: str
@@ -34,6 +36,7 @@ class ElbowRecording:
     force: Float[np.ndarray, " t"]
     displacement: Float[np.ndarray, " t"] | None = None
     pressure: Float[np.ndarray, " t"] | None = None
+    torque: Float[np.ndarray, " t"] | None = None
 
     @property
     def rate(self) -> Float[np.ndarray, " t"]:

@@ -88,11 +88,18 @@ def settle(
     >>> gc.separation(ball, plate, pose) < 1e-9
     True
     """
+    return brought_together(Collider(moving, fixed), pose, direction, steps)
+
+
+def brought_together(
+    collider: Collider, pose: RigidTransform, direction: tuple[float, float, float], steps: int = 10_000
+) -> RigidTransform:
+    """`settle` of two bodies that are prepared already, for many poses."""
+    moving, fixed = collider.moving, collider.fixed
     way = np.asarray(direction, float)
     if not np.linalg.norm(way) > 0.0:
         raise ValueError("the direction of settling has no length")
     way = way / np.linalg.norm(way)
-    collider = Collider(moving, fixed)
     rotation = pose.rotation.as_matrix()
     start = np.asarray(pose.translation, float)
     middle = (rotation @ moving.centre + start - fixed.centre) @ way

@@ -47,8 +47,13 @@ def sweep(axis: Axis, start: float, stop: float, step: float, name: str = "angle
     >>> np.degrees(flexion.coordinate[1]).round(6).tolist()
     [0.0, 30.0, 60.0, 90.0]
     """
-    if step == 0.0 or not np.isfinite([start, stop, step]).all() or (stop - start) * step < 0.0:
-        raise ValueError(f"a sweep from {start} to {stop} cannot go in steps of {step}")
-    angle = start + step * np.arange(int(np.floor((stop - start) / step + 1e-9)) + 1)
+    angle = swept_angles(start, stop, step)
     time = np.arange(len(angle), dtype=float)
     return Motion(time, axis.turned(angle), f"sweep of {name}", coordinate=(name, angle))
+
+
+def swept_angles(start: float, stop: float, step: float) -> Float[np.ndarray, " t"]:
+    """Angles from start in steps up to stop [rad], which is included when the steps meet it; ValueError without."""
+    if step == 0.0 or not np.isfinite([start, stop, step]).all() or (stop - start) * step < 0.0:
+        raise ValueError(f"a sweep from {start} to {stop} cannot go in steps of {step}")
+    return np.asarray(start + step * np.arange(int(np.floor((stop - start) / step + 1e-9)) + 1))

@@ -18,6 +18,7 @@ from geocontact.geometry.thickness import thickness_below
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.loads.foundation import Layer
 from geocontact.loads.foundation_stiffness import LAWS, layer_loads
+from geocontact.loads.settling import energy_balance as energy_balance_room
 from geocontact.loads.settling.along import settle_along
 from geocontact.loads.settling.coordinates import NAMES, coordinates_of, poses_of
 from geocontact.loads.settling.energy_balance import energy_balance
@@ -25,8 +26,10 @@ from geocontact.loads.settling.first_touch import pressing
 from geocontact.loads.settling.indeterminate import not_held
 from geocontact.loads.settling.newton import equilibrium
 from geocontact.loads.settling.potential import AxialLoad, Bed, total_at
+from geocontact.loads.settling.start_pose import lowest_places
 from tests.cli.calls import FEMUR, INSERT
 from tests.contact.sphere_on_layer import linear_force, logarithmic_force
+from tests.geometry.bodies import cube, joined, surface
 from tests.loads.test_foundation import R, ball, slab
 
 M, H = 8e8, 5e-3
@@ -90,6 +93,38 @@ def test_a_ball_sinks_as_deep_as_the_closed_form_and_stores_the_work(law: str) -
     assert balance.work == pytest.approx(_work(law, deep), rel=5e-3)
     assert not_held(rest.total.stiffness, FREE["axial+rotation"], force) == ("rotation",)
     assert not_held(rest.total.stiffness + np.diag([0, 0, 0, 20.0, 0, 0]), FREE["axial+rotation"], force) == ()
+
+
+def test_where_lighter_loads_have_no_rest_the_axial_way_is_balanced(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is held does no work; springs of what is held are left out."""
+    given, force = bed(slab(), ball(20), 0.5e-3), 800.0
+    high = np.array([1e-3, R + 5e-3, 0.0, 0.0, 0.0, 0.0])
+    free = np.isin(NAMES, ("axial", "anterior"))
+    pull = AxialLoad(force, np.array([1e4, 0.0, 0.0, 0.0, 0.0, 0.0]), high)
+    at = pressing(given, high, slab())
+    assert at is not None
+    rest = equilibrium(given, pull, at, free)
+    along = energy_balance(given, pull, rest, free)
+    lighter = energy_balance_room.equilibrium
+    monkeypatch.setattr(
+        energy_balance_room,
+        "equilibrium",
+        lambda *a: replace(lighter(*a), converged=False) if a[3].sum() > 1 else lighter(*a),
+    )
+    alone = energy_balance(given, pull, rest, free)
+    assert along is not None and not along.alone and along.difference < 5e-3
+    assert alone is not None and alone.alone and alone.difference < 5e-3
+    assert alone.work == pytest.approx(along.work, rel=0.01)
+
+
+def test_a_component_starts_where_it_lies_lowest() -> None:
+    """A ball over a gap of 16 mm between two plates of other widths: in its middle, sqrt(R² - 8²) above their tops."""
+    left, right = cube((-16.0, -2.5, 0.0), (8.0, 2.5, 12.0)), cube((14.0, -2.5, 0.0), (6.0, 2.5, 12.0))
+    plates = surface(joined(left, right))
+    found = lowest_places(bed(plates, ball(40), 2e-3), plates, np.array([0.0, 0.5]))
+    np.testing.assert_allclose(found[:, 0], 0.0, atol=0.2e-3)
+    np.testing.assert_allclose(found[:, 1], np.sqrt(R**2 - 8e-3**2), atol=0.1e-3)
+    np.testing.assert_allclose(found[:, 3:], [[0.0, 0.0, 0.0], [0.0, 0.0, 0.5]], atol=1e-12)
 
 
 def _force(law: str, deep: float) -> float:

@@ -95,14 +95,15 @@ def test_stiffness_over_cuff_pressure() -> None:
     assert found["s"] * found["k"] == pytest.approx(PAPER["k"] * truth["s"], rel=0.01)
 
 
-def test_derivatives_are_those_of_the_force() -> None:
+@pytest.mark.parametrize("compliance", [0.0, 1e-3])
+def test_derivatives_are_those_of_the_force(compliance: float) -> None:
     rng = np.random.default_rng(2)
     law = ElbowLaw(np.linspace(0.1, 1.6, 30), rng.normal(size=30), rng.normal(size=30))
-    theta = np.array([222.0, 0.04, -0.03, 0.17, 0.12, 7.0, 0.1])
+    theta = np.array([222.0, 0.04, -0.03, 0.17, 0.12, 7.0, 0.1, compliance])
     slopes = law.slopes(theta)
     for k in range(len(NAMES)):
-        step = np.zeros(7)
-        step[k] = 1e-5 * abs(theta[k])
+        step = np.zeros(8)
+        step[k] = max(1e-5 * abs(theta[k]), 1e-8)
         secant = (law.force(theta + step) - law.force(theta - step)) / (2.0 * step[k])
         np.testing.assert_allclose(slopes[:, k], secant, rtol=1e-6, atol=1e-6 * np.abs(secant).max())
 
@@ -320,12 +321,12 @@ def test_the_scale_of_the_truth_is_one_and_its_derivatives_are_those() -> None:
     scale, _ = free_scale(replace(QUICK, rate=50.0, donning=2e-3), [71, 0])
     theta = np.array([PAPER[name] for name in NAMES])
     assert abs(scale.residual(theta)) < 3.0
-    larger = theta * np.array([0.5, 2.0, 2.0, 2.0, 2.0, 1.0, 1.0])
+    larger = theta * np.array([0.5, 2.0, 2.0, 2.0, 2.0, 1.0, 1.0, 1.0])
     assert scale.residual(larger) * scale.error + 1.0 == pytest.approx(
         2.0 * (scale.residual(theta) * scale.error + 1.0)
     )
     for k in range(len(NAMES)):
-        step = np.zeros(7)
+        step = np.zeros(8)
         step[k] = 1e-5 * max(abs(theta[k]), 1.0)
         secant = (scale.residual(theta + step) - scale.residual(theta - step)) / (2.0 * step[k])
         assert scale.slopes(theta)[k] == pytest.approx(secant, rel=1e-5, abs=1e-9)

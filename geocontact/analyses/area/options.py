@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.layer_options import BodyPair, Thickness
+from geocontact.analyses.motion_options import Sweep
 from geocontact.analyses.options import (
     AngleUnit,
     Excludes,
@@ -30,7 +31,6 @@ from geocontact.data.errors import InputError
 from geocontact.data.ranges import (
     DIFFERENCE,
     FRAME_RATE,
-    JOINT_ANGLE,
     LAYER_RATIO,
     PIECE,
     POSE,
@@ -47,12 +47,6 @@ READS_NO_FILE = Excludes("sweep", "has no effect with `sweep`, which reads no mo
 OF_LAYER = Requires("pressure")
 OF_SECOND = Requires("modulus_moving")
 
-Sweep = Annotated[
-    tuple[str, float, float, float],
-    Typed("rad", "sweep_range", '("flexion", *gc.deg(0, 90, 1))'),
-    Spelled(dashed=True),
-    JOINT_ANGLE,
-]
 Turn = Annotated[tuple[str, float], Typed("rad", "turn", '("x", gc.deg(2))'), TURN]
 PoseSd = Annotated[
     tuple[float, ...],

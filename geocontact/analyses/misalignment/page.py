@@ -16,9 +16,10 @@ from geocontact.view.page.write import write_page
 FACTS = 5  # at most
 FRAMES = 601  # samples that a page shows at most
 LAW = (
-    "One rigid link, one spring along the limb, both axes fixed: no friction, no slip of the cuff, no give of the "
-    "upper arm's fixation, no axis that wanders. What differs between donnings is in the residuals, and intervals by "
-    "stretches of time do not hold it: look at the trials that were not used."
+    "One rigid link, one spring along the limb, both axes fixed: no friction, no slip of the cuff, no turn of the "
+    "upper arm's fixation and, unless c is known or free, no give of it, no axis that wanders. What differs between "
+    "donnings is in the residuals, and intervals by stretches of time do not hold it: look at the trials that were "
+    "not used."
 )
 NOT_IN_THE_NUMBERS = Words("What the numbers do not contain", [LAW, NOT_A_DEVICE])
 

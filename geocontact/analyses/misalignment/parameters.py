@@ -7,7 +7,7 @@ from geocontact.analyses.misalignment.law_numbers import MMHG, PER_SI, require_n
 from geocontact.data.errors import InputError
 from geocontact.io.text.units import ANGLE
 
-EXAMPLE = "l=169,z=127 (N/m, mm, N s/m, 1/mmHg)"
+EXAMPLE = "l=169,z=127 (N/m, mm, N s/m, 1/mmHg, mm/N)"
 
 
 def numbers(text: str, option: str) -> dict[str, float]:

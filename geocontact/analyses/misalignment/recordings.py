@@ -61,4 +61,5 @@ def _filtered(path: Path, r: ElbowRecording, cutoff: float) -> ElbowRecording:
         force=smooth(r.force),
         displacement=None if r.displacement is None else smooth(r.displacement),
         pressure=None if r.pressure is None else at_times(r.time, r.pressure, time, step),
+        torque=None if r.torque is None else smooth(r.torque),
     )

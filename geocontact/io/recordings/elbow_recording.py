@@ -16,9 +16,9 @@ from geocontact.io.text.columns import angles_of, lengths, resolve
 from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.io.text.units import DIMENSIONS, si_unit
 
-BETA, FORCE, DISPLACEMENT, PRESSURE = "beta", "force", "displacement", "pressure"
-CHANNELS = (BETA, FORCE, DISPLACEMENT, PRESSURE)
-"""What is looked for, by these names unless mapped; the last two may be missing."""
+BETA, FORCE, DISPLACEMENT, PRESSURE, TORQUE = "beta", "force", "displacement", "pressure", "torque"
+CHANNELS = (BETA, FORCE, DISPLACEMENT, PRESSURE, TORQUE)
+"""What is looked for, by these names unless mapped; the last three may be missing."""
 
 Mapped = Mapping[str, tuple[float, str]]
 
@@ -32,6 +32,8 @@ STRONGEST, FARTHEST = 2000.0, 0.5
 """No cuff bears more [N], and no compensation joint slides farther [m]."""
 TIGHTEST = 1000.0 * DIMENSIONS["Pa"]["mmHg"]
 """No cuff is pumped to more [Pa]."""
+HARDEST = 1000.0
+"""No actuator of an arm turns harder [N m]."""
 
 
 def read_elbow_recording(
@@ -61,9 +63,8 @@ def read_elbow_recording(
     beta = sign * angles_of(table, [name], angles)[:, 0]
     require_elbow(beta, table.file, name)
     force = _force(table, source[FORCE], unit)
-    return ElbowRecording(
-        path.stem, table.time, beta, force, _length(table, source[DISPLACEMENT]), _pressure(table, source[PRESSURE])
-    )
+    joint, pressure = _length(table, source[DISPLACEMENT]), _pressure(table, source[PRESSURE])
+    return ElbowRecording(path.stem, table.time, beta, force, joint, pressure, _torque(table, source[TORQUE]))
 
 
 def require_elbow(beta: Float[np.ndarray, " t"], file: str, name: str) -> None:
@@ -118,18 +119,29 @@ def _length(table: TextTable, source: tuple[float, str] | None) -> Float[np.ndar
 
 
 def _pressure(table: TextTable, source: tuple[float, str] | None) -> Float[np.ndarray, " t"] | None:
-    if source is None:
-        return None
+    return None if source is None else _bounded(table, source, "Pa", "mmHg", TIGHTEST, "any cuff is pumped to")
+
+
+def _torque(table: TextTable, source: tuple[float, str] | None) -> Float[np.ndarray, " t"] | None:
+    return (
+        None if source is None else _bounded(table, source, "N m", "N m", HARDEST, "an actuator of an arm turns with")
+    )
+
+
+def _bounded(
+    table: TextTable, source: tuple[float, str], si: str, usual: str, most: float, than: str
+) -> Float[np.ndarray, " t"]:
+    """A channel in SI whose header has to name its unit, refused where it is more than can be."""
     sign, name = source
     values = table.needed(name)
     said = table.units[table.channels.index(name)]
     known = si_unit(said) if said else None
-    if known is None or known[0] != "Pa":
+    if known is None or known[0] != si:
         what = f"'{name}' is in '{said}'" if said else f"'{name}' has no unit"
-        raise InputError(table.file, "", what, f"write {name} [mmHg] (one of {', '.join(DIMENSIONS['Pa'])})")
-    pressure = np.asarray(sign * values * known[1])
-    largest = float(np.abs(pressure).max())
-    if largest > TIGHTEST:
-        what = f"'{name}' reaches {largest / known[1]:.4g} {said}, more than any cuff is pumped to"
+        raise InputError(table.file, "", what, f"write {name} [{usual}] (one of {', '.join(DIMENSIONS[si])})")
+    found = np.asarray(sign * values * known[1])
+    largest = float(np.abs(found).max())
+    if largest > most:
+        what = f"'{name}' reaches {largest / known[1]:.4g} {said}, more than {than}"
         raise InputError(table.file, "", what, "is it in that unit at all?")
-    return pressure
+    return found

@@ -96,17 +96,31 @@ def test_bodies_that_miss_each_other_are_told(tmp_path: Path) -> None:
     assert found.table()["force_total [N]"].isna().tolist() == [False, True]
 
 
+def test_a_sweep_needs_no_recorded_poses() -> None:
+    """A ball lies on the plate wherever it turns to; the flexion is that asked for, the other turns are 0."""
+    found = gc.knee.settle(
+        SPHERE, PLATE, unit="mm", side="right", sweep=("flexion", *gc.deg(0, 30, 15)), load=500.0, free=(), **LAYER
+    )
+    table = found.table()
+    np.testing.assert_allclose(table["flexion [deg]"], [0.0, 15.0, 30.0], atol=1e-6)
+    np.testing.assert_allclose(table[["adduction [deg]", "rotation [deg]", "anterior [mm]"]], 0.0, atol=1e-6)
+    np.testing.assert_allclose(table["force_total [N]"], 500.0, rtol=2e-3)
+    assert table["axial [mm]"].between(19.5, 20.0).all()
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [
         ({}, "one says the axial load"),
+        ({"load": 500.0, "sweep": ("flexion", *gc.deg(0, 30, 15))}, "exactly one says how it flexes"),
+        ({"load": 500.0, "motion": None, "sweep": ("turn", *gc.deg(0, 30, 15))}, "'turn' does not sweep"),
         ({"load": 500.0, "free": ("flexion",)}, "'flexion' is none of"),
         ({"load": 500.0, "springs": {"anterior": 1e4}}, "anterior is held"),
         ({"load": 500.0, "split": "x"}, "does not lie across z"),
     ],
 )
 def test_refused_before_a_file_is_read(options: dict[str, object], words: str) -> None:
-    assert words in refused(gc.knee.settle, FEMUR, INSERT, motion=GAIT, **options)
+    assert words in refused(gc.knee.settle, FEMUR, INSERT, **{"motion": GAIT, **options})
 
 
 def test_the_command_takes_springs_and_no_free_coordinates(motion: Path, tmp_path: Path) -> None:

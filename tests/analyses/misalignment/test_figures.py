@@ -35,7 +35,7 @@ def test_boxes_of_both_conditions_share_an_axis() -> None:
 
 def test_profiles_are_drawn_over_the_best_value_and_k_has_three_ticks() -> None:
     told = Direction(("k", "l"), np.array([1.0, 1e-12]), np.array([-0.7, 0.7]))
-    line = np.tile(np.linspace(100.0, 400.0, 41)[:, None], 7)
+    line = np.tile(np.linspace(100.0, 400.0, 41)[:, None], 8)
     values = np.array([-0.4, 0.0, 0.4])
     profile = Profile("x", 0.2, ((-0.4, -0.1), (0.1, 0.4)), False, False, values, np.array([1.0, 3.0, 1.0]))
     _, along, shape = told_figure(told, line, np.ones(41), np.ones(41), {"x/l": profile}).axes[:3]

@@ -17,14 +17,17 @@ def test_trials_are_as_asked_and_the_truth_is_told() -> None:
     result = simulate(**QUICK, stroke=STROKE, pressure=gc.mmHg(10, 60))
     assert list(result.tables()) == [f"{kind}_{k}" for kind in ("locked", "free") for k in (1, 2, 3)] + ["surfaces"]
     table = result.table("free_1")
-    assert list(table) == ["time [s]", "beta [deg]", "force [N]", "displacement [mm]", "pressure [mmHg]"]
+    recorded = ["time [s]", "beta [deg]", "force [N]", "displacement [mm]", "pressure [mmHg]"]
+    assert list(table) == [*recorded, "gamma [deg]", "cuff_moment [N m]"]
     assert len(table) == 1001 and table["displacement [mm]"].min() == pytest.approx(-10.0, abs=0.05)
     assert table["beta [deg]"].min() == pytest.approx(8.0, abs=0.05)
     assert 10.0 < table["pressure [mmHg]"].iloc[0] < 60.0
     assert result.truth["synthetic"] is True and result.truth["stroke_mm"] == pytest.approx([-10.0, 60.0])
     numbers = {"k_N_per_m": 222.43, "x_mm": 48.0, "y_mm": 59.0, "l_mm": 169.0, "z_mm": 127.0}
-    assert result.truth["numbers"] == pytest.approx({**numbers, "b_N_s_per_m": 0.0, "s_per_mmHg": 0.0})
-    assert result.numbers == pytest.approx({**PAPER, "l": 0.169, "z": 0.127, "b": 0.0, "s": 0.0})
+    assert result.truth["numbers"] == pytest.approx(
+        {**numbers, "b_N_s_per_m": 0.0, "s_per_mmHg": 0.0, "c_mm_per_N": 0.0}
+    )
+    assert result.numbers == pytest.approx({**PAPER, "l": 0.169, "z": 0.127, "b": 0.0, "s": 0.0, "c": 0.0})
     low, high = result.trials[0].force.min(), result.trials[0].force.max()
     assert repr(result).startswith(f"locked_1, synthetic: {low:.1f} … {high:.1f} N over 8 … 92°, 20 s")
 
@@ -67,7 +70,7 @@ def test_surfaces_are_those_of_the_link() -> None:
         ({"range": gc.deg(0, 190)}, "190 deg cannot be an angle of an elbow"),
         ({"stroke": gc.mm(10, -10)}, "`stroke`: its upper end is below"),
         ({"band": (0.3, 0.1)}, "`band`: has no room"),
-        ({"numbers": {"q": 1.0}}, "'q' is no number of the law; these are k, x, y, l, z, b, s"),
+        ({"numbers": {"q": 1.0}}, "'q' is no number of the law; these are k, x, y, l, z, b, s, c"),
         ({"numbers": {"s": 1e-4}}, "give `pressure`"),
         ({"seed": -1}, "`seed`: -1 is not 0 or more"),
         ({"recordings": (Path("a.csv"),), "noise": 0.1}, "`noise`: has no effect along a recording; leave it out"),

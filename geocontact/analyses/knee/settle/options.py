@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.layer_options import BodyPair, Thickness
+from geocontact.analyses.motion_options import Sweep
 from geocontact.analyses.options import (
     AngleUnit,
     Excludes,
@@ -27,6 +28,7 @@ from geocontact.data.ranges import LAYER_RATIO, PIECE, YOUNG
 MAY_SETTLE = ("adduction", "anterior", "mediolateral", "rotation")
 """Coordinates besides the axial one, which always settles, and flexion, which never does."""
 
+READS_NO_FILE = Excludes("sweep", "has no effect with `sweep`, which has no recorded times and poses")
 LOAD = Plausible("the axial load", N, (1e-3, 1e5), (1.0, 10_000.0))
 Free = Annotated[
     tuple[str, ...],
@@ -54,13 +56,16 @@ class SettleOptions(Options):
         Tibial insert, the elastic layer, in whose frame results are given.
     unit
         Unit of both meshes; never guessed.
-    motion
-        Poses of MOVING in FIXED (.csv) or coordinates (.mot .sto): flexion and whatever does not settle.
     side
         Side of the body: which of +z and -z is medial, and which turns are varus and internal.
 
     Motion
     ------
+    motion
+        Poses of MOVING in FIXED (.csv) or coordinates (.mot .sto): flexion and whatever does not settle.
+    sweep
+        Instead of `motion`, typed flexion=0:90:10 in degrees: MOVING starts where it lies lowest on FIXED at each
+        flexion, turns at 0 where its axes are FIXED's.
     osim
         OpenSim model whose joint turns coordinates into poses: FIXED is the parent body, MOVING the child.
     joint
@@ -129,21 +134,26 @@ class SettleOptions(Options):
     fixed: Path
     _: KW_ONLY
     unit: MeshUnit
-    motion: Path
     side: Side
     modulus: Annotated[Pressure, YOUNG]
     poisson: Annotated[float, LAYER_RATIO]
     load: Annotated[float | None, LOAD] = None
-    forces: Annotated[Path | None, Excludes("load", "says the load again", "give one")] = None
+    forces: Annotated[Path | None, Excludes("load", "says the load again", "give one"), READS_NO_FILE] = None
     free: Free = ("adduction",)
     springs: Springs | None = None
     load_point: Expression | None = None
-    osim: Path | None = None
-    joint: str | None = None
-    moving_body: Annotated[Literal["child", "parent"] | None, Spelled("moving")] = None
-    map: Annotated[Expression | None, Excludes("osim", "with `osim` names the columns twice", "give one")] = None
-    order: Annotated[str | None, Excludes("osim", "has no effect with `osim`: the joint gives the order")] = None
-    angles: AngleUnit | None = None
+    motion: Path | None = None
+    sweep: Sweep | None = None
+    osim: Annotated[Path | None, READS_NO_FILE] = None
+    joint: Annotated[str | None, READS_NO_FILE] = None
+    moving_body: Annotated[Literal["child", "parent"] | None, Spelled("moving"), READS_NO_FILE] = None
+    map: Annotated[
+        Expression | None, READS_NO_FILE, Excludes("osim", "with `osim` names the columns twice", "give one")
+    ] = None
+    order: Annotated[
+        str | None, READS_NO_FILE, Excludes("osim", "has no effect with `osim`: the joint gives the order")
+    ] = None
+    angles: Annotated[AngleUnit | None, READS_NO_FILE] = None
     place_moving: str | None = None
     place_fixed: str | None = None
     assume_closed: Literal["moving", "fixed", "both"] | None = None
@@ -157,6 +167,7 @@ class SettleOptions(Options):
 
     def refuse_impossible(self) -> None:
         """A load said twice or not at all, coordinates that do not settle, springs of what is held."""
+        self._refuse_motions()
         if self.load is None and self.forces is None:
             raise InputError("", "`load`", "or `forces`: one says the axial load", "give for example 2000")
         if self.moving_body is not None and self.osim is None:
@@ -174,3 +185,10 @@ class SettleOptions(Options):
             raise InputError("", "`springs`", "one is not positive", "leave it out")
         if self.split.partition("=")[0].strip() != "z":
             raise InputError("", "`split`", f"{self.split!r} does not lie across z", "write z, or for example z=1.5")
+
+    def _refuse_motions(self) -> None:
+        """Not exactly one of a motion and a sweep; a sweep of something else than flexion."""
+        if (self.motion is None) == (self.sweep is None):
+            raise InputError("", "`motion`", "or `sweep`: exactly one says how it flexes", "give one of them")
+        if self.sweep is not None and self.sweep[0] != "flexion":
+            raise InputError("", "`sweep`", f"{self.sweep[0]!r} does not sweep", "write flexion=0:90:10 (degrees)")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -18,11 +19,13 @@ from geocontact.data.motion import Motion
 from geocontact.geometry.phong_offset import corner_normals, phong_offset
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.surface_quadrature import surface_quadrature
+from geocontact.geometry.sweep import swept_angles
 from geocontact.io.motion.motion import read_motion
 from geocontact.io.recordings.force_curves import read_force_curves
 from geocontact.loads.foundation import Layer
-from geocontact.loads.settling.coordinates import NAMES
+from geocontact.loads.settling.coordinates import NAMES, poses_of
 from geocontact.loads.settling.potential import Bed
+from geocontact.loads.settling.start_pose import lowest_places
 from geocontact.view.surfaces.vtp_series import require_pyvista
 
 PIECE = 0.5e-3  # m; longest edge of a piece unless given
@@ -78,8 +81,9 @@ def read(o: SettleOptions, record: Record) -> SettleInputs:
     if not moving.closed:
         what = f"{moving.name} is open ({moving.topology.why_open}): it has no inside, so there is no depth"
         raise InputError("", "", what, "close it, or see `assume_closed` moving")
-    motion = _motion(record, o)
+    recorded = None if o.motion is None else _motion(record, o, o.motion)
     bed = Bed(layer_of(record, fixed, o), moving, corner_normals(moving), _point(o, moving))
+    motion = _swept(bed, fixed, o) if recorded is None else recorded
     springs = np.array([(o.springs or {}).get(name, 0.0) for name in NAMES])
     free = np.array([name in (*o.free, "axial") for name in NAMES])
     return SettleInputs(fixed, bed, motion, _load(record, o, motion), springs, free)
@@ -101,10 +105,22 @@ def layer_of(record: Record, fixed: Surface, o: SettleOptions) -> Layer:
     return Layer(pieces, thickness, confined_modulus(o.modulus, o.poisson), o.foundation, parts, height)
 
 
-def _motion(record: Record, o: SettleOptions) -> Motion:
+def _swept(bed: Bed, fixed: Surface, o: SettleOptions) -> Motion:
+    """Lowest places of MOVING over the flexion asked for."""
+    name, start, stop, step = o.sweep or ("flexion", 0.0, 0.0, 0.0)
+    try:
+        angle = swept_angles(start, stop, step)
+        values = lowest_places(bed, fixed, angle)
+    except ValueError as error:
+        raise InputError("", "`sweep`", str(error), "check range, unit and frames, or give a `motion`") from error
+    poses = poses_of(values, bed.point)
+    return Motion(np.arange(len(angle), dtype=float), poses, f"sweep of {name}", coordinate=(name, angle))
+
+
+def _motion(record: Record, o: SettleOptions, file: Path) -> Motion:
     """Poses; every frame is at rest, so that a cycle in per cent will do."""
     motion = read_motion(
-        o.motion,
+        file,
         osim=o.osim,
         joint=o.joint,
         moving=o.moving_body or "child",
@@ -114,10 +130,10 @@ def _motion(record: Record, o: SettleOptions) -> Motion:
     )
     for option in ("order", "angles"):
         if o.given(option) and option not in motion.heeded:
-            raise InputError("", f"`{option}`", f"has no effect here: {o.motion} is read without it", "leave it out")
+            raise InputError("", f"`{option}`", f"has no effect here: {file} is read without it", "leave it out")
     if o.forces is not None and motion.time_unit != "s":
-        raise InputError(o.motion, "", "time is in per cent of a cycle, that of `forces` in s", "give `load`")
-    record.add_input("motion", o.motion, frames=len(motion), source=motion.source)
+        raise InputError(file, "", "time is in per cent of a cycle, that of `forces` in s", "give `load`")
+    record.add_input("motion", file, frames=len(motion), source=motion.source)
     if o.osim is not None:
         record.add_input("model", o.osim, joint=o.joint)
     return motion

@@ -103,12 +103,17 @@ def _summarise(i: SettleInputs, s: Settled, balance: EnergyBalance | None, recor
         "newton_steps_per_frame": round(float(np.mean([f.rest.steps for f in s.frames if f.rest is not None])), 2),
     }
     if balance is None:
-        record.warn("the balance of energy was not checked: no equilibrium under smaller loads")
+        record.warn("the balance of energy was not checked: no equilibrium under smaller loads, not on the axial way")
     else:
-        found |= {"work_of_load_J": balance.work, "stored_energy_J": balance.stored}
+        found |= {"work_of_load_J": balance.work, "stored_energy_J": balance.stored, "axial_way_alone": balance.alone}
+        way = (
+            " on the axial way alone, as smaller loads have no equilibrium with all that is free"
+            if balance.alone
+            else ""
+        )
         record.say(
             f"work of the load {balance.work * 1e3:.4g} mJ, energy stored {balance.stored * 1e3:.4g} mJ: "
-            f"{balance.difference:.1e} apart"
+            f"{balance.difference:.1e} apart{way}"
         )
         if balance.difference > BALANCED:
             record.warn(f"work and stored energy differ by {balance.difference:.1%}; give a smaller `piece`")

@@ -50,6 +50,7 @@ def _law(file: Path) -> ComparedLaw:
     try:
         content = json.loads(file.read_text(encoding="utf-8"))
         told, centre = content["numbers"], content["pressure_mmHg"] or 0.0
+        told = {key_of("c"): 0.0, **told}  # files of version 0.1 have a rigid fixation
         numbers = {name: float(told[key_of(name)]) / PER_SI[name] for name in NAMES}
         if not (np.abs([*numbers.values(), float(centre)]) <= LARGEST_MEANT).all():
             raise ValueError("a number is not finite or too large")

@@ -68,7 +68,10 @@ def _interval(one: ShownInterval) -> dict[str, Any]:
 
 def _directions(found: Fitted) -> dict[str, Any]:
     known = {"k_and_lengths": found.all_directions, "free": found.free_directions}
-    return {key: _direction(each) for key, each in known.items() if each is not None}
+    told = {key: _direction(each) for key, each in known.items() if each is not None}
+    apart = found.separable
+    fixation = {"own_beside_k": apart.from_cuff, "own_beside_all_free": apart.from_all, "told_apart": apart.told}
+    return {**told, "fixation_from_cuff": fixation}
 
 
 def _direction(one: Direction) -> dict[str, Any]:

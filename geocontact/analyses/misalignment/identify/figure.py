@@ -63,7 +63,7 @@ def force_figure(over: Over, boxes: Boxes) -> Figure:
 @in_style
 def told_figure(
     directions: Direction,
-    line: Float[np.ndarray, "m 7"],
+    line: Float[np.ndarray, "m 8"],
     line_r2: Float[np.ndarray, " m"],
     alone_r2: Float[np.ndarray, " m"],
     profiles: Mapping[str, Profile],

@@ -16,7 +16,7 @@ from geocontact.axis_misalignment.explicit import require_no_pole, require_reach
 from geocontact.axis_misalignment.law import SCALED, offsets_of
 from geocontact.axis_misalignment.least_squares import ElbowFit, estimated, r_squared
 from geocontact.axis_misalignment.residuals import Excess, excess, normality, residual_by_bin, standard_residuals
-from geocontact.axis_misalignment.uncertainty import Direction, along_the_scale, direction
+from geocontact.axis_misalignment.uncertainty import Direction, Separability, along_the_scale, direction, separability
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.identify.intervals.bin_tests import BinPair, BinTest, Normality, between_bins, between_neighbours
@@ -36,7 +36,7 @@ class ScaleLine:
         R² of each row, and where k alone changes as it does along the line.
     """
 
-    numbers: Float[np.ndarray, "m 7"]
+    numbers: Float[np.ndarray, "m 8"]
     r2: Float[np.ndarray, " m"]
     alone_r2: Float[np.ndarray, " m"]
 
@@ -76,6 +76,8 @@ class Fitted:
         Of time, that intervals count.
     all_directions, free_directions
         What is told least of k and the lengths, and of those of them that are free.
+    separable
+        Whether a fixation of the upper arm that yields can be told from a softer cuff.
     held
         Of every trial left out, or of the recordings that were held out.
     bins_differ, neighbours
@@ -92,6 +94,7 @@ class Fitted:
     stretches: int
     all_directions: Direction
     free_directions: Direction | None
+    separable: Separability
     line: ScaleLine
     held: Sequence[Held]
     bins_differ: BinTest | None
@@ -118,6 +121,7 @@ def fitted(
         stretches=len(np.unique(data.visits.stretch)),
         all_directions=direction(e),
         free_directions=direction(e, free) if len(free) > 1 else None,
+        separable=separability(e),
         line=_line(e, measured),
         held=predicted(o.held_out or (), apart, data, e, o.bin) if apart else each_left_out(data, e),
         bins_differ=between_bins(boxes.visits, FORCE),

@@ -55,7 +55,7 @@ def predicted(
     return found
 
 
-def _held(name: str, data: Binned, theta: Float[np.ndarray, " 7"]) -> Held:
+def _held(name: str, data: Binned, theta: Float[np.ndarray, " 8"]) -> Held:
     measured, force = data.cells.means[:, FORCE], law_at(data.cells.means).force(theta)
     rmse = float(np.sqrt(np.mean((measured - force) ** 2)))
     return Held(name, r_squared(measured, force), rmse, len(measured))

@@ -8,7 +8,7 @@ import numpy as np
 
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.axis_misalignment.bins import Binned
-from geocontact.axis_misalignment.law import LENGTHS, SCALED
+from geocontact.axis_misalignment.law import GROWING, LENGTHS, SCALED
 from geocontact.axis_misalignment.least_squares import ElbowFit
 from geocontact.axis_misalignment.uncertainty import covariance, profiled, wild_bootstrap, with_link_held
 from geocontact.identify.intervals.profile_likelihood import Profile
@@ -121,10 +121,10 @@ def _drawn(data: Binned, e: ElbowFit, replicates: int) -> dict[str, tuple[float,
 
 
 def _ratio(name: str, p: Profile, link: float, drawn: tuple[float, float] | None) -> ShownInterval:
-    per = 1.0 / link if name in LENGTHS else link
+    per = 1.0 / link if name in GROWING else link
     ends = None if drawn is None else (drawn[0] * per, drawn[1] * per)
-    if name in LENGTHS:
-        return ShownInterval(f"{name}_over_l", f"{name}/l", "", per, p, ends)
+    if name in GROWING:
+        return ShownInterval(f"{name}_over_l", f"{name}/l", "" if name in LENGTHS else "1/N", per, p, ends)
     return ShownInterval(f"{name}_times_l", f"{name} l", TIMES_LINK[name], per, p, ends)
 
 

@@ -61,7 +61,7 @@ class IdentifyOptions(ColumnOptions):
     Numbers of the law
     ------------------
     known
-        Numbers known from elsewhere (N/m, mm, N s/m, 1/mmHg): l=169,z=127.
+        Numbers known from elsewhere (N/m, mm, N s/m, 1/mmHg, mm/N): l=169,z=127.
     prior
         Numbers known with an uncertainty, mean:SD: l=185:10.
     bounds
@@ -69,7 +69,8 @@ class IdentifyOptions(ColumnOptions):
     start
         Where the search begins: k=300,x=30,y=40,l=200,z=120.
     free
-        Free besides k, x, y, l, z: b (damping), s (stiffness over cuff pressure).
+        Free besides k, x, y, l, z: b (damping), s (stiffness over cuff pressure), c (compliance of the upper arm's
+        fixation, 0 unless known or free).
 
     How it is fitted
     ----------------

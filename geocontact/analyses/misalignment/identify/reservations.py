@@ -8,6 +8,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.law import LENGTHS
 
 FEW_STRETCHES = 12
+OWN = 0.1  # of what c does to the force; less is called hardly separable from the cuff
 RARE, MORE = 0.01, 1.5  # p and size from which residuals are more than noise
 BETTER = 0.02  # of R² that the mirrored force must gain to be worth a word
 APART = 3.0  # times that two stiffnesses may differ before a unit is doubted
@@ -61,6 +62,17 @@ def _say_what_is_open(record: Record, found: Fitted) -> None:
     """The scale, ends of intervals, signs."""
     if found.estimate.problem.scale_free:
         record.warn(SCALE_FREE)
+    apart, problem = found.separable, found.estimate.problem
+    if "c" in problem.names and apart.from_all < OWN and not set(problem.priors) & {"k", "c"}:
+        told = f"only {apart.from_all:.2%} of what c does to the force is its own" if apart.told else "not at all"
+        record.warn(
+            "angle and force hardly tell the compliance c of the upper arm's fixation from that of the cuff, which is "
+            f"in series with it ({told}): know k or c (`known`), or give a prior (`prior`)"
+        )
+    driven = [r.name for r in found.recordings if r.torque is not None and r.torque.any()]
+    if driven and found.estimate.named["c"] != 0.0:
+        told = f"{', '.join(driven)}: an actuator's torque pushes a fixation that yields"
+        record.warn(f"{told}; the fit takes it as 0, as if nobody drove the exoskeleton")
     ends = [each.words for each in found.intervals if each.lower_open or each.upper_open]
     if ends:
         record.warn(f"no limit within the bounds to {', '.join(ends)}, on one side or both")

@@ -53,6 +53,7 @@ def explained(found: Fitted, free: Free | None) -> list[str]:
     words = found.residuals.normality.words
     told = [
         _scale(found),
+        fixation_words(found),
         f"Residuals are {words}." if found.residuals.normality.p < 0.05 else f"Residuals: {words}.",
     ]
     if found.bins_differ is not None:
@@ -76,6 +77,21 @@ def _scale(found: Fitted) -> str:
             f"one (SE {problem.scale.error:.2%})."
         )
     return "The scale of k and the lengths is set by what was known beforehand, not by these recordings."
+
+
+def fixation_words(found: Fitted) -> str:
+    """What k holds beside the cuff, and how far a fixation that yields could be told from it."""
+    apart, c = found.separable, found.estimate.named["c"]
+    if not apart.told:
+        told = "Angle and force cannot tell them apart: only 1/k + c is known."
+    else:
+        told = (
+            f"Of what a yielding fixation does to the force, {apart.from_all:.1%} is its own beside the free numbers "
+            f"({apart.from_cuff:.1%} beside k alone); the rest looks like another cuff."
+        )
+    if "c" in found.estimate.problem.names or c != 0.0:
+        return f"Cuff (k) and fixation of the upper arm (c) yield in series. {told}"
+    return f"k is that of the cuff and of the upper arm's fixation in series, as c is taken as 0. {told}"
 
 
 def _bins(found: Fitted, test: BinTest) -> list[str]:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.misalignment.identify.fitted import Fitted
 from geocontact.analyses.misalignment.identify.free_joint import Free
@@ -15,7 +17,10 @@ from geocontact.analyses.misalignment.identify.intervals import ShownInterval
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.end_stop import bin_means
-from geocontact.axis_misalignment.law import NAMES
+from geocontact.axis_misalignment.fixation import yielded
+from geocontact.axis_misalignment.law import NAMES, offsets_of
+from geocontact.axis_misalignment.least_squares import ElbowFit
+from geocontact.axis_misalignment.transmission import CuffLoads, cuff_loads
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.identify.signals.angle_bins import bin_numbers
 
@@ -66,7 +71,20 @@ def _with_fit(table: pd.DataFrame, found: Fitted) -> pd.DataFrame:
     off = dict(zip(np.round(np.degrees(r.beta), 6), r.off, strict=True))
     table["residual [N]"] = [off.get(round(value, 6), np.nan) for value in table["beta [deg]"]]
     table["fitted [N]"] = table["mean [N]"] - table["residual [N]"]
+    e = found.estimate
+    if not e.problem.scale_free:  # a moment is a force times a length, and no length is known then
+        there = table["fitted [N]"].notna()
+        beta = np.radians(table.loc[there, "beta [deg]"].to_numpy())
+        loads = _loads(e, beta, table.loc[there, "fitted [N]"].to_numpy())
+        table.loc[there, "gamma [deg]"], table.loc[there, "cuff_moment [N m]"] = np.degrees(loads.gamma), loads.moment
     return table
+
+
+def _loads(e: ElbowFit, beta: Float[np.ndarray, " b"], force: Float[np.ndarray, " b"]) -> CuffLoads:
+    """What the cuff passes to the forearm with these forces, its stiffness against turning left out."""
+    numbers = e.named
+    rest = yielded(beta, np.zeros(len(beta)), offsets_of(e.theta), numbers["k"], compliance=numbers["c"])
+    return cuff_loads(beta, (numbers["l"], numbers["z"]), replace(rest, force=force))
 
 
 def interval_table(found: Fitted) -> pd.DataFrame:

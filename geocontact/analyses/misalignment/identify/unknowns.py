@@ -17,10 +17,11 @@ WIDEST = {
     "z": (-0.3, 0.3),
     "b": (-500.0, 500.0),
     "s": (-1e-3, 1e-3),
+    "c": (0.0, 0.02),
 }
 """Bounds of free numbers unless given, in SI units."""
-BEGIN = {"k": 300.0, "x": 0.03, "y": 0.04, "l": 0.2, "z": 0.12, "b": 0.0, "s": 0.0}
-"""Starts of the explicit model's paper."""
+BEGIN = {"k": 300.0, "x": 0.03, "y": 0.04, "l": 0.2, "z": 0.12, "b": 0.0, "s": 0.0, "c": 1e-3}
+"""Starts of the explicit model's paper; that of c, a fixation of 1 N/mm, is invented."""
 
 Values = Mapping[str, float]
 Pairs = Mapping[str, tuple[float, float]]
@@ -57,7 +58,9 @@ def _free(name: str, low: float, high: float, start: Values, prior: Pairs) -> Pa
 def _refuse_free(free: Sequence[str]) -> None:
     for name in free:
         if name not in ABSENT:
-            raise InputError("", "`free`", f"{name!r} is not b or s", "give b, s or both; the others are free")
+            raise InputError(
+                "", "`free`", f"{name!r} is not b, s or c", "give one or more of b, s, c; the others are free"
+            )
 
 
 def _refuse_not_free(option: str, given: Mapping[str, object], known: Values, free: Sequence[str]) -> None:

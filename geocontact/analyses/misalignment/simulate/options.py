@@ -14,7 +14,7 @@ from geocontact.analyses.misalignment.checks import (
     require_stroke,
     require_within,
 )
-from geocontact.analyses.misalignment.law_numbers import NUMBERS, STROKE, require_names
+from geocontact.analyses.misalignment.law_numbers import NUMBERS, STROKE, TORQUE, TURNING, require_names
 from geocontact.analyses.options import AngleUnit, Excludes, Expression, Millimetres, Options, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.file_names import same_place
@@ -57,8 +57,13 @@ class SimulateOptions(Options):
     The law
     -------
     numbers
-        Numbers of the law (N/m, mm, N s/m, 1/mmHg), as many as there are to change; the paper's
-        k=222.43,x=48,y=59,l=169,z=127,b=0,s=0 unless given.
+        Numbers of the law (N/m, mm, N s/m, 1/mmHg, mm/N), as many as there are to change; the paper's
+        k=222.43,x=48,y=59,l=169,z=127,b=0,s=0,c=0 unless given. c is the compliance of the upper arm's fixation.
+    turning
+        Stiffness of the cuff against turning by γ, the angle between link and forearm [N m/rad]; part of the moment.
+    torque
+        Torque of the actuator about the exoskeleton's axis, flexion positive [N m], in place of a column torque; the
+        tables then say what the joint has of it. None unless given.
 
     The experiment
     --------------
@@ -106,6 +111,8 @@ class SimulateOptions(Options):
     recordings: tuple[Path, ...] = ()
     _: KW_ONLY
     numbers: Numbers | None = None
+    turning: Annotated[float, TURNING] = 0.0
+    torque: Annotated[float | None, TORQUE, Spelled(dashed=True)] = None
     trials: Annotated[int | None, ALONG] = None
     seconds: Annotated[float | None, ALONG, LENGTH_OF_TRIAL] = None
     rate: Annotated[float | None, ALONG, RATE] = None

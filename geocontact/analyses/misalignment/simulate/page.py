@@ -10,6 +10,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.analyses.misalignment.page import FRAMES, NOT_IN_THE_NUMBERS, write_elbow_page
+from geocontact.analyses.misalignment.simulate.loaded_trial import LoadedTrial
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.data.elbow_recording import ElbowRecording
@@ -19,27 +20,37 @@ SURFACES = (
     "Displacement of the attachment along the limb over the angle and one offset, the other being 0; blue and red are "
     "its two directions. Offsets may have either sign."
 )
+TURNS = "Moment on the forearm at the cuff, flexion positive"
 SYNTHETIC = "These recordings are synthetic: the explicit model with the numbers below, and noise. Nobody was measured."
 
 
 def write_simulation_report(
     path: Path,
-    made: Sequence[ElbowRecording],
+    loaded: Sequence[LoadedTrial],
     numbers: Mapping[str, float],
     drawing: bytes,
     tables: Sequence[Table],
     record: Record,
 ) -> int:
     """Write the page of a simulation, its first trial over time; returns its size in bytes."""
+    made = [each.recording for each in loaded]
     first = made[0]
     every = -(-len(first.time) // FRAMES)
     shown = slice(None, None, every)
     degrees, force = np.degrees(first.beta[shown]), first.force[shown]
-    rows = [Row("angle", "deg", [f"{v:.1f}" for v in degrees]), Row("force", "N", [f"{v:.2f}" for v in force])]
+    turns = {"moment on the cuff": loaded[0].loads.moment[shown]}
+    if first.torque is not None:
+        turns |= {"torque of the joint": loaded[0].loads.joint_torque[shown], "of the actuator": first.torque[shown]}
+    rows = [
+        Row("angle", "deg", [f"{v:.1f}" for v in degrees]),
+        Row("force", "N", [f"{v:.2f}" for v in force]),
+        *(Row(name, "N m", [f"{v:.3f}" for v in values]) for name, values in turns.items()),
+    ]
     true = [(name, WRITTEN[name], f"{value * PER_SI[name]:g}") for name, value in numbers.items()]
     sections: list[Section] = [
         Curves(f"Constraint force, {first.name} (synthetic)", "N", [Curve("force", force)]),
         Curves(f"Angle, {first.name} (synthetic)", "deg", [Curve("beta", degrees)]),
+        Curves(TURNS, "N m", [Curve(name, values) for name, values in turns.items()]),
         Readout(rows),
         *_free_trial(made),
         Words("What this is", [SYNTHETIC]),

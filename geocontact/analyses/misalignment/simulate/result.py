@@ -7,15 +7,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 import pandas as pd
 
 from geocontact.analyses.figure_files import drawing, save_both
 from geocontact.analyses.json_file import write_json
-from geocontact.analyses.misalignment.law_numbers import MMHG, with_units
+from geocontact.analyses.misalignment.law_numbers import with_units
 from geocontact.analyses.misalignment.simulate.displacement_surfaces import Surfaces
 from geocontact.analyses.misalignment.simulate.figure import surface_figure
 from geocontact.analyses.misalignment.simulate.gap_case import UNITS, gap_case
+from geocontact.analyses.misalignment.simulate.loaded_trial import LoadedTrial
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
 from geocontact.analyses.misalignment.simulate.page import write_simulation_report
 from geocontact.analyses.options_table import options_table
@@ -40,16 +40,21 @@ class SimulateResult(Result):
     ----------
     numbers
         True numbers of the law, in SI.
-    trials
-        Angle, force and what else a recording has.
+    made
+        Each trial with the moment on the cuff and what becomes of the actuator's torque.
     surfaces
         Displacement over the angle and each offset, with the same link.
     """
 
     options: SimulateOptions
     numbers: Mapping[str, float]
-    trials: tuple[ElbowRecording, ...]
+    made: tuple[LoadedTrial, ...]
     surfaces: Surfaces
+
+    @property
+    def trials(self) -> tuple[ElbowRecording, ...]:
+        """Angle, force and what else a recording has."""
+        return tuple(each.recording for each in self.made)
 
     @property
     def truth(self) -> dict[str, Any]:
@@ -60,7 +65,7 @@ class SimulateResult(Result):
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """One table per trial, by its name, and `surfaces`."""
-        return {**{each.name: _table(each) for each in self.trials}, "surfaces": self.surfaces.table()}
+        return {**{each.recording.name: each.table() for each in self.made}, "surfaces": self.surfaces.table()}
 
     def figure(self) -> Figure:
         """Displacement over the angle and each offset."""
@@ -84,13 +89,4 @@ class SimulateResult(Result):
 
     def _write_page(self, file: Path, picture: bytes) -> None:
         tables = [inputs_table(self.record.inputs), options_table(self.record)]
-        write_simulation_report(file, self.trials, self.numbers, picture, tables, self.record)
-
-
-def _table(r: ElbowRecording) -> pd.DataFrame:
-    columns = {"time [s]": r.time, "beta [deg]": np.degrees(r.beta), "force [N]": r.force}
-    if r.displacement is not None:
-        columns["displacement [mm]"] = r.displacement * 1e3
-    if r.pressure is not None:
-        columns["pressure [mmHg]"] = r.pressure / MMHG
-    return pd.DataFrame(columns)
+        write_simulation_report(file, self.made, self.numbers, picture, tables, self.record)

@@ -8,11 +8,12 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.misalignment.simulate.displacement_surfaces import surfaces
+from geocontact.analyses.misalignment.simulate.loaded_trial import LoadedTrial, loaded
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
 from geocontact.analyses.misalignment.simulate.result import SimulateResult
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.explicit import Offsets, require_no_pole, require_reach
-from geocontact.axis_misalignment.synthetic import PAPER, Design, ideal, synthetic
+from geocontact.axis_misalignment.synthetic import PAPER, Design, SyntheticTrial, ideal, synthetic
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 
@@ -24,18 +25,19 @@ GRID = 181  # angles at which a pole is looked for
 def run(recordings: Sequence[ElbowRecording], o: SimulateOptions, record: Record) -> SimulateResult:
     """Trials with the numbers asked for, or the paper's, and surfaces of the displacement."""
     numbers = {**PAPER, **(o.numbers or {})}
-    trials = [_along(each, numbers, o) for each in recordings] if recordings else _made(numbers, o)
-    for each in trials:
+    made = [_along(each, numbers, o) for each in recordings] if recordings else _made(numbers, o)
+    for trial in made:
+        each = trial.recording
         low, high = np.degrees([each.beta.min(), each.beta.max()])
         span = f"{each.force.min():.1f} … {each.force.max():.1f} N over {low:.0f} … {high:.0f}°"
-        record.say(f"{each.name}, synthetic: {span}, {each.time[-1] - each.time[0]:g} s")
+        record.say(f"{each.name}, synthetic: {span}, {each.time[-1] - each.time[0]:g} s{_said(trial, o)}")
     maps = surfaces(numbers["l"], numbers["z"])
-    result = SimulateResult(record=record, options=o, numbers=numbers, trials=tuple(trials), surfaces=maps)
+    result = SimulateResult(record=record, options=o, numbers=numbers, made=tuple(made), surfaces=maps)
     record.results["truth"] = result.truth
     return result
 
 
-def _made(numbers: Mapping[str, float], o: SimulateOptions) -> list[ElbowRecording]:
+def _made(numbers: Mapping[str, float], o: SimulateOptions) -> list[LoadedTrial]:
     """Recordings after the paper's experiment."""
     design = _design(o)
     _refuse_numbers(numbers, np.linspace(*design.reach, GRID))
@@ -45,12 +47,12 @@ def _made(numbers: Mapping[str, float], o: SimulateOptions) -> list[ElbowRecordi
     kinds = [("locked", None)] if o.stroke is None else [("locked", None), ("free", o.stroke)]
     try:
         return [
-            synthetic(f"{kind}_{k + 1}", numbers, design, rng, stroke, mean)
-            for kind, stroke in kinds
+            loaded(synthetic(f"{kind}_{k + 1}", numbers, design, rng, ends, mean, o.torque, o.turning), ends, mean, o)
+            for kind, ends in kinds
             for k in range(count)
         ]
     except ValueError as error:
-        raise InputError("", "`donning`", str(error), "give a smaller one") from error
+        raise _beyond(error, numbers, "`donning`", "give a smaller one") from error
 
 
 def _design(o: SimulateOptions) -> Design:
@@ -73,13 +75,37 @@ def _design(o: SimulateOptions) -> Design:
     )
 
 
-def _along(r: ElbowRecording, numbers: Mapping[str, float], o: SimulateOptions) -> ElbowRecording:
+def _along(r: ElbowRecording, numbers: Mapping[str, float], o: SimulateOptions) -> LoadedTrial:
     """Ideal force along recorded angles; k holds at the recording's mean cuff pressure."""
     _refuse_numbers(numbers, r.beta)
-    pressure = 0.0 if r.pressure is None else r.pressure - float(r.pressure.mean())
-    force, joint = ideal(r.time, r.beta, numbers, o.stroke, pressure)
-    shown = None if o.stroke is None else joint
-    return ElbowRecording(f"simulated_{r.name}", r.time, r.beta, force, shown, r.pressure)
+    mean = 0.0 if r.pressure is None else float(r.pressure.mean())
+    torque = r.torque if o.torque is None else np.full(len(r.time), o.torque)
+    pressure = 0.0 if r.pressure is None else r.pressure - mean
+    try:
+        force, joint = ideal(r.time, r.beta, numbers, o.stroke, pressure, 0.0 if torque is None else torque, o.turning)
+        shown = None if o.stroke is None else joint
+        one = ElbowRecording(f"simulated_{r.name}", r.time, r.beta, force, shown, r.pressure, torque)
+        return loaded(SyntheticTrial(one, numbers), o.stroke, mean, o)
+    except ValueError as error:
+        raise _beyond(error, numbers, "`numbers`", "give other ones") from error
+
+
+def _beyond(error: ValueError, numbers: Mapping[str, float], option: str, remedy: str) -> InputError:
+    """What the model says, and what to do about it."""
+    if numbers["c"] == 0.0:
+        return InputError("", option, str(error), remedy)
+    return InputError("", "`numbers`", str(error), "give a smaller c, or less `torque`")
+
+
+def _said(trial: LoadedTrial, o: SimulateOptions) -> str:
+    """Moment on the cuff, and torque of the joint where the actuator's is known; nothing of what was not asked for."""
+    loads, driven = trial.loads, trial.recording.torque is not None
+    told = ""
+    if driven or o.turning != 0.0:
+        told += f"; moment on the cuff {loads.moment.min():.2f} … {loads.moment.max():.2f} N m"
+    if driven:
+        told += f", torque of the joint {loads.joint_torque.min():.2f} … {loads.joint_torque.max():.2f} N m"
+    return told
 
 
 def _refuse_numbers(numbers: Mapping[str, float], beta: Float[np.ndarray, " n"]) -> None:
