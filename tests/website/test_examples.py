@@ -14,6 +14,7 @@ from website.examples import differences
 
 ENTRIES = entries()
 LONG = {  # more than three CPU seconds
+    "cohort",
     "diagnose",
     "discriminability",
     "inject",

@@ -66,7 +66,7 @@ def part(function: F) -> F:
 
 def _compiled(function: F, inline: Literal["never", "always"]) -> F:
     plain = inspect.unwrap(function)
-    if numba.config.DISABLE_JIT:  # NUMBA_DISABLE_JIT=1: slow, for debuggers and machines that may not compile
+    if vars(numba.config)["DISABLE_JIT"]:  # NUMBA_DISABLE_JIT=1: slow, for debuggers and machines that may not compile
         return cast(F, np.errstate(all="ignore")(plain))  # as silent as what is compiled
     if not os.environ.get("NUMBA_CACHE_DIR"):
         own = Path(inspect.getfile(plain)).parent == HERE
