@@ -222,8 +222,24 @@ def __dir__() -> list[str]:
 
 
 def read_surface(path: str, unit: str, assume_closed: bool = False) -> Surface:
-    """Surface of a mesh file whose numbers are in `unit` (m, cm, mm or in), ready for queries; see `read_mesh`.
+    """Surface of a mesh file whose numbers are in `unit` (m, cm, mm or in), ready for queries.
 
+    Parameters
+    ----------
+    path
+        `.stl`, `.ply`, `.obj` or `.vtp`; see `read_mesh`.
+    unit
+        Unit of the file's numbers. Never guessed.
+    assume_closed
+        Take it for the boundary of a body although edges are open, so that distances inside it are negative.
+
+    Raises
+    ------
+    InputError
+        The file cannot be used.
+
+    Examples
+    --------
     >>> import geocontact as gc
     >>> ball = gc.read_surface("meshes/sphere_r20.stl", "mm")
     >>> ball.vertices.shape, ball.faces.shape, ball.closed

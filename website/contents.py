@@ -6,7 +6,9 @@ import re
 from collections.abc import Iterable
 
 LINK = re.compile(r"\]\(([^)\s#]+\.(?:md|ipynb))[^)\s]*\)")
-ROW = re.compile(r"^\| (?!topic|you want|yours|system|-)([^|]+?) \|")
+ROW = re.compile(r"^\| (?!topic|you want|system|-)([^|]+?) \|")
+MORE = "More of it:"
+"""Begins links to pages that stand in the rows of their topics."""
 
 
 def with_contents(index: str, generated: Iterable[str]) -> str:
@@ -28,10 +30,8 @@ def listed(index: str) -> list[tuple[str, list[str]]]:
         heading, _, text = part.partition("\n")
         for line in text.splitlines():
             row = ROW.match(line)
-            if row and row[1].startswith("my "):
-                continue  # ways through pages that stand in other rows
             caption = f"{heading}: {row[1]}" if row and heading != "Tutorial" else heading
-            pages = [page for page in dict.fromkeys(LINK.findall(line)) if page not in seen]
+            pages = [page for page in dict.fromkeys(LINK.findall(line.partition(MORE)[0])) if page not in seen]
             seen.update(pages)
             if found and found[-1][0] == caption:
                 found[-1][1].extend(pages)

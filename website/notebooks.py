@@ -2,10 +2,24 @@
 
 from __future__ import annotations
 
+import os
+import re
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from traitlets.config import Config
+
 from website.stage import ROOT
+
+WARNING = re.compile(r"^\S*ipykernel_\d+\S*: (\w+: .*)\n(?:  .*\n)?", re.MULTILINE)
+"""As Python tells it: the kernel's file and line, what is meant, the line of the cell."""
+KERNEL = Config({} if os.name == "nt" else {"KernelManager": {"transport": "ipc"}})
+"""Talks to this process alone, and not over the network."""
+
+
+def plain(warnings: str, folder: str) -> str:
+    """Warnings without the places where they were told, which are elsewhere each time."""
+    return WARNING.sub(r"\1\n", warnings).replace(f"{folder}{os.sep}", "")
 
 
 def execute(sources: Path) -> None:
@@ -17,5 +31,9 @@ def execute(sources: Path) -> None:
         book = nbformat.read(file, as_version=4)
         with TemporaryDirectory() as folder:
             (Path(folder) / "meshes").symlink_to(ROOT / "meshes", target_is_directory=True)
-            NotebookClient(book, timeout=900, resources={"metadata": {"path": folder}}).execute()
+            told = {"metadata": {"path": folder}}
+            NotebookClient(book, timeout=900, resources=told, config=KERNEL).execute()
+            for output in (one for cell in book.cells for one in cell.get("outputs", ())):
+                if output.get("name") == "stderr":
+                    output["text"] = plain(output["text"], folder)
         nbformat.write(book, file)

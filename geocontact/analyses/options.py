@@ -189,6 +189,9 @@ class Declared:
         if self.several:
             one = get_args(self.kind)[0]
             return tuple(_as(one, item) for item in ((value,) if self._alone(value) else value))
+        if self.kind is str and isinstance(value, (tuple, list)):
+            remedy = f'write "{",".join(map(str, value))}"'
+            raise InputError("", f"`{self.name}`", f"is {len(value)} values where one text is asked for", remedy)
         if self.kind in (Path, float, str):
             return _as(self.kind, value)
         if isinstance(value, str) and Path in get_args(self.kind):

@@ -47,6 +47,17 @@ class Candidate:
         an amplitude there is an answer, not a search that was cut short.
     ceiling
         Name of the parameter that no recorded magnitude of `channel` can pass but for noise; "" where there is none.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> def run(time, inputs, numbers):
+    ...     return numbers["k"] * inputs[0]
+    >>> spring = gc.simulator_base("spring", {"angle": "rad"}, {"torque": "N m"}, run)
+    >>> system = spring.build((gc.Parameter("k", "N m/rad", 60.0, 10.0, 200.0),), {}, {})
+    >>> shift = gc.candidates(system)[0]
+    >>> shift.label, shift.stage, shift.parameters[0].unit, shift.apply(system).effects
+    ('time_shift', 'timing', 's', ('time_shift',))
     """
 
     name: str

@@ -3,6 +3,12 @@
 Elastic force and damping of loading are those of `contact.sphere_foot`; stiffening and the direction of motion change
 the stiffness, the further damper acts in both directions, a Maxwell branch follows the elastic force, and the sum is
 never negative.
+
+>>> import geocontact as gc
+>>> list(gc.chain.CONTACT_LAW.neutral)[:5]
+['n', 'delta_full', 'mu_s', 'mu_k', 'v_th']
+>>> gc.chain.CONTACT_LAW.free("damping.b"), gc.chain.CONTACT_LAW.free("dead_zone.width")
+(True, False)
 """
 
 from __future__ import annotations

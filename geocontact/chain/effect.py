@@ -31,6 +31,24 @@ class Effect:
         Numbers of the law or the geometry that it sets; a system that is not listed gets it where these are free.
     together
         Whether, of several places of contact, all may have it alike; what depends on where a place is may not.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> from dataclasses import replace
+    >>> def run(time, inputs, numbers):
+    ...     return numbers["k"] * inputs[0]
+    >>> spring = gc.simulator_base("spring", {"angle": "rad"}, {"torque": "N m"}, run)
+    >>> system = spring.build((gc.Parameter("k", "N m/rad", 60.0, 10.0, 200.0),), {}, {})
+    >>> tare = gc.Parameter("tare.torque", "N m", 0.5, -5.0, 5.0)
+    >>> def link(one):
+    ...     change = gc.chain.Modifier("tare", 5.0, lambda outputs, movement, values: outputs + values["tare.torque"])
+    ...     return replace(one, sensor=one.sensor.having(change))
+    >>> def offer(one):
+    ...     return (gc.chain.Candidate("tare", "", "sensor", (tare,), link),)
+    >>> effect = gc.chain.Effect("tare", "sensor", ("spring",), offer, "drawing 12 of the spring")
+    >>> [one.label for one in effect.candidates(system)]
+    ['tare']
     """
 
     name: str

@@ -9,6 +9,12 @@ force a moment: N m and rad in the place of N and m throughout.
 
 The law remembers `MEMORY` numbers per deflection: it reads those of the last accepted sample and writes those of this
 one, so it serves along a recorded motion, in an implicit solve and inside an integrator alike.
+
+>>> import geocontact as gc
+>>> gc.chain.INTERFACE_LAW.free("dead_zone.width"), gc.chain.INTERFACE_LAW.neutral["relaxation.tau"]
+(True, 1.0)
+>>> gc.chain.INTERFACE_LAW.having({"k": "stiffness"}).free("k")
+False
 """
 
 from __future__ import annotations

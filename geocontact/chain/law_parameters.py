@@ -25,6 +25,15 @@ class LawParameters:
     sources
         For some of them where they come from: a name, a fixed number, or a function (a stiffness that depends on a
         trial's setting).
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> slots = gc.chain.LawParameters({"k": 0.0, "power": 1.0}).having({"k": "stiffness"})
+    >>> slots.numbers({"stiffness": 60.0}).tolist(), slots.free("power")
+    ([60.0, 1.0], True)
+    >>> list(slots.apart(("thigh", "shank")).neutral)
+    ['thigh.k', 'thigh.power', 'shank.k', 'shank.power']
     """
 
     neutral: Mapping[str, float]

@@ -38,6 +38,13 @@ class Modifier(Generic[T]):
         Names of the trials that have it; None for all.
     apart
         Whether it does to each channel what depends on no other.
+
+    Examples
+    --------
+    >>> import geocontact as gc, numpy as np
+    >>> gain = gc.chain.Modifier("sensor_gain", 5.0, lambda outputs, movement, values: outputs * values["gain"])
+    >>> gain.change(np.array([[2.0], [4.0]]), None, {"gain": 1.5}).tolist()
+    [[3.0], [6.0]]
     """
 
     name: str
@@ -75,6 +82,16 @@ class Motion:
     reach
         Rates come from local fits over so much time to either side [s]; 0 for central differences of the inputs as
         they were measured.
+
+    Examples
+    --------
+    >>> import geocontact as gc, numpy as np
+    >>> from geocontact.data.motion import Signals
+    >>> from geocontact.data.trial import Trial
+    >>> angle = np.array([[0.0], [0.1], [0.2], [0.3]])
+    >>> trial = Trial("t1", Signals(0.1 * np.arange(4), angle, ("angle",), ("rad",)))
+    >>> gc.chain.Motion(("angle",)).seen(trial, {}).rate.round(6).tolist()
+    [[1.0, 1.0, 1.0, 1.0]]
     """
 
     inputs: tuple[str, ...]
@@ -116,6 +133,11 @@ class Geometry(Protocol):
     """How the inputs deflect what carries the load; drives the law along the movement.
 
     It drives the law because a spring in series makes the deflection depend on the load.
+
+    >>> import geocontact as gc, numpy as np
+    >>> strut = gc.chain.SingleDeflection("angle", lambda angle, numbers: np.sin(angle - numbers["neutral"]))
+    >>> isinstance(strut, gc.chain.Geometry), strut.yields
+    (True, 'angle')
     """
 
     @property
@@ -140,7 +162,14 @@ class Geometry(Protocol):
 
 @runtime_checkable
 class ContactSites(Geometry, Protocol):
-    """A geometry of several places of contact that do not feel each other; numbers of each are called "thigh.rho"."""
+    """A geometry of several places of contact that do not feel each other; numbers of each are called "thigh.rho".
+
+    >>> import geocontact as gc
+    >>> from geocontact.systems.sit_to_stand.sites import SITE_GEOMETRY, InterfaceSites
+    >>> cuffs = InterfaceSites(("thigh", "shank"), SITE_GEOMETRY.apart(("thigh", "shank")))
+    >>> isinstance(cuffs, gc.chain.ContactSites), cuffs.at("shank").yields
+    (True, 'shank_normal')
+    """
 
     def at(self, place: str) -> Geometry:
         """The geometry of one place, its numbers named as if there were no other."""
@@ -156,6 +185,13 @@ class Law:
         Its numbers.
     load, deflection
         Units of what it gives and of what it is given: N and m, or N m and rad for a joint.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> law = gc.chain.Law(gc.chain.INTERFACE_LAW, load="N m", deflection="rad").having({"k": "stiffness", "b": 0.5})
+    >>> law.slots.free("k"), law.slots.free("damping.b"), float(law.slots.numbers({"stiffness": 60.0})[0])
+    (False, True, 60.0)
     """
 
     slots: LawParameters
@@ -172,7 +208,14 @@ Channels = Float[np.ndarray, "t c"]
 
 @dataclass(frozen=True)
 class Balance:
-    """Many loads to what a perfect sensor would read, then what else loads the sensor."""
+    """Many loads to what a perfect sensor would read, then what else loads the sensor.
+
+    >>> import geocontact as gc
+    >>> balance = gc.chain.Balance(("torque",), lambda loads: loads.normal)
+    >>> weight = gc.chain.Modifier("weight", 10.0, lambda outputs, movement, values: outputs + values["weight"])
+    >>> balance.outputs, [one.name for one in balance.having(weight).modifiers]
+    (('torque',), ['weight'])
+    """
 
     outputs: tuple[str, ...]
     total: Callable[[Loads], Channels]
@@ -189,7 +232,13 @@ class Balance:
 
 @dataclass(frozen=True)
 class Sensor:
-    """True outputs to measured ones: what the sensor does, what the recording leaves out, what is mixed up."""
+    """True outputs to measured ones: what the sensor does, what the recording leaves out, what is mixed up.
+
+    >>> import geocontact as gc, numpy as np
+    >>> offset = gc.chain.Modifier("offset", 5.0, lambda outputs, movement, values: outputs + values["offset"])
+    >>> gc.chain.Sensor(("torque",)).having(offset).read(np.array([[2.0]]), None, {"offset": 0.5}).tolist()
+    [[2.5]]
+    """
 
     outputs: tuple[str, ...]
     modifiers: tuple[Modifier[Channels], ...] = ()

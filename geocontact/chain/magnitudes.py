@@ -30,6 +30,13 @@ class Magnitudes:
         Middle and half-range of each input, and root mean square of its rate.
     places
         The same for each place of a system that has several.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> scale = gc.chain.Magnitudes(deflection=0.35, output={"torque": 18.0})
+    >>> scale.of("torque"), scale.of("another")
+    (18.0, 1.0)
     """
 
     deflection: float = 1.0

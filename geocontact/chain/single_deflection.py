@@ -132,6 +132,19 @@ class SingleDeflection:
     deflect
         (input, numbers) → deflection, vectorised and without memory. Its slope is found by differences; with a spring
         in series it is read off a table of `KNOTS` values over three times the range of the trial, straight beyond.
+
+    Examples
+    --------
+    >>> import geocontact as gc, numpy as np
+    >>> from geocontact.data.motion import Signals
+    >>> from geocontact.data.trial import Trial
+    >>> angle = np.array([[0.0], [0.1], [0.2], [0.3]])
+    >>> trial = Trial("t1", Signals(0.1 * np.arange(4), angle, ("angle",), ("rad",)))
+    >>> movement = gc.chain.Motion(("angle",)).seen(trial, {})
+    >>> strut = gc.chain.SingleDeflection("angle", lambda angle, numbers: np.sin(angle - numbers["neutral"]))
+    >>> law = gc.chain.Law(gc.chain.INTERFACE_LAW, load="N m", deflection="rad").having({"k": "k"})
+    >>> strut.loads(movement, law, {"k": 60.0, "neutral": 0.1}).normal.round(2).ravel().tolist()
+    [-5.99, 0.0, 5.99, 11.92]
     """
 
     yields: str

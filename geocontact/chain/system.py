@@ -66,6 +66,20 @@ class System:
         Largest length of the device where no constant tells it [m]; 0 where the model does not know.
     quotients
         Outputs that are a moment over another output, by name of that one: {"cop_x": "force_y"}.
+
+    Examples
+    --------
+    >>> import geocontact as gc, numpy as np
+    >>> from geocontact.data.motion import Signals
+    >>> from geocontact.data.trial import Trial
+    >>> angle = np.array([[0.0], [0.1], [0.2], [0.3]])
+    >>> trial = Trial("t1", Signals(0.1 * np.arange(4), angle, ("angle",), ("rad",)))
+    >>> def run(time, inputs, numbers):
+    ...     return numbers["k"] * inputs[0]
+    >>> spring = gc.simulator_base("spring", {"angle": "rad"}, {"torque": "N m"}, run)
+    >>> system = spring.build((gc.Parameter("k", "N m/rad", 60.0, 10.0, 200.0),), {}, {})
+    >>> system.simulate(trial, {"k": 60.0}).round(6).ravel().tolist()
+    [0.0, 6.0, 12.0, 18.0]
     """
 
     name: str

@@ -65,6 +65,13 @@ EFFECTS: tuple[Effect, ...] = (
 def candidates(system: System) -> tuple[Candidate, ...]:
     """Every candidate that applies to a system, then those of its own effects; bounds from its scale.
 
+    Parameters
+    ----------
+    system
+        The base, scaled to its trials (`System.scaled`, `system_of`).
+
+    Examples
+    --------
     >>> import geocontact as gc
     >>> def run(time, inputs, numbers):
     ...     return numbers["k"] * inputs[0]

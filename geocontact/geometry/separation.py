@@ -59,6 +59,15 @@ def _model(surface: Surface) -> fcl.BVHModel:
 def separation(moving: Surface, fixed: Surface, pose: RigidTransform) -> float:
     """Smallest distance [m] between two surfaces with MOVING at `pose` in FIXED's frame; 0 when they intersect.
 
+    Parameters
+    ----------
+    moving, fixed
+        The two surfaces, each in its own frame [m].
+    pose
+        Of MOVING in FIXED's frame.
+
+    Examples
+    --------
     >>> import geocontact as gc
     >>> from scipy.spatial.transform import RigidTransform
     >>> ball, plate = (gc.read_surface(f"meshes/{name}.stl", "mm") for name in ("sphere_r20", "plate_80x80x12"))
@@ -79,8 +88,26 @@ def settle(
 
     MOVING is first withdrawn until the bodies are clear of one another, then advanced by their exact distance again and
     again (conservative advancement: a translation by s cannot close a gap larger than s), so the first contact is not
-    passed over. Stops at a gap below 1e-9 m. Raises ValueError when the bodies miss each other.
+    passed over. Stops at a gap below 1e-9 m.
 
+    Parameters
+    ----------
+    moving, fixed
+        The two surfaces, each in its own frame [m].
+    pose
+        Of MOVING in FIXED's frame: its rotation, and a place on its way.
+    direction
+        Of that way, of any length, in FIXED's frame.
+    steps
+        Advances at most.
+
+    Raises
+    ------
+    ValueError
+        The bodies miss each other, or glide along each other without touching within `steps`.
+
+    Examples
+    --------
     >>> import geocontact as gc
     >>> from scipy.spatial.transform import RigidTransform
     >>> ball, plate = (gc.read_surface(f"meshes/{name}.stl", "mm") for name in ("sphere_r20", "plate_80x80x12"))

@@ -42,6 +42,22 @@ def sweep(axis: Axis, start: float, stop: float, step: float, name: str = "angle
 
     MOVING's own frame coincides with FIXED's at angle 0. One frame a second, so that there is a time.
 
+    Parameters
+    ----------
+    axis
+        Line in FIXED's frame [m].
+    start, stop, step
+        Angles [rad], right-handed about the axis.
+    name
+        Of the angle, as tables and figures have it.
+
+    Raises
+    ------
+    ValueError
+        The steps do not lead from start to stop.
+
+    Examples
+    --------
     >>> import geocontact as gc, numpy as np
     >>> flexion = gc.sweep(gc.Axis((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)), 0.0, gc.deg(90), gc.deg(30))
     >>> np.degrees(flexion.coordinate[1]).round(6).tolist()

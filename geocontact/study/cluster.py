@@ -6,6 +6,7 @@ import errno
 import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
+from multiprocessing import current_process
 from typing import Any
 
 from geocontact.analyses.workers import cores
@@ -48,7 +49,13 @@ def workers_of(o: CohortOptions) -> Iterator[Any]:
 
 
 def _started(o: CohortOptions, distributed: Any, left: int = STARTS - 1) -> Any:
-    """A cluster of this machine; started again, `left` times, where one of its processes was lost at once."""
+    """A cluster of this machine; started again, `left` times, where one of its processes was lost at once.
+
+    A process that is started reads the script that started it: a call that stands there unguarded would start more.
+    """
+    if getattr(current_process(), "_inheriting", False):
+        remedy = 'put the call below `if __name__ == "__main__":`'
+        raise InputError("", "cohort", "is called anew by each process that it starts", remedy)
     try:
         return distributed.LocalCluster(
             n_workers=o.workers or cores(),

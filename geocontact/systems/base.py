@@ -62,8 +62,24 @@ class Base:
 def require_numbers(
     system: str, needed: tuple[str, ...], parameters: tuple[Parameter, ...], constants: Mapping[str, float]
 ) -> None:
-    """Raise ValueError when a number is neither parameter nor constant, or both.
+    """Check that every number of a base model is given once.
 
+    Parameters
+    ----------
+    system
+        Name of the model, for the message.
+    needed
+        Names of its numbers.
+    parameters, constants
+        What the case gives.
+
+    Raises
+    ------
+    ValueError
+        A number is neither parameter nor constant, or both.
+
+    Examples
+    --------
     >>> import geocontact as gc
     >>> gc.require_numbers("orthosis", ("k",), [gc.Parameter("k", "N m/rad", 100.0)], {})
     """

@@ -20,9 +20,18 @@ SYSTEMS: tuple[Base, ...] = (ELBOW, FOOT, SHOULDER, KNEE, SIT_TO_STAND)
 def system_of(case: GapCase) -> System:
     r"""Base model of a case, its scale taken from the calibration trials.
 
-    InputError when the system is not known, when the case lacks a number, table or channel that it needs, or when it
-    fails on a trial; "package.module:OBJECT" is imported.
+    Parameters
+    ----------
+    case
+        Its `system` is the name of a listed one, "command", or "package.module:OBJECT", which is imported.
 
+    Raises
+    ------
+    InputError
+        The system is not known, the case lacks a number, table or channel that it needs, or it fails on a trial.
+
+    Examples
+    --------
     >>> import geocontact as gc, numpy as np, pandas as pd
     >>> from pathlib import Path
     >>> Path("case/trials").mkdir(parents=True)

@@ -92,6 +92,7 @@ def test_values_are_coerced() -> None:
         ({"kind": "c"}, "`kind`: 'c' is not a choice; one of a, b"),
         ({"radius": 1.0}, "`radius`: has no effect without `depth`; give `depth`"),
         ({"depth": 1.0, "radius": 1.0, "other": "x"}, "`other`: has no effect with `radius`; leave it out"),
+        ({"other": ("x", "y")}, '`other`: is 2 values where one text is asked for; write "x,y"'),
         ({"other": "x"}, "`depth`: is missing with `other`; give 4mm"),
         ({"depth": 0.0}, "`depth`: 0 m is none; give more"),
     ],

@@ -8,14 +8,13 @@ from pathlib import Path
 import pytest
 
 from tests.house.first_screens import agrees
-from website.api.entries import CHAIN, UNITS, Entry, entries
+from website.api.entries import JOBS, UNITS, Entry, entries
 from website.api.pages import FOLDER, api_pages
 from website.examples import differences
 
 ENTRIES = entries()
-WITH, WITHOUT = ([one for one in ENTRIES if bool(one.example) is kind] for kind in (True, False))
-LACKING = 28  # may only fall
 LONG = {  # more than three CPU seconds
+    "cohort",
     "diagnose",
     "discriminability",
     "inject",
@@ -25,9 +24,26 @@ LONG = {  # more than three CPU seconds
     "misalignment.design",
     "misalignment.identify",
     "pressure",
+    "prosthesis.calibrate",
+    "prosthesis.compare",
+    "prosthesis.design",
     "prosthesis.scale",
     "shoulder.optimise",
+    "sit_to_stand.calibrate",
+    "sit_to_stand.compare",
+    "sit_to_stand.design",
+    "sit_to_stand.predict",
 }
+LONGEST = {
+    "prosthesis.calibrate",
+    "prosthesis.design",
+}  # more than 25; the same calls are in their page's first screen and notebook
+WITHOUT_PARAMETERS = {
+    "InputWarning",
+    *(f"chain.{name}" for name in ("CONTACT_LAW", "ContactSites", "Geometry", "INTERFACE_LAW")),
+}
+SILENT = ["require_numbers"]  # says nothing where all is well
+WITHOUT_FORMULA = ["cohort", "load_cells"]
 
 
 def name(entry: Entry) -> str:
@@ -35,10 +51,11 @@ def name(entry: Entry) -> str:
 
 
 def marked(entry: Entry) -> object:
-    return pytest.param(entry, marks=pytest.mark.slow) if entry.name in LONG else entry
+    marks = [pytest.mark.slow] * (entry.name in LONG) + [pytest.mark.long] * (entry.name in LONGEST)
+    return pytest.param(entry, marks=marks) if marks else entry
 
 
-@pytest.mark.parametrize("entry", [marked(one) for one in WITH if one.group != UNITS], ids=name)
+@pytest.mark.parametrize("entry", [marked(one) for one in ENTRIES if one.group != UNITS], ids=name)
 def test_an_example_prints_what_it_shows(entry: Entry, tmp_path: Path) -> None:
     assert differences(entry.name, entry.example, tmp_path, agrees) == ""
 
@@ -47,13 +64,15 @@ def test_an_example_that_prints_something_else_is_told(tmp_path: Path) -> None:
     assert "Expected" in differences("sum", ">>> 1 + 1\n3", tmp_path, agrees)
 
 
-@pytest.mark.xfail(strict=True, reason=f"{LACKING} of {len(ENTRIES)} public names have no example")
-def test_every_public_name_has_an_example() -> None:
-    assert [one.name for one in WITHOUT] == []
+def test_every_public_name_has_an_example_with_an_output() -> None:
+    assert [one.name for one in ENTRIES if not one.example] == []
+    assert [one.name for one in ENTRIES if one.example.splitlines()[-1].startswith((">>>", "..."))] == SILENT
 
 
-def test_names_without_an_example_are_as_many_as_is_said() -> None:
-    assert len(WITHOUT) == LACKING, [one.name for one in WITHOUT]
+def test_the_page_of_a_job_names_where_its_formulas_are_from() -> None:
+    pages = api_pages()
+    jobs = [one.name for one in ENTRIES if one.group == JOBS]
+    assert [one for one in jobs if "/theory/" not in pages[f"{FOLDER}/{one}.md"]] == WITHOUT_FORMULA
 
 
 def test_every_public_name_has_a_page_with_its_parameters() -> None:
@@ -61,5 +80,6 @@ def test_every_public_name_has_a_page_with_its_parameters() -> None:
     for one in ENTRIES:
         text = pages[f"{FOLDER}/{'units' if one.group == UNITS else one.name}.md"]
         assert "## Source" in text or one.group == UNITS
-        assert one.group in {CHAIN, UNITS} or re.search(r"^## Example$", text, re.MULTILINE)
+        assert one.group == UNITS or re.search(r"^## Example$", text, re.MULTILINE)
         assert f"gc.{one.name}" in text
+        assert "## Parameters" in text or one.name in WITHOUT_PARAMETERS or one.group == UNITS, one.name

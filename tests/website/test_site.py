@@ -8,6 +8,7 @@ import pytest
 
 from website.contents import listed
 from website.limits import sections, xfails
+from website.notebooks import plain
 from website.pages import MADE
 from website.stage import INDEX, ROOT, pages, stage
 from website.validation import FACTORS, report
@@ -22,6 +23,19 @@ def test_every_page_stands_in_the_contents_once() -> None:
     index = (ROOT / INDEX).read_text(encoding="utf-8")
     named = [(ROOT / "docs" / page).resolve().relative_to(ROOT) for _, found in listed(index) for page in found]
     assert sorted(named) == [page for page in pages() if page != Path(INDEX)]
+
+
+@pytest.mark.parametrize("what", ["implant", "mat", "simulator", "study"])
+def test_the_index_leads_from_what_a_reader_has_to_a_guide(what: str) -> None:
+    index = (ROOT / INDEX).read_text(encoding="utf-8")
+    _, _, below = index.partition(f"\n### My {what}\n")
+    assert f"(how-to/my_{what}.md)" in below.partition("\n#")[0]
+    assert (ROOT / "docs" / "how-to" / f"my_{what}.md").read_text(encoding="utf-8").startswith(f"# My {what}\n")
+
+
+def test_warnings_of_notebooks_name_no_place_of_this_machine() -> None:
+    told = "/tmp/ipykernel_12/34.py:1: InputWarning: /tmp/a/meshes/truth.csv is odd\n  found = gc.mat(\nelse\n"
+    assert plain(told, "/tmp/a") == "InputWarning: meshes/truth.csv is odd\nelse\n"
 
 
 def test_pages_and_the_files_that_they_link_to_are_staged(tmp_path: Path) -> None:

@@ -7,12 +7,15 @@ import re
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
+from importlib import import_module
 from types import ModuleType
 from typing import Any
 
 import geocontact
+from geocontact import chain
 from geocontact.analyses.job import Job
 from geocontact.analyses.package_of_jobs import PackageOfJobs
+from geocontact.chain.law_parameters import LawParameters
 from geocontact.data.units import Unit
 
 JOBS, FUNCTIONS, TYPES, CHAIN, UNITS = "Jobs", "Functions", "Types", "Models of one's own", "Units"
@@ -42,15 +45,22 @@ class Entry:
         """Where it is defined; of a job, where it is put together."""
         if isinstance(self.thing, Job):
             return sys.modules[self.thing.read.__module__.rpartition(".")[0] + ".job"]
+        if isinstance(self.thing, LawParameters):
+            return import_module(f"{chain.__name__}.{self.name.rpartition('.')[2].lower()}")
         return sys.modules[Unit.__module__ if self.group == UNITS else _home(self.thing)]
 
     @property
     def example(self) -> str:
         """Docstring that holds its example: its own, of a job that of its module, of a unit that of all units."""
         if not isinstance(self.thing, (Job, Unit)):
-            return "\n\n".join(_blocks(inspect.getdoc(self.thing) or ""))
+            return "\n\n".join(_blocks(self.docstring))
         blocks = _blocks(inspect.getdoc(self.module) or "")
         return "\n\n".join(block for block in blocks if len(blocks) == 1 or f"{self.name}(" in block)
+
+    @property
+    def docstring(self) -> str:
+        """What is said of it: of the numbers of a law, by the module of that law."""
+        return inspect.getdoc(self.module if isinstance(self.thing, LawParameters) else self.thing) or ""
 
     @property
     def line(self) -> int:
@@ -76,8 +86,6 @@ def _front() -> Iterator[Entry]:
 
 
 def _chain() -> Iterator[Entry]:
-    from geocontact import chain
-
     yield from (Entry(f"chain.{name}", getattr(chain, name), CHAIN) for name in chain.__all__)
 
 

@@ -11,31 +11,34 @@ from typing import Any
 
 from geocontact.analyses.job import Job
 from geocontact.analyses.options import Declared, declared
+from geocontact.chain.law_parameters import LawParameters
 from geocontact.data.units import Unit
 from website.api.docstring import cell, entry_list, markdown, parts
 from website.api.entries import Entry
 from website.api.types import shown_type, signature
 
 ROOT = Path(__file__).resolve().parents[2]
-NO_EXAMPLE = "None yet."
 
 
-def page(entry: Entry, read_more: Iterable[tuple[str, str]]) -> str:
-    """Markdown of its page; `read_more` are titles and links of pages that speak of it."""
+def page(entry: Entry, read_more: Iterable[tuple[str, str]], theory: Iterable[tuple[str, str]]) -> str:
+    """Markdown of its page; `read_more` are titles and links of pages that speak of it, `theory` of its formulas."""
     thing = entry.thing
-    told = parts(inspect.getdoc(thing) or "")
+    told = parts(entry.docstring)
     summary = [paragraph for paragraph in told.words if not paragraph.startswith("    ")]
     lines = [f"# gc.{entry.name}", *map(_words, summary)]
     if callable(thing) and not isinstance(thing, Unit):
         lines.append(f"```python\n{signature(entry.name, thing)}\n```")
-    example = entry.example
-    lines += ["## Example", f"```python\n{example}\n```" if example else NO_EXAMPLE]
+    lines += ["## Example", f"```python\n{entry.example}\n```"]
     lines += _options(thing) if isinstance(thing, Job) else _sections(thing, told.sections)
+    if isinstance(thing, LawParameters):
+        rows = [(f"`{name}`", f"{value:g}") for name, value in thing.neutral.items()]
+        lines += ["## Numbers", _table(("name", "where the law has no such term"), rows)]
     lines += _returned(thing) + _members(thing)
     place = Path(inspect.getfile(entry.module)).relative_to(ROOT).as_posix()
     lines += ["## Source", f"`{place}`" + (f", line {entry.line}" if entry.line > 1 else "")]
-    links = [f"[{title}]({link})" for title, link in read_more]
-    lines += ["Read more: " + " · ".join(links)] if links else []
+    for words, pages in (("Formulas and their sources", theory), ("Read more", read_more)):
+        links = [f"[{title}]({link})" for title, link in pages]
+        lines += [f"{words}: " + " · ".join(links)] if links else []
     return "\n\n".join(lines) + "\n"
 
 
@@ -63,7 +66,7 @@ def _option(one: Declared) -> tuple[str, ...]:
 def _sections(thing: Any, sections: dict[str, list[str]]) -> list[str]:
     lines: list[str] = []
     kinds = _kinds(thing)
-    for heading, body in sections.items():
+    for heading, body in ({"Parameters": []} | sections if kinds else sections).items():
         if heading == "Examples":
             continue
         rows = []
@@ -71,6 +74,9 @@ def _sections(thing: Any, sections: dict[str, list[str]]) -> list[str]:
             name = names.partition(" : ")[0]
             kind = " / ".join(dict.fromkeys(shown_type(kinds[one]) for one in name.split(", ") if one in kinds))
             rows.append((f"`{name}`", kind, cell(words)))
+        if heading == "Parameters":
+            said = {one for row in rows for one in row[0].strip("`").split(", ")}
+            rows += [(f"`{name}`", shown_type(kind), "") for name, kind in kinds.items() if name not in said]
         if heading == "Raises":
             lines += [f"## {heading}", _table(("error", "when"), [(row[0], row[2]) for row in rows])]
         else:
@@ -79,7 +85,7 @@ def _sections(thing: Any, sections: dict[str, list[str]]) -> list[str]:
 
 
 def _kinds(thing: Any) -> dict[str, Any]:
-    if not callable(thing):
+    if not callable(thing) or isinstance(thing, Unit) or getattr(thing, "_is_protocol", False):
         return {}
     try:
         return {name: one.annotation for name, one in inspect.signature(thing).parameters.items()}

@@ -7,11 +7,12 @@ import re
 from pathlib import Path
 
 from website.api.docstring import cell, parts
-from website.api.entries import GROUPS, UNITS, Entry, entries
+from website.api.entries import CHAIN, GROUPS, JOBS, UNITS, Entry, entries
 from website.api.page import anchors, page
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = "docs/reference/api"
+OWN_MODEL = ROOT / "docs" / "how-to" / "own_model.md"
 FIRST = {
     "Jobs": "One function for every job of the command line. Each returns a result: see [gc.Result](Result.md).",
     "Functions": "What the jobs are made of, for work of one's own.",
@@ -27,7 +28,10 @@ def api_pages() -> dict[str, str]:
     known = entries()
     spoken = _spoken_of()
     single = [entry for entry in known if entry.group != UNITS]
-    found = {f"{FOLDER}/{entry.name}.md": page(entry, spoken.get(entry.name, ())) for entry in single}
+    found: dict[str, str] = {}
+    for entry in single:
+        read_more = spoken.get(entry.name, []) or ([_link(OWN_MODEL)] if entry.group == CHAIN else [])
+        found[f"{FOLDER}/{entry.name}.md"] = page(entry, read_more, _theory(read_more, entry.group))
     found[f"{FOLDER}/units.md"] = _units([entry for entry in known if entry.group == UNITS])
     found[f"{FOLDER}/index.md"] = _index(known)
     return found
@@ -42,7 +46,7 @@ def _index(known: list[Entry]) -> str:
         for entry in (one for one in known if one.group == group):
             place = "units" if group == UNITS else entry.name
             names.append(place)
-            first = parts(inspect.getdoc(entry.thing) or "").words if group != UNITS else [repr(entry.thing)[1:-1]]
+            first = parts(entry.docstring).words if group != UNITS else [repr(entry.thing)[1:-1]]
             rows.append(f"| [gc.{entry.name}]({place}.md) | {cell(' '.join((first or [''])[0].split()))} |")
         lines.append("\n".join(["| name | what it is |", "|---|---|", *rows]))
     told = "\n".join(f"/{FOLDER}/{name}" for name in dict.fromkeys(names))
@@ -57,16 +61,33 @@ def _units(known: list[Entry]) -> str:
     return "\n\n".join([*lines, "\n".join(["| name | unit | gives | factor |", "|---|---|---|---|", *rows])]) + "\n"
 
 
+def _theory(read_more: list[tuple[str, str]], group: str) -> list[tuple[str, str]]:
+    """Pages of the theory that the pages name which tell how a job is done; types and functions name their own."""
+    if group not in {JOBS, CHAIN}:
+        return []
+    found: dict[tuple[str, str], None] = {}
+    for _, link in read_more:
+        file = ROOT / link.removeprefix("../" * (FOLDER.count("/") + 1))
+        if file.parent.name == "how-to" or file.name == "tutorial.md":
+            targets = re.findall(r"\]\((?:\.\./)?(theory/\w+\.md)", file.read_text(encoding="utf-8"))
+            found |= {_link(ROOT / "docs" / target): None for target in targets}
+    return list(found)
+
+
+def _link(file: Path) -> tuple[str, str]:
+    """Title and link of a page."""
+    title = file.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ")
+    return title, "../" * (FOLDER.count("/") + 1) + file.relative_to(ROOT).as_posix()
+
+
 def _spoken_of() -> dict[str, list[tuple[str, str]]]:
     """Title and link of the pages that write a name with its `gc.`; of jobs, also those that README names for them."""
     found: dict[str, list[tuple[str, str]]] = {}
 
     def add(names: list[str], file: Path) -> None:
-        title = file.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ")
-        link = "../" * FOLDER.count("/") + "../" + file.relative_to(ROOT).as_posix()
         for name in dict.fromkeys(names):
-            if (title, link) not in found.setdefault(name, []):
-                found[name].append((title, link))
+            if _link(file) not in found.setdefault(name, []):
+                found[name].append(_link(file))
 
     for row in (ROOT / "README.md").read_text(encoding="utf-8").splitlines():
         names = _jobs(row)

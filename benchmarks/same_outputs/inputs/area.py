@@ -29,6 +29,27 @@ trial = "11"
 threshold = 1
 """
 
+ON_SURFACE = """\
+analysis = "area"
+files = "ball_{subject}_{speed}.csv"
+
+[options]
+moving = "../meshes/sphere_r20.stl"
+fixed = "../meshes/plate_80x80x12.stl"
+unit = "mm"
+motion = "{file}"
+threshold = 8
+save_map = true
+
+[summary]
+condition = "speed"
+
+[surface]
+particles = "plate.particles"
+unit = "mm"
+at = [0, 100]
+"""
+
 
 def make(home: Path, meshes: Path) -> None:
     """Some frames of the shipped cycle in every form that is read, and poses of a ball on a plate."""
@@ -42,9 +63,22 @@ def make(home: Path, meshes: Path) -> None:
     pressed = "\n".join(f"{k},3,{20.0 - depth},-2,1,0,0,0" for k, depth in enumerate((0.3, 0.1, -0.5)))
     written(home / "ball.csv", f"{POSES}\n{pressed}\n")
     written(home / "study.toml", STUDY)
+    on_surface(home)
     written(home / "place.txt", "1 0 0 0.5\n0 1 0 0.2\n0 0 1 -0.3\n0 0 0 1\n")
     written(home / "faces.txt", " ".join(map(str, range(0, 1500, 3))) + "\n")
     written(home / "measured.csv", "time [s], threshold [mm], area_fixed [mm^2]\n0.1,4,2200\n0.2,4,2300\n")
+
+
+def on_surface(home: Path) -> None:
+    """Three subjects whose ball comes nearer to a plate, slowly and fast, and places on that plate."""
+    for k, subject in enumerate("ABC"):
+        for speed, nearer in (("slow", 1.0), ("fast", 2.0)):
+            heights = (23.0 + 0.1 * k, 23.0 + 0.1 * k * k - nearer)
+            lines = "\n".join(f"{t},0,{height},0,1,0,0,0" for t, height in enumerate(heights))
+            written(home / f"ball_{subject}_{speed}.csv", f"{POSES}\n{lines}\n")
+    places = "\n".join(f"{x} 0 {z}" for x in (-12, 0, 12) for z in (-9, 0.3, 9))
+    written(home / "plate.particles", places + "\n")
+    written(home / "surface.toml", ON_SURFACE)
 
 
 def rows(text: str, head: int, frames: object) -> str:

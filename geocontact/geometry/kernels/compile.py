@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Literal, TypeVar, cast
 
 import numba
+import numpy as np
 
 F = TypeVar("F", bound=Callable[..., object])
 
@@ -65,6 +66,8 @@ def part(function: F) -> F:
 
 def _compiled(function: F, inline: Literal["never", "always"]) -> F:
     plain = inspect.unwrap(function)
+    if vars(numba.config)["DISABLE_JIT"]:  # NUMBA_DISABLE_JIT=1: slow, for debuggers and machines that may not compile
+        return cast(F, np.errstate(all="ignore")(plain))  # as silent as what is compiled
     if not os.environ.get("NUMBA_CACHE_DIR"):
         own = Path(inspect.getfile(plain)).parent == HERE
         vars(numba.config)["CACHE_DIR"] = str(_cache_folder(own=own))

@@ -103,10 +103,10 @@ def side_of(leaves, slots, normal, place, px, py, pz):
     qx, qy, qz, feature, height = closest_point(leaves, o, px, py, pz)
     if feature == 0:
         along = height * leaves[o + U(17 * LEAF)]
-        return qx, qy, qz, (along > 0.0) - (along < 0.0)
+        return qx, qy, qz, int(along > 0.0) - int(along < 0.0)
     i = (slots[place] * 7 + feature) * 3
     nx, ny, nz = normal[i], normal[i + 1], normal[i + 2]
     dx, dy, dz = px - qx, py - qy, pz - qz
     along = dx * nx + dy * ny + dz * nz
     doubt = 1e-9 * np.sqrt((dx * dx + dy * dy + dz * dz) * (nx * nx + ny * ny + nz * nz))
-    return qx, qy, qz, (along > doubt) - (along < -doubt)
+    return qx, qy, qz, int(along > doubt) - int(along < -doubt)

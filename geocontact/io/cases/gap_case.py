@@ -58,6 +58,11 @@ def read_gap_case(
     run_programs
         Whether a program that the case names as its simulator may be run: a case may come from somebody else.
 
+    Raises
+    ------
+    InputError
+        A file is not there or damaged, a key is not known, or trials do not agree in their channels.
+
     Examples
     --------
     >>> import geocontact as gc, numpy as np, pandas as pd

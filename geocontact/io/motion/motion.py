@@ -53,6 +53,11 @@ def read_motion(
     unit, rate
         Unit of the translations and frames per second, for rows of numbers, which say neither.
 
+    Raises
+    ------
+    InputError
+        The file cannot be used, or does not say what poses, units or angles it holds.
+
     Examples
     --------
     >>> import geocontact as gc

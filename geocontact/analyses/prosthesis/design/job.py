@@ -1,4 +1,12 @@
-"""Which foot for whom: `geocontact prosthesis design`, `gc.prosthesis.design`."""
+"""Which foot for whom: `geocontact prosthesis design`, `gc.prosthesis.design`.
+
+>>> import geocontact as gc
+>>> trial = "meshes/gait_P1_medium_1/"
+>>> given = {"static": trial + "standing.trc", "mass": 77.3, "plates": trial + "plates.mot", "plate": "own_force"}
+>>> result = gc.prosthesis.design(trial + "walking.trc", feet=6, walks=1, **given)
+>>> print(result.sentences[0])
+radius of the roll-over shape, nearest to … m: …
+"""
 
 from __future__ import annotations
 

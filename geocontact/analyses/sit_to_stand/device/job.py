@@ -1,4 +1,11 @@
-"""The exoskeleton's own torque: `geocontact sit-to-stand device`, `gc.sit_to_stand.device`."""
+"""The exoskeleton's own torque: `geocontact sit-to-stand device`, `gc.sit_to_stand.device`.
+
+>>> import geocontact as gc
+>>> unloaded = "meshes/standing_up_exoskeleton/unloaded_"
+>>> gc.sit_to_stand.device(unloaded + "coordinates.sto", motors=unloaded + "motors.sto")
+15 combinations of 18 parameters told, 11 parameters by themselves; 0.22 N m are left of the motors' torques (root mean
+square)
+"""
 
 from __future__ import annotations
 
