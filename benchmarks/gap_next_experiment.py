@@ -209,6 +209,7 @@ def whitenings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain
     from geocontact.gap.case.placement import placement
     from geocontact.gap.case.quotient_noise import noise_spread
     from geocontact.gap.case.refit import Measured, derivatives
+    from geocontact.gap.case.signal_size import signal_size
     from geocontact.gap.case.whitening import Whitening, propagated_input_noise
     from geocontact.gap.inputs.spectrum import measured_inputs
     from geocontact.identify.noise.covariance import Layout
@@ -220,7 +221,7 @@ def whitenings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain
         measured = Measured.of(system, [trial], problem.calibration.rough)
         heard = propagated_input_noise(system, trial, base, problem.passed, problem.left)
         spread = noise_spread(system, measured.outputs, problem.calibration.rough)[0]
-        layout = Layout.of(trial.time, measured.present[0], heard, spread)
+        layout = Layout.of(trial.time, measured.present[0], heard, spread, signal_size(measured.outputs)[0])
         placed = placement(system, [trial], base, measured_inputs(problem.recorded.trials, system.inputs))[0]
         varied = np.concatenate([derivatives(system, measured, base)[0], placed], axis=-1) * lead.noise.varies
         made.append(Whitening.of(layout.whitener(lead.noise.levels), varied))

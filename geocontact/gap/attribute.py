@@ -18,6 +18,7 @@ from geocontact.gap.selection.calibration_share import calibration_share, change
 from geocontact.gap.selection.clipping import ClippedChannel, clipped_channels
 from geocontact.gap.selection.evidence import Judged, settled
 from geocontact.gap.selection.held_out_rules import TOO_LITTLE, HeldOutRules
+from geocontact.gap.selection.lapses import with_lapses
 from geocontact.gap.selection.model_comparison import Contender, Ends, base_contender, pairs, settled_in, singles
 from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, recorder_remarks, residual_anomalies
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
@@ -30,7 +31,7 @@ LEADING = 3  # contenders under whose noise everyone is compared
 WORTH_A_PAIR = 8.0  # nats that a single must gain before a second effect is looked for
 WORTH_UNDOING = 12.0  # nats that a mistake may be behind for its noise to be looked at where it is undone
 CLIPPED = "saturation"  # what a flat top speaks for
-ODD = 5.0  # nats from which an anomaly counts as something unknown
+ODD = 5.0  # nats from which an anomaly is told
 
 Offer = Callable[[System], Sequence[Candidate]]
 Listener = Callable[[str], None]
@@ -60,7 +61,7 @@ class Attribution:
     remaining
         What the surrogate for anything unknown finds on the base ("none") and on the best contender, by label.
     odd
-        Oscillations in the residual of the leader.
+        Oscillations in the residual of the leader, those that make up little of it among them.
     recorder
         What the recordings show of their recorder.
     objections
@@ -201,7 +202,7 @@ def _answered(
     held = ranking(base, contenders, shares, variants, objections)
     odd = tuple(each for each in residual_anomalies(clean, held.leader.judged) if each.nats > ODD)
     recorder = tuple(each for each in recorder_remarks(clean, held.leader.judged) if each.nats > ODD)
-    strange = float(sum(each.nats for each in odd))
+    strange = float(sum(each.nats for each in odd if each.counts))
     best = held.best
     at("what is left over")
     rest = contest.rest if best.judged is leader else surrogate(clean, best.judged)
@@ -210,11 +211,11 @@ def _answered(
     possible = ranking(base, gaining, shares, variants, {c.label for c in gaining if rules.ruled_out(c)})
     little = {label for label, why in objections.items() if why == TOO_LITTLE}
     unnamed, known = _believed(rules, base, missing), most_of(possible, little)
-    share = max((each.share for each in odd), default=0.0)
-    said = with_refused(answer(held, unnamed, strange, left + strange, known, share), possible)
+    said = with_refused(answer(held, unnamed, strange, left + strange, known), possible)
     remaining = {"none": missing, best.label: rest}
     if data_error is not None:
         said = with_mistake(said, data_error.candidate.name)
+    said = with_lapses(said, (one.name for one in contest.entered))
     return Attribution(
         problem, data_error, clean, base, contenders, remaining, odd, recorder, objections, contest.flat, said
     )

@@ -633,3 +633,17 @@ def test_the_plan_of_a_large_study() -> None:
         keys = ("failed", "set_aside", "set_aside_innocent", "started_again")
         assert all(near(cell, own[key][0]) for cell, key in zip(counts, keys, strict=True)), counts
     assert max(figures[key]["set_aside_innocent"][0] for key in figures if ", " in key) < 1.0
+
+
+def test_speed_of_a_diagnosis() -> None:
+    before, now = (results(name)["figures"] for name in ("gap_speed_before", "gap_speed"))
+    seconds, noise = "all", "search for noise"
+    for name, own in now["cases_cpu_s"].items():
+        old = before["cases_cpu_s"][name]
+        told = (old[seconds], own[seconds], own[seconds] / old[seconds], own[noise] / old[noise])
+        cells = row("reference/speed.md", f"`{name}`")
+        for cell, value in zip(cells, (*told, old["simulations"], own["simulations"]), strict=True):
+            assert near(cell, value), name
+    text = " ".join((ROOT / "docs/reference/speed.md").read_text(encoding="utf-8").split())
+    assert f"median is {now['median_cpu_s']:.2f} s ({before['median_cpu_s']:.2f} before)" in text
+    assert f"the most {now['most_cpu_s']:.2f} s ({before['most_cpu_s']:.2f})" in text

@@ -78,7 +78,7 @@ def elbow_case(
 def judged_as(model: Refit) -> Judged:
     """A model that nobody judged."""
     one, n = np.ones(1), len(model.whitened)
-    noise = Noise(NoiseLevels(one, one[None], one[None], one), one, 0.0, ())
+    noise = Noise(NoiseLevels(one, one[None], one[None], one, one), one, 0.0, ())
     return Judged(model, noise, 0.0, 0.0, n, [], np.zeros((n, 0)))
 
 
@@ -171,10 +171,11 @@ def share_of_line(change: Change) -> float:
     return max(found, key=lambda each: each.nats).share
 
 
-def paired() -> tuple[list[tuple[str, ...]], list[float], list[float], list[int]]:
+def paired() -> tuple[list[tuple[str, ...]], list[float], list[float], list[dict[str, float]], list[int]]:
     """Pairs with damping where the force also drifts, a stop in its variants beside; their gain over damping.
 
-    Gains once more, searched from where these ended; and how many simulations either took.
+    Gains once more, searched from where these ended; squared errors that either leaves, by label, and how many
+    simulations it took.
     """
 
     def drifting(_: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
@@ -184,14 +185,15 @@ def paired() -> tuple[list[tuple[str, ...]], list[float], list[float], list[int]
     problem = problem_of(case, system_of(case))
     base = base_contender(problem)
     offered = [one for one in candidates(problem.system) if one.name in ("damping", "sensor_drift", "end_stop")]
-    ends, gains, counts = Ends(), [], []
+    ends, gains, costs, counts = Ends(), [], [], []
     for _ in range(2):
         with patch.object(Measured, "residuals", autospec=True, side_effect=Measured.residuals) as simulated:
             first = singles(problem, base, [one for one in offered if one.name == "damping"], ends)
             found = pairs(problem, first, offered, ends)
         gains.append([one.nats - first[0].nats for one in found])
+        costs.append({label: one.cost for label, one in ends.fits.items()})
         counts.append(simulated.call_count)
-    return [one.names for one in found], *gains, counts
+    return [one.names for one in found], *gains, costs, counts
 
 
 def contest_work(*, cut: bool) -> tuple[list[str], list[str], int, int]:

@@ -114,11 +114,20 @@ def test_shares_and_floor_make_up_the_whole(elsewhere: Elsewhere, pushed: Found)
 
 def test_squares_of_means_are_without_their_variance() -> None:
     rng = np.random.default_rng(0)
-    noise = rng.standard_normal((5, BLOCKS, 4, 400))
-    sums, counts = noise.sum(axis=-1), np.full((5, BLOCKS, 4), 400.0)
+    noise = rng.standard_normal((5 * BLOCKS, 4, 400))
+    sums, counts = noise.sum(axis=-1), np.full((5 * BLOCKS, 4), 400.0)
     gap = np.array([0.0, 0.0, 0.1, 0.3])
-    found = systematic(sums + counts * gap, counts)
-    np.testing.assert_allclose(found / counts.sum(axis=(0, 1)), gap**2, atol=4e-3)
+    (found,) = systematic(sums + counts * gap, counts, np.ones((1, 5 * BLOCKS)))
+    np.testing.assert_allclose(found / counts.sum(axis=0), gap**2, atol=4e-3)
+
+
+def test_a_block_that_is_drawn_twice_counts_twice() -> None:
+    rng = np.random.default_rng(1)
+    sums, counts = rng.standard_normal((3, 4)), rng.integers(1, 9, (3, 4)).astype(float)
+    some = np.array([0, 2, 2])
+    np.testing.assert_allclose(
+        systematic(sums, counts, np.array([[1.0, 0.0, 2.0]])), systematic(sums[some], counts[some], np.ones((1, 3)))
+    )
 
 
 def test_no_gap_is_stated_where_nothing_was_measured(elsewhere: Elsewhere) -> None:

@@ -11,7 +11,7 @@ from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.gap.case.placement import ANGLE, GAIN, ZERO, placement
+from geocontact.gap.case.placement import ANGLE, GAIN, ZERO, placement, put_on
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.selection.held_out_error import TrialWeight
 from geocontact.systems.catalogue import system_of
@@ -49,6 +49,17 @@ def test_a_zero_of_its_own_costs_a_trial_next_to_nothing() -> None:
     costs = [float((weigh(each) ** 2).sum()) for each in (alike, quick)]
     assert costs[0] < 0.05 * costs[1]
     assert costs[1] > 0.9 * float((quick**2).sum()) / NOISE**2
+
+
+def test_a_length_that_is_not_fitted_is_put_on_anew_like_a_constant() -> None:
+    case = elbow_case(duration=2.0)
+    told = Parameter("l", "m", case.constants["l"], 0.0, 1.0, fixed=True)
+    constants = {name: value for name, value in case.constants.items() if name != "l"}
+    other = replace(case, parameters=(*case.parameters, told), constants=constants)
+    systems = [system_of(each).scaled(each.calibration, TRUE) for each in (case, other)]
+    expected, found = (placement(each, case.calibration[:1], TRUE, ["beta"])[0] for each in systems)
+    assert put_on(systems[1]) == put_on(systems[0]) and "l" in put_on(systems[1])
+    assert sorted(np.abs(found).sum(axis=(0, 1))) == pytest.approx(sorted(np.abs(expected).sum(axis=(0, 1))))
 
 
 def put_on_anew() -> Diagnosis:

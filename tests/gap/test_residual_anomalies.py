@@ -8,7 +8,8 @@ import pytest
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs.spectrum import switches
-from geocontact.gap.selection.residual_anomalies import at_mains, moving
+from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, at_mains, moving
+from geocontact.gap.selection.verdict import LEFT_OVER
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Tremor, held, in_steps, knock, odd, rung, share_of_line
 
@@ -27,6 +28,11 @@ def test_a_tremor_is_a_line_at_its_frequency(elsewhere: Elsewhere) -> None:
 def test_a_line_makes_up_a_share_of_the_error(elsewhere: Elsewhere, size: float, low: float, high: float) -> None:
     """Of 0.17 N, root mean square, of everything else: half, or nearly all."""
     assert low < elsewhere(share_of_line, Tremor(size, 7.0)) < high
+
+
+@pytest.mark.parametrize(("nats", "share", "counts"), [(5000.0, 0.9 * LEFT_OVER, False), (8.0, 1.1 * LEFT_OVER, True)])
+def test_what_makes_up_little_of_an_error_is_a_remark_however_sure(nats: float, share: float, counts: bool) -> None:
+    assert ResidualAnomaly("a line", "force", nats, share).counts == counts
 
 
 def test_a_slow_tremor_is_a_line_too(elsewhere: Elsewhere) -> None:

@@ -119,13 +119,13 @@ def test_what_is_smooth_is_no_tail() -> None:
 def test_normal_noise_of_many_samples_has_no_tails() -> None:
     """Of nine thousand samples Student's distribution gains a hundred nats, by how they are taken."""
     rng = np.random.default_rng(5)
-    levels = NoiseLevels(*(np.array(each) for each in ([0.03], [[0.09], [0.02]], [[0.6], [0.8]], [])))
+    levels = NoiseLevels(*(np.array(each) for each in ([0.03], [[0.09], [0.02]], [[0.6], [0.8]], [1.0], [])))
     layouts = []
     for _ in range(12):
         time = np.flatnonzero(rng.random(800) > 0.05).astype(float)
         felt = np.zeros((len(time), 1, 0))
         present = np.ones((len(time), 1), bool)
-        layouts.append(Layout.of(time, present, Instant(time, felt, felt, ()), present.astype(float)))
+        layouts.append(Layout.of(time, present, Instant(time, felt, felt, ()), present.astype(float), 0.0 * present))
     varied = [np.zeros((*layout.shape, 1)) for layout in layouts]
     (reference,) = gained_by_normal(layouts, levels, varied)
     off = []

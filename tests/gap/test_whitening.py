@@ -21,9 +21,11 @@ SPECTRUM = NoiseSpectrum.after(LowPass(6.0, 0.05), lambda frequency: 2.0 * np.pi
 def parts(rng: np.random.Generator) -> tuple[Layout, NoiseLevels, np.ndarray]:
     time = 0.05 * np.arange(60)
     still = np.zeros((60, 1, 1))
-    levels = NoiseLevels(np.array([0.4]), np.array([[0.6]]), np.array([[0.2]]), np.array([1.0]))
+    levels = NoiseLevels(np.array([0.4]), np.array([[0.6]]), np.array([[0.2]]), np.ones(1), np.array([1.0]))
     return (
-        Layout.of(time, np.ones((60, 1), bool), Instant(time, still, still, (SPECTRUM,)), np.ones((60, 1))),
+        Layout.of(
+            time, np.ones((60, 1), bool), Instant(time, still, still, (SPECTRUM,)), np.ones((60, 1)), np.zeros((60, 1))
+        ),
         levels,
         rng.standard_normal((60, 1, 2)),
     )
@@ -58,12 +60,16 @@ def test_evidence_is_that_of_the_dense_normal_distribution() -> None:
 def test_a_sensor_is_hardly_noisier_than_was_told(told: dict[str, float], limit: float) -> None:
     case = elbow_case(duration=2.0)
     system = system_of(case).scaled(case.calibration)
-    assert usual_levels(system, told, np.array([0.15]), {"beta": 0.01}, {}).sensors == pytest.approx([limit])
+    assert usual_levels(system, told, np.array([0.15]), {"beta": 0.01}, {}, np.zeros(1)).sensors == pytest.approx(
+        [limit]
+    )
 
 
 def test_an_input_is_hardly_noisier_than_is_believed_or_than_its_spectrum_allows() -> None:
     case = elbow_case(duration=2.0)
     system = system_of(case).scaled(case.calibration)
-    believed = usual_levels(system, {}, np.array([0.15]), {"beta": 0.01}, {})
+    believed = usual_levels(system, {}, np.array([0.15]), {"beta": 0.01}, {}, np.zeros(1))
     assert believed.inputs == pytest.approx([LOUDER * 0.01])
-    assert usual_levels(system, {}, np.array([0.15]), {"beta": 0.01}, {"beta": 0.02}).inputs == pytest.approx([0.02])
+    assert usual_levels(
+        system, {}, np.array([0.15]), {"beta": 0.01}, {"beta": 0.02}, np.zeros(1)
+    ).inputs == pytest.approx([0.02])

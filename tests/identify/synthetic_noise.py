@@ -1,4 +1,4 @@
-"""Trials of synthetic noise: two channels, one input, white and quick coloured noise."""
+"""Trials of synthetic noise: two channels, one input, white, quick coloured and growing noise."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 
 COUNT, STEP = 150, 0.02
-LEVELS = NoiseLevels(np.array([0.3, 0.2]), np.array([[0.5, 0.1]]), np.array([[0.1, 0.05]]), np.array([0.04]))
+LEVELS = NoiseLevels(
+    np.array([0.3, 0.2]), np.array([[0.5, 0.1]]), np.array([[0.1, 0.05]]), np.array([0.1, 0.05]), np.array([0.04])
+)
 
 
 def exact(frequency: np.ndarray) -> np.ndarray:
@@ -27,7 +29,8 @@ def layout(present: np.ndarray | None = None) -> Layout:
     to_value = np.ones((COUNT, 2, 1)) * np.array([[[5.0], [2.0]]])
     to_rate = np.zeros((COUNT, 2, 1))
     to_rate[:, 1] = 0.3
-    return Layout.of(time, there, Instant(time, to_value, to_rate, (PASSED,)), np.ones(there.shape))
+    signal = np.abs(np.sin(2.0 * np.pi * time))[:, None] * np.array([2.0, 1.0])
+    return Layout.of(time, there, Instant(time, to_value, to_rate, (PASSED,)), np.ones(there.shape), signal)
 
 
 def noise_of(one: Layout, levels: NoiseLevels, rng: np.random.Generator) -> np.ndarray:

@@ -39,7 +39,7 @@ def test_a_stretch_in_which_nothing_was_measured_has_no_block() -> None:
     there[:300] = True
     response = np.zeros((1, 1000, 1, 6))
     response[..., 3] = 1.0
-    found = Layout.of(time, there, Lasting(time, response, 3, (PASSED,)), np.ones(there.shape))
+    found = Layout.of(time, there, Lasting(time, response, 3, (PASSED,)), np.ones(there.shape), np.zeros(there.shape))
     assert list(found.rows) == list(range(300))
 
 
@@ -48,7 +48,9 @@ def test_covariance_is_symmetric_and_sums_white_coloured_and_input_noise() -> No
     total = whole(block)
     assert_allclose(total, total.T, atol=1e-12)
     first, second = np.flatnonzero(block.channel == 0)[:2]
-    assert total[first, first] == pytest.approx(0.3**2 + 0.5**2 + 25.0 * 0.04**2, rel=1e-6)
+    assert total[first, first] == pytest.approx(
+        0.3**2 + 0.5**2 + (0.1 * block.signal[first]) ** 2 + 25.0 * 0.04**2, rel=1e-6
+    )
     away = PASSED.covariance(np.array([[STEP]]))[0][0, 0]
     assert total[first, second] == pytest.approx(0.25 * np.exp(-STEP / 0.1) + 25.0 * 0.04**2 * away, rel=1e-6)
 
@@ -118,7 +120,7 @@ def test_an_input_that_is_not_felt_changes_nothing() -> None:
 
 
 def test_a_covariance_without_a_factor_is_raised_until_it_has_one() -> None:
-    loud = NoiseLevels(np.full(2, 1e-9), np.full((1, 2), 1e-9), LEVELS.memory, np.array([1e3]))
+    loud = NoiseLevels(np.full(2, 1e-9), np.full((1, 2), 1e-9), LEVELS.memory, np.full(2, 1e-9), np.array([1e3]))
     assert np.isfinite(layout().whitener(loud).log_scale)
 
 

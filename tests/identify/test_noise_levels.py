@@ -9,7 +9,11 @@ from numpy.testing import assert_allclose
 from geocontact.identify.noise.noise_levels import BEYOND, NoiseLevels, NoisePriors
 
 MIDDLE = NoiseLevels(
-    np.array([0.3, 0.2]), np.array([[0.5, 0.1], [0.1, 0.2]]), np.full((2, 2), 0.1), np.array([0.04, 0.1])
+    np.array([0.3, 0.2]),
+    np.array([[0.5, 0.1], [0.1, 0.2]]),
+    np.full((2, 2), 0.1),
+    np.array([0.01, 0.02]),
+    np.array([0.04, 0.1]),
 )
 SIZE = len(MIDDLE.logarithms())
 RNG = np.random.default_rng(0)

@@ -55,15 +55,19 @@ def test_a_slow_part_is_told_from_a_quick_one() -> None:
     time, rng = STEP * np.arange(400), np.random.default_rng(5)
     nothing = np.zeros((400, 1, 1))
     heard = Instant(time, nothing, nothing, (PASSED,))
-    layouts = [Layout.of(time, np.ones((400, 1), bool), heard, np.ones((400, 1))) for _ in range(6)]
-    true = NoiseLevels(np.array([0.3]), np.array([[0.3], [0.25]]), np.array([[0.03], [0.5]]), np.array([1.0]))
+    layouts = [Layout.of(time, np.ones((400, 1), bool), heard, np.ones((400, 1)), np.zeros((400, 1))) for _ in range(6)]
+    true = NoiseLevels(
+        np.array([0.3]), np.array([[0.3], [0.25]]), np.array([[0.03], [0.5]]), np.ones(1), np.array([1.0])
+    )
     residuals = [noise_of(each, true, rng) for each in layouts]
-    prior = NoiseLevels(np.array([0.3]), np.array([[0.3], [0.1]]), np.array([[0.04], [0.4]]), np.array([1.0]))
+    prior = NoiseLevels(
+        np.array([0.3]), np.array([[0.3], [0.1]]), np.array([[0.04], [0.4]]), np.ones(1), np.array([1.0])
+    )
     none = [np.zeros((400, 1, 0)) for _ in layouts]
     found, _, nats = most_likely(layouts, residuals, none, unlimited(prior), prior)
     assert found.coloured[1, 0] == pytest.approx(0.25, rel=0.3)
     assert found.memory[1, 0] > 5.0 * found.memory[0, 0]
-    quick = NoiseLevels(prior.white, prior.coloured[:1], prior.memory[:1], prior.inputs)
+    quick = NoiseLevels(prior.white, prior.coloured[:1], prior.memory[:1], prior.growing, prior.inputs)
     assert nats > most_likely(layouts, residuals, none, unlimited(quick), quick)[2] + 10.0
 
 
@@ -72,10 +76,14 @@ def test_a_search_ends_where_it_does_not_matter_from_where_it_set_out() -> None:
     time, rng = STEP * np.arange(300), np.random.default_rng(6)
     answers = np.full((300, 1, 1), 5.0)
     heard = Instant(time, answers, np.zeros((300, 1, 1)), (PASSED,))
-    layouts = [Layout.of(time, np.ones((300, 1), bool), heard, np.ones((300, 1))) for _ in range(6)]
-    true = NoiseLevels(np.array([0.002]), np.array([[0.1], [0.05]]), np.array([[0.03], [0.6]]), np.array([0.02]))
+    layouts = [Layout.of(time, np.ones((300, 1), bool), heard, np.ones((300, 1)), np.zeros((300, 1))) for _ in range(6)]
+    true = NoiseLevels(
+        np.array([0.002]), np.array([[0.1], [0.05]]), np.array([[0.03], [0.6]]), np.ones(1), np.array([0.02])
+    )
     residuals = [noise_of(each, true, rng) for each in layouts]
-    prior = NoiseLevels(np.array([0.07]), np.array([[0.07], [0.02]]), np.array([[0.08], [0.4]]), np.array([0.005]))
+    prior = NoiseLevels(
+        np.array([0.07]), np.array([[0.07], [0.02]]), np.array([[0.08], [0.4]]), np.ones(1), np.array([0.005])
+    )
     none = [np.zeros((300, 1, 0)) for _ in layouts]
     ends = [most_likely(layouts, residuals, none, unlimited(prior), start)[2] for start in (prior, true)]
     assert ends[0] == pytest.approx(ends[1], abs=0.05)
@@ -89,22 +97,22 @@ def drawn() -> tuple[list[Layout], list[np.ndarray], list[np.ndarray]]:
 
 def test_slope_is_that_of_the_cost() -> None:
     limited = replace(unlimited(LEVELS), sensors=0.6 * LEVELS.sensors, inputs=0.6 * LEVELS.inputs)
-    surface, x = CostSurface.of(*drawn(), limited), np.linspace(-0.3, 0.3, 7)
+    surface, x = CostSurface.of(*drawn(), limited), np.linspace(-0.3, 0.3, 9)
     exact = surface.gradient(surface.at(x))
-    for k, each in enumerate(1e-5 * np.eye(7)):
+    for k, each in enumerate(1e-5 * np.eye(9)):
         assert exact[k] == pytest.approx((surface.at(x + each).cost - surface.at(x - each).cost) / 2e-5, rel=1e-4)
 
 
 def test_information_is_what_its_formula_says() -> None:
     """½ rᵀ V⁻¹ V_k V⁻¹ V_l V⁻¹ r with all matrices written out, limits included."""
     limited = replace(unlimited(LEVELS), sensors=0.6 * LEVELS.sensors, inputs=0.6 * LEVELS.inputs)
-    surface, x = CostSurface.of(*drawn(), limited), np.linspace(-0.3, 0.3, 7)
-    expected = np.eye(7)
+    surface, x = CostSurface.of(*drawn(), limited), np.linspace(-0.3, 0.3, 9)
+    expected = np.eye(9)
     for piece in surface.pieces:
         inverse = np.linalg.inv(piece.block.covariance(limited.levels(x)) + piece.moved)
         slopes = [
             (piece.block.covariance(limited.levels(x + e)) - piece.block.covariance(limited.levels(x - e))) / 2e-5
-            for e in 1e-5 * np.eye(7)
+            for e in 1e-5 * np.eye(9)
         ]
         moved = np.array([each @ inverse @ piece.residual for each in slopes])
         expected += 0.5 * moved @ inverse @ moved.T
@@ -132,7 +140,7 @@ def test_a_search_from_noise_a_hundred_times_too_quiet_takes_few_evaluations(mon
     monkeypatch.setattr(CostSurface, "at", counted)
     layouts, residuals, jitter = drawn()
     prior = LEVELS.at(LEVELS.logarithms() + 0.5)
-    loud = NoisePriors(prior, 2.0 * np.eye(7), np.full(2, np.inf), np.full(1, np.inf))
+    loud = NoisePriors(prior, 2.0 * np.eye(9), np.full(2, np.inf), np.full(1, np.inf))
     quiet = LEVELS.times(np.full(2, 0.01), np.full(1, 0.01))
     _, _, nats = most_likely(layouts, residuals, jitter, loud, quiet)
     assert len(evaluations) < 30
@@ -149,7 +157,7 @@ def test_a_search_sets_out_from_the_likeliest_of_the_levels_that_are_known(monke
 
     monkeypatch.setattr(CostSurface, "gradient", counted)
     layouts, residuals, jitter = drawn()
-    loud = NoisePriors(LEVELS.at(LEVELS.logarithms() + 0.5), 2.0 * np.eye(7), np.full(2, np.inf), np.full(1, np.inf))
+    loud = NoisePriors(LEVELS.at(LEVELS.logarithms() + 0.5), 2.0 * np.eye(9), np.full(2, np.inf), np.full(1, np.inf))
     quiet = LEVELS.times(np.full(2, 0.01), np.full(1, 0.01))
     end, _, nats = most_likely(layouts, residuals, jitter, loud, quiet)
     far = len(slopes)
@@ -164,10 +172,10 @@ def test_a_search_that_falls_far_again_takes_information_anew() -> None:
     layouts = [layout() for _ in range(5)]
     residuals = [noise_of(each, LEVELS, rng) for each in layouts]
     jitter = [0.05 * np.ones((COUNT, 2, 1)) for _ in layouts]
-    prior = LEVELS.at(LEVELS.logarithms() + rng.normal(0.0, 1.0, 7))
+    prior = LEVELS.at(LEVELS.logarithms() + rng.normal(0.0, 1.0, 9))
     limit = float(rng.uniform(0.4, 1.5))
-    beliefs = NoisePriors(prior, 2.0 * np.eye(7), limit * LEVELS.sensors, limit * LEVELS.inputs)
-    start = LEVELS.at(LEVELS.logarithms() + rng.normal(0.0, 1.5, 7))
+    beliefs = NoisePriors(prior, 2.0 * np.eye(9), limit * LEVELS.sensors, limit * LEVELS.inputs)
+    start = LEVELS.at(LEVELS.logarithms() + rng.normal(0.0, 1.5, 9))
     there, _, nats = most_likely(layouts, residuals, jitter, beliefs, start)
     assert nats == pytest.approx(most_likely(layouts, residuals, jitter, beliefs, there)[2], abs=1e-3)
     assert nats == pytest.approx(most_likely(layouts, residuals, jitter, beliefs, prior)[2], abs=1e-3)

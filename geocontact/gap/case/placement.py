@@ -42,7 +42,7 @@ def placement(
 ) -> tuple[Float[np.ndarray, "_ c k"], ...]:
     """Per trial, what one usual standard deviation of each changes in the outputs, in their units.
 
-    Constants that are lengths, zeros of the inputs in `movable`, zeros of outputs, gains of outputs, in this order;
+    Known lengths and angles, zeros of the inputs in `movable`, zeros of outputs, gains of outputs, in this order;
     0 where the model has no value.
     """
     return tuple(_of_trial(system, trial, values, movable) for trial in trials)
@@ -52,12 +52,10 @@ def _of_trial(
     system: System, trial: Trial, values: Mapping[str, float], movable: Sequence[str]
 ) -> Float[np.ndarray, "t c k"]:
     columns = []
-    length = LENGTH * system.length
-    for name in system.lengths:
-        if name in system.known:
-            at = system.known[name]
-            above, below = (system.simulate(trial, {**values, name: at + s * length}) for s in (1.0, -1.0))
-            columns.append(_half(above, below))
+    for name, by in put_on(system).items():
+        at = system.known[name]
+        above, below = (system.simulate(trial, {**values, name: at + s * by}) for s in (1.0, -1.0))
+        columns.append(_half(above, below))
     for row, name in enumerate(system.inputs):
         if name in movable:
             by = zero_of_input(system, name)
@@ -71,6 +69,13 @@ def _of_trial(
             own[:, c] = column
             columns.append(own)
     return np.stack(columns, axis=-1)
+
+
+def put_on(system: System) -> dict[str, float]:
+    """Standard deviation of each known length or angle: constants, and parameters that are not fitted."""
+    known = {name: LENGTH * system.length for name in system.lengths if name in system.known}
+    fixed = (p for p in system.parameters if p.fixed and p.unit in ("m", "rad"))
+    return known | {p.name: varies_by(system, p, p.start) for p in fixed}
 
 
 def zero_of_input(system: System, name: str) -> float:

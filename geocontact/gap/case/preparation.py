@@ -17,6 +17,7 @@ from geocontact.gap.case.quotient_noise import noise_spread
 from geocontact.gap.case.rate_smoothing import REACHES, with_smoothed_rates
 from geocontact.gap.case.refit import Measured, Refit, free
 from geocontact.gap.case.rough_noise import rough_noise, typical_step, with_rounding
+from geocontact.gap.case.signal_size import seen_growth, signal_size
 from geocontact.gap.case.tolerated_noise import tolerated
 from geocontact.gap.case.whitening import layouts_of, usual_levels
 from geocontact.gap.inputs.denoise import Filters, Left, denoised, highest_noise, left, seen_noise, shaken
@@ -139,14 +140,16 @@ def _posed(
     trials = together(calm.calibration, calm.evaluation).trials
     placed = placement(system, trials, plain.values, list(inputs.shown))
     own = [varies_by(system, p, plain.values[p.name]) for p in free(system)]
-    spread = noise_spread(system, recorded.outputs, recorded.rough)[: len(heard.trials)]
+    spread, signal = noise_spread(system, recorded.outputs, recorded.rough), signal_size(recorded.outputs)
+    noisy = spread[: len(heard.trials)], signal[: len(heard.trials)]
+    growth = seen_growth(recorded.outputs, spread)
     return Problem(
         system=system,
         calibration=calm.calibration,
         evaluation=calm.evaluation,
         recorded=recorded,
-        layouts=tuple(layouts_of(system, heard.trials, plain.values, heard.present, inputs.passed, calm.left, spread)),
-        beliefs=usual_levels(system, stated, recorded.rough, inputs.seen, inputs.most),
+        layouts=tuple(layouts_of(system, heard.trials, plain.values, heard.present, inputs.passed, calm.left, *noisy)),
+        beliefs=usual_levels(system, stated, recorded.rough, inputs.seen, inputs.most, growth),
         usual=np.array([*own, *np.ones(placed[0].shape[-1])]),
         placement=placed,
         plain=plain,

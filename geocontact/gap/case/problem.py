@@ -114,10 +114,12 @@ class Problem:
                 self.beliefs.middle if levels is None else levels,
                 others=[each.levels for each in others],
             )
-            sd = self._variation(model, levels)
+            whiteners = tuple(layout.whitener(levels) for layout in self.calibration_layouts)
+            sd = self._variation(model, whiteners)
         if levels is None:
             raise ValueError("noise was not estimated")
-        return Noise(levels, sd, surprise, self._whiteners(levels))
+        later = tuple(layout.whitener(levels) for layout in self.layouts[fitted:])
+        return Noise(levels, sd, surprise, whiteners + later)
 
     def with_lower_noise(self, noise: Noise) -> Noise:
         """The same noise as far as it is not higher than could be expected.
@@ -133,6 +135,7 @@ class Problem:
             white=np.minimum(noise.levels.white, usual.white),
             coloured=np.minimum(noise.levels.coloured, usual.coloured),
             memory=np.minimum(noise.levels.memory, MEMORY * usual.memory),
+            growing=np.minimum(noise.levels.growing, usual.growing),
             inputs=np.minimum(np.array(best), usual.inputs),
         )
         x = self.beliefs.point(levels)
@@ -141,28 +144,27 @@ class Problem:
     def _whiteners(self, levels: NoiseLevels) -> tuple[Whitener, ...]:
         return tuple(layout.whitener(levels) for layout in self.layouts)
 
-    def _variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
+    def _variation(self, model: Refit, whiteners: Sequence[Whitener]) -> Float[np.ndarray, " q"]:
         """Of parameters around their fitted values; of what is not fitted around its mean over the trials."""
         kinds = [self.fitted, len(self.usual) - self.fitted]
         weight, spent = np.repeat([USUALLY, BARELY], kinds), np.repeat([0.0, 1.0], kinds)
-        found = variation(self._products(self.calibration_layouts, model, levels), self.usual, weight, spent)
+        found = variation(self._products(whiteners, model), self.usual, weight, spent)
         return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
 
-    def _products(self, layouts: Sequence[Layout], model: Refit, levels: NoiseLevels) -> list[Products]:
-        products = []
-        for layout, residual, varied in zip(layouts, model.residuals, self.varied(model.jacobian), strict=False):
-            whitener = layout.whitener(levels)
-            products.append(Products.of(whitener(residual[..., None])[:, 0], whitener(varied)))
-        return products
+    def _products(self, whiteners: Sequence[Whitener], model: Refit) -> list[Products]:
+        return [
+            Products.of(whitener(residual[..., None])[:, 0], whitener(varied))
+            for whitener, residual, varied in zip(whiteners, model.residuals, self.varied(model.jacobian), strict=False)
+        ]
 
     def seen_variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
         """How much all trials do differ, little believed beforehand, around parameters that were fitted to all."""
-        found = variation(self._products(self.layouts, model, levels), self.usual, BARELY, spent=1.0)
+        found = variation(self._products(self._whiteners(levels), model), self.usual, BARELY, spent=1.0)
         return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
 
     def fitting(self, noise: Noise, model: Refit) -> list[Whitening]:
         """Whitening of the calibration trials."""
-        return self.whitenings(noise, model)[: len(self.calibration.trials)]
+        return self.whitenings(noise, replace(model, jacobian=model.jacobian[: len(self.calibration.trials)]))
 
     def whitenings(self, noise: Noise, model: Refit) -> list[Whitening]:
         """Whitening of the trials that a model was evaluated on: all of them, or those of the calibration."""

@@ -11,6 +11,7 @@ from geocontact.gap.case.placement import varies_by
 from geocontact.gap.case.plain_fit import plain_fit
 from geocontact.gap.case.quotient_noise import noise_spread
 from geocontact.gap.case.refit import Measured, Refit, free
+from geocontact.gap.case.signal_size import seen_growth, signal_size
 from geocontact.gap.case.whitening import layouts_of, sensitivity, usual_levels
 from geocontact.gap.inputs.denoise import Filters
 from geocontact.identify.noise.noise_search import most_likely
@@ -38,14 +39,14 @@ def with_smoothed_rates(
         sensitivity(system, trial, plain.values, ()).to_rate.any() for trial in measured.trials
     ):
         return system
-    beliefs = usual_levels(system, stated, rough, seen, most)
+    spread, signal = noise_spread(system, measured.outputs, rough), signal_size(measured.outputs)
+    beliefs = usual_levels(system, stated, rough, seen, most, seen_growth(measured.outputs, spread))
     usual = np.array([varies_by(system, p, plain.values[p.name]) for p in free(system)])
 
     def likelihood(reach: float) -> float:
         other = system.reaching(reach)
         model = plain_fit(other, measured, rough, [plain.values], rounds=6)
-        spread = noise_spread(other, measured.outputs, rough)
-        layouts = layouts_of(other, measured.trials, model.values, measured.present, passed, {}, spread)
+        layouts = layouts_of(other, measured.trials, model.values, measured.present, passed, {}, spread, signal)
         varied = [j[..., : len(usual)] * usual for j in model.jacobian]
         return most_likely(layouts, model.residuals, varied, beliefs, beliefs.middle, rounds=15)[2]
 

@@ -11,11 +11,13 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import System
+from geocontact.chain.tangents import tangents
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.identify.optimise.bounded_gauss_newton import GaussNewtonResult, least
 
 STEP = 1e-5  # of a parameter's magnitude, for differences
+NEAR = 1e-7  # the same, for differences of what is linear but for balance and sensor
 ENOUGH = 0.01  # nats that a search does not go on for
 LITTLE = 0.05  # nats that another start must promise to be followed
 NO_VALUE = 3.0  # residual, in rough noise levels, where something was measured and the model has no value
@@ -121,18 +123,28 @@ def magnitude(p: Parameter) -> float:
 def derivatives(
     system: System, measured: Measured, values: Mapping[str, float], base: Sequence[np.ndarray] | None = None
 ) -> list[Float[np.ndarray, "_ c p"]]:
-    """Derivative of the prediction with respect to each free parameter, per trial, by one-sided differences.
+    """Derivative of the prediction with respect to each free parameter, per trial.
 
-    Parameters that no output has two of are moved at once (Curtis, Powell & Reid 1974, J. Inst. Math. Appl. 13:117).
+    Exact where the model's geometry knows them (`chain.tangents`), else by one-sided differences: parameters that no
+    output has two of are moved at once (Curtis, Powell & Reid 1974, J. Inst. Math. Appl. 13:117).
     """
-    start = measured.residuals(system, values) if base is None else base
     parameters = free(system)
-    out = [np.zeros((*r.shape, len(parameters))) for r in start]
-    for group in moved_at_once(system, parameters):
-        steps = {}
-        for k in group:
-            p, step = parameters[k], STEP * magnitude(parameters[k])
-            steps[p.name] = -step if values[p.name] + step > p.upper else step
+    near = {p.name: _step(p, values[p.name], NEAR) for p in parameters}
+    known = [tangents(system, trial, values, near) for trial in measured.trials]
+    left = {p.name for p in parameters if any(p.name not in each for each in known)}
+    out = [np.zeros((*there.shape, len(parameters))) for there in measured.present]
+    for k, p in enumerate(parameters):
+        if p.name not in left:
+            for slopes, each, there in zip(out, known, measured.present, strict=True):
+                slopes[..., k] = np.where(there, each[p.name], 0.0)
+    if not left:
+        return out
+    start = measured.residuals(system, values) if base is None else base
+    for some in moved_at_once(system, parameters):
+        group = [k for k in some if parameters[k].name in left]
+        if not group:
+            continue
+        steps = {parameters[k].name: _step(parameters[k], values[parameters[k].name], STEP) for k in group}
         moved = measured.residuals(system, {**values, **{name: values[name] + by for name, by in steps.items()}})
         for k in group:
             name = parameters[k].name
@@ -140,6 +152,12 @@ def derivatives(
             for slopes, before, after in zip(out, start, moved, strict=True):
                 slopes[:, columns, k] = (before[:, columns] - after[:, columns]) / steps[name]
     return out
+
+
+def _step(p: Parameter, value: float, share: float) -> float:
+    """A share of a parameter's magnitude, back where there is no room ahead."""
+    step = share * magnitude(p)
+    return -step if value + step > p.upper else step
 
 
 def moved_at_once(system: System, parameters: Sequence[Parameter]) -> list[list[int]]:

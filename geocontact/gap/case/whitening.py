@@ -32,6 +32,7 @@ Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
 SLOW, SLOW_TIME = 30.0, 0.7  # samples, that slow noise usually remembers, and standard deviation of the logarithm
 QUICK = 2.0  # samples, that quick noise usually remembers
 SLOW_SHARE, SLOW_LEVEL = 0.3, 0.8  # of the quick noise, that it usually is, and of the logarithm of its level
+GROWN, GROWN_LEVEL = 0.2, 0.35  # of its noise, that grows to the largest signal, at the least; and of the logarithm
 BUMP, RATE = 1e-4, 0.06  # of an input's half-range; and per sample
 LAST = 1e6  # rank of the bump: after everything that is wrong with the motion
 
@@ -140,11 +141,13 @@ def usual_levels(
     rough: Float[np.ndarray, " c"],
     seen: Mapping[str, float],
     most: Mapping[str, float],
+    growth: Float[np.ndarray, " c"],
 ) -> NoisePriors:
     """What is believed of the noise before the residuals are looked at.
 
     The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
-    stands in and is believed less. Quick noise remembers a few samples, slow noise some tens. Inputs are
+    stands in and is believed less. Quick noise remembers a few samples, slow noise some tens. What grows with
+    the signal is as much as the recording shows (`growth`, per unit of the signal), and little at the least. Inputs are
     known as well as their spectra show (`seen`), 0.2 % of their half-range at the least unless `most` is less, and
     those of one unit about equally well, since they come from the same markers; what is stated of one is believed. A
     sensor is hardly noisier than `SENSOR_LOUDER` times what was stated, an input than `LOUDER` times what is believed,
@@ -160,7 +163,8 @@ def usual_levels(
     covariance = ALIKE**2 * alike + OWN**2 * np.eye(len(units))
     white, quick = np.where(known, 0.5, 1.0), np.where(known, 0.7, 1.2)
     sure = np.ones(len(sd))
-    widths = np.concatenate([white, quick, SLOW_LEVEL * sure, sure, SLOW_TIME * sure])
+    widths = np.concatenate([white, quick, SLOW_LEVEL * sure, sure, SLOW_TIME * sure, GROWN_LEVEL * sure])
+    largest = np.array([system.scale.of(name) for name in system.outputs])
     factor = np.zeros((len(widths) + len(units),) * 2)
     factor[: len(widths), : len(widths)] = np.diag(widths)
     factor[len(widths) :, len(widths) :] = np.linalg.cholesky(covariance)
@@ -173,7 +177,9 @@ def usual_levels(
     limits = zip(system.inputs, highest_noise, strict=True)
     highest_noise = np.array([SENSOR_LOUDER * stated[n] if n in stated else limit for n, limit in limits])
     inputs = np.minimum(inputs, highest_noise)
-    return NoisePriors(NoiseLevels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, highest_noise)
+    growing = np.maximum(growth, GROWN * np.sqrt(2.0) * sd / largest)
+    usual = NoiseLevels(sd, np.array([sd, SLOW_SHARE * sd]), memory, growing, inputs)
+    return NoisePriors(usual, factor, sensors, highest_noise)
 
 
 def layouts_of(
@@ -184,10 +190,11 @@ def layouts_of(
     passed: Mapping[str, LowPass],
     left: Mapping[str, Share],
     spread: Sequence[Float[np.ndarray, "_ c"]],
+    signal: Sequence[Float[np.ndarray, "_ c"]],
 ) -> list[Layout]:
     """One per trial, inputs' noise (see `propagated_input_noise`) seen through the model at `values`."""
     spectra = spectra_of(system, passed, left)  # their tables are the same in all trials
     return [
-        Layout.of(t.time, there, _felt(system, t, values, spectra), own)
-        for t, there, own in zip(trials, present, spread, strict=True)
+        Layout.of(t.time, there, _felt(system, t, values, spectra), own, size)
+        for t, there, own, size in zip(trials, present, spread, signal, strict=True)
     ]

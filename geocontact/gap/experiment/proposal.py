@@ -21,6 +21,7 @@ from geocontact.gap.case.placement import placement
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.quotient_noise import noise_spread
 from geocontact.gap.case.refit import Measured, derivatives
+from geocontact.gap.case.signal_size import signal_size
 from geocontact.gap.case.whitening import Whitening, propagated_input_noise
 from geocontact.gap.experiment.competing_models import Hypothesis, ModelPair, Rows, SimulatedTrials, remaining_nats
 from geocontact.gap.experiment.menu import Experiment, menu
@@ -219,9 +220,10 @@ def _rehearsed(problem: Problem, lead: Judged, one: Experiment, pairs: list[Mode
     }
     staged = one.staged(problem.system)
     base = {name: lead.model.values[name] for name in problem.plain.values}
-    spread = noise_spread(staged, [staged.simulate(trial, base)], problem.calibration.rough)[0]
+    expected = [staged.simulate(trial, base)]
+    spread, signal = noise_spread(staged, expected, rough)[0], signal_size(expected)[0]
     heard = propagated_input_noise(staged, trial, base, problem.passed, problem.left)
-    layout = Layout.of(trial.time, present, heard, spread)
+    layout = Layout.of(trial.time, present, heard, spread, signal)
     placed = placement(staged, (trial,), base, measured_inputs(problem.recorded.trials, staged.inputs))[0]
     varied = np.concatenate([derivatives(staged, zero, base)[0], placed], axis=-1) * lead.noise.varies
     whiten = Whitening.of(layout.whitener(lead.noise.levels), varied)

@@ -172,10 +172,15 @@ class _GapSums:
     def cells(self, p_values: Float[np.ndarray, " b"], rng: np.random.Generator) -> list[Cell]:
         """Those that were measured in."""
         count = self.counts.sum(axis=(0, 1))
-        squares = systematic(self.sums, self.counts)
-        some = rng.integers(BLOCKS, size=(RESAMPLED, *self.sums.shape[:2]))
-        trial = np.arange(len(self.sums))[:, None]
-        drawn = np.array([shares(systematic(self.sums[trial, k], self.counts[trial, k])) for k in some])
+        blocks = len(self.sums) * BLOCKS
+        sums, counts = self.sums.reshape(blocks, -1), self.counts.reshape(blocks, -1)
+        squares = systematic(sums, counts, np.ones((1, blocks)))[0]
+        some = (
+            rng.integers(BLOCKS, size=(RESAMPLED, *self.sums.shape[:2])) + BLOCKS * np.arange(len(self.sums))[:, None]
+        )
+        at = some.reshape(RESAMPLED, blocks) + blocks * np.arange(RESAMPLED)[:, None]
+        times = np.bincount(at.ravel(), minlength=RESAMPLED * blocks).reshape(RESAMPLED, blocks)
+        drawn = np.array([shares(each) for each in systematic(sums, counts, times.astype(float))])
         low, high = np.quantile(drawn, [0.025, 0.975], axis=0)
         share, floor = shares(squares), 1.0 - float(squares.sum()) / max(self.total, 1e-300)
         mean = self.sums.sum(axis=(0, 1)) / np.maximum(count, 1.0)
@@ -195,10 +200,14 @@ class _GapSums:
         ]
 
 
-def systematic(sums: Float[np.ndarray, "i k b"], counts: Float[np.ndarray, "i k b"]) -> Float[np.ndarray, " b"]:
-    """Squared gap of each bin: its mean squared, less the variance of the mean, for every sample."""
-    count = np.maximum(counts.sum(axis=(0, 1)), 1.0)
-    return np.asarray(np.maximum(sums.sum(axis=(0, 1)) ** 2 - (sums**2).sum(axis=(0, 1)), 0.0) / count)
+def systematic(
+    sums: Float[np.ndarray, "k b"], counts: Float[np.ndarray, "k b"], times: Float[np.ndarray, "n k"]
+) -> Float[np.ndarray, "n b"]:
+    """Squared gap of each bin: its mean squared, less the variance of the mean, for every sample.
+
+    Of blocks that are there as many `times` as each row says.
+    """
+    return np.asarray(np.maximum((times @ sums) ** 2 - times @ sums**2, 0.0) / np.maximum(times @ counts, 1.0))
 
 
 def _family_wise(tables: list[Float[np.ndarray, "k _"]]) -> list[Float[np.ndarray, " _"]]:

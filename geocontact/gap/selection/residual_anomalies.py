@@ -20,6 +20,7 @@ from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.inputs.quantisation import resolution
 from geocontact.gap.inputs.spectrum import switches
 from geocontact.gap.selection.evidence import Judged, without_discrepancy
+from geocontact.gap.selection.verdict import LEFT_OVER
 
 WINDOWS = (4, 8, 16, 32, 64)  # samples
 SHORTEST = 64  # samples of a trial whose spectrum is looked at
@@ -53,6 +54,11 @@ class ResidualAnomaly:
     channel: str
     nats: float
     share: float = 0.0
+
+    @property
+    def counts(self) -> bool:
+        """Whether it is more than a remark: a narrow line of a thousandth of the error may be as sure as anything."""
+        return self.share > LEFT_OVER
 
 
 def residual_anomalies(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:

@@ -117,9 +117,7 @@ def ranking(
     return Ranking(base, living, gains)
 
 
-def answer(
-    held: Ranking, unnamed: float, strange: float, rest: float, little: float = 0.0, share: float = 0.0
-) -> Answer:
+def answer(held: Ranking, unnamed: float, strange: float, rest: float, little: float = 0.0) -> Answer:
     """The verdict; FloatingPointError where what is given is not a number.
 
     Parameters
@@ -129,23 +127,18 @@ def answer(
     unnamed
         What a surrogate for anything unknown gains over the base [nats].
     strange
-        How sure it is that something is odd about the residual of the leader [nats].
+        How sure it is that something odd makes up much of the error that the leader leaves [nats].
     rest
         What the surrogate gains on top of the best contender, with what is odd [nats]. What is there beside an effect
         is there without it as well: no more of it is believed than what it gains over the base.
     little
         What a known effect gains that is too small to be named [nats]. What it explains is nothing unknown.
-    share
-        Of a channel's squared error that what is odd makes up. What is odd counts where that is more than `LEFT_OVER`,
-        whatever else gains, or where it is as much as that of the gain.
     """
     base, living, gains = held.base, held.living, held.gains
-    minor = share <= LEFT_OVER
-    unnamed, strange = unnamed - little, 0.0 if minor and strange <= LEFT_OVER * little else strange
+    unnamed = unnamed - little
     rest = min(rest, max(unnamed, 0.0) + strange)
-    unnamed = (1.0 - ANY_FORM) * max(unnamed - STRANGER, 0.0)
+    unnamed = (1.0 - ANY_FORM) * max(unnamed - STRANGER, 0.0) + strange
     named = max([*gains.values(), 0.0])
-    unnamed += 0.0 if minor and strange <= LEFT_OVER * named else strange
     most = max(named, unnamed)
     tolerance = 1.0 + FORM * most
     weights: dict[tuple[str, ...], float] = {("none",): np.exp((SURE - most) / tolerance)}

@@ -42,14 +42,17 @@ def heard(inputs: Float[np.ndarray, "j n n"]) -> Bool[np.ndarray, " j"]:
 def summed(
     time: Float[np.ndarray, " n"],
     channel: Int[np.ndarray, " n"],
+    signal: Float[np.ndarray, " n"],
     inputs: Float[np.ndarray, "j n n"],
     white: Float[np.ndarray, " c"],
     coloured: Float[np.ndarray, "k c"],
     memory: Float[np.ndarray, "k c"],
+    growing: Float[np.ndarray, " c"],
     powers: Float[np.ndarray, " j"],
     raised: float,
 ) -> Float[np.ndarray, "n n"]:
-    """Covariance of a block: variances of white and of coloured noise per channel, powers of the inputs' noise.
+    """Covariance of a block: variances of white and of coloured noise per channel, of what grows with the signal per
+    square of it, powers of the inputs' noise.
 
     The diagonal is multiplied by `raised`.
     """
@@ -60,7 +63,7 @@ def summed(
         for j in felt:
             for b in range(a, size):
                 out[a, b] += powers[j] * inputs[j, a, b]
-        out[a, a] += white[channel[a]]
+        out[a, a] += white[channel[a]] + growing[channel[a]] * signal[a] ** 2
     for k in range(memory.shape[0]):
         kept = decays(time, channel, memory[k])
         for a in range(size):
@@ -82,15 +85,17 @@ def summed(
 def pulled(
     time: Float[np.ndarray, " n"],
     channel: Int[np.ndarray, " n"],
+    signal: Float[np.ndarray, " n"],
     inputs: Float[np.ndarray, "j n n"],
     memory: Float[np.ndarray, "k c"],
     pull: Float[np.ndarray, "n n"],
-) -> tuple[Float[np.ndarray, " c"], Float[np.ndarray, "two k c"], Float[np.ndarray, " j"]]:
+) -> tuple[Float[np.ndarray, " c"], Float[np.ndarray, "two k c"], Float[np.ndarray, " c"], Float[np.ndarray, " j"]]:
     """Sums of a symmetric `pull`, whose upper half is read: over each channel's diagonal, times exp(-lag/τ) over its
-    pairs and times lag exp(-lag/τ) [s] for each τ, and times each input's covariance.
+    pairs and times lag exp(-lag/τ) [s] for each τ, times the squared signal over the diagonal, and times each input's
+    covariance.
     """
     size = time.size
-    white, of_inputs = np.zeros(memory.shape[1]), np.zeros(inputs.shape[0])
+    white, growing, of_inputs = np.zeros(memory.shape[1]), np.zeros(memory.shape[1]), np.zeros(inputs.shape[0])
     out = np.zeros((2, memory.shape[0], memory.shape[1]))
     for k in range(memory.shape[0]):
         kept = decays(time, channel, memory[k])
@@ -108,30 +113,38 @@ def pulled(
     felt = np.flatnonzero(heard(inputs))
     for a in range(size):
         white[channel[a]] += pull[a, a]
+        growing[channel[a]] += pull[a, a] * signal[a] ** 2
         for j in felt:
             total = 0.5 * pull[a, a] * inputs[j, a, a]
             for b in range(a + 1, size):
                 total += pull[a, b] * inputs[j, a, b]
             of_inputs[j] += 2.0 * total
-    return white, out, of_inputs
+    return white, out, growing, of_inputs
 
 
 @kernel
 def carried(
     time: Float[np.ndarray, " n"],
     channel: Int[np.ndarray, " n"],
+    signal: Float[np.ndarray, " n"],
     inputs: Float[np.ndarray, "j n n"],
     memory: Float[np.ndarray, "k c"],
     values: Float[np.ndarray, " n"],
 ) -> Float[np.ndarray, "h n"]:
     """What `pulled` sums over, as products with a vector: of each channel's diagonal, of exp(-lag/τ) for each τ, of
-    lag exp(-lag/τ) [s] for each τ, and of each input's covariance.
+    lag exp(-lag/τ) [s] for each τ, of the squared signal on each channel's diagonal, and of each input's covariance.
     """
     kinds, channels = memory.shape
-    size, slow, first = time.size, channels * (1 + kinds), channels * (1 + 2 * kinds)
+    size, slow, grown, first = (
+        time.size,
+        channels * (1 + kinds),
+        channels * (1 + 2 * kinds),
+        channels * (2 + 2 * kinds),
+    )
     out = np.zeros((first + inputs.shape[0], size))
     for a in range(size):
         out[channel[a], a] = values[a]
+        out[grown + channel[a], a] = signal[a] ** 2 * values[a]
     for k in range(kinds):
         kept = decays(time, channel, memory[k])
         for a in range(size):

@@ -4,7 +4,8 @@ Over a trial the residual r = measured - predicted is, to first order,
 
     r = w + c + sum_j R_j n_j + B d
 
-with w white sensor noise (that of a quotient is higher where its divisor is small), c one or more Ornstein-Uhlenbeck
+with w white sensor noise (part of it in proportion to the signal; that of a quotient is higher where its divisor is
+small), c one or more Ornstein-Uhlenbeck
 processes per channel (a filter in the measuring chain is quick, muscle tone and sway are slow), n_j the noise of input
 j, whose spectrum is known, R_j what the model makes of it (`input_noise`), and d the trial's own deviation of some
 parameters (donning, placement; `trial_variation`). The time axis is cut into blocks that are taken as independent of
@@ -44,6 +45,8 @@ class NoiseBlock:
         Covariance that noise of unit variance of each input makes of rows divided by `spread`.
     spread
         How many times its level the sensor noise of each row is.
+    signal
+        What noise may grow with, per level of the sensor noise that `spread` had when the trial was cut.
     """
 
     rows: Int[np.ndarray, " n"]
@@ -51,6 +54,7 @@ class NoiseBlock:
     channel: Int[np.ndarray, " n"]
     inputs: Float[np.ndarray, "j n n"]
     spread: Float[np.ndarray, " n"]
+    signal: Float[np.ndarray, " n"]
 
     def louder(self, times: Float[np.ndarray, " n"]) -> NoiseBlock:
         """The same rows with sensor noise so many times as high."""
@@ -58,21 +62,22 @@ class NoiseBlock:
 
     def covariance(self, levels: NoiseLevels) -> Float[np.ndarray, "n n"]:
         """Of rows divided by `spread`, at these levels."""
-        powers = (levels.white**2, levels.coloured**2, levels.memory, levels.inputs**2)
-        return summed(self.time, self.channel, self.inputs, *powers, 1.0 + JITTER)
+        powers = (levels.white**2, levels.coloured**2, levels.memory, levels.growing**2, levels.inputs**2)
+        return summed(self.time, self.channel, self.signal, self.inputs, *powers, 1.0 + JITTER)
 
     def pulls(self, levels: NoiseLevels, pull: Float[np.ndarray, "n n"]) -> Float[np.ndarray, " h"]:
         """Sum of `pull` times the derivative of the covariance with respect to each logarithm of a level.
 
         `pull` is symmetric; its upper half is read.
         """
-        white, (coloured, lagged), inputs = pulled(self.time, self.channel, self.inputs, levels.memory, pull)
-        sums = np.concatenate([white, coloured.ravel(), lagged.ravel(), inputs])
+        parts = pulled(self.time, self.channel, self.signal, self.inputs, levels.memory, pull)
+        white, (coloured, lagged), growing, inputs = parts
+        sums = np.concatenate([white, coloured.ravel(), lagged.ravel(), growing, inputs])
         return np.asarray(_per_logarithm(levels) * sums)
 
     def derivatives_times(self, levels: NoiseLevels, values: Float[np.ndarray, " n"]) -> Float[np.ndarray, "h n"]:
         """Derivative of the covariance with respect to each logarithm of a level, times `values`."""
-        moved = carried(self.time, self.channel, self.inputs, levels.memory, values)
+        moved = carried(self.time, self.channel, self.signal, self.inputs, levels.memory, values)
         return np.asarray(_per_logarithm(levels)[:, None] * moved)
 
 
@@ -83,6 +88,7 @@ def _per_logarithm(levels: NoiseLevels) -> Float[np.ndarray, " h"]:
         2.0 * levels.white**2,
         (2.0 * coloured).ravel(),
         (coloured / levels.memory).ravel(),
+        2.0 * levels.growing**2,
         2.0 * levels.inputs**2,
     )
     return np.concatenate(parts)
@@ -102,6 +108,7 @@ class Layout:
         present: np.ndarray,
         heard: InputNoise,
         spread: Float[np.ndarray, "t c"],
+        signal: Float[np.ndarray, "t c"],
     ) -> Layout:
         """Blocks of a trial.
 
@@ -115,11 +122,13 @@ class Layout:
             What noise of inputs makes.
         spread
             How many times its level the sensor noise of each sample is.
+        signal
+            What the noise of each sample may grow with.
         """
         count = max(1, round(present.sum() / BLOCK_ROWS))
         edges = [round(each) for each in np.linspace(0, len(time), count + 1)]
         measured = [(a, b) for a, b in pairwise(edges) if present[a:b].any()]
-        return cls(present.shape, tuple(_block(time, present, heard, spread, a, b) for a, b in measured))
+        return cls(present.shape, tuple(_block(time, present, heard, spread, signal, a, b) for a, b in measured))
 
     def whitener(self, levels: NoiseLevels) -> Whitener:
         """What turns noise of these levels into independent numbers of unit variance."""
@@ -170,6 +179,7 @@ def _block(
     present: np.ndarray,
     heard: InputNoise,
     spread: Float[np.ndarray, "t c"],
+    signal: Float[np.ndarray, "t c"],
     first: int,
     last: int,
 ) -> NoiseBlock:
@@ -181,7 +191,12 @@ def _block(
     at, which = np.concatenate(sample), np.concatenate(channel)
     own = spread[at, which]
     return NoiseBlock(
-        at * present.shape[1] + which, time[at], which, heard.covariance(at, which) / np.outer(own, own), own
+        at * present.shape[1] + which,
+        time[at],
+        which,
+        heard.covariance(at, which) / np.outer(own, own),
+        own,
+        signal[at, which] / own,
     )
 
 

@@ -28,6 +28,8 @@ class NoiseLevels:
         Of each process with a memory, by channel.
     memory
         Its correlation time [s].
+    growing
+        White noise of each output channel per unit of its signal.
     inputs
         Of each input, in its unit, after the low-pass filter.
     """
@@ -35,22 +37,25 @@ class NoiseLevels:
     white: Float[np.ndarray, " c"]
     coloured: Float[np.ndarray, "k c"]
     memory: Float[np.ndarray, "k c"]
+    growing: Float[np.ndarray, " c"]
     inputs: Float[np.ndarray, " j"]
 
     def logarithms(self) -> Float[np.ndarray, " h"]:
         """All numbers in one vector of logarithms."""
-        parts = (self.white, self.coloured.ravel(), self.memory.ravel(), self.inputs)
+        parts = (self.white, self.coloured.ravel(), self.memory.ravel(), self.growing, self.inputs)
         return np.asarray(np.log(np.concatenate(parts)))
 
     def at(self, logarithms: Float[np.ndarray, " h"]) -> NoiseLevels:
         """Levels of the same shape from such a vector."""
-        sizes = np.cumsum([self.white.size, self.coloured.size, self.memory.size])
-        white, coloured, memory, inputs = np.split(np.exp(logarithms), sizes)
-        return NoiseLevels(white, coloured.reshape(self.coloured.shape), memory.reshape(self.memory.shape), inputs)
+        sizes = np.cumsum([self.white.size, self.coloured.size, self.memory.size, self.growing.size])
+        white, coloured, memory, growing, inputs = np.split(np.exp(logarithms), sizes)
+        shaped = coloured.reshape(self.coloured.shape), memory.reshape(self.memory.shape)
+        return NoiseLevels(white, *shaped, growing, inputs)
 
     def times(self, sensors: Float[np.ndarray, " c"], inputs: Float[np.ndarray, " j"]) -> NoiseLevels:
         """All noise of each output channel, and that of each input, so many times as high."""
-        return NoiseLevels(self.white * sensors, self.coloured * sensors, self.memory, self.inputs * inputs)
+        noise = self.white * sensors, self.coloured * sensors
+        return NoiseLevels(*noise, self.memory, self.growing, self.inputs * inputs)
 
     @property
     def sensors(self) -> Float[np.ndarray, " c"]:

@@ -29,7 +29,7 @@ from geocontact.identify.optimise.bounded_gauss_newton import (
 )
 
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
-LONGEST = 2.0  # that a correlation time is: longer, and noise becomes what the model misses
+LONGEST = 2.0  # that a correlation time is, and how noise grows: longer, and noise becomes what the model misses
 ENOUGH = 1e-6  # nats that a step of the search must gain for another
 NEAR = 1.0  # nats gained by a step, below which secants amend the curvature
 CURVED = 0.2  # of what was expected, curvature along a step that a secant is believed
@@ -179,7 +179,8 @@ def most_likely(
 
 def searched(beliefs: NoisePriors) -> Float[np.ndarray, " h"]:
     """How many standard deviations of the prior each number is searched in, either way."""
-    kinds = beliefs.middle.white.size + beliefs.middle.coloured.size, beliefs.middle.memory.size
+    middle = beliefs.middle
+    kinds = middle.white.size + middle.coloured.size, middle.memory.size + middle.growing.size
     return np.repeat([FARTHEST, LONGEST, FARTHEST], [*kinds, beliefs.middle.inputs.size])
 
 

@@ -74,6 +74,19 @@ class NoiseSpectrum:
         own, slowest = max(means[0], first), max(min(means), first)  # smoothed rates may be slower than values
         longest = min(LONGEST / slowest, 0.5 / first)  # from there on a sum over frequencies runs backwards
         grid = np.linspace(0.0, longest, max(round((LAGS - 1) * longest * own / LONGEST), 1) + 1)
-        phase = 2.0 * np.pi * self.frequency * grid[:, None]
-        even, odd = np.cos(phase), np.sin(phase)
-        return grid, even @ power, -odd @ (power * self.rate), even @ (power * self.rate**2)
+        even, odd = _waves(self.frequency, grid, np.array([power, power * self.rate, power * self.rate**2]))
+        return grid, even[0], -odd[1], even[2]
+
+
+def _waves(
+    frequency: Float[np.ndarray, " f"], grid: Float[np.ndarray, " g"], weights: Float[np.ndarray, "k f"]
+) -> tuple[Float[np.ndarray, "k g"], Float[np.ndarray, "k g"]]:
+    """Weighed sums of cosines and of sines at evenly spaced lags from 0 on.
+
+    exp(iφ(a + b)) = exp(iφa) exp(iφb): of n lags 2√n have exponentials of their own.
+    """
+    inner = int(np.ceil(np.sqrt(len(grid))))
+    outer, phase = -(-len(grid) // inner), 2j * np.pi * frequency * (grid[1] if len(grid) > 1 else 0.0)
+    near, far = (np.exp(phase * (step * np.arange(n))[:, None]) for step, n in ((1, inner), (inner, outer)))
+    sums = np.array([((far * own) @ near.T).ravel()[: len(grid)] for own in weights])
+    return sums.real, sums.imag

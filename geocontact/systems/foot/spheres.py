@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import cos, sin
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from geocontact.chain.contact_law import contact_force, friction_coefficient
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.implicit import ATTEMPTS, TOLERANCE, next_load, nothing_known, require_convergence, start_over
 from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.links import Law, Loads, Values
+from geocontact.chain.tangents import towards
 from geocontact.geometry.kernels.compile import kernel
+from geocontact.systems.foot.slopes import BRANCH, ELASTIC, MEMORY, UNKNOWN, B, K, stand_slopes
 
 FOOT_GEOMETRY = LawParameters(
     {
@@ -24,9 +27,7 @@ FOOT_GEOMETRY = LawParameters(
     }
 )
 INPUTS = ("x", "y", "pitch")
-PX, PY, RADIUS, K, B = range(5)
-MEMORY = 2
-BRANCH, ELASTIC = range(MEMORY)
+PX, PY, RADIUS = range(3)
 
 
 @kernel
@@ -180,9 +181,16 @@ class FootSpheres:
 
     def spheres(self, values: Values) -> Float[np.ndarray, "five n"]:
         """Places, radii, stiffness and damping of the spheres."""
-        k = [values[f"k_{zone}"] for zone in self.zone]
-        b = [values[f"b_{zone}"] for zone in self.zone]
+        of_sphere, stiffness, damping = self._zones
+        k, b = (np.array([values[name] for name in names])[of_sphere] for names in (stiffness, damping))
         return np.array([self.px, self.py, self.radius, k, b])
+
+    @cached_property
+    def _zones(self) -> tuple[Int[np.ndarray, " n"], list[str], list[str]]:
+        """Which zone each sphere is of, and what stiffness and damping of the zones are called."""
+        zones = list(dict.fromkeys(self.zone))
+        at = np.array([zones.index(zone) for zone in self.zone], int)
+        return at, [f"k_{zone}" for zone in zones], [f"b_{zone}" for zone in zones]
 
     def deflection(
         self, movement: DifferentiatedInputs, values: Values
@@ -207,3 +215,28 @@ class FootSpheres:
         require_convergence(unsolved, len(normal), n[0])
         arm = self.px - np.sin(pose[2])[:, None] * self.radius
         return Loads(normal, rub(normal, speed, rate[2], numbers, n), arm)
+
+    def changes(
+        self, movement: DifferentiatedInputs, law: Law, values: Values, others: Sequence[Values]
+    ) -> tuple[Loads, list[Loads | None]] | None:
+        """Forces along a movement, and how they change towards other values (`chain.tangents`)."""
+        n, numbers, spheres = self.slots.numbers(values), law.slots.numbers(values), self.spheres(values)
+        if n[0] != 0.0:
+            return None
+        pose, rate = self.pose(movement)
+        depth, closing, speed = approach(pose, rate, spheres)
+        dlaw = towards(law.slots, values, others)
+        dspheres = np.array([self.spheres(other) - spheres for other in others]).reshape(-1, *spheres.shape)
+        known = ~((towards(self.slots, values, others)[:, 0] != 0.0) | dlaw[:, UNKNOWN].any(axis=1))
+        moving = known & (dlaw.any(axis=1) | dspheres.any(axis=(1, 2)))
+        normal, slopes = stand_slopes(movement.time, depth, closing, spheres, numbers, dspheres[moving], dlaw[moving])
+        found = np.zeros((len(others), *normal.shape))
+        found[moving] = slopes
+        tangential = rub(normal, speed, rate[2], numbers, n)
+        share = np.divide(tangential, normal, out=np.zeros_like(normal), where=normal > 0.0)
+        nothing = np.zeros_like(normal)
+        arm = self.px - np.sin(pose[2])[:, None] * self.radius
+        more = [
+            Loads(force, force * share, nothing) if there else None for force, there in zip(found, known, strict=True)
+        ]
+        return Loads(normal, tangential, arm), more

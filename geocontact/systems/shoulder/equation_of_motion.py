@@ -69,6 +69,9 @@ FIRST, WIDER, HALVINGS = 0.01, 1.5, 52
 WX, WY, WX_RATE, WY_RATE = range(4)
 ANGLE, RATE, ACCELERATION, CHORD, JERK, STEP, FRICTION, GIVEN, FORCE, PLACE = range(10)
 """What is remembered of a step, beside what the law remembers; `PLACE` is where τ was last looked up."""
+SMOOTH, ARM, ARM_RATE, SAMPLE, STATE, REMEMBERED, COLUMNS = 0, 1, 2, 3, 4, 14, 19
+"""What is recorded of a step: whether e'' was taken as smooth, the recorded arm's angle and rate, which sample it ends
+at (-1 between samples), what is remembered of it and what the law remembers."""
 
 
 @kernel
@@ -261,6 +264,30 @@ def step(
 
 
 @kernel
+def recorded(
+    path: Float[np.ndarray, "rows nineteen"],
+    at: int,
+    smooth: bool,
+    arm: float,
+    rate: float,
+    sample: int,
+    state: Float[np.ndarray, " ten"],
+    memory: Float[np.ndarray, " memory"],
+) -> Float[np.ndarray, "more nineteen"]:
+    """The path with one more step in row `at`, twice as long where there was no room."""
+    if at == len(path):
+        longer = np.empty((2 * at, COLUMNS))
+        longer[:at] = path
+        path = longer
+    path[at, SMOOTH], path[at, ARM], path[at, ARM_RATE], path[at, SAMPLE] = 1.0 if smooth else 0.0, arm, rate, sample
+    for k in range(state.size):
+        path[at, STATE + k] = state[k]
+    for k in range(memory.size):
+        path[at, REMEMBERED + k] = memory[k]
+    return path
+
+
+@kernel
 def swing(
     time: Float[np.ndarray, " t"],
     arm: Float[np.ndarray, " t"],
@@ -269,8 +296,8 @@ def swing(
     n: Float[np.ndarray, " slots"],
     table: Float[np.ndarray, "two k"],
     law: Float[np.ndarray, " numbers"],
-) -> tuple[Float[np.ndarray, "four t"], int]:
-    """Angle e [rad], force F [N], u [m] and u' [m/s] at every sample, and how many steps have no solution.
+) -> tuple[Float[np.ndarray, "four t"], int, Float[np.ndarray, "rows nineteen"]]:
+    """Angle e [rad], force F [N], u [m] and u' [m/s] at every sample; how many steps have no solution; all steps.
 
     Between samples the recorded arm's angle and rate run along cubics. Steps are at most `longest` [s].
     """
@@ -286,6 +313,8 @@ def swing(
     unsolved = 0 if known else 1
     longest *= min(1.0, WELL_RESOLVED / max(n[0] * sqrt(law[0] / (n[3] + n[20])), 1e-9))
     share = SETTING_OUT
+    path = recorded(np.empty((2 * time.size, COLUMNS)), 0, False, arm[0], rate[0], 0, before, old)
+    steps = 1
     for i in range(time.size):
         whole = time[i] - time[i - 1] if i else 0.0
         widest = 1.0 / max(np.ceil(whole / longest - 1e-6), 1.0)
@@ -293,13 +322,14 @@ def swing(
         while done < 1.0:
             share = min(share, widest, 1.0 - done)
             ended = done + share > 1.0 - 1e-9
-            if ended:
-                attachment(arm[i], rate[i], n, w)
-            else:
+            here, here_rate = arm[i], rate[i]
+            if not ended:
                 at = time[i - 1] + (done + share) * whole
-                attachment(between(time, arm, i - 1, at), between(time, rate, i - 1, at), n, w)
+                here, here_rate = between(time, arm, i - 1, at), between(time, rate, i - 1, at)
+            attachment(here, here_rate, n, w)
             h = share * whole
             after[PLACE] = before[PLACE]
+            smooth = search[SLOPE] < STIFF
             off, solved = step(h, w, n, table, law, old, new, before, after, search, inner)
             rough = off * h / JUMP
             if rough > 1.0 and h > SHORTEST:
@@ -308,6 +338,8 @@ def swing(
             unsolved += not solved
             done = 1.0 if ended else done + share
             old, new, before, after = new, old, after, before
+            path = recorded(path, steps, smooth, here, here_rate, i if ended else -1, before, old)
+            steps += 1
             if rough < 0.1:
                 share *= 2.0
         out[0, i], out[1, i] = before[ANGLE], before[FORCE]
@@ -315,4 +347,4 @@ def swing(
         along = w[WX] * sine - w[WY] * cosine
         out[2, i] = -(w[WX] * cosine + w[WY] * sine)
         out[3, i] = before[RATE] * along - w[WX_RATE] * cosine - w[WY_RATE] * sine
-    return out, unsolved
+    return out, unsolved, path[:steps]
