@@ -16,7 +16,7 @@ export PYTHONDONTWRITEBYTECODE :=
 TOGETHER := -rs --durations 25 --durations-min 5 -n auto --maxprocesses 4 --dist loadscope --no-loadscope-reorder
 
 .DELETE_ON_ERROR:
-.PHONY: demo test shapes slow long real check lint types imports docs site oracle lock page clean
+.PHONY: demo test shapes slow rest long real check lint types imports docs site oracle lock page clean
 
 demo: $(VENV)/core.stamp
 	@$(BIN)/geocontact demo
@@ -35,6 +35,12 @@ shapes: $(VENV)/full.stamp
 # What takes longer than a few seconds: notebooks, whole diagnoses, browsers, long recordings
 slow: $(VENV)/full.stamp
 	@GEOCONTACT_UNCHECKED=1 $(BIN)/python -m pytest -m "slow and not long and not oracle and not real" $(TOGETHER)
+
+# All of `test` and `slow` at once, as .ci/run does after `shapes`: each test is collected and each sample made once. Quick
+# tests of the rooms of `shapes` have been run there, with checks
+rest: $(VENV)/full.stamp
+	@GEOCONTACT_UNCHECKED=1 GEOCONTACT_CHECKED="$(SHAPES)" $(BIN)/python -m pytest \
+		-m "not shapes and not long and not oracle and not real" $(TOGETHER)
 
 # What lasts longest of it and is not run with every change: before a release
 long: $(VENV)/full.stamp

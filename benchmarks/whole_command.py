@@ -79,13 +79,13 @@ class Whole:
 def whole_command(pair: Pair, rounds: int) -> Whole:
     """Run it once to load every cache and then `rounds` times."""
     with tempfile.TemporaryDirectory() as folder:
-        arguments = _written(pair, Path(folder))
+        arguments = words_of(pair, Path(folder))
         runs = [once(arguments, AREA) for _ in range(rounds + 1)]
     parts = {name: [run[name] for run in runs[1:]] for name in runs[0] if name != "all"}
     return Whole([run["all"] for run in runs[1:]], parts)
 
 
-def _written(pair: Pair, folder: Path) -> list[str]:
+def words_of(pair: Pair, folder: Path) -> list[str]:
     """The pair as files, and the words of the command."""
     for name, body in (("moving", pair.moving), ("fixed", pair.fixed)):
         (folder / f"{name}.stl").write_bytes(_stl(body, name))

@@ -21,7 +21,7 @@ from jaxtyping import install_import_hook
 from tests.drawing import undrawn
 from tests.elsewhere import Elsewhere, another_process, here
 from tests.one_core import one_core
-from tests.scheduling import FileByFile, lasting_first
+from tests.scheduling import FileByFile, lasting_first, run_before
 
 ROOT = Path(__file__).resolve().parents[1]
 REAL = ROOT / "tests" / "real"
@@ -29,6 +29,8 @@ ROOMS_OF_CALLS = {ROOT / "tests" / "analyses", ROOT / "tests" / "cli", ROOT / "t
 PER_CENT = "ignore:.*taken as per cent of a cycle:geocontact.data.errors.InputWarning"
 """Right of DM's fluoroscopy, whose time has no unit."""
 UNCHECKED = bool(os.environ.get("GEOCONTACT_UNCHECKED"))
+CHECKED = frozenset(os.environ.get("GEOCONTACT_CHECKED", "").split())
+"""Folders and files below tests whose quick tests were run with shapes checked: `make rest` leaves them out."""
 COMPILED = "geocontact.geometry.kernels"  # numba reads these functions' own source; nothing may be wrapped around them
 
 one_core()
@@ -71,7 +73,7 @@ def hurried(request: pytest.FixtureRequest) -> Iterator[None]:
         yield
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark what lies below tests/real, and what asks for the library opensim; files that are slow come first.
 
     Several processes take file by file; one that is slow and comes last would keep a single process busy at the end.
@@ -84,6 +86,10 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(pytest.mark.oracle)
     slow = {item.path for item in items if item.get_closest_marker("slow")}
     items.sort(key=lambda item: lasting_first(slow, item.path))
+    again = [each for each in items if run_before(each.path, each.get_closest_marker("slow") is not None, CHECKED)]
+    if again:
+        config.hook.pytest_deselected(items=again)
+        items[:] = [each for each in items if each not in set(again)]
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -18,6 +18,12 @@ class FileByFile(LoadScopeScheduling):
         return nodeid if nodeid.partition("::")[0] in ONE_BY_ONE else super()._split_scope(nodeid)
 
 
+def run_before(path: Path, slow: bool, rooms: frozenset[str]) -> bool:
+    """Whether a test was run with shapes checked: quick, in one of these folders or files below tests."""
+    below = path.relative_to(ROOT / "tests")
+    return not slow and any(each.as_posix() in rooms for each in (below, *below.parents))
+
+
 def lasting_first(slow: set[Path], path: Path) -> tuple[bool, bool]:
     """What a file is sorted by: slow ones come first, and of these the ones dealt out one by one."""
     return path not in slow, path.relative_to(ROOT).as_posix() not in ONE_BY_ONE

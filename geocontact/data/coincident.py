@@ -1,9 +1,9 @@
-"""Vertices at the same place: STL files repeat every vertex in each face."""
+"""Vertices at the same place, as STL files repeat every vertex in each face; faces with the same vertices."""
 
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
 
 def first_of_coincident(vertices: Float[np.ndarray, "n 3"]) -> Int[np.ndarray, " n"]:
@@ -19,3 +19,17 @@ def first_of_coincident(vertices: Float[np.ndarray, "n 3"]) -> Int[np.ndarray, "
     representative = np.empty(len(order), dtype=np.int64)
     representative[order] = first[np.cumsum(opens) - 1]
     return representative
+
+
+def repeated_faces(faces: Int[np.ndarray, "m 3"]) -> Bool[np.ndarray, " m"]:
+    """Which faces have the same three vertices, in any order, as a face before them."""
+    corners = faces.astype(np.int32)
+    corners.sort(axis=1)
+    order = np.lexsort(corners.T)
+    same = np.ones(max(len(faces) - 1, 0), dtype=bool)
+    for column in corners.T:
+        ranked = column[order]
+        same &= ranked[1:] == ranked[:-1]
+    again = np.zeros(len(faces), dtype=bool)
+    again[order[1:]] = same
+    return again

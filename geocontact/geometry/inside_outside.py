@@ -59,7 +59,7 @@ def _patches(faces: Int[np.ndarray, "k 3"], count: int) -> Int[np.ndarray, " k"]
 def _is_boundary(surface: Body, members: Int[np.ndarray, " k"]) -> bool:
     """Whether most of the largest faces of a patch have the outside in front and the inside behind."""
     largest = members[np.argsort(-surface.face_area[members], kind="stable")[:WITNESSES]]
-    middle = surface.corners[largest].mean(axis=1)
+    middle = surface.corners_of(largest).mean(axis=1)
     step = 0.05 * np.sqrt(surface.face_area[largest])[:, None] * surface.face_normal[largest]
     front, back = winding_signs(surface, middle + step), winding_signs(surface, middle - step)
     return bool(2 * np.count_nonzero((front == 1) & (back == -1)) > len(largest))
@@ -90,7 +90,7 @@ def disagreement(surface: Body) -> float:
     rng = np.random.default_rng(0)
     some = rng.permutation(len(surface.faces))[: PROBES // 4]
     step = 0.25 * np.sqrt(surface.face_area[some])[:, None] * surface.face_normal[some]
-    middle = surface.corners[some].mean(axis=1)
+    middle = surface.corners_of(some).mean(axis=1)
     box = surface.tree.root
     around = rng.uniform(box[:3], box[3:], (PROBES // 2, 3))
     probes = np.concatenate([middle + step, middle - step, around])

@@ -58,7 +58,7 @@ def phong_offset(
     face, points
         Points on faces, in the surface's frame [m].
     """
-    to_corner = surface.corners[face] - (points - surface.centre)[:, None, :]
+    to_corner = surface.corners_of(face) - (points - surface.centre)[:, None, :]
     height = np.einsum("nki,nki->nk", to_corner, normals[face])
     return np.asarray(0.5 * np.einsum("nk,nk->n", _shares(to_corner), height))
 
@@ -73,7 +73,7 @@ def phong_slope(
 
     The offset is quadratic in each triangle, so that the second one is the same everywhere in it.
     """
-    corners = surface.corners[face]
+    corners = surface.corners_of(face)
     to_corner = corners - (points - surface.centre)[:, None, :]
     opposite = np.roll(corners, 1, axis=1) - np.roll(corners, -1, axis=1)
     twice = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

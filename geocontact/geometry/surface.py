@@ -9,13 +9,14 @@ import igl
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from geocontact.data.coincident import repeated_faces
 from geocontact.data.mesh import Mesh
 from geocontact.geometry.inside_outside import doubtful_faces, normals_agree, resolve_inside_outside
 from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
-from geocontact.geometry.kernels.binary import build
+from geocontact.geometry.kernels.binary import Binary, build
 from geocontact.geometry.kernels.tree import BoxTree
-from geocontact.geometry.kernels.triangle import triangle_frames
-from geocontact.geometry.kernels.wide import widen
+from geocontact.geometry.kernels.triangle import LEAF, triangle_frames
+from geocontact.geometry.kernels.wide import ROWS, widen
 from geocontact.geometry.proximity import Proximity
 from geocontact.geometry.pseudonormals import pseudonormals
 from geocontact.geometry.topology import Topology, signed_volume, topology
@@ -93,10 +94,14 @@ class Surface:
         """Vertices about the centre [m]."""
         return np.asarray(self.vertices - self.centre)
 
-    @cached_property
+    @property
     def corners(self) -> Float[np.ndarray, "m 3 3"]:
-        """Corner positions of each face about the centre [m]."""
+        """Corner positions of each face about the centre [m]; not kept, as they are more than all the rest."""
         return np.asarray(self.local[self.faces])
+
+    def corners_of(self, face: Int[np.ndarray, " k"]) -> Float[np.ndarray, "k 3 3"]:
+        """Those of some faces."""
+        return np.asarray(self.local[self.faces[face]])
 
     @cached_property
     def face_area(self) -> Float[np.ndarray, " m"]:
@@ -107,11 +112,7 @@ class Surface:
     @cached_property
     def repeated(self) -> Bool[np.ndarray, " m"]:
         """Faces with the same three corners as an earlier one: the same piece of surface, which counts once."""
-        corners = np.sort(self.topology.merged[self.faces], axis=1)
-        _, first = np.unique(corners, axis=0, return_index=True)
-        again = np.ones(len(self.faces), bool)
-        again[first] = False
-        return again
+        return repeated_faces(self.topology.merged[self.faces])
 
     @cached_property
     def face_normal(self) -> Float[np.ndarray, "m 3"]:
@@ -122,8 +123,8 @@ class Surface:
     @cached_property
     def edge_length(self) -> Float[np.ndarray, "m 3"]:
         """Length of the edge opposite to each corner [m]."""
-        c = self.corners
-        return np.asarray(np.linalg.norm(np.roll(c, -1, axis=1) - np.roll(c, 1, axis=1), axis=2))
+        a, b, c = (self.local[corner] for corner in self.faces.T)
+        return np.stack([np.linalg.norm(one - other, axis=1) for one, other in ((b, c), (c, a), (a, b))], axis=1)
 
     @cached_property
     def reach(self) -> Float[np.ndarray, " n"]:
@@ -144,17 +145,22 @@ class Surface:
     @cached_property
     def tree(self) -> BoxTree:
         """The bounded tree over the faces, about the centre."""
-        corners = self.corners
-        binary = build(corners.min(axis=1), corners.max(axis=1))
+        binary = build(*_boxes(self.corners))
         order = binary.order
-        records = triangle_frames(self.local, np.ascontiguousarray(self.faces[order]))
-        normals = pseudonormals(records, self.faces[order], self.topology.merged)
-        normals = -normals if self.inside_out else normals
+        normals, row, boxes, child, leaves, slots, fill = self._laid_out(binary)
         if self.topology.closed:
-            normals[doubtful_faces(self, binary)[order]] = 0.0
-        oriented = np.sign(np.einsum("ij,ij->i", records[:, 3:6], normals[:, 0]))
-        boxes, child, leaves, slots, fill = widen(binary, records, oriented)
-        return BoxTree(binary.root, boxes, child, leaves, slots, fill, order, normals.ravel())
+            doubtful = doubtful_faces(self, binary)[order]
+            row[doubtful] = len(normals) - 1
+            leaves.reshape(-1, ROWS, LEAF)[:, ROWS - 1][doubtful[slots].reshape(-1, LEAF)] = 0.0
+        return BoxTree(binary.root, boxes, child, leaves, slots, fill, order, normals.ravel(), row.ravel())
+
+    def _laid_out(self, binary: Binary) -> tuple[np.ndarray, ...]:
+        """Normals and their rows, boxes, children, leaves, slots and fill, where no face is in doubt."""
+        faces = np.ascontiguousarray(self.faces[binary.order])
+        records = triangle_frames(self.local, faces)
+        normals, row = pseudonormals(records, faces, self.topology.merged)
+        outside = -1.0 if self.inside_out else 1.0
+        return outside * normals, row, *widen(binary, records, np.where(records[:, 14] > 0.0, outside, 0.0))
 
     @cached_property
     def walk(self) -> Int[np.ndarray, " n"]:
@@ -166,7 +172,10 @@ class Surface:
     @cached_property
     def normals_trusted(self) -> bool:
         """Whether sides may be read from normals; otherwise winding numbers decide, which is slower."""
-        return self.topology.closed and normals_agree(self)
+        trusted = self.topology.closed and normals_agree(self)
+        if trusted:
+            vars(self).pop("winding", None)  # as large as the tree, and hardly asked again
+        return trusted
 
     @cached_property
     def winding(self) -> igl.FastWindingNumberBVH:
@@ -195,6 +204,11 @@ class Surface:
         normal = _outward(local - closest, signed, self.face_normal[face])
         normal[~found] = np.nan
         return Proximity(signed, closest + self.centre, normal, face, self.closed)
+
+
+def _boxes(corners: Float[np.ndarray, "m 3 3"]) -> tuple[Float[np.ndarray, "m 3"], Float[np.ndarray, "m 3"]]:
+    """Lower and upper corner of the box of each face."""
+    return corners.min(axis=1), corners.max(axis=1)
 
 
 def _outward(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.data.coincident import first_of_coincident
+from geocontact.data.coincident import first_of_coincident, repeated_faces
 
 
 @dataclass(frozen=True)
@@ -54,12 +54,11 @@ def topology(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"]) 
     _, inverse, count = np.unique(key, return_inverse=True, return_counts=True)
     ahead = np.bincount(inverse, weights=forward, minlength=len(count))
     regular = (count == 2) & (ahead == 1)
-    doubled = len(f) - len(np.unique(np.sort(f, axis=1), axis=0))
     return Topology(
         edges=len(count),
         open_edges=int((count == 1).sum()),
         irregular_edges=int((~regular & (count != 1)).sum()),
-        duplicate_faces=doubled,
+        duplicate_faces=int(repeated_faces(f).sum()),
         merged=merged,
     )
 

@@ -141,7 +141,7 @@ def _depth_slopes(
 
 def _along_edge(moving: Surface, face: np.ndarray, closest: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3 3"]:
     """Projector onto the edge that each point lies on; zero at corners."""
-    corners = moving.corners[face]
+    corners = moving.corners_of(face)
     to_corner = corners - (closest - moving.centre)[:, None, :]
     edges = np.roll(corners, -1, axis=1) - np.roll(corners, 1, axis=1)  # opposite to each corner
     length = np.maximum(np.linalg.norm(edges, axis=2), 1e-300)

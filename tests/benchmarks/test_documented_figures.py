@@ -286,6 +286,15 @@ def test_speed_of_the_whole_command() -> None:
     assert f"took {fcpw:.2f} and {warp:.2f} s" in text
 
 
+def test_memory_of_large_meshes() -> None:
+    told = results("large_meshes")["figures"]
+    text = " ".join((ROOT / "docs/reference/speed.md").read_text(encoding="utf-8").split())
+    assert f"{told['faces']:,}".replace(",", " ") + " faces each" in text
+    assert f"takes {told['peak_MB'] / 1e3:.1f} GB and {told['cpu_s']:.0f} CPU seconds" in text
+    worst = max(abs(told[f"relative_error_{body}"]) for body in ("moving", "fixed"))
+    assert f"off by {worst:.0e} at most" in text
+
+
 def test_accuracy_against_closed_forms() -> None:
     told = {(one["case"], one["rule"]): one for one in results("accuracy")["rows"] if one["surface"] == "moving"}
     pairs = {"ball over plane": "sphere on plane", "ball over ball": "sphere on sphere", "ball in cup": "sphere in cup"}

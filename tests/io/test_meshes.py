@@ -17,10 +17,11 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
+from geocontact.data.coincident import repeated_faces
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.mesh.faces import read_face_indices
 from geocontact.io.mesh.merge import merge_coincident
-from geocontact.io.mesh.mesh_checks import SIZES, degenerate, repeated, require_plausible
+from geocontact.io.mesh.mesh_checks import SIZES, degenerate, require_plausible
 from geocontact.io.mesh.meshes import READERS, read_mesh
 from geocontact.io.text.units import ANGLE, LENGTH, split_header
 
@@ -439,7 +440,7 @@ def test_repeated_equals_a_set_of_rows(rows):
         key = tuple(sorted(row))
         expected.append(key in seen)
         seen.add(key)
-    np.testing.assert_array_equal(repeated(np.array(rows)), expected)
+    np.testing.assert_array_equal(repeated_faces(np.array(rows)), expected)
 
 
 @pytest.mark.parametrize(

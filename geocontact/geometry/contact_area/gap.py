@@ -33,11 +33,14 @@ class Edges:
         walk = surface.walk
         place = np.full(len(surface.vertices), -1)
         place[walk] = np.arange(len(walk))
-        faces = place[surface.faces]
-        ends = np.sort(np.concatenate([faces[:, [1, 2]], faces[:, [2, 0]], faces[:, [0, 1]]]), axis=1)
-        _, once = np.unique(ends[:, 0] * np.int64(len(walk)) + ends[:, 1], return_index=True)
-        length = surface.edge_length.T.ravel()[once]
-        return cls(np.ascontiguousarray(ends[once]), length, surface.reach[walk])
+        a, b, c = (place[corner] for corner in surface.faces.T)
+        pairs = ((b, c), (c, a), (a, b))
+        key, once = np.unique(
+            np.concatenate([np.minimum(s, e) * np.int64(len(walk)) + np.maximum(s, e) for s, e in pairs]),
+            return_index=True,
+        )
+        ends = np.stack(np.divmod(key, len(walk)), axis=1)
+        return cls(ends, surface.edge_length.T.ravel()[once], surface.reach[walk])
 
 
 @dataclass(frozen=True, eq=False)

@@ -88,8 +88,7 @@ class Sampled:
         points = np.ascontiguousarray(surface.local[walk])
         faces = np.ascontiguousarray(place[surface.faces[index]])
         across = np.ones(len(walk)) if split is None else split.height(surface.vertices[walk])
-        area = surface.face_area[index]
-        corners = points[faces]
+        area = _some(surface.face_area, index)
         limit = threshold + surface.reach[walk]
         return cls(
             surface=surface,
@@ -97,9 +96,9 @@ class Sampled:
             faces=faces,
             index=index,
             across=across,
-            edges=surface.edge_length[index],
+            edges=_some(surface.edge_length, index),
             area=area,
-            moment=area[:, None] * corners.mean(axis=1),
+            moment=area[:, None] * _middle(points, faces),
             negative=area * _negative_share(across[faces]),
             limit=limit,
             spheres=chunk_spheres(points, limit),
@@ -114,6 +113,17 @@ class Sampled:
         spheres = self.spheres.copy()
         spheres[:, :3] = move(np.ascontiguousarray(self.spheres[:, :3]), rotation, shift)
         return measure(other, points, self.limit, self.across, spheres)
+
+
+def _some(values: np.ndarray, index: Int[np.ndarray, " m"]) -> np.ndarray:
+    """Those of rising numbers, the very array where they are all."""
+    return values if len(index) == len(values) else values[index]
+
+
+def _middle(points: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"]) -> Float[np.ndarray, "m 3"]:
+    """Middle of each face."""
+    a, b, c = (points[corner] for corner in faces.T)
+    return (a + b + c) / 3.0
 
 
 def measure(

@@ -64,7 +64,7 @@ def signed_distances(tree, points, limit, sphere, signed):
     slot = np.full(n, -1)
     closest = np.full((n, 3), np.nan)
     root, boxes, child, leaves, fill = tree.root, tree.boxes, tree.child, tree.leaves, tree.fill
-    slots, normal = tree.slots, tree.normal
+    slots, normal, row = tree.slots, tree.normal, tree.row
     nodes, keys, square, fan = scratch()
     for c in range(len(sphere)):
         first = c * CHUNK
@@ -75,10 +75,10 @@ def signed_distances(tree, points, limit, sphere, signed):
         middle = np.sqrt(d2)
         central = 1  # side of the middle of the chunk
         if signed and hint >= 0:
-            _, _, _, central = side_of(leaves, slots, normal, hint, cx, cy, cz)
+            _, _, _, central = side_of(leaves, slots, normal, row, hint, cx, cy, cz)
         elif signed and in_box(root, cx, cy, cz):
             _, place = nearest(boxes, child, leaves, fill, cx, cy, cz, np.inf, nodes, keys, square, fan)
-            _, _, _, central = side_of(leaves, slots, normal, place, cx, cy, cz)
+            _, _, _, central = side_of(leaves, slots, normal, row, place, cx, cy, cz)
         for i in range(first, last):
             distance[i] = limit[i]
             side[i] = central
@@ -98,12 +98,12 @@ def signed_distances(tree, points, limit, sphere, signed):
                 hint = place  # a good guess for the next point
                 slot[i] = slots[place]
                 distance[i] = np.sqrt(d2)
-                closest[i, 0], closest[i, 1], closest[i, 2], which = side_of(leaves, slots, normal, place, x, y, z)
+                closest[i, 0], closest[i, 1], closest[i, 2], which = side_of(leaves, slots, normal, row, place, x, y, z)
                 if signed:
                     side[i] = which
             elif signed and away >= limit[i]:  # something may lie between the point and the middle of its chunk
                 side[i] = 1
                 if in_box(root, x, y, z):
                     _, place = nearest(boxes, child, leaves, fill, x, y, z, np.inf, nodes, keys, square, fan)
-                    _, _, _, side[i] = side_of(leaves, slots, normal, place, x, y, z)
+                    _, _, _, side[i] = side_of(leaves, slots, normal, row, place, x, y, z)
     return distance, side, slot, closest

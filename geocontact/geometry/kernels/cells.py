@@ -70,7 +70,7 @@ def measured_cells(tree, low, edge, count, signed):
             for c in range(n2):
                 x, y, z = low[0] + (a + 0.5) * edge, low[1] + (b + 0.5) * edge, low[2] + (c + 0.5) * edge
                 d2, hint = _found(boxes, child, leaves, fill, x, y, z, hint, nodes, keys, square, fan)
-                px, py, pz, which = side_of(leaves, tree.slots, tree.normal, hint, x, y, z)
+                px, py, pz, which = side_of(leaves, tree.slots, tree.normal, tree.row, hint, x, y, z)
                 slack, least, most = 0.0, np.inf, 0.0
                 for i in range(2):
                     for j in range(2):

@@ -88,7 +88,7 @@ def areas_at(tree, cells, points, faces, area, start, chunks, threshold, signed,
     poses, n = len(rotation), len(points)
     found, slope, doubt = np.zeros(poses), np.zeros((poses, 6)), np.zeros(poses, np.int64)
     boxes, child, leaves, slots = tree.boxes, tree.child, tree.leaves, tree.slots
-    fill, normal = tree.fill, tree.normal
+    fill, normal, row = tree.fill, tree.normal, tree.row
     low, count, coarse, n_fine = cells.low, cells.shape, cells.coarse, cells.n
     state, block, first_coarse, near = cells.state, cells.block, cells.first, cells.near
     sides, places = cells.side, cells.place
@@ -121,7 +121,7 @@ def areas_at(tree, cells, points, faces, area, start, chunks, threshold, signed,
                         kind[v] = verdict(near, sides, cell[v], about, limit2, x, y, z)
                     if kind[v] == OPEN:
                         doubt[pose] += _measure(
-                            boxes, child, leaves, slots, fill, normal, places, signed, v, where, cell, kind, value,
+                            boxes, child, leaves, slots, fill, normal, row, places, signed, v, where, cell, kind, value,
                             unit, nodes, keys, square, fan,
                         )  # fmt: skip
                     if kind[v] == WITHIN or (kind[v] == MEASURED and value[v] <= threshold):
@@ -134,7 +134,7 @@ def areas_at(tree, cells, points, faces, area, start, chunks, threshold, signed,
                     v = faces[face, j]
                     if kind[v] != MEASURED:
                         doubt[pose] += _measure(
-                            boxes, child, leaves, slots, fill, normal, places, signed, v, where, cell, kind, value,
+                            boxes, child, leaves, slots, fill, normal, row, places, signed, v, where, cell, kind, value,
                             unit, nodes, keys, square, fan,
                         )  # fmt: skip
                 total += _cut(faces[face], area[face], threshold, value, where, unit, within, f, share, slope[pose])
@@ -167,8 +167,8 @@ def _pull(slope, by, at, unit):
 
 @kernel
 def _measure(
-    boxes, child, leaves, slots, fill, normal, places, signed, v, where, cell, kind, value, unit, nodes, keys, square,
-    fan
+    boxes, child, leaves, slots, fill, normal, row, places, signed, v, where, cell, kind, value, unit, nodes, keys,
+    square, fan
 ):  # fmt: skip
     """Signed distance of one corner and its gradient, put into `value` and `unit`; 1 where it has no side."""
     x, y, z = where[v, 0], where[v, 1], where[v, 2]
@@ -180,7 +180,7 @@ def _measure(
         limit2 = (x - qx) ** 2 + (y - qy) ** 2 + (z - qz) ** 2
     d2, nearer = nearest(boxes, child, leaves, fill, x, y, z, limit2, nodes, keys, square, fan)
     place = nearer if nearer >= 0 else place
-    qx, qy, qz, side = side_of(leaves, slots, normal, place, x, y, z)
+    qx, qy, qz, side = side_of(leaves, slots, normal, row, place, x, y, z)
     distance = np.sqrt(d2)
     lost = 1 if signed and side == 0 and distance > SURE else 0
     if not signed:

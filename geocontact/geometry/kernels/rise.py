@@ -94,7 +94,7 @@ def free_above(tree, cx, cy, cz, nx, ny, nz, height, radius):
     step = 0.5 * (max(height, -radius) + radius)
     x, y, z = cx + step * nx, cy + step * ny, cz + step * nz
     _, found = nearest(tree.boxes, tree.child, tree.leaves, tree.fill, x, y, z, np.inf, nodes, keys, square, fan)
-    _, _, _, side = side_of(tree.leaves, tree.slots, tree.normal, found, x, y, z)
+    _, _, _, side = side_of(tree.leaves, tree.slots, tree.normal, tree.row, found, x, y, z)
     return side > 0
 
 

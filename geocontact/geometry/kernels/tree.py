@@ -19,8 +19,8 @@ class BoxTree(NamedTuple):
 
     root (6,) lower and upper corner of everything; boxes, child, leaves, slots, fill as `widen` makes them, a *place*
     being a leaf times LEAF plus a position in it; face (m,) the face of each slot;
-    normal (m, 7, 3), flat, angle-weighted pseudo-normals of the seven features of each slot, zero where a feature
-    touches a degenerate or doubtful face and has no trustworthy normal.
+    normal (k, 3), flat, angle-weighted pseudo-normals, each once, zero where a feature touches a degenerate or doubtful
+    face and has no trustworthy normal; row (m, 6), flat, which of them the edges and corners of each slot have.
     """
 
     root: np.ndarray
@@ -31,6 +31,7 @@ class BoxTree(NamedTuple):
     fill: np.ndarray
     face: np.ndarray
     normal: np.ndarray
+    row: np.ndarray
 
 
 @kernel
@@ -93,7 +94,7 @@ def offset(place):
 
 
 @kernel
-def side_of(leaves, slots, normal, place, px, py, pz):
+def side_of(leaves, slots, normal, row, place, px, py, pz):
     """Closest point on a triangle and the side the point is on: 1 outside, -1 inside, 0 where normals cannot tell.
 
     Angle-weighted pseudo-normals: Baerentzen & Aanaes, Signed distance computation using the angle weighted
@@ -104,7 +105,7 @@ def side_of(leaves, slots, normal, place, px, py, pz):
     if feature == 0:
         along = height * leaves[o + U(17 * LEAF)]
         return qx, qy, qz, int(along > 0.0) - int(along < 0.0)
-    i = (slots[place] * 7 + feature) * 3
+    i = 3 * row[slots[place] * 6 + feature - 1]
     nx, ny, nz = normal[i], normal[i + 1], normal[i + 2]
     dx, dy, dz = px - qx, py - qy, pz - qz
     along = dx * nx + dy * ny + dz * nz

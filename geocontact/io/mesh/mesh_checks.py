@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from geocontact.data.coincident import repeated_faces
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.text.units import LENGTH, MESH_UNITS
 
@@ -90,7 +91,7 @@ def check_faces(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"
         what = f"none of its faces ({len(faces)}) has an area: the corners of each lie on one line"
         raise InputError(file, "", what, "export the surface again")
     _warn(flat, "degenerate faces (zero area), ignored in areas", file)
-    _warn(repeated(faces), "duplicate faces (same three vertices as an earlier face)", file)
+    _warn(repeated_faces(faces), "duplicate faces (same three vertices as an earlier face)", file)
 
 
 def degenerate(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"]) -> Bool[np.ndarray, " m"]:
@@ -102,20 +103,6 @@ def degenerate(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"]
         normal = np.cross(b - a, c - a)
         flat[start : start + _BLOCK] = np.sum(normal * normal, axis=1) <= (FLAT * longest) ** 2
     return flat
-
-
-def repeated(faces: Int[np.ndarray, "m 3"]) -> Bool[np.ndarray, " m"]:
-    """Which faces have the same three vertices, in any order, as a face before them."""
-    corners = faces.astype(np.int32)
-    corners.sort(axis=1)
-    order = np.lexsort(corners.T)
-    same = np.ones(max(len(faces) - 1, 0), dtype=bool)
-    for column in corners.T:
-        ranked = column[order]
-        same &= ranked[1:] == ranked[:-1]
-    again = np.zeros(len(faces), dtype=bool)
-    again[order[1:]] = same
-    return again
 
 
 def _warn(which: Bool[np.ndarray, " m"], what: str, file: str) -> None:

@@ -29,6 +29,8 @@ from geocontact.view.page.pack import Block, Grid, face_words, packed
 MM = 1e3
 UNITS = "N m|N|kN|mm²|cm²|mm|cm|m|MPa|kPa|Pa|s|ms|%|deg|°"
 """A line does not end between a number and one of these."""
+TOGETHER = 1 << 18
+"""Faces whose volumes are summed together: what is needed of them meanwhile stays small."""
 LATE = 1e5
 """s; from here on the digits that a page shows do not tell frames apart."""
 
@@ -179,8 +181,10 @@ def _body(
 
 def _outward(body: SceneBody, centre: Float[np.ndarray, " 3"]) -> np.ndarray:
     """Faces turned so that the body's volume is positive: a section shows its inside as inside."""
-    a, b, c = (body.vertices[body.faces[:, corner]] - centre for corner in range(3))
-    volume = np.einsum("ij,ij->", a, np.cross(b, c))
+    volume = 0.0
+    for start in range(0, len(body.faces), TOGETHER):
+        a, b, c = (body.vertices[corner] - centre for corner in body.faces[start : start + TOGETHER].T)
+        volume += float(np.einsum("ij,ij->", a, np.cross(b, c)))
     return body.faces if volume >= 0.0 else body.faces[:, ::-1]
 
 
