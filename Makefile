@@ -16,14 +16,17 @@ export PYTHONDONTWRITEBYTECODE :=
 TOGETHER := -rs --durations 25 --durations-min 5 -n auto --maxprocesses 4 --dist loadscope --no-loadscope-reorder
 
 .DELETE_ON_ERROR:
-.PHONY: demo test shapes slow rest long real check lint types imports docs site oracle lock page clean
+.PHONY: demo test shapes slow long real check lint types imports docs site oracle lock page clean
 
 demo: $(VENV)/core.stamp
 	@$(BIN)/geocontact demo
 
-# Without checks of shapes at every call, which cost as much as a third of the tests do
+# Without checks of shapes at every call, which cost as much as a third of the tests do. As .ci/run calls it after `shapes`,
+# with SLOW=too SHAPED=before, slow tests as well, and quick ones of the rooms of `shapes` not once more: each test is
+# collected and each sample made once
 test: $(VENV)/full.stamp
-	@GEOCONTACT_UNCHECKED=1 $(BIN)/python -m pytest -m "not shapes and not slow and not oracle and not real" $(TOGETHER)
+	@GEOCONTACT_UNCHECKED=1 GEOCONTACT_CHECKED="$(if $(SHAPED),$(SHAPES))" $(BIN)/python -m pytest \
+		-m "not shapes and not $(if $(SLOW),long,slow) and not oracle and not real" $(TOGETHER)
 
 # Shapes and types of all arguments are checked while the unit tests of these rooms run
 SHAPES := below_knee_prosthesis chain contact data dynamics house/test_checked_shapes.py identify io loads shoulder_exoskeleton \
@@ -35,12 +38,6 @@ shapes: $(VENV)/full.stamp
 # What takes longer than a few seconds: notebooks, whole diagnoses, browsers, long recordings
 slow: $(VENV)/full.stamp
 	@GEOCONTACT_UNCHECKED=1 $(BIN)/python -m pytest -m "slow and not long and not oracle and not real" $(TOGETHER)
-
-# All of `test` and `slow` at once, as .ci/run does after `shapes`: each test is collected and each sample made once. Quick
-# tests of the rooms of `shapes` have been run there, with checks
-rest: $(VENV)/full.stamp
-	@GEOCONTACT_UNCHECKED=1 GEOCONTACT_CHECKED="$(SHAPES)" $(BIN)/python -m pytest \
-		-m "not shapes and not long and not oracle and not real" $(TOGETHER)
 
 # What lasts longest of it and is not run with every change: before a release
 long: $(VENV)/full.stamp

@@ -30,7 +30,7 @@ PER_CENT = "ignore:.*taken as per cent of a cycle:geocontact.data.errors.InputWa
 """Right of DM's fluoroscopy, whose time has no unit."""
 UNCHECKED = bool(os.environ.get("GEOCONTACT_UNCHECKED"))
 CHECKED = frozenset(os.environ.get("GEOCONTACT_CHECKED", "").split())
-"""Folders and files below tests whose quick tests were run with shapes checked: `make rest` leaves them out."""
+"""Folders and files below tests whose quick tests were run with shapes checked, and are left out here."""
 COMPILED = "geocontact.geometry.kernels"  # numba reads these functions' own source; nothing may be wrapped around them
 
 one_core()

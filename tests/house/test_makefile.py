@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import re
+import subprocess
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
-
-ELSEWHERE = {"not oracle", "not real"}
-TOGETHER = {"shapes": {"not slow"} | ELSEWHERE, "rest": {"not shapes", "not long"} | ELSEWHERE}
-"""What `make shapes` and `make rest` leave out; together nothing but what is long or needs what is not here."""
+TEXT: dict[str, Any] = {"check": True, "capture_output": True, "text": True}
 
 
 def test_rooms_whose_shapes_are_checked_are_there() -> None:
@@ -21,11 +21,26 @@ def test_rooms_whose_shapes_are_checked_are_there() -> None:
     assert [room for room in rooms if not (ROOT / "tests" / room).exists()] == []
 
 
+def recipe(target: str, *settings: str) -> str:
+    """What make would run, called by nobody who has settings of its own, as .ci/run has."""
+    alone = {
+        name: value
+        for name, value in os.environ.items()
+        if name not in ("MAKEFLAGS", "MAKEOVERRIDES", "SLOW", "SHAPED")
+    }
+    made = subprocess.run(
+        ["make", "-n", "-B", "-o", ".venv/full.stamp", target, *settings], cwd=ROOT, env=alone, **TEXT
+    )
+    return made.stdout
+
+
 def test_what_ci_leaves_out_was_run_before_with_checks() -> None:
-    """`make rest` leaves out the quick tests of the rooms of `make shapes`, and .ci/run runs both, in this order."""
-    recipes = re.findall(r"^(\w+): .*\n((?:\t.*\n)+)", MAKEFILE, re.MULTILINE)
-    marks = {name: re.findall(r'-m "([^"]*)"', lines)[0].split(" and ") for name, lines in recipes if name in TOGETHER}
-    assert {name: set(words) for name, words in marks.items()} == TOGETHER
-    assert 'GEOCONTACT_CHECKED="$(SHAPES)"' in MAKEFILE and "$(addprefix tests/,$(SHAPES))" in MAKEFILE
-    steps = re.findall(r"^make (\w+)", (ROOT / ".ci" / "run").read_text(encoding="utf-8"), re.MULTILINE)
-    assert steps[:2] == ["shapes", "rest"]
+    """.ci/run calls `make shapes`, then `make test` without the quick tests of these rooms, and with slow ones."""
+    steps = re.findall(r"^make (.*)", (ROOT / ".ci" / "run").read_text(encoding="utf-8"), re.MULTILINE)
+    assert steps[:2] == ["shapes", "test SLOW=too SHAPED=before"]
+    rooms = re.findall(r"tests/(\S+)", recipe("shapes"))
+    everything, alone = recipe(*steps[1].split()), recipe("test")
+    assert f'GEOCONTACT_CHECKED="{" ".join(rooms)}"' in " ".join(everything.split())
+    assert '-m "not shapes and not long and not oracle and not real"' in everything
+    assert 'GEOCONTACT_CHECKED=""' in alone
+    assert '-m "not shapes and not slow and not oracle and not real"' in alone
