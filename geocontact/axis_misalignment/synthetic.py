@@ -74,7 +74,7 @@ class Design:
 
 
 @dataclass(frozen=True, eq=False)
-class SyntheticTrial:
+class SyntheticElbowTrial:
     """A recording that was made, and the law's numbers in it: the offsets differ from trial to trial by donning."""
 
     recording: ElbowRecording
@@ -100,7 +100,7 @@ def synthetic(
     mean_pressure: float = 0.0,
     torque: float | None = None,
     turning: float = 0.0,
-) -> SyntheticTrial:
+) -> SyntheticElbowTrial:
     """One synthetic recording with its own numbers.
 
     With a stroke of the compensation joint [m] the joint is free and its displacement recorded.
@@ -131,7 +131,7 @@ def synthetic(
         None if pressure is None else np.full(len(time), pressure),
         None if torque is None else np.full(len(time), torque),
     )
-    return SyntheticTrial(recording, moved)
+    return SyntheticElbowTrial(recording, moved)
 
 
 def ideal(

@@ -9,7 +9,7 @@ import pandas as pd
 
 from geocontact.analyses.misalignment.law_numbers import MMHG
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
-from geocontact.axis_misalignment.synthetic import SyntheticTrial, at_rest
+from geocontact.axis_misalignment.synthetic import SyntheticElbowTrial, at_rest
 from geocontact.axis_misalignment.transmission import CuffLoads, cuff_loads
 from geocontact.data.elbow_recording import ElbowRecording
 
@@ -41,7 +41,7 @@ class LoadedTrial:
 
 
 def loaded(
-    trial: SyntheticTrial, stroke: tuple[float, float] | None, mean_pressure: float, o: SimulateOptions
+    trial: SyntheticElbowTrial, stroke: tuple[float, float] | None, mean_pressure: float, o: SimulateOptions
 ) -> LoadedTrial:
     """The trial with the loads of its own force; ValueError as of the model.
 

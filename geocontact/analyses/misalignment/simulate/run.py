@@ -13,7 +13,7 @@ from geocontact.analyses.misalignment.simulate.options import SimulateOptions
 from geocontact.analyses.misalignment.simulate.result import SimulateResult
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.explicit import Offsets, require_no_pole, require_reach
-from geocontact.axis_misalignment.synthetic import PAPER, Design, SyntheticTrial, ideal, synthetic
+from geocontact.axis_misalignment.synthetic import PAPER, Design, SyntheticElbowTrial, ideal, synthetic
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 
@@ -85,7 +85,7 @@ def _along(r: ElbowRecording, numbers: Mapping[str, float], o: SimulateOptions) 
         force, joint = ideal(r.time, r.beta, numbers, o.stroke, pressure, 0.0 if torque is None else torque, o.turning)
         shown = None if o.stroke is None else joint
         one = ElbowRecording(f"simulated_{r.name}", r.time, r.beta, force, shown, r.pressure, torque)
-        return loaded(SyntheticTrial(one, numbers), o.stroke, mean, o)
+        return loaded(SyntheticElbowTrial(one, numbers), o.stroke, mean, o)
     except ValueError as error:
         raise _beyond(error, numbers, "`numbers`", "give other ones") from error
 
