@@ -19,7 +19,7 @@ from geocontact.axis_misalignment.explicit import Offsets
 from geocontact.geometry.kernels.compile import kernel
 
 ROUNDS = 200
-"""Most rounds of the search for where the axis comes to rest; 5 to 8 where it moves by a tenth of the link."""
+"""Most rounds of the search for where the axis comes to rest."""
 SETTLED = 1e-14
 """Of the link: the axis is at rest when a round moves it by less."""
 

@@ -24,7 +24,7 @@ FIRST, NEXT, LAST = 4e-3, 1e-3, 0.1e-3
 LOWER = 1e-7
 """m; a place that is lower by less is not."""
 FARTHEST = 200
-"""Steps of one search; a dish is found in 5 to 30."""
+"""Most steps of one search."""
 
 
 def lowest_places(bed: Bed, fixed: Surface, flexion: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t 6"]:
