@@ -123,7 +123,7 @@ def _some(values: np.ndarray, index: Int[np.ndarray, " m"]) -> np.ndarray:
 def _middle(points: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"]) -> Float[np.ndarray, "m 3"]:
     """Middle of each face."""
     a, b, c = (points[corner] for corner in faces.T)
-    return (a + b + c) / 3.0
+    return np.asarray((a + b + c) / 3.0)
 
 
 def measure(
