@@ -206,7 +206,7 @@ REFUSED = {
     "prior on a link in metres": (("--prior", "l=0.185:0.01"), "--prior l: 0.185 mm cannot be a link"),
     "start of a link in metres": (("--start", "l=0.2"), "--start l: 0.2 mm cannot be a link"),
     "bounds of a link in metres": (("--bounds", "l=0.16:0.21"), "--bounds l: 0.21 mm cannot be a link"),
-    "free what is free": (("--free", "k"), "not b or s"),
+    "free what is free": (("--free", "k"), "not b, s or c"),
     "pressure that is not there": (("--free", "s", "--map", "pressure=cuff"), "cuff"),
     "damping bounds unasked": (("--bounds", "b=0:10"), "b is not free; give --free b"),
     "bins of nothing": (("--bin-deg", "0"), "0.1 to 30"),

@@ -9,10 +9,11 @@ import pytest
 
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.change_amplitude import amplitude
+from geocontact.gap.case.placement import GAIN
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import evaluated, floor_of
 from geocontact.gap.case.refit import refit
-from geocontact.gap.levels import SLIGHT
+from geocontact.gap.levels import DEVIATIONS, SLIGHT
 from geocontact.gap.selection.held_out_error import TrialWeight, taken_away
 from geocontact.gap.selection.held_out_rules import (
     ONLY_NOISE,
@@ -227,7 +228,7 @@ def test_a_level_that_the_recording_passes_is_none_that_it_was_cut_off_at(rules:
     problem = rules.problem
     one = next(each for each in candidates(problem.system) if each.name == "saturation")
     seen = np.sort(np.abs(np.concatenate([each.ravel() for each in problem.recorded.outputs])))
-    enough = (seen[-len(seen) // 100] - 4.0 * problem.recorded.rough[0]) / 1.05
+    enough = (seen[-len(seen) // 100] - DEVIATIONS * problem.recorded.rough[0]) / (1.0 + DEVIATIONS * GAIN)
 
     def cut(level: float) -> Contender:
         values = {**rules.base.model.values, "saturation.force.level": level}

@@ -41,6 +41,16 @@ def test_derivatives_are_central_differences() -> None:
             np.testing.assert_allclose(own[..., k], (b - a) / (2.0 * step), rtol=1e-2, atol=1e-3 / step * 1e-3)
 
 
+def test_a_motion_that_leaves_its_way_tells_nothing_of_a_parameter() -> None:
+    system, data, _ = measured()
+    base = data.residuals(system, TRUE)
+    exact = derivatives(system, data, TRUE, base)
+    lost_way = [base[0] + 1e13, *base[1:]]
+    found = derivatives(system, data, TRUE, lost_way)
+    assert (found[0] == 0.0).all()
+    np.testing.assert_array_equal(found[1], exact[1])
+
+
 def test_samples_that_were_not_measured_count_for_nothing() -> None:
     case = elbow_case(seed=3, change=lost)
     system = system_of(case)

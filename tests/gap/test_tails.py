@@ -76,8 +76,9 @@ def seen_without_tails() -> list[tuple[str, ...]]:
 
 @pytest.mark.slow
 def test_strikes_carry_no_effect(elsewhere: Elsewhere) -> None:
+    """Not even where every sample weighs the same: noise that grows with the signal takes strikes at the top."""
     before, after, named, channels = elsewhere(gains, False, True, ("saturation", "stiffening"))
-    assert max(before.values()) > 30.0, "what was to be shown"
+    assert max(before.values()) < 6.0
     assert channels == ("force",)
     assert max(after.values()) < 6.0
     assert named == ()

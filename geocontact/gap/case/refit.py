@@ -126,7 +126,8 @@ def derivatives(
     """Derivative of the prediction with respect to each free parameter, per trial.
 
     Exact where the model's geometry knows them (`chain.tangents`), else by one-sided differences: parameters that no
-    output has two of are moved at once (Curtis, Powell & Reid 1974, J. Inst. Math. Appl. 13:117).
+    output has two of are moved at once (Curtis, Powell & Reid 1974, J. Inst. Math. Appl. 13:117). 0 in a trial in which
+    so small a step changes a prediction by a thousand times its channel's largest value: the motion left its way.
     """
     parameters = free(system)
     near = {p.name: _step(p, values[p.name], NEAR) for p in parameters}
@@ -140,6 +141,7 @@ def derivatives(
     if not left:
         return out
     start = measured.residuals(system, values) if base is None else base
+    largest = np.array([system.scale.of(name) for name in system.outputs])
     for some in moved_at_once(system, parameters):
         group = [k for k in some if parameters[k].name in left]
         if not group:
@@ -150,7 +152,9 @@ def derivatives(
             name = parameters[k].name
             columns = system.apart.get(name, slice(None)) if len(group) > 1 else slice(None)
             for slopes, before, after in zip(out, start, moved, strict=True):
-                slopes[:, columns, k] = (before[:, columns] - after[:, columns]) / steps[name]
+                change = before[:, columns] - after[:, columns]
+                steady = (np.abs(change) < 1e3 * largest[columns]).all()
+                slopes[:, columns, k] = change / steps[name] if steady else 0.0
     return out
 
 
