@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks import opensim_tables
+from benchmarks import gap_laboratories, opensim_tables
 
 ROOT = Path(__file__).resolve().parents[2]
 MINUS = "\N{MINUS SIGN}"
@@ -501,12 +501,13 @@ BENCHMARK = {
     "true reduction inside ci95": "coverage",
 }
 README = {
-    "false alarms in {} cases without an effect": "false_alarms",
-    "the right effect ranked first in {}": "first_right",
-    "among three at most in {}": "in_small_set",
-    "confidently wrong in {}": "confidently_wrong",
-    "both of two effects found in {}": "both_found",
-    "an unknown effect called unknown in {}": "unknown_called",
+    "the right effect is ranked first in {} where it is visible": "first_right",
+    "in {} where it can be told from the others": "first_ahead",
+    "and named in {}; ": "named_right",
+    "confidently wrong in {} (": "confidently_wrong",
+    "both of two effects found in {},": "both_found",
+    "an unknown effect called unknown in {};": "unknown_called",
+    "reductions inside their intervals in {}.": "coverage",
 }
 
 
@@ -521,7 +522,7 @@ def share(one: dict[str, Any]) -> str:
 
 
 def test_the_benchmark_of_the_diagnosis() -> None:
-    """Tables of every system and pooled, the regression, the constant, the sentence of the README; enough cases."""
+    """Tables of every system and pooled, the regression, the constant; enough cases."""
     page, told = "reference/gap_benchmark.md", results("gap_benchmark")
     figures, systems = told["figures"], ("pooled", "elbow", "foot", "shoulder", "knee", "sit_to_stand")
     for label, key in BENCHMARK.items():
@@ -536,14 +537,25 @@ def test_the_benchmark_of_the_diagnosis() -> None:
         assert near(cell.partition(" ")[0], figures[system]["diagnosis"]["reduction_error"])
     for cell, system in zip(row(page, "seconds of one core, mean (most)")[1:], systems, strict=True):
         assert near(cell.partition(" ")[0], told["cpu_seconds"][system]["mean"])
-    readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
-    for words, key in README.items():
-        pooled = figures["pooled"]["diagnosis"][key]
-        assert words.format(f"{pooled['hits']} of {pooled['count']}") in readme, words
     for system in systems[1:]:
         assert figures[system]["diagnosis"]["false_alarms"]["count"] >= 100
         assert figures[system]["diagnosis"]["first_right"]["count"] >= 60
     assert told["seed"] == 20261145 and "seed 20261145" in (ROOT / "docs" / page).read_text(encoding="utf-8")
+
+
+def test_kinds_of_laboratories() -> None:
+    """The table of the last run, and the sentence of the README, which is of kinds abroad."""
+    home, abroad = (results(f"gap_laboratories_{side}_3") for side in ("home", "abroad"))
+    page = (ROOT / "docs" / "reference/gap_benchmark.md").read_text(encoding="utf-8")
+    assert "\n".join(gap_laboratories.table(home, abroad)) in page
+    assert home["commit"] == abroad["commit"] and f"commit {abroad['commit']} (" in page
+    readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    shares = abroad["figures"]["all"]["shares"]
+    for words, key in README.items():
+        assert words.format(f"{shares[key]['hits']} of {shares[key]['count']}") in readme, words
+    alarms, wrong = shares["false_alarms"], home["figures"]["all"]["shares"]["confidently_wrong"]
+    assert f"nothing is named in {alarms['count'] - alarms['hits']} of {alarms['count']} cases" in readme
+    assert f"({wrong['hits']} of {wrong['count']} in kinds that it was built with)" in readme
 
 
 def test_every_case_of_the_benchmark_is_kept() -> None:
