@@ -11,7 +11,7 @@ from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.gap.case.placement import ANGLE, GAIN, ZERO, placement, put_on
+from geocontact.gap.case.placement import ANGLE, GAIN, placement, put_on
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.selection.held_out_error import TrialWeight
 from geocontact.systems.catalogue import system_of
@@ -41,7 +41,7 @@ def test_a_zero_of_its_own_costs_a_trial_next_to_nothing() -> None:
     largest = float(np.abs(trials[0].column("torque")).max())
     assert columns.shape == (120, 1, 3)
     assert columns[..., 0] == pytest.approx(60.0 * ANGLE), "zero of the angle"
-    assert columns[..., 1] == pytest.approx(ZERO * largest, rel=0.02), "zero of the torque"
+    assert columns[..., 1] == pytest.approx(0.5 * GAIN * largest, rel=0.02), "zero of the torque"
     assert columns[..., 2] == pytest.approx(GAIN * predicted), "gain of the torque"
     weigh = TrialWeight.of(np.ones((120, 1), bool), np.array([NOISE]), columns)
     alike = np.full((120, 1), 0.1)

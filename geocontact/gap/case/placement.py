@@ -23,8 +23,7 @@ from geocontact.data.trial import Trial
 
 LENGTH = 0.006  # of the device's largest length: 1 mm of 17 cm
 ANGLE = 0.0087  # rad: half a degree
-GAIN = 0.01  # of a channel, and of the half-range of an input that is neither a length nor an angle
-ZERO = 0.005  # of a channel's largest magnitude
+GAIN = 0.01  # of a channel, and of the half-range of an input that is neither a length nor an angle; half of it: zero
 SHARE = 0.04  # of a base parameter that is neither a length nor an angle
 
 
@@ -62,7 +61,7 @@ def _of_trial(
     predicted = system.simulate(trial, values)
     predicted = np.where(np.isfinite(predicted) & (np.abs(predicted) < 0.5 * FAR), predicted, 0.0)
     for c, name in enumerate(system.outputs):
-        for column in (ZERO * system.scale.of(name), GAIN * predicted[:, c]):
+        for column in (0.5 * GAIN * system.scale.of(name), GAIN * predicted[:, c]):
             own = np.zeros_like(predicted)
             own[:, c] = column
             columns.append(own)

@@ -32,6 +32,7 @@ Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
 SLOW = 30.0  # samples, that slow noise usually remembers
 QUICK = 2.0  # samples, that quick noise usually remembers
 SLOW_SHARE = 0.3  # of the quick noise, that it usually is
+SLOW_LEVEL = 0.8  # standard deviation of the logarithm of that
 GROWN, GROWN_LEVEL = 0.2, 0.35  # of its noise, that grows to the largest signal, at the least; and of the logarithm
 
 
@@ -161,7 +162,7 @@ def usual_levels(
     inputs = np.array([stated.get(name, level) for name, level in zip(system.inputs, inputs, strict=True)])
     covariance = TWOFOLD**2 * alike + 0.5**2 * np.eye(len(units))
     white, sure = np.where(known, 0.5, 1.0), np.ones(len(sd))
-    levels = [white, 2.0 * TWOFOLD * white, TWOFOLD * sure]
+    levels = [white, 2.0 * TWOFOLD * white, SLOW_LEVEL * sure]
     widths = np.concatenate([*levels, sure, TWOFOLD * sure, GROWN_LEVEL * sure])
     largest = np.array([system.scale.of(name) for name in system.outputs])
     factor = np.zeros((len(widths) + len(units),) * 2)
