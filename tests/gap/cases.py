@@ -222,7 +222,7 @@ def finished_twice(*, later_is_better: bool) -> dict[str, tuple[list[float], flo
     case = elbow_case("damping", {"damping.b": 12.0, "damping.exponent": 1.0}, seed=5)
     problem = problem_of(case, system_of(case))
     base = base_contender(problem)
-    offered = [one for one in candidates(problem.system) if one.name in ("damping", "inertia_load", "end_stop")]
+    offered = [one for one in candidates(problem.system) if one.name in ("damping", "inertia_load", "relaxation")]
     got: dict[str, list[float]] = {}
 
     def made_up(_: Problem, those: tuple[Candidate, ...], *__: object) -> Contender:

@@ -35,6 +35,6 @@ def test_who_leads_under_quiet_noise_and_under_its_own_is_finished_from_both_fit
 ) -> None:
     """Noise that suits another fit may lead away from a good one: the better of the two ends is kept."""
     found = elsewhere(finished_twice, later_is_better=later)
-    assert sum(len(each) == 2 for each, _ in found.values()) >= 2
+    assert sum(len(each) == 2 for each, _ in found.values()) >= 3
     for each, kept in found.values():
         assert kept == max(each)
