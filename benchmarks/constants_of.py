@@ -10,6 +10,7 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import ModuleType
+from typing import Any
 
 import geocontact
 
@@ -62,14 +63,33 @@ def bare(rooms: Sequence[str]) -> list[tuple[str, float | int]]:
 def put(changed: Mapping[Constant, float | int]) -> None:
     """Put other numbers in place of these constants, in all modules that have been loaded, for this process.
 
-    Functions read them when they are called. What was compiled or worked out before, defaults of arguments among it,
-    stays as it was.
+    Functions read them when they are called; where one is the default of an argument, that is changed too. What was
+    compiled or worked out before stays as it was.
     """
     for constant, value in changed.items():
-        setattr(sys.modules[constant.module], constant.name, value)
+        home = sys.modules[constant.module]
+        setattr(home, constant.name, value)
+        _put_defaults(home, constant.name)
         for module in [m for name, m in sys.modules.items() if name.startswith("geocontact.")]:
             for here in _imported(module, constant):
                 setattr(module, here, value)
+                _put_defaults(module, here)
+
+
+def _put_defaults(module: ModuleType, name: str) -> None:
+    """Defaults of arguments that say this name, worked out anew from what stands behind it now."""
+
+    def anew(default: ast.expr | None, old: Any) -> Any:
+        said = {each.id for each in ast.walk(default) if isinstance(each, ast.Name)} if default else set()
+        return eval(ast.unparse(default), vars(module)) if default and name in said else old
+
+    for node in (each for each in ast.parse(inspect.getsource(module)).body if isinstance(each, ast.FunctionDef)):
+        function = inspect.unwrap(getattr(module, node.name))
+        if function.__defaults__:
+            function.__defaults__ = tuple(map(anew, node.args.defaults, function.__defaults__))
+        for argument, default in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True):
+            if default is not None:
+                function.__kwdefaults__[argument.arg] = anew(default, function.__kwdefaults__[argument.arg])
 
 
 def _modules(rooms: Sequence[str]) -> Iterator[ModuleType]:

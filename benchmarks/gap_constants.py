@@ -154,7 +154,10 @@ def report(asked: dict[str, Any], rows: Sequence[dict[str, Any]], named: Sequenc
             single = len(row["constants"]) == 1
             if label in table and (single or not row["figures"]["moved"]):
                 table[label][f"times {row['factor']:g}"] = row["figures"] if single else "moves nothing"
-    return {"what": __doc__.splitlines()[0], **asked, **machine(), "constants": table}
+    answers = next(row["answers"] for row in rows if not row["constants"])
+    told = {"answers": len(answers), "before": figures(answers, answers)["before"]}
+    told["nothing_missing"] = sum(not one["truth"] for one in answers.values())
+    return {"what": __doc__.splitlines()[0], **asked, **machine(), **told, "constants": table}
 
 
 if __name__ == "__main__":

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import inspect
+
 from benchmarks.constants_of import bare, constants, put
 from benchmarks.gap_constants import ROOMS, figures, searched
 from geocontact.gap import levels, partial_answer
+from geocontact.gap.case import plain_fit, refit
 from geocontact.gap.selection import clipping, verdict
 
 
@@ -23,6 +26,22 @@ def test_a_number_is_another_one_wherever_it_was_imported() -> None:
         put({sure: before})
     assert used[0] != partial_answer.SURE
     assert found["gap.selection.clipping.NEXT"].times(0.01) == 1
+
+
+def test_a_default_of_an_argument_is_another_one_too() -> None:
+    rounds = next(one for one in constants(ROOMS) if one.label == "gap.case.refit.ROUNDS")
+
+    def told() -> list[int]:
+        return [inspect.signature(each).parameters["rounds"].default for each in (refit.refit, plain_fit.plain_fit)]
+
+    before = told()
+    try:
+        put({rounds: rounds.times(0.5)})
+        after = told()
+    finally:
+        put({rounds: rounds.value})
+    assert before == told() == [rounds.value // 2, rounds.value]
+    assert after == [rounds.value // 4, rounds.value // 2]
 
 
 def test_answers_are_counted_by_what_they_were_and_are() -> None:
