@@ -19,6 +19,7 @@ from geocontact.data.gap.surface_gap import SurfaceGap
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
 from geocontact.gap.case.admission import admitted
+from geocontact.gap.case.numerical_error import coarse_rates
 from geocontact.gap.case.refit import free
 from geocontact.gap.experiment.proposal import first_of, next_experiment
 from geocontact.gap.identifiability.non_identifiable import non_identifiable
@@ -162,6 +163,7 @@ def _remarks(found: Attribution, unexplained: bool, errors: RawInputErrors) -> t
         *(f"{each.words} in {each.channel}" for each in (*found.odd, *found.recorder)),
         *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
         *(f"{each.words} in {channel}" for channel, each in found.heavy.items()),
+        *coarse_rates(found.problem),
         *objection(found),
         *(nearest(found) if said.verdict == "unknown" and unexplained else ()),
         *(on_bounds(said.chosen, found.base, errors.fitted, errors.values) if said.effects else ()),

@@ -39,10 +39,11 @@ def test_a_zero_of_its_own_costs_a_trial_next_to_nothing() -> None:
     columns = placement(system, trials, {"k": 60.0}, ["angle"])[0]
     predicted = system.simulate(trials[0], {"k": 60.0})
     largest = float(np.abs(trials[0].column("torque")).max())
-    assert columns.shape == (120, 1, 3)
+    assert columns.shape == (120, 1, 4)
     assert columns[..., 0] == pytest.approx(60.0 * ANGLE), "zero of the angle"
     assert columns[..., 1] == pytest.approx(0.5 * GAIN * largest, rel=0.02), "zero of the torque"
     assert columns[..., 2] == pytest.approx(GAIN * predicted), "gain of the torque"
+    assert not columns[..., 3].any(), "a spring feels no rate"
     weigh = TrialWeight.of(np.ones((120, 1), bool), np.array([NOISE]), columns)
     alike = np.full((120, 1), 0.1)
     quick = 0.1 * np.sign(np.sin(40.0 * trials[0].time))[:, None]

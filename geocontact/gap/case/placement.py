@@ -20,6 +20,7 @@ from geocontact.chain.links import LAST, Modifier
 from geocontact.chain.system import FAR, System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
+from geocontact.gap.case.numerical_error import error_of_rates
 
 LENGTH = 0.006  # of the device's largest length: 1 mm of 17 cm
 ANGLE = 0.0087  # rad: half a degree
@@ -39,8 +40,8 @@ def placement(
 ) -> tuple[Float[np.ndarray, "_ c k"], ...]:
     """Per trial, what one usual standard deviation of each changes in the outputs, in their units.
 
-    Known lengths and angles, zeros of the inputs in `movable`, zeros of outputs, gains of outputs, in this order;
-    0 where the model has no value.
+    Known lengths and angles, zeros of the inputs in `movable`, zeros of outputs, gains of outputs, the numerical error
+    of rates (`gap.case.numerical_error`), in this order; 0 where the model has no value.
     """
     return tuple(_of_trial(system, trial, values, movable) for trial in trials)
 
@@ -65,6 +66,7 @@ def _of_trial(
             own = np.zeros_like(predicted)
             own[:, c] = column
             columns.append(own)
+    columns.append(error_of_rates(system, trial, values))
     return np.stack(columns, axis=-1)
 
 
