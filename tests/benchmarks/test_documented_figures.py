@@ -322,7 +322,8 @@ def test_congruence_of_balls_and_of_two_people() -> None:
                 assert abs(r[2.0] - own[0]["true_per_mm"]) < 0.01 * own[0]["true_per_mm"] + 2e-5
     keys = ("area_mm2", "least_distance_mm", *(f"relative_curvature_{end}_per_mm" for end in ("min", "max")))
     for one in told["ankles"]:
-        cells = row("reference/real_implants.md", f"{one['person']}, {one['frames']} frames", f"{one['radius_mm']:g} mm")
+        who = f"{one['person']}, {one['frames']} frames"
+        cells = row("reference/real_implants.md", who, f"{one['radius_mm']:g} mm")
         for cell, key in zip(cells, (*keys, "index_per_mm", "share"), strict=True):
             shown = cell.replace("(", "").replace(")", "").replace("…", "").split()
             assert all(near(text, value) for text, value in zip(shown, one[key], strict=True)), cell
