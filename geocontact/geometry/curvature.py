@@ -88,8 +88,7 @@ class Curvatures:
         squares = _summed(rows[:, :, None] * rows[:, None, :], owner, len(at))
         sides = _summed(rows * height[:, None], owner, len(at))
         count = np.bincount(owner, minlength=len(at))
-        told = count >= rows.shape[1]
-        told[told] = np.linalg.eigvalsh(squares[told])[:, 0] > ROUND * count[told]
+        told = np.linalg.eigvalsh(squares)[:, 0] > ROUND * count
         out = np.full((len(at), 3, 3), np.nan)
         fit = np.linalg.solve(squares[told], sides[told][:, :, None])[:, :, 0]
         out[told] = _tensors(fit, frames[told]) / self._radius

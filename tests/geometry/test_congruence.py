@@ -7,7 +7,7 @@ import pytest
 
 from geocontact.geometry.contact_area.congruence import CongruencePair, relative_curvatures
 from geocontact.geometry.contact_area.evolution import Settings
-from geocontact.geometry.curvature import Curvatures
+from geocontact.geometry.curvature import Curvatures, _tensors
 from meshes import simple_shapes
 from tests.geometry.bodies import joined, surface, turned
 
@@ -35,6 +35,16 @@ def test_a_torus_is_a_saddle_inside() -> None:
     assert along.min() == pytest.approx(-50.0)
     exact = np.sort(np.column_stack([np.zeros(len(ring)), along, np.full(len(ring), 100.0)]), axis=1)
     np.testing.assert_allclose(found, exact, atol=3.6)
+
+
+def test_a_graph_that_is_tilted_over_its_plane_has_the_same_curvature() -> None:
+    """Derivatives of a ball of 20 mm over a plane that its normal leaves by 35 degrees."""
+    u, v = 0.02 * np.sin(np.radians(35.0)) * np.array([0.6, 0.8])
+    up = np.sqrt(0.02**2 - u**2 - v**2)
+    d, e = -u / up, -v / up
+    fit = np.array([[up, d, e, -(1.0 + d * d) / up, -d * e / up, -(1.0 + e * e) / up]])
+    found = np.linalg.eigvalsh(_tensors(fit, turned(10.0, 80.0, 20.0).as_matrix()[None]))
+    np.testing.assert_allclose(found, [[0.0, 50.0, 50.0]], atol=1e-9)
 
 
 def test_where_neighbours_are_few_there_is_no_curvature_and_none_across_an_edge() -> None:

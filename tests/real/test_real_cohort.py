@@ -25,6 +25,8 @@ motion_fixed = "{{subject}}_Calcaneus.txt"
 rate = 1
 threshold = 4
 congruence = 4
+[summary]
+columns = ["area_fixed [mm^2]", "min_distance [mm]", "congruence_index [1/mm]"]
 """
 
 
