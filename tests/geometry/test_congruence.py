@@ -105,10 +105,10 @@ def test_nothing_near_has_no_congruence_and_what_looks_away_does_not_count() -> 
 
 
 def test_only_counted_faces_count() -> None:
-    """FIXED has a second ball beside the first, whose faces are left out."""
+    """FIXED has a smaller ball beside the first, as near, whose faces are left out."""
     big, small = simple_shapes.sphere(20.0, 12), simple_shapes.sphere(10.0, 10)
     fixed = surface(joined(big, (small[0] + [0.0, 31.0, 0.0], small[1])))
-    ball = surface((simple_shapes.sphere(20.0, 12)[0] + [36.0, 20.0, 0.0], simple_shapes.sphere(20.0, 12)[1]))
+    ball = surface((simple_shapes.sphere(20.0, 12)[0] + [32.5, 24.5, 0.0], simple_shapes.sphere(20.0, 12)[1]))
     faces = np.arange(len(fixed.faces)) < len(big[1])
     settings = Settings(thresholds=(6e-3,), fixed_faces=faces)
     found = CongruencePair(ball, fixed, settings, RADIUS).at(np.eye(3), np.zeros(3))
