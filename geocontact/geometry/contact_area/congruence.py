@@ -40,7 +40,8 @@ class Congruence:
     index
         Root of the mean square of the two at each point [1/m].
     share
-        Of the area within the threshold, counted by vertices, that the means are over [-].
+        Of the area within the threshold, counted by vertices, that the means are over [-]; what is deeper inside than
+        the largest threshold has no part in either.
     """
 
     least: Float[np.ndarray, " k"]
