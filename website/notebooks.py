@@ -13,13 +13,18 @@ from website.stage import ROOT
 
 WARNING = re.compile(r"^\S*ipykernel_\d+\S*: (\w+: .*)\n(?:  .*\n)?", re.MULTILINE)
 """As Python tells it: the kernel's file and line, what is meant, the line of the cell."""
-KERNEL = Config({} if os.name == "nt" else {"KernelManager": {"transport": "ipc"}})
-"""Talks to this process alone, and not over the network."""
 
 
 def plain(warnings: str, folder: str) -> str:
     """Warnings without the places where they were told, which are elsewhere each time."""
     return WARNING.sub(r"\1\n", warnings).replace(f"{folder}{os.sep}", "")
+
+
+def kernel(folder: str) -> Config:
+    """A kernel that talks to this process alone, not over the network: through sockets in a folder, named in full,
+    since it runs in another one."""
+    sockets = {"transport": "ipc", "ip": str(Path(folder).resolve() / "kernel")}
+    return Config({} if os.name == "nt" else {"KernelManager": sockets})
 
 
 def execute(sources: Path) -> None:
@@ -29,10 +34,10 @@ def execute(sources: Path) -> None:
 
     for file in sorted((sources / "notebooks").glob("*.ipynb")):
         book = nbformat.read(file, as_version=4)
-        with TemporaryDirectory() as folder:
+        with TemporaryDirectory() as folder, TemporaryDirectory() as sockets:
             (Path(folder) / "meshes").symlink_to(ROOT / "meshes", target_is_directory=True)
             told = {"metadata": {"path": folder}}
-            NotebookClient(book, timeout=900, resources=told, config=KERNEL).execute()
+            NotebookClient(book, timeout=900, resources=told, config=kernel(sockets)).execute()
             for output in (one for cell in book.cells for one in cell.get("outputs", ())):
                 if output.get("name") == "stderr":
                     output["text"] = plain(output["text"], folder)

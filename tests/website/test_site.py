@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import nbformat
 import pytest
 
 from website.contents import listed
 from website.limits import sections, xfails
-from website.notebooks import plain
+from website.notebooks import execute, plain
 from website.pages import MADE
 from website.stage import INDEX, ROOT, pages, stage
 from website.validation import FACTORS, report
@@ -36,6 +37,17 @@ def test_the_index_leads_from_what_a_reader_has_to_a_guide(what: str) -> None:
 def test_warnings_of_notebooks_name_no_place_of_this_machine() -> None:
     told = "/tmp/ipykernel_12/34.py:1: InputWarning: /tmp/a/meshes/truth.csv is odd\n  found = gc.mat(\nelse\n"
     assert plain(told, "/tmp/a") == "InputWarning: meshes/truth.csv is odd\nelse\n"
+
+
+@pytest.mark.slow
+def test_a_notebook_is_run_in_a_folder_of_its_own(tmp_path: Path) -> None:
+    (tmp_path / "notebooks").mkdir()
+    file = tmp_path / "notebooks" / "one.ipynb"
+    cell = nbformat.v4.new_code_cell("from pathlib import Path\nPath('meshes/gait.csv').is_file()")
+    nbformat.write(nbformat.v4.new_notebook(cells=[cell]), file)
+    execute(tmp_path)
+    (done,) = nbformat.read(file, as_version=4).cells
+    assert done.outputs[0]["data"]["text/plain"] == "True"
 
 
 def test_pages_and_the_files_that_they_link_to_are_staged(tmp_path: Path) -> None:
