@@ -21,8 +21,10 @@ def plain(warnings: str, folder: str) -> str:
 
 
 def kernel(folder: str) -> Config:
-    """A kernel that talks to this process alone, not over the network: through sockets in a folder, named in full,
-    since it runs in another one."""
+    """A kernel that talks to this process alone, not over the network.
+
+    Its sockets are in `folder`, named in full, since it runs in another one.
+    """
     sockets = {"transport": "ipc", "ip": str(Path(folder).resolve() / "kernel")}
     return Config({} if os.name == "nt" else {"KernelManager": sockets})
 
