@@ -11,7 +11,7 @@ from website.contents import listed
 from website.limits import sections, xfails
 from website.notebooks import execute, plain
 from website.pages import MADE
-from website.stage import INDEX, ROOT, pages, stage
+from website.stage import INDEX, ROOT, pages, stage, with_tables_marked
 from website.validation import FACTORS, report
 
 
@@ -56,6 +56,14 @@ def test_pages_and_the_files_that_they_link_to_are_staged(tmp_path: Path) -> Non
     assert all((staged / page).is_file() for page in pages())
     assert (staged / "docs/reference/gap_reliability.svg").is_file()
     assert "/docs/tutorial\n" in (staged / INDEX).read_text(encoding="utf-8")
+
+
+def test_only_tables_that_are_printed_keep_their_lines() -> None:
+    sentence, table = "```text\nresults in result: a.csv\n```\n", "```text\n time [s]  ours  theirs\n0  1.5  2.0\n```\n"
+    assert with_tables_marked(sentence) == sentence
+    assert with_tables_marked(sentence + table) == sentence + table.replace(
+        "```text\n", "```{code-block} text\n:class: columns\n\n"
+    )
 
 
 def test_limits_are_read_from_their_sections_without_code() -> None:
