@@ -34,6 +34,13 @@ def test_the_index_leads_from_what_a_reader_has_to_a_guide(what: str) -> None:
     assert (ROOT / "docs" / "how-to" / f"my_{what}.md").read_text(encoding="utf-8").startswith(f"# My {what}\n")
 
 
+def test_every_page_is_reached_from_another_one_than_the_index() -> None:
+    index, written = ROOT / INDEX, [ROOT / page for page in pages() if page.suffix == ".md"]
+    told = {one: one.read_text(encoding="utf-8") for one in written if one != index}
+    lost = [one.name for one in told if not any(f"{one.name}" in text for other, text in told.items() if other != one)]
+    assert [name for name in lost if not name[0].isdigit()] == [], "decisions stand by themselves"
+
+
 def test_warnings_of_notebooks_name_no_place_of_this_machine() -> None:
     told = "/tmp/ipykernel_12/34.py:1: InputWarning: /tmp/a/meshes/truth.csv is odd\n  found = gc.mat(\nelse\n"
     assert plain(told, "/tmp/a") == "InputWarning: meshes/truth.csv is odd\nelse\n"
