@@ -38,7 +38,7 @@ def test_every_page_is_reached_from_another_one_than_the_index() -> None:
     index, written = ROOT / INDEX, [ROOT / page for page in pages() if page.suffix == ".md"]
     told = {one: one.read_text(encoding="utf-8") for one in written if one != index}
     lost = [one.name for one in told if not any(f"{one.name}" in text for other, text in told.items() if other != one)]
-    assert [name for name in lost if not name[0].isdigit()] == [], "decisions stand by themselves"
+    assert {name for name in lost if not name[0].isdigit()} == set(), "decisions stand by themselves"
 
 
 def test_warnings_of_notebooks_name_no_place_of_this_machine() -> None:
