@@ -6,6 +6,7 @@ import os
 import re
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 from traitlets.config import Config
 
@@ -29,6 +30,16 @@ def kernel(folder: str) -> Config:
     return Config({} if os.name == "nt" else {"KernelManager": sockets})
 
 
+def describe(cells: list[Any]) -> None:
+    """Figures get words for those who do not see them: the beginning of the text above."""
+    above = ""
+    for cell in cells:
+        if cell["cell_type"] == "markdown":
+            above = re.split(r"(?<=[.:?])\s|\n", cell["source"].lstrip("# \n"))[0].replace("`", "").rstrip(".:")
+        elif any("image/png" in output.get("data", ()) for output in cell["outputs"]):
+            cell["metadata"].setdefault("mystnb", {})["image"] = {"alt": f"Figure: {above}"}
+
+
 def execute(sources: Path) -> None:
     """Fill in the outputs; a cell that fails ends it. Real data are left out: the site shows what everybody gets."""
     import nbformat
@@ -43,4 +54,5 @@ def execute(sources: Path) -> None:
             for output in (one for cell in book.cells for one in cell.get("outputs", ())):
                 if output.get("name") == "stderr":
                     output["text"] = plain(output["text"], folder)
+        describe(book.cells)
         nbformat.write(book, file)

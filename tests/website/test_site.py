@@ -9,7 +9,7 @@ import pytest
 
 from website.contents import listed
 from website.limits import sections, xfails
-from website.notebooks import execute, plain
+from website.notebooks import describe, execute, plain
 from website.pages import MADE
 from website.stage import INDEX, ROOT, pages, stage, with_tables_marked
 from website.validation import FACTORS, report
@@ -57,12 +57,22 @@ def test_a_notebook_is_run_in_a_folder_of_its_own(tmp_path: Path) -> None:
     assert done.outputs[0]["data"]["text/plain"] == "True"
 
 
+def test_figures_of_notebooks_are_described_by_the_text_above() -> None:
+    shown = nbformat.v4.new_output("display_data", {"image/png": ""})
+    text = nbformat.v4.new_markdown_cell("The `area` on either half. And more.")
+    drawn, printed = (nbformat.v4.new_code_cell("x", outputs=outputs) for outputs in ([shown], []))
+    describe([text, drawn, printed])
+    assert drawn.metadata["mystnb"]["image"]["alt"] == "Figure: The area on either half"
+    assert "mystnb" not in printed.metadata
+
+
 def test_pages_and_the_files_that_they_link_to_are_staged(tmp_path: Path) -> None:
     stage(tmp_path / "sources", {"docs/reference/api/index.md": "# Functions\n"})
     staged = tmp_path / "sources"
     assert all((staged / page).is_file() for page in pages())
     assert (staged / "docs/reference/gap_reliability.svg").is_file()
-    assert "/docs/tutorial\n" in (staged / INDEX).read_text(encoding="utf-8")
+    index = (staged / INDEX).read_text(encoding="utf-8")
+    assert "/docs/tutorial\n" in index and "(reference/api/index.md)" in index
 
 
 def test_only_tables_that_are_printed_keep_their_lines() -> None:
