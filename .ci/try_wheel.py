@@ -3,7 +3,8 @@
 `python .ci/try_wheel.py WHEEL` makes a virtual environment outside of the checkout, installs the wheel at the pinned
 versions of requirements.lock, and runs commands on the files that the wheel brings and on what they write. Then each
 extra in turn: before it is installed its commands say in one line what to install, afterwards they work; what came with
-it is removed before the next one. `--extras view,excel` tries these only, `--folder DIR` keeps everything in DIR.
+it is removed before the next one. At last pip is asked whether all of them go together. `--extras view,excel` tries
+these only, `--folder DIR` keeps everything in DIR.
 """
 
 from __future__ import annotations
@@ -161,9 +162,10 @@ class Environment:
             sys.exit(f"{program} {' '.join(words)[:300]}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
         return done.stdout
 
-    def install(self, what: str) -> None:
+    def install(self, what: str, *options: str) -> None:
         """At the versions of the lock."""
-        self.must("python", "-m", "pip", "install", "--quiet", "--no-input", "--constraint", str(self.pins), what)
+        pip = ("python", "-m", "pip", "install", "--quiet", "--no-input", "--constraint", str(self.pins))
+        self.must(*pip, *options, what)
 
     def packages(self) -> set[str]:
         """Names of what is installed."""
@@ -225,6 +227,8 @@ def main() -> int:
         meshes = try_core(there)
         for name in filter(None, asked.extras.split(",")):
             try_extra(there, wheel, name, meshes)
+        there.install(f"{wheel}[all]", "--dry-run")
+        told("[all]", "goes together at the versions of the lock")
     print(f"all commands work from {wheel.name} ({time.perf_counter() - started:.0f} s)")
     return 0
 

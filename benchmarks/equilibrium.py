@@ -2,8 +2,10 @@
 
 The shipped synthetic knee in five frames of its gait under 2000 N, by resolution and length of the pieces, with only
 adduction free and with all coordinates, each against the finest. With `--data`, subject DM's implants (closed, poses by
-fluoroscopy, every 25th frame) under 1500 N in the same way. Loads, modulus (463 MPa) and Poisson's ratio (0.46) are
-invented numbers of a usual size. Seconds are those of the equilibria and of one balance of energy, without reading.
+fluoroscopy) and subject JW's (of 188 and 49 faces, both open: the component is taken as closed, the layer has 8 mm;
+poses simulated by others), five frames of each under 1500 N. Loads, modulus (463 MPa), Poisson's ratio (0.46) and the
+8 mm are invented numbers of a usual size. Seconds are those of the equilibria and of one balance of energy, without
+reading.
 """
 
 from __future__ import annotations
@@ -29,30 +31,36 @@ from geocontact.data.errors import InputError
 HERE = Path(__file__).resolve().parent
 MESHES = HERE.parent / "meshes"
 ALL = ("adduction", "anterior", "mediolateral", "rotation")
-EVERY = 25
 KEPT = ("peak [MPa]", "contact_area [mm^2]", "force_medial [N]", "axial [mm]", "adduction [deg]", "anterior [mm]")
 """Columns whose largest difference to the finest run is told."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """Meshes and length of the pieces [m], with which coordinates free."""
+    """Meshes and length of the pieces [m], with which coordinates free, and of how many frames one is taken."""
 
     name: str
     options: dict[str, Any]
     free: tuple[str, ...]
     edge: float
+    every: int = 25
 
 
 def main() -> None:
     """Measure, print, write the JSON after every row."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.equilibrium", description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, help="folder of the real recordings")
+    parser.add_argument("--only", help="JW: only cases whose name begins so, beside the others that the file holds")
     parser.add_argument("--out", type=Path, default=HERE / "results")
     options = parser.parse_args()
     report: dict[str, Any] = {**stamp({"scipy"}), "rows": []}
+    if options.only:
+        held = json.loads((options.out / "equilibrium.json").read_text(encoding="utf-8"))["rows"]
+        report["rows"] = [row for row in held if not row["case"].startswith(options.only)]
     finest: dict[object, pd.DataFrame] = {}
-    for case in [*shipped(), *(real(options.data) if options.data else ())]:
+    for case in [*shipped(), *([*fluoroscopy(options.data), *decimated(options.data)] if options.data else ())]:
+        if not case.name.startswith(options.only or ""):
+            continue
         row, table = measured(case)
         if table is not None:
             key = case.name.split(",")[0], case.free
@@ -72,7 +80,7 @@ def shipped() -> Iterator[Case]:
             yield Case(f"sample knee, {resolution}", given, free, edge)
 
 
-def real(data: Path) -> Iterator[Case]:
+def fluoroscopy(data: Path) -> Iterator[Case]:
     """Subject DM of the 6th Grand Challenge; labels of the file are wrong, as its spreadsheet shows."""
     home = data / "gc6_dm_knee"
     given = {
@@ -88,6 +96,26 @@ def real(data: Path) -> Iterator[Case]:
         yield Case("DM", given, free, edge)
 
 
+def decimated(data: Path) -> Iterator[Case]:
+    """Subject JW of the 4th Grand Challenge, as a workshop decimated and moved it."""
+    home = data / "gc4_jw_predsim_workshop"
+    given = {
+        "moving": home / "Femoral_Component_simpler.stl",
+        "fixed": home / "Tibial_Insert_simpler_superior.stl",
+        "unit": "m",
+        "motion": home / "KneeProsthesis.mot",
+        "osim": home / "KneeProsthesis.osim",
+        "joint": "knee_joint",
+        "moving_body": "parent",
+        "angles": "deg",
+        "assume_closed": "moving",
+        "thickness": 8e-3,
+        "load": 1500.0,
+    }
+    for free, edge in ((("adduction",), 1e-3), (("adduction",), 2e-3), (ALL, 2e-3)):
+        yield Case("JW", given, free, edge, every=10)
+
+
 def measured(case: Case) -> tuple[dict[str, Any], pd.DataFrame | None]:
     """What one run took and left over; no table where it was refused."""
     o = SettleOptions(
@@ -96,7 +124,7 @@ def measured(case: Case) -> tuple[dict[str, Any], pd.DataFrame | None]:
     row: dict[str, Any] = {"case": case.name, "free": case.free, "piece_mm": case.edge * 1e3}
     record = Record("knee settle", o.in_si(), o.in_si())
     with record.catching_warnings():
-        inputs = thinned(read(o, record))
+        inputs = thinned(read(o, record), case.every)
         started = time.process_time()
         try:
             result = settle_run.run(inputs, o, record)
@@ -123,9 +151,9 @@ def _without_folders(line: str, options: dict[str, Any]) -> str:
     return line
 
 
-def thinned(inputs: Any) -> Any:
-    """Every 25th frame."""
-    kept = np.arange(0, len(inputs.motion), EVERY)
+def thinned(inputs: Any, every: int) -> Any:
+    """One of so many frames."""
+    kept = np.arange(0, len(inputs.motion), every)
     motion = replace(inputs.motion, time=inputs.motion.time[kept], poses=inputs.motion.poses[kept])
     return replace(inputs, motion=motion, load=inputs.load[kept])
 

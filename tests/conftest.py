@@ -86,10 +86,10 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             item.add_marker(pytest.mark.oracle)
     slow = {item.path for item in items if item.get_closest_marker("slow")}
     items.sort(key=lambda item: lasting_first(slow, item.path))
-    again = [each for each in items if run_before(each.path, each.get_closest_marker("slow") is not None, CHECKED)]
-    if again:
-        config.hook.pytest_deselected(items=again)
-        items[:] = [each for each in items if each not in set(again)]
+    if CHECKED:
+        again = [run_before(each.path, each.get_closest_marker("slow") is not None, CHECKED) for each in items]
+        config.hook.pytest_deselected(items=[each for each, was in zip(items, again, strict=True) if was])
+        items[:] = [each for each, was in zip(items, again, strict=True) if not was]
 
 
 @pytest.hookimpl(optionalhook=True)

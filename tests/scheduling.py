@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 from xdist.scheduler import LoadScopeScheduling
@@ -9,6 +10,9 @@ from xdist.scheduler import LoadScopeScheduling
 ROOT = Path(__file__).resolve().parents[1]
 ONE_BY_ONE = ("tests/house/test_command_lines.py", "tests/notebooks/test_notebooks.py")
 """Files whose tests last longest. Their tests come first: what lasts and comes last keeps one process busy alone."""
+
+
+ONE_BY_ONE_FILES = frozenset(ROOT / each for each in ONE_BY_ONE)
 
 
 class FileByFile(LoadScopeScheduling):
@@ -20,10 +24,16 @@ class FileByFile(LoadScopeScheduling):
 
 def run_before(path: Path, slow: bool, rooms: frozenset[str]) -> bool:
     """Whether a test was run with shapes checked: quick, in one of these folders or files below tests."""
+    return not slow and not rooms.isdisjoint(_places(path))
+
+
+@cache
+def _places(path: Path) -> frozenset[str]:
+    """A file of tests and the folders that it lies in, from the folder of tests; found once for all tests of a file."""
     below = path.relative_to(ROOT / "tests")
-    return not slow and any(each.as_posix() in rooms for each in (below, *below.parents))
+    return frozenset(each.as_posix() for each in (below, *below.parents))
 
 
 def lasting_first(slow: set[Path], path: Path) -> tuple[bool, bool]:
     """What a file is sorted by: slow ones come first, and of these the ones dealt out one by one."""
-    return path not in slow, path.relative_to(ROOT).as_posix() not in ONE_BY_ONE
+    return path not in slow, path not in ONE_BY_ONE_FILES

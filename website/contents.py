@@ -7,6 +7,8 @@ from collections.abc import Iterable
 
 LINK = re.compile(r"\]\(([^)\s#]+\.(?:md|ipynb))[^)\s]*\)")
 ROW = re.compile(r"^\| (?!topic|you want|system|-)([^|]+?) \|")
+UNBUILT = "`make docs` builds a site with a page for each of them"
+"""What the index says of pages that only the site has."""
 MORE = "More of it:"
 """Begins links to pages that stand in the rows of their topics."""
 
@@ -19,6 +21,7 @@ def with_contents(index: str, generated: Iterable[str]) -> str:
     lists = [(caption, pages) for caption, pages in listed(index) if pages]
     if "docs/reference/api/index.md" in generated:
         lists.append(("Functions", ["reference/api/index.md"]))
+        index = index.replace(UNBUILT, "[a page for each of them](reference/api/index.md)")
     return index + "".join(_toctree(caption, pages) for caption, pages in lists)
 
 

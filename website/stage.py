@@ -15,6 +15,9 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGES = ("docs/**/*.md", "notebooks/*.ipynb")
 LINK = re.compile(r"\]\(([^)\s#]+)[^)\s]*\)")
 INDEX = "docs/index.md"
+PRINTED = re.compile(r"^```text\n(.*?^```)$", re.MULTILINE | re.DOTALL)
+COLUMNS = re.compile(r"\S {2,}\S.* {2,}\S")
+"""A line of a table that a command prints."""
 
 
 def pages() -> list[Path]:
@@ -28,6 +31,8 @@ def stage(out: Path, generated: dict[str, str]) -> None:
     for page in pages():
         _copy(page, out)
         if page.suffix == ".md":
+            staged = out / page
+            staged.write_text(with_tables_marked(staged.read_text(encoding="utf-8")), encoding="utf-8")
             for file in linked_files(page):
                 _copy(file, out)
     for place, text in generated.items():
@@ -36,6 +41,12 @@ def stage(out: Path, generated: dict[str, str]) -> None:
         target.write_text(text, encoding="utf-8")
     index = out / INDEX
     index.write_text(with_contents(index.read_text(encoding="utf-8"), generated), encoding="utf-8")
+
+
+def with_tables_marked(text: str) -> str:
+    """A page in which what commands print in columns is marked as such: its lines are not broken."""
+    marked = "```{code-block} text\n:class: columns\n\n"
+    return PRINTED.sub(lambda one: marked + one[1] if COLUMNS.search(one[1]) else one[0], text)
 
 
 def linked_files(page: Path) -> list[Path]:

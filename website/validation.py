@@ -81,7 +81,8 @@ def _told(one: dict[str, Any]) -> str:
 
 def _source(one: dict[str, Any]) -> str:
     files = dict.fromkeys(place[0] for place in one.get("figures", {}).values())
-    return ", ".join(f"`{file}.json`" for file in files) or str(one.get("from", ""))
+    links = ", ".join(f"[`{file}.json`](../../benchmarks/results/{file}.json)" for file in files)
+    return links or str(one.get("from", ""))
 
 
 def figure(place: list[Any]) -> Any:

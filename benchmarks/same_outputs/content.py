@@ -19,12 +19,17 @@ STRIPPED = (
     *("argv", "files"),  # as typed; the files of a folder are compared themselves
 )
 """Keys of JSON objects that are left out."""
+DIGESTS = "sha256"
+"""Of the files of a folder, by name, in its run.json: left out, since the files are compared, and a page may differ."""
 STRIPPED_COLUMNS = ("cpu [s]", "wall [s]", "seconds [s]", "folder")
 """Columns of tables that are left out; the last one names folders of a study's trials, which hang on the sources."""
 STRIPPED_WORDS = re.compile(r"compiling the distance kernels|per second of|seconds of one core|^Seed \d+, \d{4}-")
 """Lines of text that are left out: what hangs on the load of the machine, and dates."""
-RANDOM = re.compile(r"(?<=\.geocontact-)[0-9a-f]{16}|(?<=\b[mp])[0-9a-f]{10}\b|(?<=\bimage)[0-9a-f]{10}\b")
-"""Names that are drawn at each run: folders of drafts, marks inside of an .svg file."""
+RANDOM = re.compile(
+    r"(?<=\.geocontact-)[0-9a-f]{16}|(?<=\b[mp])[0-9a-f]{10}\b|(?<=\bimage)[0-9a-f]{10}\b|(?<=\bresults/)[0-9a-f]{32}\b"
+)
+"""Names that are drawn at each run, or hang on the sources: folders of drafts, marks inside of an .svg file, folders of
+a study's trials."""
 WORDS = (".txt", ".md")
 RUN = "run.json"
 """May have new keys."""
@@ -70,8 +75,14 @@ def parsed(file: Path) -> Any:
 def stripped(value: Any, keys: Collection[str]) -> Any:
     """Without these keys, at any depth."""
     if isinstance(value, Mapping):
-        return {key: stripped(one, keys) for key, one in value.items() if key not in keys}
+        kept = {key: one for key, one in value.items() if key not in keys and not _digests(key, one)}
+        return {key: stripped(one, keys) for key, one in kept.items()}
     return [stripped(one, keys) for one in value] if isinstance(value, list) else value
+
+
+def _digests(key: str, value: Any) -> bool:
+    """Of the files that were written; the digest of an input is a single text."""
+    return key == DIGESTS and isinstance(value, Mapping)
 
 
 def without_new(new: Any, old: Any, place: str, added: list[str]) -> Any:

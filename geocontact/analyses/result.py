@@ -142,4 +142,5 @@ class Result(ABC):
         figure = self.figure()
         if figure is None:
             return text
-        return f'{text}<img src="data:image/png;base64,{b64encode(png_of(figure)).decode("ascii")}"/>'
+        drawn, words = b64encode(png_of(figure)).decode("ascii"), escape("Figure: " + "".join(self.sentences[:1]))
+        return f'{text}<img src="data:image/png;base64,{drawn}" alt="{words}"/>'

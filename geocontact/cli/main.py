@@ -111,7 +111,8 @@ def _words(error: MissingArgumentError) -> str:
     """First sentence of the help of what is missing: "a mesh of the body; "."""
     words = (error.argument.parameter.help or "") if error.argument else ""
     first = words.split(". ")[0].rstrip(".")
-    return f"{first[:1].lower()}{first[1:]}; " if first else ""
+    name = first.partition(" ")[0]
+    return f"{first if name[1:] != name[1:].lower() else first[:1].lower() + first[1:]}; " if first else ""
 
 
 def _terminated(*_: object) -> None:

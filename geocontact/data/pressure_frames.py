@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PressureFrames:
     """Frames of one sensor, in the mat's own layout.
 
@@ -47,6 +47,11 @@ class PressureFrames:
         seen = self.pressure[:, self.valid]
         if not np.isfinite(seen).all():
             raise ValueError(f"{self.name}: pressures of valid cells must be finite")
+
+    def __repr__(self) -> str:
+        span = f"{self.time[0]:g} to {self.time[-1]:g} s" if len(self.time) else "empty"
+        cells = f"{int(self.valid.sum())} of {self.rows} x {self.columns} cells"
+        return f"<PressureFrames {self.name}: {len(self.time)} frames, {span}, {cells}, up to {self.force.max():.0f} N>"
 
     @property
     def rows(self) -> int:

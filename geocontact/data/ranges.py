@@ -12,6 +12,7 @@ from geocontact.data.units import MPa, deg, kPa, mm, mmHg, percent
 THRESHOLD = Plausible("a threshold of contact", mm, (0.0, 200.0), (0.01, 20.0), or_zero=True)
 LAYER = Plausible("the thickness of a layer", mm, (0.01, 1000.0), (0.2, 100.0))
 PIECE = Plausible("the edge of a piece of a surface", mm, (1e-3, 100.0), (0.02, 10.0))
+FITTED = Plausible("the radius within which curvatures are fitted", mm, (0.05, 200.0), (0.5, 20.0))
 RADIUS = Plausible("the radius of a contact", mm, (0.1, 10_000.0), (1.0, 1000.0))
 STRIP = Plausible("the length of a contact", mm, (0.1, 10_000.0), (1.0, 1000.0))
 BORDER = Plausible("the border of a mat", mm, (0.0, 500.0), (0.0, 100.0))

@@ -60,7 +60,7 @@ def phong_offset(
     """
     to_corner = surface.corners_of(face) - (points - surface.centre)[:, None, :]
     height = np.einsum("nki,nki->nk", to_corner, normals[face])
-    return np.asarray(0.5 * np.einsum("nk,nk->n", _shares(to_corner), height))
+    return np.asarray(0.5 * np.einsum("nk,nk->n", corner_shares(to_corner), height))
 
 
 def phong_slope(
@@ -82,13 +82,13 @@ def phong_slope(
     across = np.eye(3) - twice[:, :, None] * twice[:, None, :] / square[:, None, None]
     inside = np.einsum("nij,nkj->nki", across, normals[face])  # the part of the normals within the triangle
     height = np.einsum("nki,nki->nk", to_corner, normals[face])
-    shares = _shares(to_corner)
+    shares = corner_shares(to_corner)
     slope = 0.5 * (np.einsum("nki,nk->ni", share, height) - np.einsum("nk,nki->ni", shares, inside))
     bend = -0.5 * np.einsum("nki,nkj->nij", share, inside)
     return np.asarray(slope), np.asarray(bend + np.swapaxes(bend, 1, 2))
 
 
-def _shares(to_corner: Float[np.ndarray, "n 3 3"]) -> Float[np.ndarray, "n 3"]:
+def corner_shares(to_corner: Float[np.ndarray, "n 3 3"]) -> Float[np.ndarray, "n 3"]:
     """Barycentric coordinates from the vectors to the corners: areas of the triangles opposite to each."""
     opposite = np.cross(np.roll(to_corner, -1, axis=1), np.roll(to_corner, 1, axis=1))
     whole = opposite.sum(axis=1)

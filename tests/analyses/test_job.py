@@ -154,4 +154,5 @@ def test_a_notebook_shows_sentences_and_figure(file: Path, monkeypatch: pytest.M
     assert result._repr_html_() == "<p>twice 2 m</p><p>warning: more than a metre, see `more`</p>"
     monkeypatch.setattr(Doubled, "figure", lambda _: Figure())
     assert result._repr_html_().endswith('"/>') and "<p>twice 2 m</p>" in result._repr_html_()
-    assert b64decode(result._repr_html_().split("base64,")[1][:-3]).startswith(b"\x89PNG")
+    drawn, _, rest = result._repr_html_().partition("base64,")[2].partition('"')
+    assert b64decode(drawn).startswith(b"\x89PNG") and rest == ' alt="Figure: twice 2 m"/>'

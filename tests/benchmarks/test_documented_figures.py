@@ -308,6 +308,27 @@ def test_accuracy_against_closed_forms() -> None:
             assert near(cell, told[case, rule]["relative_error"][-1], 100.0), (label, rule)
 
 
+def test_congruence_of_balls_and_of_two_people() -> None:
+    """Within a percent of 1/r1 ± 1/r2 where a vertex is known exactly; what noise makes of it stands there as it is."""
+    told = results("congruence")
+    for name in {one["case"] for one in told["known"]}:
+        for noise in (0.0, 0.05):
+            own = [one for one in told["known"] if (one["case"], one["noise_mm"]) == (name, noise)]
+            true, *shown = row("theory/contact_area.md", name, f"{noise:g}")
+            assert near(true, own[0]["true_per_mm"])
+            assert all(near(text, one["index_per_mm"]) for text, one in zip(shown, own, strict=True)), shown
+            if not noise:
+                r = {one["radius_mm"]: one["index_per_mm"] for one in own}
+                assert abs(r[2.0] - own[0]["true_per_mm"]) < 0.01 * own[0]["true_per_mm"] + 2e-5
+    keys = ("area_mm2", "least_distance_mm", *(f"relative_curvature_{end}_per_mm" for end in ("min", "max")))
+    for one in told["ankles"]:
+        who = f"{one['person']}, {one['frames']} frames"
+        cells = row("reference/real_implants.md", who, f"{one['radius_mm']:g} mm")
+        for cell, key in zip(cells, (*keys, "index_per_mm", "share"), strict=True):
+            shown = cell.replace("(", "").replace(")", "").replace("…", "").split()
+            assert all(near(text, value) for text, value in zip(shown, one[key], strict=True)), cell
+
+
 def test_what_was_withheld_from_the_knee() -> None:
     names = {"tx_1mm": "1 mm in tx", "ty_1mm": "1 mm in ty", "tz_1mm": "1 mm in tz", "crosstalk": "6 % of PM in AM"}
     cases = results("knee_chain")["runs"]["sample, truth coarse, seed 1"]["cases"]

@@ -22,6 +22,7 @@ RUN = {
     "versions": {"numpy": "2.4.6"},
     "seconds": 1.25,
     "files": ["area.csv", "run.json"],
+    "sha256": {"report.html": "cd"},
 }
 
 
@@ -39,6 +40,7 @@ def both(tmp_path: Path) -> tuple[Path, Path]:
     write(out / "cases.csv", "case,brier [-],cpu [s],wall [s],words\na,0.5,1.25,2.5,told\n")
     write(out / "run.json", RUN)
     sides = [{"seconds": 3, "rms_mm": 1e-3, "file": "out/.geocontact-0123456789abcdef/x.toml"}]
+    sides += [{"page": f"results/{'0a' * 16}/report.html"}]
     write(out / "fit.json", {"radius_mm": 37.0, "sides": sides})
     write(out.parent / "said.md", "Seed 7, 2026-11-24, 5 cases\n9 seconds of one core per case\n")
     write(out / "ik.mot", "ik\nendheader\ntime\tknee\n0\t1.5\n")
@@ -89,6 +91,7 @@ FAILURES: dict[str, tuple[Callable[[Path], None], str]] = {
     "a file is gone": (lambda folder: (folder / OUT / "ik.mot").unlink(), f"{OUT}/ik.mot: is missing"),
     "the exit code": (replaced("area_split/call.json", '"code": 0', '"code": 2'), "area_split/call.json: differs"),
     "the whole run": (lambda folder: shutil.rmtree(folder / "area_split"), "area_split/call.json: is missing"),
+    "the digest of an input": (replaced(f"{OUT}/run.json", '"ab"', '"ac"'), f"{OUT}/run.json: differs"),
     "an input": (replaced("inputs/gait.csv", "0\n", "1\n"), "inputs/gait.csv: differs in line 2"),
 }
 
@@ -111,6 +114,8 @@ NOTES: dict[str, tuple[Callable[[Path], None], str]] = {
     "a new key": (replaced(f"{OUT}/run.json", '"unit"', '"argv": ["x"], "si": 1, "unit"'), "new keys options.si"),
     "dates and loads in words": (replaced("area_split/said.md", "Seed 7, 2026", "Seed 7, 2027"), "0 runs differ"),
     "names that are drawn": (replaced(f"{OUT}/fit.json", "0123456789abcdef", "f" * 16), "0 runs differ"),
+    "where a study's trials lie": (replaced(f"{OUT}/fit.json", "0a" * 16, "0b" * 16), "0 runs differ"),
+    "the digest of a page": (replaced(f"{OUT}/run.json", '"cd"', '"ce"'), "0 runs differ"),
     "words": (replaced("area_split/stdout.txt", "results", "tables"), "stdout.txt: words differ in line 1"),
     "a page": (replaced(f"{OUT}/report.html", "one", "two"), f"{OUT}/report.html: differs"),
     "a new file": (lambda folder: write(folder / OUT / "more.csv", "a\n"), f"{OUT}/more.csv: new file"),

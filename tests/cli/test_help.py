@@ -119,6 +119,10 @@ def test_many_options_are_never_one_heap(job: Job) -> None:
                 "--osim and --joint, or --map; see geocontact cop --help"
             ),
         ),
+        (
+            "id a.mot --out x",
+            "--model is missing: OpenSim model (.osim): masses, inertias, joints; see geocontact id --help",
+        ),
         ("fit a.stl --unit mm --out x", "--shape is missing: what is fitted; see geocontact fit --help"),
     ],
 )

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import itertools
+from functools import cache
 
 import numpy as np
 import pytest
 
 from geocontact.chain.candidate import Candidate
+from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import EFFECTS, candidates
 from tests.effects.runs import DISCRETE, EXAMPLES, FITTED, OFFERED, difference, label, outputs, truth
 from tests.systems.examples import NAMES, example, recording
@@ -139,14 +141,20 @@ def test_outputs_are_finite_all_over_the_bounds(name: str, one: Candidate) -> No
         assert np.isfinite(got[:, loads]).all(), values
 
 
+@cache
+def finer(name: str, refine: int) -> tuple[Trial, ...]:
+    """Trials of an example, sampled that many times as finely; made once for all candidates."""
+    return example(name, refine)[1]
+
+
 @pytest.mark.parametrize(("name", "one"), FITTED, ids=label)
 def test_finer_sampling_changes_less_and_less(name: str, one: Candidate) -> None:
     system, _ = EXAMPLES[name]
     values = {**system.start, **truth(one)}
-    got = []
-    for refine in (1, 2, 4, 8):
-        trials = example(name, refine)[1]
-        got.append(np.concatenate([one.apply(system).simulate(t, values)[::refine] for t in trials]))
+    got = [
+        np.concatenate([one.apply(system).simulate(trial, values)[::refine] for trial in finer(name, refine)])
+        for refine in (1, 2, 4, 8)
+    ]
     steps = [difference(system, a, b) for a, b in itertools.pairwise(got)]
     assert steps[2] < 2e-3, steps
     assert steps[2] < 1e-6 or steps[0] / steps[2] > 2.0**1.5, steps  # at least order 0.75 over two halvings

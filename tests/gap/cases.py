@@ -88,6 +88,13 @@ def diagnosis(*arguments: object, **options: object) -> Diagnosis:
     return diagnose(case, system_of(case)).diagnosis
 
 
+def diagnosis_and_gains(*arguments: object, **options: object) -> tuple[Diagnosis, list[tuple[bool, float]]]:
+    """The same; and of each trial, whether it was held out and what it gains when it is predicted from the others."""
+    case = elbow_case(*arguments, **options)  # type: ignore[arg-type]
+    findings = diagnose(case, system_of(case))
+    return findings.diagnosis, [(one.held_out, one.nats) for one in findings.trials]
+
+
 def diagnosis_that_names_nothing(*arguments: object, **options: object) -> Diagnosis:
     """The same where one effect in question is one too many."""
     with patch("geocontact.gap.selection.verdict.MOST", 0):
@@ -413,9 +420,3 @@ def stairs(_: str, __: np.ndarray, force: np.ndarray) -> np.ndarray:
 def rung(_: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
     """A blow at the same time of every trial, after which something rings."""
     return force + 0.8 * np.exp(-(time - 9.0) / 0.4) * np.sin(2.0 * np.pi * 8.0 * (time - 9.0)) * (time > 9.0)
-
-
-def gains(change: Change | None) -> list[tuple[bool, float]]:
-    """Of each trial, whether it was held out and what it gains when it is predicted from the others."""
-    case = elbow_case(seed=9, change=change)
-    return [(one.held_out, one.nats) for one in diagnose(case, system_of(case)).trials]

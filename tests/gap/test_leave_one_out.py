@@ -1,4 +1,4 @@
-"""Every trial predicted from the others: equal to a fit without it, and better with the effect that is there."""
+"""Every trial predicted from the others: equal to a fit without it. What diagnoses say of it: test_diagnose.py."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ import pytest
 from scipy.stats import multivariate_normal
 
 from geocontact.gap.reduction.leave_one_out import left_out
-from tests.elsewhere import Elsewhere
-from tests.gap.cases import Late, gains
 
 
 def test_it_is_the_density_given_a_fit_to_the_other_trials() -> None:
@@ -22,16 +20,3 @@ def test_it_is_the_density_given_a_fit_to_the_other_trials() -> None:
         covariance = np.linalg.inv(d.T @ d + np.eye(2))
         exact = multivariate_normal(own @ covariance @ d.T @ r, np.eye(12) + own @ covariance @ own.T)
         assert found[i] == pytest.approx(exact.logpdf(residuals[i]) + 6.0 * np.log(2.0 * np.pi), rel=1e-9)
-
-
-@pytest.mark.slow
-def test_a_delay_helps_in_every_trial(elsewhere: Elsewhere) -> None:
-    found = elsewhere(gains, Late(0.12))
-    assert len(found) == 5
-    assert [held for held, _ in found] == [False, False, False, True, True]
-    assert all(nats > 3.0 for _, nats in found)
-
-
-@pytest.mark.slow
-def test_there_is_nothing_to_hold_where_nothing_is_named(elsewhere: Elsewhere) -> None:
-    assert elsewhere(gains, None) == []

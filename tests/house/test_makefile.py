@@ -37,9 +37,10 @@ def recipe(target: str, *settings: str) -> str:
 def test_what_ci_leaves_out_was_run_before_with_checks() -> None:
     """.ci/run calls `make shapes`, then `make test` without the quick tests of these rooms, and with slow ones."""
     steps = re.findall(r"^make (.*)", (ROOT / ".ci" / "run").read_text(encoding="utf-8"), re.MULTILINE)
-    assert steps[:2] == ["shapes", "test SLOW=too SHAPED=before"]
+    own = "test SLOW=too SHAPED=before"
+    assert steps.index("shapes") < steps.index(own)
     rooms = re.findall(r"tests/(\S+)", recipe("shapes"))
-    everything, alone = recipe(*steps[1].split()), recipe("test")
+    everything, alone = recipe(*own.split()), recipe("test")
     assert f'GEOCONTACT_CHECKED="{" ".join(rooms)}"' in " ".join(everything.split())
     assert '-m "not shapes and not long and not oracle and not real"' in everything
     assert 'GEOCONTACT_CHECKED=""' in alone

@@ -29,8 +29,9 @@ def storage(folder: Path, degrees: str = "yes", unit: float = 1.0) -> Path:
 
 
 def test_a_table_in_other_units_signs_and_names(tmp_path: Path) -> None:
-    head = "Time [ms],hinge [rad],Fx [lbf],slide [mm],cuff [mmHg]"
-    path = csv(tmp_path, head, -np.radians(DEGREES), -FORCE / 4.4482216152605, 7.0 * FORCE, np.full(200, 30.0))
+    head = "Time [ms],hinge [rad],Fx [lbf],slide [mm],cuff [mmHg],motor [N cm]"
+    forces = -FORCE / 4.4482216152605, 7.0 * FORCE, np.full(200, 30.0), 40.0 * FORCE
+    path = csv(tmp_path, head, -np.radians(DEGREES), *forces)
     text = path.read_text(encoding="utf-8").splitlines()
     rows = [",".join([f"{float(line.split(',')[0]) * 1e3:.9g}", *line.split(",")[1:]]) for line in text[1:]]
     path.write_text("\n".join(["# a comment", text[0], *rows]), encoding="utf-8")
@@ -39,10 +40,12 @@ def test_a_table_in_other_units_signs_and_names(tmp_path: Path) -> None:
         "force": (-1.0, "Fx"),
         "displacement": (1.0, "slide"),
         "pressure": (1.0, "cuff"),
+        "torque": (-1.0, "motor"),
     }
     r = read_elbow_recording(path, mapping)
-    assert r.name == "t1" and r.displacement is not None and r.pressure is not None
-    for got, want in ((r.time, TIME), (np.degrees(r.beta), DEGREES), (r.force, FORCE), (r.displacement, 7e-3 * FORCE)):
+    assert r.name == "t1" and r.displacement is not None and r.pressure is not None and r.torque is not None
+    both = (r.time, TIME), (np.degrees(r.beta), DEGREES), (r.force, FORCE), (r.displacement, 7e-3 * FORCE)
+    for got, want in (*both, (r.torque, -0.4 * FORCE)):
         np.testing.assert_allclose(got, want, atol=1e-6)
     assert r.pressure[0] == pytest.approx(3999.67, rel=1e-5)
 
@@ -113,6 +116,9 @@ def test_what_cannot_be_an_elbows_is_refused_in_one_line(tmp_path: Path, name: s
         ("pressure [mmHg]", np.full(200, 4000.0), "reaches 4000 mmHg, more than any cuff"),
         ("pressure", np.full(200, 30.0), "has no unit"),
         ("pressure [mm]", np.full(200, 30.0), "is in 'mm'"),
+        ("torque", FORCE, "'torque' has no unit; write torque [N m] (one of N m, N cm"),
+        ("torque [N]", FORCE, "is in 'N'"),
+        ("torque [N m]", 400.0 * FORCE, "reaches 2000 N m, more than an actuator of an arm turns with"),
     ],
 )
 def test_what_comes_besides_needs_its_unit(tmp_path: Path, head: str, column: np.ndarray, said: str) -> None:

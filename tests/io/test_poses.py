@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.joint import JointModel
 from geocontact.data.multibody.knee_angles import tibia_in_femur
+from geocontact.io.motion.motion import read_motion
 from geocontact.io.motion.poses import (
     motion_from_csv,
     motion_from_grood_suntay,
@@ -178,6 +179,12 @@ JOINT = """<OpenSimDocument Version="40000"><Model name="m"><BodySet name="bodys
 
 def joint(folder: Path, slope: str = "1") -> JointModel:
     return read_joint(written(folder, JOINT.replace("AA", slope), "knee.osim"), "knee")
+
+
+def test_a_model_without_a_joint_lists_those_it_has(tmp_path: Path) -> None:
+    model = written(tmp_path, JOINT, "knee.osim")
+    with pytest.raises(InputError, match="`joint`: is missing beside `osim`; joints of the model are: knee"):
+        read_motion(written(tmp_path, KNEE, "gait.mot"), osim=model)
 
 
 @pytest.mark.parametrize("name", ["fe", "knee/fe/value", "/jointset/knee/fe/value"])

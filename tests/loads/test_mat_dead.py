@@ -31,6 +31,12 @@ def shipped(folder: str, kind: str) -> PressureFrames:
     return mat
 
 
+def test_a_recording_says_in_one_line_what_it_holds() -> None:
+    said = repr(mat_of(np.full((3, 2, 2), 1e4)))
+    assert said.startswith("<PressureFrames ") and "3 frames" in said and "4 of 2 x 2 cells" in said
+    assert said.endswith(f"up to {4e4 * np.prod(PITCH):.0f} N>")
+
+
 def listed(folder: str) -> list[list[int]]:
     return sorted([r, c] for r, c in read_layout(MESHES / folder / "layout_faulty.toml").dead)
 

@@ -24,12 +24,15 @@ motion = "{{file}}"
 motion_fixed = "{{subject}}_Calcaneus.txt"
 rate = 1
 threshold = 4
+congruence = 4
+[summary]
+columns = ["area_fixed [mm^2]", "min_distance [mm]", "congruence_index [1/mm]"]
 """
 
 
 @pytest.mark.slow
 def test_subtalar_joints_of_two_people_over_stance(data_dir: Path, tmp_path: Path) -> None:
-    """Every 24th frame of the first 85 % of stance; coverage below 4 mm is 900 to 1700 mm^2, rows as one by one."""
+    """Every 24th frame of the first 85 % of stance; coverage below 4 mm is 900 to 1700 mm^2, congruence beside it."""
     data = data_dir / "jma_ankles"
     for person, (strike, off) in STANCE.items():
         for bone in ("Talus", "Calcaneus"):
@@ -43,7 +46,9 @@ def test_subtalar_joints_of_two_people_over_stance(data_dir: Path, tmp_path: Pat
     table = pd.read_parquet(out / "tables" / "area.parquet")
     assert table.groupby("subject").size().to_dict() == {"Norm_01": 5, "Norm_03": 6}
     assert table["area_fixed [mm^2]"].between(900.0, 1700.0).all() and (table["signed"] == "both").all()
+    assert table["congruence_index [1/mm]"].between(0.02, 0.2).all() and (table["congruence_share [-]"] > 0.6).all()
     ensemble = made.table("ensemble.csv")
+    assert len(ensemble[ensemble["quantity"] == "congruence_index"]) == 101
     area = ensemble[ensemble["quantity"] == "area_fixed"]
     assert len(area) == 101 and (area["subjects [-]"] == 2).all()
     ends = table.groupby("subject")["area_fixed [mm^2]"].first().mean()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import errno
 import json
 import os
@@ -77,6 +78,9 @@ def run(inputs: tuple[float, str], o: QuickOptions, record: Record) -> QuickResu
             os._exit(9)
         case "full":
             raise OSError(errno.ENOSPC, "No space left on device")
+        case "holds":  # compiled code that keeps the interpreter to itself
+            o.file.with_suffix(".begun").touch()
+            ctypes.PyDLL(None).sleep(60)
         case "slow":
             time.sleep(0.3)
         case "hungry":

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import sys
+import time
 from pathlib import Path
 
+import psutil
 import pytest
 
-from benchmarks.cohort_kills import disturb, prepare
+from benchmarks.cohort_kills import disturb, prepare, start
+from tests.study.quick import study
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
@@ -17,3 +20,18 @@ def test_tables_after_kills_are_those_of_an_undisturbed_run(tmp_path: Path) -> N
     found = disturb(prepare(tmp_path, 6), tmp_path, 3, seed=11)
     assert sum(found.kills.values()) == 3 and found.ended >= 1
     assert (found.different, found.left_running) == (0, 0), found
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the system does not end them")
+@pytest.mark.slow
+def test_workers_end_with_a_killed_study_whatever_they_are_at(tmp_path: Path) -> None:
+    """A trial of a minute in compiled code that does not let other threads run, so none of them can end it."""
+    process = start(study(tmp_path, {"S1": "1 holds"}), tmp_path / "out")
+    end = time.monotonic() + 300.0
+    while not (tmp_path / "S1.begun").exists():
+        assert process.poll() is None and time.monotonic() < end
+        time.sleep(0.05)
+    children = psutil.Process(process.pid).children(recursive=True)
+    process.kill()
+    process.wait()
+    assert len(children) > 1 and psutil.wait_procs(children, 20.0)[1] == []

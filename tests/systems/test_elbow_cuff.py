@@ -138,6 +138,21 @@ def test_on_the_limbs_line_cuff_and_fixation_are_in_series_to_first_order() -> N
     assert off[0] < 1e-3 and off[0] / off[1] == pytest.approx(4.0, rel=0.1)
 
 
+def test_beside_the_limbs_line_the_fixation_counts_by_more_than_its_compliance() -> None:
+    """F = d/(1/k + c g) to first order in c, and the paper's g is above 1 at every angle."""
+    d = displacement(BETA, OFFSETS)
+    reach, cosine = (
+        np.hypot(OFFSETS.l * np.sin(BETA) - OFFSETS.x, OFFSETS.y + OFFSETS.l * np.cos(BETA)),
+        np.cos(d.gamma),
+    )
+    z = OFFSETS.z / (reach * cosine**2)
+    g = 1.0 + z * (OFFSETS.z / (OFFSETS.l * cosine**3) - np.tan(d.gamma))
+    assert (g > 1.2).all()
+    off = [np.abs(yielded(BETA, STILL, OFFSETS, K, compliance=c).force - d.total / (1.0 / K + c * g)).max()
+           for c in (2e-5, 1e-5)]  # fmt: skip
+    assert off[0] < 1e-3 and off[0] / off[1] == pytest.approx(4.0, rel=0.1)
+
+
 def test_a_damper_behind_a_fixation_is_right_to_first_order() -> None:
     """Beside k d + b ḋ = F with d less by c F, integrated; the error falls with the square of b."""
     o, c = Offsets(0.169, 0.0, 0.01, 0.012), 2e-3

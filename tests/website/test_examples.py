@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
+from typing import Any
+from unittest import mock
 
 import pytest
 
+from geocontact.gap.diagnose import diagnose
 from tests.house.first_screens import agrees
 from website.api.entries import JOBS, UNITS, Entry, entries
 from website.api.pages import FOLDER, api_pages
@@ -36,14 +42,27 @@ LONG = {  # more than three CPU seconds
 }
 LONGEST = {
     "prosthesis.calibrate",
+    "prosthesis.compare",
     "prosthesis.design",
-}  # more than 25; the same calls are in their page's first screen and notebook
+}
+"""More than ten CPU seconds; tests/analyses/prosthesis makes the same calls and looks at what they say."""
+DIAGNOSES = "geocontact.analyses.gap.diagnose.run.diagnose"
+OF_THE_SAME_CASE = {
+    "discriminability": ("geocontact.gap.identifiability.discriminability.attribute", "attribution"),
+    "inject": (DIAGNOSES, None),
+}
+"""Examples that begin with a diagnosis of the case that the one of `diagnose` makes: where it is called, which part of
+the findings they need; what `inject` finds is not shown."""
 WITHOUT_PARAMETERS = {
     "InputWarning",
     *(f"chain.{name}" for name in ("CONTACT_LAW", "ContactSites", "Geometry", "INTERFACE_LAW")),
 }
 SILENT = ["require_numbers"]  # says nothing where all is well
 WITHOUT_FORMULA = ["cohort", "load_cells"]
+
+
+Diagnosed = Callable[[], tuple[str, Any]]
+"""What the example of `diagnose` prints otherwise than it shows, and its findings."""
 
 
 def name(entry: Entry) -> str:
@@ -56,8 +75,46 @@ def marked(entry: Entry) -> object:
 
 
 @pytest.mark.parametrize("entry", [marked(one) for one in ENTRIES if one.group != UNITS], ids=name)
-def test_an_example_prints_what_it_shows(entry: Entry, tmp_path: Path) -> None:
-    assert differences(entry.name, entry.example, tmp_path, agrees) == ""
+def test_an_example_prints_what_it_shows(entry: Entry, tmp_path: Path, diagnosed: Diagnosed) -> None:
+    if entry.name == "diagnose":
+        assert diagnosed()[0] == ""
+        return
+    with known(entry.name, diagnosed):
+        assert differences(entry.name, entry.example, tmp_path, agrees) == ""
+
+
+@pytest.fixture(scope="module")
+def diagnosed(tmp_path_factory: pytest.TempPathFactory) -> Diagnosed:
+    """Made once, where it is asked for first."""
+
+    @cache
+    def made() -> tuple[str, Any]:
+        (entry,) = (one for one in ENTRIES if one.name == "diagnose")
+        with mock.patch(DIAGNOSES, side_effect=lambda *given: kept.append(diagnose(*given)) or kept[0]):
+            told = differences(entry.name, entry.example, tmp_path_factory.mktemp("diagnose"), agrees)
+        return told, kept[0]
+
+    kept: list[Any] = []
+    return made
+
+
+@contextmanager
+def known(name: str, diagnosed: Diagnosed) -> Iterator[None]:
+    """An example of the same case is given its findings instead of making them again."""
+    if name not in OF_THE_SAME_CASE:
+        yield
+        return
+    place, part = OF_THE_SAME_CASE[name]
+    findings = diagnosed()[1]
+    with mock.patch(place, return_value=findings if part is None else getattr(findings, part)) as instead:
+        yield
+    instead.assert_called()
+
+
+def test_examples_of_one_case_make_the_same_one() -> None:
+    made = {one.name: one.example for one in ENTRIES if one.name in ("diagnose", *OF_THE_SAME_CASE)}
+    cases = {text.partition('>>> _ = Path("case/case.toml").write_text(text)')[0] for text in made.values()}
+    assert len(made) == 3 and len(cases) == 1
 
 
 def test_an_example_that_prints_something_else_is_told(tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import pandas as pd
 
+from geocontact.analyses.area.congruence.along import CongruenceEvolution
 from geocontact.analyses.area.pose_error.along import AreaUncertainty
 from geocontact.analyses.area.pressure.along import PressureEvolution
 from geocontact.data.evolution import AreaEvolution
@@ -33,6 +34,8 @@ class MotionResult:
         Differences to measured areas; None unless `compare` names some.
     uncertainty
         Error of the poses carried into FIXED's area; None unless one was given.
+    congruence
+        How alike the surfaces are curved in contact; None unless asked for.
     reservations
         What is to be doubted about this motion, each one line.
     """
@@ -44,4 +47,5 @@ class MotionResult:
     pressure: PressureEvolution | None
     comparison: pd.DataFrame | None
     uncertainty: AreaUncertainty | None
+    congruence: CongruenceEvolution | None
     reservations: tuple[str, ...]

@@ -30,6 +30,7 @@ from geocontact.analyses.sides import Medial, Side, medial_side
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import (
     DIFFERENCE,
+    FITTED,
     FRAME_RATE,
     LAYER_RATIO,
     PIECE,
@@ -131,6 +132,10 @@ class AreaOptions(Options):
         How area is counted; the crude rules are for comparing with papers.
     bounds
         Refine until (upper - lower) / upper is below: 0.02 or 2%; 10% unless given.
+
+    congruence
+        Also tell how alike the two surfaces are curved where they are in contact (columns of area.csv): the radius
+        within which curvatures are fitted, several edges of the meshes, such as 4mm.
 
     Error of the poses
     ------------------
@@ -242,6 +247,7 @@ class AreaOptions(Options):
     region_moving: Expression | None = None
     rule: Literal["refined", "clip", "all-vertices", "any-vertex", "centroid"] = "refined"
     bounds: Annotated[Fraction | None, SHARE] = None
+    congruence: Annotated[Length | None, FITTED] = None
     pose_sd: PoseSd | None = None
     pose_axes: Annotated[Literal["fixed", "moving"] | None, Requires("pose_sd")] = None
     markers: Annotated[

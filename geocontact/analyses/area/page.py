@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Int
 
+from geocontact.analyses.area.congruence.along import CongruenceEvolution
 from geocontact.analyses.area.meshes_table import meshes_table
 from geocontact.analyses.area.page_answer import facts, headline
 from geocontact.analyses.area.page_sections import (
@@ -53,6 +54,7 @@ def write_report(
     pressures: Pressures | None = None,
     compared: Compared | None = None,
     uncertainty: AreaUncertainty | None = None,
+    congruence: CongruenceEvolution | None = None,
 ) -> int:
     """Write the self-contained page of one contact-area analysis; returns its size in bytes.
 
@@ -78,13 +80,17 @@ def write_report(
         Measured areas beside these.
     uncertainty
         Error of the poses carried into the area.
+    congruence
+        How alike the surfaces are curved in contact; read out in each frame.
     """
     if not maps.frames:
         raise ValueError("the distance maps hold no frame; gather them with area_evolution(..., each=maps.add)")
     most = FRAMES
     while True:
         shown = shown_frames(maps, most, () if pressures is None else (pressures.heaviest,))
-        told = Told(moving, fixed, motion, settings, evolution, maps, shown, pressures, compared, uncertainty)
+        told = Told(
+            moving, fixed, motion, settings, evolution, maps, shown, pressures, compared, uncertainty, congruence
+        )
         size = write_page(contact_page(told, title, provenance, warnings), Path(path))
         most = min(most, len(told.kept)) // 2
         if size <= LARGEST_FILE or most < FEWEST:

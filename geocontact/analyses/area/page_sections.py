@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from geocontact.analyses.area.colours import colour_span
+from geocontact.analyses.area.congruence.along import CongruenceEvolution
 from geocontact.analyses.area.pose_error.along import NORMAL, AreaUncertainty
 from geocontact.analyses.area.pressure.page import Pressures, face_map, pressure_rows
 from geocontact.analyses.area.reference_areas import Compared
@@ -28,6 +29,9 @@ READ = (
     ("area of the moving body", "area_moving [mm^2]", 2),
     ("smallest distance", "min_distance [mm]", 3),
     ("penetration of the fixed body", "max_penetration_fixed [mm]", 3),
+    ("index of congruence", "congruence_index [1/mm]", 4),
+    ("relative curvature, least", "relative_curvature_min [1/mm]", 4),
+    ("relative curvature, largest", "relative_curvature_max [1/mm]", 4),
     ("centroid x", "centroid_x [mm]", 2),
     ("centroid y", "centroid_y [mm]", 2),
     ("centroid z", "centroid_z [mm]", 2),
@@ -58,6 +62,7 @@ class Told:
     pressures: Pressures | None = None
     compared: Compared | None = None
     uncertainty: AreaUncertainty | None = None
+    congruence: CongruenceEvolution | None = None
 
     @property
     def frames(self) -> Int[np.ndarray, " k"]:
@@ -125,7 +130,8 @@ def rows(told: Told, k: int) -> list[Row]:
     """The table's row of each frame at threshold `k`, rounded to what a reader can use; with pressures, those first."""
     e = told.evolution
     more = READ if told.pressures is None else [one for one in READ if one[1] in BESIDE_PRESSURES]
-    columns = e.table().iloc[told.frames * len(e.thresholds) + k]
+    alike = {} if told.congruence is None else told.congruence.columns()
+    columns = e.table().assign(**alike).iloc[told.frames * len(e.thresholds) + k]
     found = [] if told.pressures is None else pressure_rows(told.pressures, told.frames)
     area = ("area of the fixed body" + (f", {told.settings.rule}" if told.crude else ""), "area_fixed [mm^2]", 2)
     for label, column, digits in (area, *more):

@@ -12,6 +12,7 @@ from geocontact.analyses.area.apart import (
     warn_of_no_contact,
     warn_of_overlap,
 )
+from geocontact.analyses.area.congruence.along import congruence_evolution
 from geocontact.analyses.area.motion_result import MotionResult
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.page import FRAMES
@@ -47,9 +48,9 @@ def _over(
     pressure = pressure_evolution(record, bodies, o, name, motion, maps.frames) if o.pressure else None
     comparison = None if bodies.reference is None else _compared(record, evolution, bodies.reference)
     uncertainty = _uncertain(record, bodies, o, name, motion, evolution)
-    return MotionResult(
-        name, motion, evolution, maps, pressure, comparison, uncertainty, (*shared, *record.warnings[before:])
-    )
+    alike = None if o.congruence is None else congruence_evolution(record, bodies, o.congruence, name, motion)
+    reservations = (*shared, *record.warnings[before:])
+    return MotionResult(name, motion, evolution, maps, pressure, comparison, uncertainty, alike, reservations)
 
 
 def _evaluated(

@@ -28,8 +28,10 @@ def tables_of(one: MotionResult, o: AreaOptions) -> dict[str, pd.DataFrame]:
 
 
 def area_table(one: MotionResult, o: AreaOptions) -> pd.DataFrame:
-    """A row per frame and threshold, with the angle that a sweep prescribes and the offset of adduction asked for."""
+    """A row per frame and threshold, with congruence, the angle that a sweep prescribes and the offset of adduction."""
     table = one.evolution.table()
+    if one.congruence is not None:
+        table = table.assign(**one.congruence.columns())
     if one.motion.coordinate is not None:
         name, angle = one.motion.coordinate
         table[f"{name} [deg]"] = np.repeat(np.degrees(angle), len(one.evolution.thresholds))

@@ -141,4 +141,5 @@ def _write_report(
         shown,
         compared,
         one.uncertainty,
+        one.congruence,
     )

@@ -10,8 +10,8 @@ from geocontact.data.motion import Motion
 from geocontact.io.motion.grood_suntay import motion_from_grood_suntay
 from geocontact.io.motion.pose_rows import is_pose_rows, motion_from_rows
 from geocontact.io.motion.poses import motion_from_csv, motion_from_joint, motion_from_map
-from geocontact.io.opensim.osim import read_joint
-from geocontact.io.text.tables import CELLS, read_table
+from geocontact.io.opensim.osim import joint_names, read_joint
+from geocontact.io.text.tables import CELLS, listed, read_table
 
 SUFFIXES = (*CELLS, ".mot", ".sto", ".txt")
 ROWS = (".csv", ".txt")
@@ -70,7 +70,8 @@ def read_motion(
         raise InputError(path, "", "is not a motion file that is read", f"give one of {', '.join(SUFFIXES)}")
     if (osim is None) != (joint is None):
         missing, given = ("`joint`", "`osim`") if joint is None else ("`osim`", "`joint`")
-        raise InputError("", missing, f"is missing beside {given}", "give the model and the joint in it")
+        remedy = "give the model" if osim is None else f"joints of the model are: {listed(joint_names(osim))}"
+        raise InputError("", missing, f"is missing beside {given}", remedy)
     if suffix in ROWS and is_pose_rows(path):
         _refuse_columns(osim, mapping, grood_suntay_side)
         return motion_from_rows(path, unit, rate)

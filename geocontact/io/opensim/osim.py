@@ -49,6 +49,11 @@ def read_joint(path: str | PathLike[str], joint_name: str) -> JointModel:
     return _joint(file, model, Frames(file, model), *joints[joint_name])
 
 
+def joint_names(path: str | PathLike[str]) -> tuple[str, ...]:
+    """Names of the joints of an .osim file, in its order."""
+    return tuple(element.get("name", "") for element, _ in _joint_elements(read_model(path)))
+
+
 def joints_of(file: str, model: Element, frames: Frames) -> tuple[JointModel, ...]:
     """All joints of a model, in the file's order."""
     return tuple(each for found in _joint_elements(model) for each in _joints(file, model, frames, *found))

@@ -10,10 +10,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+import geocontact as gc
 from geocontact.analyses.gap.diagnose.figures import axis_units, gap_figures
 from geocontact.analyses.gap.diagnose.page import gap_page
-from geocontact.analyses.gap.diagnose.words import states, verdict_sentences
+from geocontact.analyses.gap.diagnose.words import states, untried_law, verdict_sentences
 from geocontact.analyses.gap.words import percent
+from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.cell import Cell
 from geocontact.data.gap.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Partial, Where
@@ -235,6 +237,18 @@ def said(**changes: object) -> list[str]:
     return verdict_sentences(replace(plain, **changes), rates((0.45, 0.04, 0.01, 0.01, 0.04, 0.45)))
 
 
+def test_effects_that_no_law_could_have_are_said_to_be_untried() -> None:
+    unknown = Diagnosis("case", "rod", "unknown", (), {"unknown": 1.0}, (), (), WHERE, GAP, {}, 1.0, "0")
+
+    def rod(**law: str) -> System:
+        return gc.simulator_base("rod", {"q": "m"}, {"force": "N"}, print, **law).build((), {}, {})
+
+    told = untried_law(unknown, rod())
+    assert told is not None and "damping" in told and "rod has no law" in told and "`acts_on`" in told
+    assert untried_law(unknown, rod(acts_on="q")) is None
+    assert untried_law(replace(unknown, verdict="no_gap"), rod()) is None
+
+
 def rates(shares: tuple[float, ...], p_value: float = 0.001, axis: str = "beta'") -> tuple[Cell, ...]:
     """Cells along the rate of beta."""
     ends = [(k - 3.0, k - 2.0, 1.0, share, p_value, (0.0, 1.0), 0.1) for k, share in enumerate(shares)]
@@ -312,7 +326,7 @@ def test_invisible_effects_faults_and_oddities_are_said() -> None:
         "mistake in the data: unit_error of force (reads 0.001 times what it should) in t01 and t03, taken as undone "
         "in all that follows"
     )
-    assert found[3:] == ["odd: a line at 8 Hz in force"]
+    assert found[3:] == ["remark: a line at 8 Hz in force"]
 
 
 @pytest.mark.parametrize(

@@ -28,7 +28,7 @@ def test_a_planted_effect_is_found(tmp_path: Path) -> None:
     assert row["unit"] == "N s/m"
     assert row["found"] == pytest.approx(planted, rel=0.1) and row["low"] < planted < row["high"]
     words = repr(result)
-    assert f"planted damping (damping.b = {planted:.4g} N s/m" in words and "found: damping; damping.b = " in words
+    assert f"injected damping (damping.b = {planted:.4g} N s/m" in words and "found: damping; damping.b = " in words
     out = result.write(tmp_path / "out")
     told = json.loads((out / "planted.json").read_text("utf-8"))
     assert told["named"] and told["parameters"]["damping.b"]["value"] == planted

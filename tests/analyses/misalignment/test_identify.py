@@ -11,7 +11,9 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.misalignment.identify.sentences import explained
 from geocontact.axis_misalignment.explicit import Offsets, displacement
+from geocontact.axis_misalignment.synthetic import offsets_in
 from tests.analyses.misalignment.trials import KNOWN, PAPER, changed, free, locked, quietly, recorded
 
 pytestmark = pytest.mark.slow
@@ -80,6 +82,23 @@ def test_tables_hold_bins_fit_and_spread(told: Any) -> None:
     assert loose["samples"].sum() == 3 * 1001
     assert abs(loose.loc[85.0, "50% [N]"]) < 0.2 < boxes.set_index("beta [deg]").loc[85.0, "50% [N]"]
     assert list(told.table("conditions")) == ["beta [deg]", "locked [N]", "free [N]", "displacement [mm]"]
+
+
+def test_the_moment_on_the_cuff_and_the_fixation_beside_it_are_told(told: Any, unscaled: Any) -> None:
+    bins, numbers = told.table("bins"), told.numbers
+    gamma = displacement(np.radians(bins["beta [deg]"].to_numpy()), offsets_in(numbers)).gamma
+    np.testing.assert_allclose(bins["gamma [deg]"], np.degrees(gamma))
+    moment = -bins["fitted [N]"] * numbers["z"] / np.cos(gamma) ** 2
+    np.testing.assert_allclose(bins["cuff_moment [N m]"], moment, atol=1e-12)
+    assert not {"gamma [deg]", "cuff_moment [N m]"} & set(unscaled.table("bins")), "no length is known"
+    apart, shown = told.fit.separable, told.summary["identifiability"]["fixation_from_cuff"]
+    assert shown == {"own_beside_k": apart.from_cuff, "own_beside_all_free": apart.from_all, "told_apart": True}
+    assert 0.0 < apart.from_all < apart.from_cuff < 0.2
+    assert (
+        f"as c is taken as 0. Of what a yielding fixation does to the force, {apart.from_all:.1%}"
+        in explained(told.fit, told.free)[1]
+    )
+    assert not any("compliance" in line or "torque" in line for line in told.warnings)
 
 
 def test_without_anything_known_the_scale_is_named_and_shown(unscaled: Any) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from pathlib import Path
 
@@ -70,6 +71,10 @@ def test_shipped_stances_from_markers_to_files(tmp_path: Path) -> None:
             other_plate="other_force",
             plate="own_force",
         )
+    assert found.sentences[0] == "2 stances, 1 person, 2 settings of the foot"
+    assert re.match(
+        r"resultant force: R² [\d.]+, [\d.]+% BW; without a model mean of the others [\d.]+% BW,", found.sentences[1]
+    )
     errors = found.table("errors").set_index(["trial", "quantity"])
     own = alone.table("errors").set_index("quantity")
     for quantity in ("resultant", "fore_aft", "cop_ground"):

@@ -190,7 +190,7 @@ def test_noise_has_the_covariance_that_it_states():
 )
 def test_noise_of_inputs_has_the_covariance_that_it_states(passed):
     rng = np.random.default_rng(0)
-    drawn = np.array([smooth_noise(rng, 1.0, 40, 0.005, passed) for _ in range(12000)])
+    drawn = np.array([smooth_noise(rng, 1.0, 40, 0.005, passed) for _ in range(4000)])
     place, cross, rate = smooth_covariance(1.0, 40, 0.005, passed)
     np.testing.assert_allclose(np.cov(drawn.T), place, atol=0.12)
     slope = (drawn[:, 2:] - drawn[:, :-2]) / 0.01  # 2 % too small at 10 Hz

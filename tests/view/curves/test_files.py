@@ -9,6 +9,7 @@ import xml.etree.ElementTree as ET
 import zlib
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import matplotlib as mpl
@@ -47,8 +48,31 @@ def texts_of_pdf(file: Path) -> list[str]:
     return found
 
 
-def test_same_input_gives_same_bytes(specimen: Specimen, tmp_path: Path) -> None:
-    check_bytes(lambda: specimen("knee"), "svg", tmp_path)
+@pytest.fixture(scope="module")
+def saved(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Specimen], Path]:
+    """SVG file of a specimen with a plain name, made once for all tests."""
+
+    @cache
+    def of(specimen: Specimen) -> Path:
+        file = tmp_path_factory.mktemp("saved") / "knee.svg"
+        save(specimen("knee"), file)
+        return file
+
+    return of
+
+
+def test_same_input_gives_same_bytes_whatever_the_users_settings(
+    specimen: Specimen, saved: Callable[[Specimen], Path], tmp_path: Path
+) -> None:
+    """Saved twice, and drawn again for the first file; the settings neither change nor count."""
+    first = saved(specimen).read_bytes()
+    with mpl.rc_context({"font.size": 20.0, "lines.linewidth": 9.0, "axes.facecolor": "red", "svg.fonttype": "path"}):
+        mine = dict(mpl.rcParams)
+        figure = specimen("knee")
+        for name in ("drawn_again", "saved_twice"):
+            save(figure, tmp_path / f"{name}.svg")
+            assert (tmp_path / f"{name}.svg").read_bytes() == first, name
+        assert dict(mpl.rcParams) == mine
 
 
 @pytest.mark.parametrize("ending", ["pdf", "png"])
@@ -64,12 +88,11 @@ def check_bytes(draw: Callable[[], Figure], ending: str, folder: Path) -> None:
         assert (folder / f"{name}.{ending}").read_bytes() == (folder / f"first.{ending}").read_bytes(), name
 
 
-def test_vector_files_hold_text(specimen: Specimen, tmp_path: Path) -> None:
+def test_vector_files_hold_text(specimen: Specimen, saved: Callable[[Specimen], Path], tmp_path: Path) -> None:
     figure = specimen("knee")
     label = figure.axes[0].get_ylabel().replace("−", "-").split("\n")[0]
-    save(figure, tmp_path / "a.svg")
     save(figure, tmp_path / "a.pdf")
-    assert label in [text.replace("−", "-") for text in texts_of_svg(tmp_path / "a.svg")]
+    assert label in [text.replace("−", "-") for text in texts_of_svg(saved(specimen))]
     found = "\n".join(texts_of_pdf(tmp_path / "a.pdf"))
     assert label.partition("²")[0].partition("-")[0].strip() in found
     assert b"/Type3" not in (tmp_path / "a.pdf").read_bytes(), "letters drawn as shapes"
@@ -107,15 +130,6 @@ def test_another_ending_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"a\.jpg: figures are written as \.svg, \.pdf, \.png"):
         save(Figure(), tmp_path / "a.jpg")
     assert not list(tmp_path.iterdir())
-
-
-def test_the_users_settings_neither_change_nor_count(specimen: Specimen, tmp_path: Path) -> None:
-    save(specimen("knee"), tmp_path / "a.svg")
-    with mpl.rc_context({"font.size": 20.0, "lines.linewidth": 9.0, "axes.facecolor": "red", "svg.fonttype": "path"}):
-        mine = dict(mpl.rcParams)
-        save(specimen("knee"), tmp_path / "b.svg")
-        assert dict(mpl.rcParams) == mine
-    assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
 
 
 def test_pyplot_is_not_loaded() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from geocontact.analyses.gap.words import names, percent, proposal_words
+from geocontact.chain.system import System
 from geocontact.data.gap.cell import BAND, FAST_PHASE, Cell
 from geocontact.data.gap.diagnosis import CellsHeld, ChannelGap, Diagnosis, Partial, Where
 
@@ -19,7 +20,17 @@ def verdict_sentences(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     """The verdict first, then what limits it; one sentence each, without a full stop."""
     found = {"explained": _explained, "no_gap": _no_gap, "unknown": _unknown, "unresolved": _unresolved}[d.verdict]
     then = [] if d.next_experiment is None else [proposal_words(d.next_experiment, d.verdict)]
-    return [*found(d, cells), *_faults(d), *(f"odd: {remark}" for remark in d.remarks), *then]
+    return [*found(d, cells), *_faults(d), *(f"remark: {remark}" for remark in d.remarks), *then]
+
+
+def untried_law(d: Diagnosis, system: System) -> str | None:
+    """Where no effect explains the gap of a simulator that takes no force law: that none of those was among them."""
+    if d.verdict != "unknown" or system.law.slots.neutral:
+        return None
+    return (
+        f"effects of a force law (damping, friction, play, stops) were not tried: {system.name} has no law that they "
+        "act on; a simulator in Python can take one (`acts_on`)"
+    )
 
 
 def place(where: Where, cells: Sequence[Cell]) -> str:

@@ -23,7 +23,7 @@ def sentences(one: Candidate, made: Injected, d: Diagnosis) -> Iterator[str]:
     """The effect with its parameters, then whether the diagnosis found it."""
     values = ", ".join(f"{p.name} = {made.values[p.name]:.4g} {p.unit}" for p in one.parameters)
     gap = "" if np.isnan(made.size) else f"; it makes a gap of {made.size:.2g} times the noise floor"
-    yield f"planted {one.label}{f' ({values})' if values else ''}{gap}"
+    yield f"injected {one.label}{f' ({values})' if values else ''}{gap}"
     if one.name in d.effects:
         told = [(p.name, d.parameters[p.name]) for p in one.parameters if p.name in d.parameters]
         sizes = ", ".join(f"{name} = {e.value:.4g} [{e.ci95[0]:.4g}, {e.ci95[1]:.4g}] {e.unit}" for name, e in told)

@@ -101,7 +101,7 @@ class SimulateOptions(Options):
     Columns and units
     -----------------
     map
-        Column of the angle in the recordings, where it has another name: beta=elbow_flexion.
+        Columns of the recordings that have other names, of beta, pressure and torque: beta=elbow_flexion,torque=-motor.
     angles
         Unit of the angle where its file does not say.
     """

@@ -6,13 +6,13 @@ from geocontact.analyses.misalignment.simulate.options import SimulateOptions
 from geocontact.analyses.run_record import Record
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
-from geocontact.io.recordings.elbow_recording import BETA, read_elbow_recording
+from geocontact.io.recordings.elbow_recording import BETA, PRESSURE, TORQUE, read_elbow_recording
 from geocontact.io.text.columns import parse_map
 
 
 def read(o: SimulateOptions, record: Record) -> tuple[ElbowRecording, ...]:
     """The recordings that the options name; their force does not matter."""
-    mapping = {} if o.map is None else parse_map(o.map, (BETA,))
+    mapping = {} if o.map is None else parse_map(o.map, (BETA, PRESSURE, TORQUE))
     found = []
     for path in o.recordings:
         r = read_elbow_recording(path, mapping, o.angles, needed=())

@@ -1,0 +1,1 @@
+"""Congruence of the two surfaces where they are in contact."""

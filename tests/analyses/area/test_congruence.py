@@ -1,0 +1,39 @@
+"""Congruence in the area analysis: columns where it is asked for, what it says, and what is refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from geocontact.data.errors import InputError
+from tests.analyses.area.calls import area
+from tests.cli.calls import SPHERE, poses
+
+COLUMNS = [f"relative_curvature_{end} [1/mm]" for end in ("min", "max")] + ["congruence_index [1/mm]"]
+
+
+def test_a_ball_on_a_ball_has_twice_its_curvature(tmp_path: Path) -> None:
+    """A tenth of 1/mm at both thresholds and in both frames; nothing where the ball is away; no columns unasked."""
+    motion = poses(tmp_path, (0, 40.2, 0), (24, 0, 32.3), (0, 80, 0))
+    result = area(SPHERE, SPHERE, motion, threshold=(1e-3, 2e-3), congruence=4e-3)
+    table = result.table()
+    for name in COLUMNS:
+        np.testing.assert_allclose(table[name][:4], 0.1, rtol=0.02)
+        assert table[name][4:].isna().all()
+    np.testing.assert_allclose(table["congruence_share [-]"][:4], 1.0)
+    assert "index of congruence within 1 mm: 0.1" in repr(result) and "fitted within 4 mm" in repr(result)
+    assert result.record.results["congruence"]["radius_mm"] == pytest.approx(4.0)
+    plain = area(SPHERE, SPHERE, motion, threshold=(1e-3, 2e-3))
+    assert not any("congruence" in name or "curvature" in name for name in plain.table())
+    assert plain.table().equals(table[list(plain.table())])
+
+
+def test_a_radius_with_too_few_vertices_is_refused(tmp_path: Path) -> None:
+    motion = poses(tmp_path, (0, 40.2, 0))
+    with pytest.raises(InputError, match=r"`congruence`: fits no curvature .*give a radius of several edges"):
+        area(SPHERE, SPHERE, motion, threshold=1e-3, congruence=0.5e-3)
+    some = area(SPHERE, SPHERE, motion, threshold=4e-3, congruence=2.15e-3)
+    assert 0.2 < some.table()["congruence_share [-]"][0] < 0.6
+    assert any("the index of congruence is over" in line for line in some.warnings)
