@@ -6,14 +6,22 @@ from website.constants import effect, foot, said
 
 MOVED = {"moved": ["a", "b"], "after": {"false_alarms": 1, "first_right": 2}}
 RUNS = [
-    {"before": {"false_alarms": 0, "first_right": 3}, "constants": {"SURE": {"times 2": MOVED}, "FEW": {}}},
-    {"before": {"false_alarms": 1, "first_right": 4}, "constants": {"SURE": {"times 2": "moves nothing"}}},
+    {
+        "answers": 5,
+        "before": {"false_alarms": 0, "first_right": 3},
+        "constants": {"SURE": {"times 2": MOVED}, "FEW": {}},
+    },
+    {
+        "answers": 6,
+        "before": {"false_alarms": 1, "first_right": 4},
+        "constants": {"SURE": {"times 2": "moves nothing"}},
+    },
 ]
 
 
 def test_runs_are_added_up() -> None:
     told = effect(RUNS, "SURE", "times 2")
-    assert told == {"moved": 2, "false_alarms": 2, "first_right": 6} and said(told) == "2, 2, 6"
+    assert told == {"moved": 2, "of": 11, "false_alarms": 2, "first_right": 6} and said(told) == "2 of 11, 2, 6"
 
 
 def test_what_a_run_did_not_try_is_not_called_harmless() -> None:

@@ -26,9 +26,9 @@ def error_of_rates(system: System, trial: Trial, values: Mapping[str, float]) ->
     A polynomial of degree p through symmetric neighbours gives rates of order p + 1; neighbours twice as far away are
     off by 2^(p + 1) times as much.
     """
-    wider = system.reaching(2.0 * system.motion.reach).simulate(trial, values)
-    off = (wider - system.simulate(trial, values)) / (2.0 ** (DEGREE + 1) - 1.0)
-    return np.asarray(np.where(np.isfinite(off) & (np.abs(off) < 0.25 * FAR), off, 0.0))
+    fine, wide = (system.reaching(n * system.motion.reach).simulate(trial, values) for n in (1.0, 2.0))
+    told = [np.isfinite(each) & (np.abs(each) < 0.5 * FAR) for each in (fine, wide)]
+    return np.where(told[0] & told[1], wide - fine, 0.0) / (2.0 ** (DEGREE + 1) - 1.0)
 
 
 def coarse_rates(problem: Problem) -> tuple[str, ...]:
