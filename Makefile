@@ -66,7 +66,8 @@ docs: $(VENV)/full.stamp
 	@$(BIN)/python -m website --execute
 	@echo "open build/docs/html/index.html"
 
-# The same without outputs, for .ci/run: tests/notebooks runs the notebooks there; a warning is an error
+# The same without outputs, for .ci/run, where tests/notebooks runs half of the notebooks (`make long` the others); a warning
+# is an error
 site: $(VENV)/full.stamp
 	@$(BIN)/python -m website
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -680,3 +681,29 @@ def test_speed_of_a_diagnosis() -> None:
     text = " ".join((ROOT / "docs/reference/speed.md").read_text(encoding="utf-8").split())
     assert f"median is {now['median_cpu_s']:.2f} s ({before['median_cpu_s']:.2f} before)" in text
     assert f"the most {now['most_cpu_s']:.2f} s ({before['most_cpu_s']:.2f})" in text
+
+
+def test_kills_and_scaling_of_studies() -> None:
+    page = (ROOT / "docs/how-to/cohort.md").read_text(encoding="utf-8")
+    told, scaling = results("cohort_kills")["figures"], results("cohort_scaling")["figures"]
+    assert told["with_other_tables"] == told["processes_left_running"] == 0
+    assert f"Of {sum(told['kills'].values())} kills at random moments" in page and sum(told["kills"].values()) >= 50
+    for name, words in (("waiting", "500 trials that wait"), ("areas", "60 contact areas")):
+        found = re.search(rf"{words}[^/]*?1/(\d\.\d\d)", page)
+        assert found and near(found[1], scaling[name]["speed_up"])
+
+
+def test_areas_again_and_again() -> None:
+    told = results("repeated")
+    assert near(row("reference/speed.md", "**repeated**")[0], told["median_cpu_s"]["repeated"])
+    assert told["median_cpu_s"]["repeated"] < 0.1 and told["largest_relative_error"] < 1e-9
+
+
+def test_knees_at_rest() -> None:
+    """The table's rows are those of the results, in the same order."""
+    begin = {"sample knee, medium": "medium", "sample knee, coarse": "coarse", "DM": "DM", "JW": "JW"}
+    for one in results("equilibrium")["rows"]:
+        free = "adduction" if one["free"] == ["adduction"] else "all"
+        cells = row("how-to/knee_settle.md", f"{begin[one['case']]}, {one['piece_mm']:g} mm, {free}")
+        assert cells[0] == (str(one["at_rest"]) if one["at_rest"] == one["frames"] else f"{one['at_rest']} of 5")
+        assert near(cells[1], one["cpu_s_per_frame"]) and near(cells[2], one["newton_steps_per_frame"]), cells
