@@ -141,6 +141,7 @@ def _called(module: str, name: str, *given: Any) -> Callable[[Path], Any]:
 
 READERS: dict[str, Reader] = {
     "mesh": Reader(_called("io.mesh.meshes", "read_mesh", "mm")),
+    "particles": Reader(_called("io.mesh.particles", "read_particles", "mm")),
     "table": Reader(_table),
     "poses": Reader(_motion(order="XYZ")),
     "rows of matrices": Reader(_motion(unit="mm", rate=100.0)),

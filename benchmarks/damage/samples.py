@@ -100,6 +100,7 @@ THERE = (
     ("clinical motion", "table", "area", "clinical.csv"),
     ("placement", "table", "area", "place.txt"),
     ("faces", "table", "area", "faces.txt"),
+    ("particles", "table", "area", "plate.particles"),
     ("study", "settings", "area", "study.toml"),
     ("markers", "table", "leg", "walk.trc"),
     ("plates", "table", "leg", "grf.mot"),

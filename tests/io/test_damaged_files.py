@@ -18,6 +18,7 @@ from geocontact.analyses.run_again import read_run
 from geocontact.data.errors import InputError
 from geocontact.data.magnitude import too_large
 from geocontact.data.plausible import LARGEST_MEANT
+from geocontact.io.mesh.particles import read_particles
 from geocontact.io.mocap.force_plates import read_force_plates
 from geocontact.io.mocap.markers import read_markers
 from geocontact.io.motion.motion import read_motion
@@ -108,6 +109,24 @@ CASES: dict[str, tuple[str, str, Read, str]] = {
         "parameter,unit,value,lower,upper\nk,N/m,1,0,1e30\n",
         lambda path: read_contact_intervals(path, ["k"]),
         "parameters.csv k: an end of its interval is larger",
+    ),
+    "no particles": (
+        "a.particles",
+        "\n \n\r\n",
+        lambda path: read_particles(path, "mm"),
+        "a.particles: holds no particles",
+    ),
+    "particle": (
+        "a.particles",
+        "1 2 3\n4 -1e30 6\n",
+        lambda path: read_particles(path, "mm"),
+        "line 2: y is -1e+30, which is larger than any number",
+    ),
+    "particle with underscores": (
+        "a.particles",
+        "1 2_0 3\n",
+        lambda path: read_particles(path, "mm"),
+        "line 1: '1 2_0 3' is no point",
     ),
     "infinite force": ("a.mot", PLATE, read_force_plates, "line 6: 'force_vy' is inf"),
     "infinite place": (

@@ -7,33 +7,39 @@ particles lie on the subject's own mesh, in the frame of its file; world particl
 
 from __future__ import annotations
 
-import math
 from os import PathLike, fspath
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
+from geocontact.data.magnitude import too_large
+from geocontact.data.plausible import TOO_LARGE
 from geocontact.io.text.file_preflight import read_bytes
+from geocontact.io.text.text_lines import BYTE_ORDER_MARK, is_number, lines, shown
 from geocontact.io.text.units import LENGTH
 
 
 def read_particles(path: str | PathLike[str], unit: str) -> Float[np.ndarray, "n 3"]:
-    """Points [m] in the order of the file; empty lines at its end are passed over."""
+    """Points [m] in the order of the file, at least one; empty lines at its end are passed over."""
     file = fspath(path)
     if unit not in LENGTH:
         raise InputError(file, "", f"unit {unit!r} is none of length", f"expected one of {', '.join(LENGTH)}")
-    text = read_bytes(path).decode("utf-8-sig", errors="replace")
-    rows = [_point(line, number, file) for number, line in enumerate(text.rstrip().splitlines(), 1)]
-    return LENGTH[unit] * np.array(rows)
+    text = read_bytes(path).removeprefix(BYTE_ORDER_MARK).rstrip()
+    if not text:
+        raise InputError(file, "", "holds no particles", "expected x y z in each line")
+    points = np.array([_point(line, number, file) for number, line in enumerate(lines(text), 1)])
+    odd = np.argwhere(too_large(points))
+    if len(odd):
+        row, axis = odd[0]
+        what = f"{'xyz'[axis]} is {points[row, axis]:g}, which {TOO_LARGE}"
+        raise InputError(file, f"line {row + 1}", what, "check its digits and its exponent")
+    return LENGTH[unit] * points
 
 
-def _point(line: str, number: int, file: str) -> list[float]:
+def _point(line: bytes, number: int, file: str) -> list[float]:
     words = line.split()
-    try:
-        values = [float(word) for word in words]
-    except ValueError:
-        values = []
-    if len(values) != 3 or not all(map(math.isfinite, values)):
-        raise InputError(file, f"line {number}", f"{line.strip()[:40]!r} is no point", "expected x y z")
+    values = [float(word) for word in words] if all(map(is_number, words)) else []
+    if len(values) != 3 or not np.isfinite(values).all():
+        raise InputError(file, f"line {number}", f"{shown(line.strip())} is no point", "expected x y z")
     return values
