@@ -18,6 +18,7 @@ PATIENCE = 30.0  # s; for a scheduler to answer
 STARTS = 3
 SETTINGS: dict[str, Any] = {
     "distributed.scheduler.allowed-failures": 10,  # a trial counts its workers itself, and only those that were at it
+    "distributed.worker.multiprocessing-method": "spawn",  # no server between: `worker_setup` asks for its parent
     "distributed.worker.daemon": True,  # workers end with this process, however it ends
     "distributed.admin.system-monitor.gil.enabled": False,
 }

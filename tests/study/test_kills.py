@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import multiprocessing
+import os
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -9,7 +12,8 @@ from pathlib import Path
 import psutil
 import pytest
 
-from benchmarks.cohort_kills import disturb, prepare, start
+from benchmarks.cohort_kills import ROOT, disturb, prepare, start
+from geocontact.study.worker_setup import dask_setup
 from tests.study.quick import study
 
 
@@ -20,6 +24,28 @@ def test_tables_after_kills_are_those_of_an_undisturbed_run(tmp_path: Path) -> N
     found = disturb(prepare(tmp_path, 6), tmp_path, 3, seed=11)
     assert sum(found.kills.values()) == 3 and found.ended >= 1
     assert (found.different, found.left_running) == (0, 0), found
+
+
+def late() -> None:
+    """A worker that comes to its set-up when the process that started it has been killed."""
+    starter = multiprocessing.parent_process()
+    assert starter is not None
+    starter.join()
+    os.write(1, b"late\n")
+    dask_setup(None)
+    os.write(1, b"left running\n")
+
+
+KILLED_EARLY = """import multiprocessing, os, signal
+from tests.study.test_kills import late
+multiprocessing.get_context("spawn").Process(target=late).start()
+os.kill(os.getpid(), signal.SIGKILL)"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the system does not end them")
+def test_a_worker_whose_study_is_killed_while_it_starts_ends() -> None:
+    done = subprocess.run([sys.executable, "-c", KILLED_EARLY], cwd=ROOT, check=False, capture_output=True, timeout=300)
+    assert (done.returncode, done.stdout) == (-9, b"late\n"), done.stderr
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the system does not end them")
