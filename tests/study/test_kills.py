@@ -19,6 +19,15 @@ from tests.study.quick import study
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 @pytest.mark.slow
+def test_tables_after_one_kill_are_those_of_an_undisturbed_run(tmp_path: Path) -> None:
+    """The study itself, by SIGKILL, after 86 % of the time that it takes: about when its trials are run."""
+    found = disturb(prepare(tmp_path, 3), tmp_path, 1, seed=537)
+    assert sum(found.kills.values()) == 1 and found.ended >= 1
+    assert (found.different, found.left_running) == (0, 0), found
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+@pytest.mark.slow
 @pytest.mark.long
 def test_tables_after_kills_are_those_of_an_undisturbed_run(tmp_path: Path) -> None:
     found = disturb(prepare(tmp_path, 6), tmp_path, 3, seed=11)
