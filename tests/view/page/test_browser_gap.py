@@ -33,7 +33,6 @@ def test_opens_and_shows_its_drawings(report: Path, opened: Open, device: dict[s
     for k in range(3):
         pictures.nth(k).scroll_into_view_if_needed()
         here.until(f"document.images[{k}].complete && document.images[{k}].naturalWidth > 100")
-    assert here.tab.evaluate("[...document.images].every(one => one.width >= 480)"), "letters that can be read"
     assert here.complaints == []
     asked = [address for address in here.requests if not address.startswith("data:")]
     assert asked == [report.as_uri()]
