@@ -32,9 +32,7 @@ def test_a_ball_on_a_ball_has_twice_its_curvature(tmp_path: Path) -> None:
 
 def test_a_radius_with_too_few_vertices_is_refused(tmp_path: Path) -> None:
     motion = poses(tmp_path, (0, 40.2, 0))
-    with pytest.raises(
-        InputError, match=r"`congruence`: no congruence .*a radius of several edges.*wound inwards"
-    ):
+    with pytest.raises(InputError, match=r"`congruence`: no congruence .*a radius of several edges.*wound inwards"):
         area(SPHERE, SPHERE, motion, threshold=1e-3, congruence=0.5e-3)
     some = area(SPHERE, SPHERE, motion, threshold=4e-3, congruence=2.15e-3)
     assert 0.2 < some.table()["congruence_share [-]"][0] < 0.6
