@@ -41,7 +41,7 @@ def test_a_radius_with_too_few_vertices_is_refused(tmp_path: Path) -> None:
 
 def test_a_threshold_without_congruence_leaves_the_others_theirs(tmp_path: Path) -> None:
     """The few vertices within 0.3 mm have too few neighbours for a curvature; some within 4 mm have enough."""
-    motion = poses(tmp_path, (0, 40.2, 0))
+    motion = poses(tmp_path, (23.2, 23.2, 23.3))
     result = area(SPHERE, SPHERE, motion, threshold=(0.3e-3, 4e-3), congruence=2.15e-3)
     first, second = result.table()["congruence_index [1/mm]"]
     assert np.isnan(first) and second == pytest.approx(0.1, rel=0.05)
