@@ -94,6 +94,7 @@ def _refuse_without_any(bodies: Bodies, radius: float, label: str, found: Congru
     what = f"{label}no congruence of {bodies.moving.name} and {bodies.fixed.name} in any frame, although they are near"
     remedy = (
         f"either too few vertices lie within {radius * 1e3:g} mm (give a radius of several edges of the meshes), or "
-        "the surfaces do not face each other (turn over an open patch whose faces are wound inwards; look at the pose)"
+        "the surfaces do not face each other (turn over an open patch whose faces are wound inwards; look at the "
+        "pose: where they overlap deeply their normals are not opposite)"
     )
     raise InputError("", "`congruence`", what, remedy)
