@@ -114,3 +114,16 @@ def test_only_counted_faces_count() -> None:
     settings = Settings(thresholds=(6e-3,), fixed_faces=faces)
     found = CongruencePair(ball, fixed, settings, RADIUS).at(np.eye(3), np.zeros(3))
     assert found.index[0] * 1e-3 == pytest.approx(1 / 20 + 1 / 20, rel=0.03)
+
+
+def test_overlap_counts_however_deep_and_whatever_else_is_asked_for() -> None:
+    """Balls that overlap by 6 mm: the figures within 0.5 mm are those with 8 mm beside it."""
+    ball = surface(simple_shapes.sphere(20.0, 12))
+    shift = np.array([0.0, 0.034, 0.0])
+    alone, beside = (
+        CongruencePair(ball, ball, Settings(thresholds=asked), RADIUS).at(np.eye(3), shift)
+        for asked in ((0.5e-3,), (0.5e-3, 8e-3))
+    )
+    assert alone.index[0] * 1e-3 == pytest.approx(1 / 20 + 1 / 20, rel=0.03)
+    for part in ("least", "most", "index", "share"):
+        np.testing.assert_allclose(getattr(alone, part)[0], getattr(beside, part)[0], rtol=1e-9)

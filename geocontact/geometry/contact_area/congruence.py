@@ -40,8 +40,8 @@ class Congruence:
     index
         Root of the mean square of the two at each point [1/m].
     share
-        Of the area within the threshold, counted by vertices, that the means are over [-]; what is deeper inside than
-        the largest threshold has no part in either.
+        Of the area within the threshold, counted by vertices, that the means are over [-]; as in the contact area,
+        what is inside a closed MOVING is within, however deep.
     """
 
     least: Float[np.ndarray, " k"]
@@ -87,10 +87,14 @@ class CongruencePair:
         counted = np.flatnonzero(self._area > 0.0)
         there = (self._points[counted] - translation) @ rotation
         near = self._moving.proximity(there, max(self._settings.thresholds))
-        close = np.flatnonzero(near.face >= 0)
-        vertices, distance = counted[close], near.distance[close]
-        value = self._relative(vertices, near.closest[close], near.face[close], rotation)
-        return self._means(value, distance, self._area[vertices])
+        distance, closest, face = near.distance.copy(), near.closest.copy(), near.face.copy()
+        deep = np.flatnonzero(np.isneginf(distance))  # inside, farther from the surface than was searched
+        if len(deep):
+            below = self._moving.proximity(there[deep])
+            distance[deep], closest[deep], face[deep] = below.distance, below.closest, below.face
+        close = np.flatnonzero(face >= 0)
+        value = self._relative(counted[close], closest[close], face[close], rotation)
+        return self._means(value, distance[close], self._area[counted[close]])
 
     def _relative(
         self,

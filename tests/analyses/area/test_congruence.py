@@ -32,8 +32,17 @@ def test_a_ball_on_a_ball_has_twice_its_curvature(tmp_path: Path) -> None:
 
 def test_a_radius_with_too_few_vertices_is_refused(tmp_path: Path) -> None:
     motion = poses(tmp_path, (0, 40.2, 0))
-    with pytest.raises(InputError, match=r"`congruence`: fits no curvature .*give a radius of several edges"):
+    with pytest.raises(InputError, match=r"`congruence`: no congruence .*a radius of several edges.*wound inwards"):
         area(SPHERE, SPHERE, motion, threshold=1e-3, congruence=0.5e-3)
     some = area(SPHERE, SPHERE, motion, threshold=4e-3, congruence=2.15e-3)
     assert 0.2 < some.table()["congruence_share [-]"][0] < 0.6
     assert any("the index of congruence is over" in line for line in some.warnings)
+
+
+def test_a_threshold_without_congruence_leaves_the_others_theirs(tmp_path: Path) -> None:
+    """The few vertices within 0.3 mm have too few neighbours for a curvature; some within 4 mm have enough."""
+    motion = poses(tmp_path, (23.2, 23.2, 23.3))
+    result = area(SPHERE, SPHERE, motion, threshold=(0.3e-3, 4e-3), congruence=2.15e-3)
+    first, second = result.table()["congruence_index [1/mm]"]
+    assert np.isnan(first) and second == pytest.approx(0.1, rel=0.05)
+    assert any("no index of congruence within 0.3 mm" in line for line in result.warnings)

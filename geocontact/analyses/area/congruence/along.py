@@ -61,13 +61,16 @@ def _tell(record: Record, bodies: Bodies, radius: float, name: str, found: Congr
     summary: dict[str, object] = {"radius_mm": radius * 1e3}
     record.results[f"{name} congruence".lstrip()] = summary
     label = f"{name}: " if name else ""
+    _refuse_without_any(bodies, radius, label, found)
     for k, threshold in enumerate(bodies.settings.thresholds):
         index, share = found.index[:, k], found.share[:, k]
         there = np.isfinite(index)
         if not there.any():
             if np.isfinite(share).any():
-                what = f"fits no curvature to {bodies.moving.name} and {bodies.fixed.name} where they are near"
-                raise InputError("", "`congruence`", what, "give a radius of several edges of the meshes")
+                record.warn(
+                    f"{label}no index of congruence within {threshold * 1e3:g} mm: nothing of the area there has both "
+                    f"curvatures and faces the other surface"
+                )
             continue
         low, high = (float(end) * PER_MM for end in (index[there].min(), index[there].max()))
         summary[f"index_per_mm_at_{threshold * 1e3:g}_mm"] = [round(low, 6), round(high, 6)]
@@ -82,3 +85,16 @@ def _tell(record: Record, bodies: Bodies, radius: float, name: str, found: Congr
                 "worst frame: elsewhere the surfaces do not face each other, or too few vertices lie within "
                 f"`congruence` {radius * 1e3:g} mm"
             )
+
+
+def _refuse_without_any(bodies: Bodies, radius: float, label: str, found: CongruenceEvolution) -> None:
+    """Surfaces that are near in some frame, and never have a value at any threshold, are refused."""
+    if np.isfinite(found.index).any() or not np.isfinite(found.share).any():
+        return
+    what = f"{label}no congruence of {bodies.moving.name} and {bodies.fixed.name} in any frame, although they are near"
+    remedy = (
+        f"either too few vertices lie within {radius * 1e3:g} mm (give a radius of several edges of the meshes), or "
+        "the surfaces do not face each other (turn over an open patch whose faces are wound inwards; look at the "
+        "pose: where they overlap deeply their normals are not opposite)"
+    )
+    raise InputError("", "`congruence`", what, remedy)
