@@ -707,3 +707,14 @@ def test_knees_at_rest() -> None:
         cells = row("how-to/knee_settle.md", f"{begin[one['case']]}, {one['piece_mm']:g} mm, {free}")
         assert cells[0] == (str(one["at_rest"]) if one["at_rest"] == one["frames"] else f"{one['at_rest']} of 5")
         assert near(cells[1], one["cpu_s_per_frame"]) and near(cells[2], one["newton_steps_per_frame"]), cells
+
+
+def test_movements_that_are_fast_for_their_sampling() -> None:
+    now, before = (results(name)["figures"] for name in ("oscillator", "oscillator_before"))
+
+    def answers(one: dict[str, Any]) -> str:
+        return ", ".join(" + ".join(each["effects"]) or each["verdict"] for each in one["answers"].values())
+
+    for kind, one in now.items():
+        cells = row("reference/gap_benchmark.md", kind, one["effect"] or "\N{EN DASH}")
+        assert cells == [answers(before[kind]), answers(one)], kind
