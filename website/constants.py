@@ -37,14 +37,16 @@ def head(runs: list[dict[str, Any]]) -> list[str]:
     what = (
         "Every number with a name in the rooms that a verdict comes from was halved, and doubled, and the same "
         f"synthetic cases were diagnosed again (`python -m benchmarks.gap_constants`): {cases} cases drawn at home, "
-        f"{nothing} of them without an effect. What each constant is: [theory](../theory/gap_diagnosis.md). Made by "
+        f"{nothing} of them without an effect. What most of them are: [theory](../theory/gap_diagnosis.md). Made by "
         f"`python -m website.pages` from {'; '.join(calls)}."
     )
     before = (
         f"With the constants as they are: {alarms} false alarms in {nothing} cases, the right effect first in {first} "
         f"of {cases - nothing}. An answer is moved where its verdict or its first name is another one. Constants were "
         "tried in groups, and one by one where a group moved an answer: two that undo each other would be missed. "
-        "Where a number ends the diagnosis, an answer counts as moved, and as a false alarm. Some constants were "
+        "Where a number ends the diagnosis, as the doubled CYCLES does since its shortest window holds no frequency, "
+        "an answer counts as moved, and as a false alarm. Not tried: rooms that only localise, report or propose, "
+        "tables of several values, numbers without a name; most on foot and shoulder. Some were "
         f"tried on more cases. A constant that moves none of {cases} answers may still move {unseen:.0f} % of all "
         "(95 %)."
     )

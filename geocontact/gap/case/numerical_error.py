@@ -3,7 +3,7 @@
 Rates come from a cubic through neighbours. Where the movement is fast for the sampling, and more so at the ends of a
 recording, where all neighbours are on one side, that is off by more than noise. How far off it is, is seen by taking
 more neighbours (grid refinement, Richardson's extrapolation: Roache, Verification and Validation in Computational
-Science and Engineering, 1998, ch. 5).
+Science and Engineering, 1998, ch. 5). At the ends the order is lower and the estimate a lower bound.
 """
 
 from __future__ import annotations
