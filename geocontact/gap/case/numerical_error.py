@@ -34,10 +34,11 @@ def error_of_rates(system: System, trial: Trial, values: Mapping[str, float]) ->
 def coarse_rates(problem: Problem) -> tuple[str, ...]:
     """In words where the base model's prediction is off by more than DEVIATIONS of a channel's noise for this.
 
-    At the worst sample of all trials; nothing for a channel whose rates are told well enough everywhere.
+    At the worst sample of all trials, as the last column of the placement has it; nothing for a channel whose rates are
+    told well enough everywhere.
     """
-    base, trials = problem.plain, problem.recorded.trials
-    errors = [np.abs(error_of_rates(problem.system, trial, base.values)) for trial in trials]
+    trials = problem.recorded.trials
+    errors = [np.abs(columns[..., -1]) for columns in problem.placement]
     told = []
     for c, name in enumerate(problem.system.outputs):
         most = [float(error[:, c].max()) / problem.floor_of_noise[c] for error in errors]
@@ -46,6 +47,6 @@ def coarse_rates(problem: Problem) -> tuple[str, ...]:
             at = trials[worst].time[int(np.argmax(errors[worst][:, c]))]
             told.append(
                 f"rates of the inputs are told too coarsely: at {at:.3g} s of {trials[worst].name} "
-                f"{name} is off by {most[worst]:.2g} times its noise"
+                f"{name} is off by {most[worst]:.2g} times its noise or more"
             )
     return tuple(told)
