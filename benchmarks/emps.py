@@ -81,7 +81,9 @@ def main() -> None:
     parser.add_argument("--data", type=Path, default=default, help="folder of the real data (%(default)s)")
     parser.add_argument("--out", type=Path, default=HERE / "results" / "emps.json", help="the JSON")
     options = parser.parse_args()
-    found: dict[str, Any] = {"least squares [N]": float(f"{straight(options.data):.4g}")}
+    from benchmarks.machine import stamp
+
+    found: dict[str, Any] = {**stamp(), "least squares [N]": float(f"{straight(options.data):.4g}")}
     print(found, flush=True)
     for name, rubbing in (("friction withheld", False), ("friction in the base", True)):
         whole = findings(options.data, rubbing)

@@ -78,9 +78,9 @@ def main() -> None:
     parser.add_argument("--data", type=Path, default=default, help="folder of the real data (%(default)s)")
     parser.add_argument("--out", type=Path, default=HERE / "results" / "friction_damper.json")
     options = parser.parse_args()
-    from benchmarks.machine import machine
+    from benchmarks.machine import stamp
 
-    found: dict[str, Any] = {"machine": machine(), "published_N": PUBLISHED, "rate_Hz": 1024 // EVERY}
+    found: dict[str, Any] = {**stamp(), "published_N": PUBLISHED, "rate_Hz": 1024 // EVERY}
     for cycles in (CYCLES, 1):
         for rubbing in (False, True):
             name = f"{cycles} a trial, friction {'in the base' if rubbing else 'withheld'}"

@@ -718,3 +718,29 @@ def test_movements_that_are_fast_for_their_sampling() -> None:
     for kind, one in now.items():
         cells = row("reference/gap_benchmark.md", kind, one["effect"] or "\N{EN DASH}")
         assert cells == [answers(before[kind]), answers(one)], kind
+
+
+def test_real_drives_whose_effect_is_known() -> None:
+    """Friction that is withheld is named, with it in the base nothing is; figures as the page has them."""
+    page, drive, damper = "reference/gap_real_data.md", results("emps"), results("friction_damper")
+
+    def answer(one: dict[str, Any]) -> str:
+        (name,) = one["effects"] or [one["verdict"]]
+        return f"`{name}`, {one['probabilities'].get(name, one['probabilities']['none']):.2f}"
+
+    without, within = drive["friction withheld"], drive["friction in the base"]
+    assert without["effects"] == ["dry_friction"] and within["verdict"] == "no_gap"
+    limit = without["limits"]["dry_friction.stroke.limit"]
+    told = [answer(without), f"{limit:.1f} N", "{:.2f} \N{RIGHTWARDS ARROW} {:.2f} N".format(*without["rmse"]["force"])]
+    assert row(page, "friction withheld") == told
+    assert row(page, "friction in the base") == [
+        answer(within),
+        f"{within['limits']['F_c']:.1f} N",
+        f"{within['rmse']['force'][0]:.2f} N",
+    ]
+    for cycles, words in ((2, "of two cycles"), (1, "of one cycle")):
+        for base, key in (("withheld", "dry_friction.stroke.limit"), ("in the base", "F_c")):
+            one = damper[f"{cycles} a trial, friction {base}"]
+            cells = row(page, words, f"friction {base}")
+            assert cells[0] == answer(one) and near(cells[1].split()[0], one["parameters"][key]["value"], 1e-3)
+            assert near(cells[2].split()[0], one["gap"]["force"]["before"])
