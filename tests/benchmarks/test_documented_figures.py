@@ -744,3 +744,10 @@ def test_real_drives_whose_effect_is_known() -> None:
             cells = row(page, words, f"friction {base}")
             assert cells[0] == answer(one) and near(cells[1].split()[0], one["parameters"][key]["value"], 1e-3)
             assert near(cells[2].split()[0], one["gap"]["force"]["before"])
+
+
+def test_from_a_clone_to_the_first_result() -> None:
+    told = results("first_result")["figures"]
+    page = (ROOT / "docs/reference/speed.md").read_text(encoding="utf-8")
+    assert told["page"] and told["demo_s"] <= told["aim_s"] == 90.0
+    assert f"It takes {told['demo_s']:.0f} s on two shared cores" in page
