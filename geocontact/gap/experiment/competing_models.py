@@ -17,8 +17,11 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import System
+from geocontact.gap.attribute import Attribution
+from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Measured, RefitSearch, Whiten
-from geocontact.gap.selection.evidence import prior_spread
+from geocontact.gap.selection.evidence import Judged, prior_spread
+from geocontact.gap.selection.model_comparison import Contender
 
 ROUNDS = 20  # of a refit
 CLOSE = 1e-4  # relative change of the nats at which it ends
@@ -70,6 +73,41 @@ class Rows:
         part = self.directions.T @ self.moved
         inner = np.eye(len(part)) + self.directions.T @ self.directions
         return 0.5 * float(self.moved @ self.moved - part @ np.linalg.solve(inner, part))
+
+
+def competing_models(found: Attribution) -> list[Contender]:
+    """The best model of each answer still in question, what is named first; mistakes in the data do not count.
+
+    None where nothing is missing, though something gains that may not be named.
+    """
+    said = found.answer
+    if said.verdict == "no_gap":
+        return []
+    competitors = [said.chosen] if said.chosen.candidates and said.verdict != "unknown" else []
+    for name in said.ambiguity:
+        if any(name in one.names for one in competitors):
+            continue
+        models = [c for c in found.contenders if name in c.names and len(c.names) <= max(len(said.effects), 1)]
+        if models:
+            competitors.append(max(models, key=lambda c: c.judged.nats))
+    return [one for one in competitors if not one.mistaken]
+
+
+def fitted(one: Contender) -> Hypothesis:
+    """A contender as it was fitted to the trials that exist."""
+    model = one.judged.model
+    return Hypothesis("+".join(one.names), model.system, model.values, model.residuals, model.jacobian)
+
+
+def on_trials(problem: Problem, lead: Judged, pair: ModelPair) -> Rows:
+    """A pair on the trials that exist, under the noise of the model that leads."""
+    whitenings = problem.whitenings(lead.noise, lead.model)
+    columns = [
+        np.concatenate([(b - a)[..., None], j * pair.confounder.spread], axis=-1)
+        for a, b, j in zip(pair.true.residuals, pair.confounder.residuals, pair.confounder.jacobian, strict=True)
+    ]
+    white = np.concatenate([w(part) for w, part in zip(whitenings, columns, strict=True)])
+    return Rows(white[:, 0], white[:, 1:])
 
 
 @dataclass(frozen=True)

@@ -23,11 +23,19 @@ from geocontact.gap.case.quotient_noise import noise_spread
 from geocontact.gap.case.refit import Measured, derivatives
 from geocontact.gap.case.signal_size import signal_size
 from geocontact.gap.case.whitening import Whitening, propagated_input_noise
-from geocontact.gap.experiment.competing_models import Hypothesis, ModelPair, Rows, SimulatedTrials, remaining_nats
+from geocontact.gap.experiment.competing_models import (
+    Hypothesis,
+    ModelPair,
+    Rows,
+    SimulatedTrials,
+    competing_models,
+    fitted,
+    on_trials,
+    remaining_nats,
+)
 from geocontact.gap.experiment.menu import Experiment, menu
 from geocontact.gap.inputs.spectrum import measured_inputs
 from geocontact.gap.selection.evidence import Judged
-from geocontact.gap.selection.model_comparison import Contender
 from geocontact.identify.noise.covariance import Layout
 
 TRIALS = 3  # of the new kind
@@ -69,41 +77,17 @@ def proposed(found: Attribution, confounded: Sequence[Candidate] = ()) -> Propos
     confounded
         Candidates that the base parameters reproduce, asked about where nothing was found.
     """
-    competitors = _competing_models(found)
+    competitors = competing_models(found)[:RIVALS]
     problem = found.clean
     if len(competitors) > 1:
-        known = [_fitted(one) for one in competitors]
+        known = [fitted(one) for one in competitors]
         pairs = [ModelPair(a, b) for a in known for b in known if a is not b]
         return _telling(found, problem, competitors[0].judged, pairs)
     if found.answer.verdict == "no_gap" and confounded:
-        base = _fitted(found.base)
+        base = fitted(found.base)
         pairs = [ModelPair(_confounded(problem, found.base.judged, one), base) for one in confounded]
         return _unveiling(problem, found.base.judged, pairs)
     return None
-
-
-def _competing_models(found: Attribution) -> list[Contender]:
-    """The best model of each answer still in question, what is named first; mistakes in the data do not count.
-
-    None where nothing is missing, though something gains that may not be named.
-    """
-    said = found.answer
-    if said.verdict == "no_gap":
-        return []
-    competitors = [said.chosen] if said.chosen.candidates and said.verdict != "unknown" else []
-    for name in said.ambiguity:
-        if any(name in one.names for one in competitors):
-            continue
-        models = [c for c in found.contenders if name in c.names and len(c.names) <= max(len(said.effects), 1)]
-        if models:
-            competitors.append(max(models, key=lambda c: c.judged.nats))
-    sound = [one for one in competitors if all(each.somewhere is None for each in one.candidates)]
-    return sound[:RIVALS]
-
-
-def _fitted(one: Contender) -> Hypothesis:
-    model = one.judged.model
-    return Hypothesis("+".join(one.names), model.system, model.values, model.residuals, model.jacobian)
 
 
 def _confounded(problem: Problem, base: Judged, one: Candidate) -> Hypothesis:
@@ -118,7 +102,7 @@ def _confounded(problem: Problem, base: Judged, one: Candidate) -> Hypothesis:
 
 def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[ModelPair]) -> Proposal | None:
     """The most promising change that raises the smallest separation enough once competing models are refitted."""
-    before = [_old(problem, lead, pair) for pair in pairs]
+    before = [on_trials(problem, lead, pair) for pair in pairs]
     least = min(rows.nats for rows in before)
     needed = max(TELLS * least, APART)
     promised = [
@@ -160,7 +144,7 @@ def _remaining(problem: Problem, lead: Judged, one: Rehearsed, pair: ModelPair) 
 
 def _unveiling(problem: Problem, base: Judged, pairs: list[ModelPair]) -> Proposal | None:
     """The change that makes most effects visible that were reproduced, and of several the one that shows them best."""
-    before = [_old(problem, base, pair) for pair in pairs]
+    before = [on_trials(problem, base, pair) for pair in pairs]
     best: tuple[int, float, Experiment, list[str]] | None = None
     for one in _new(problem, base, pairs):
         shown = []
@@ -179,17 +163,6 @@ def _unveiling(problem: Problem, base: Judged, pairs: list[ModelPair]) -> Propos
 
 def _said(one: Experiment, names: Sequence[str], gain: float) -> NextExperiment:
     return NextExperiment(tuple(names), f"record {TRIALS} trials: {one.words}", float(f"{gain:.3g}"))
-
-
-def _old(problem: Problem, lead: Judged, pair: ModelPair) -> Rows:
-    """A pair on the trials that exist, under the noise of the model that leads."""
-    whitenings = problem.whitenings(lead.noise, lead.model)
-    columns = [
-        np.concatenate([(b - a)[..., None], j * pair.confounder.spread], axis=-1)
-        for a, b, j in zip(pair.true.residuals, pair.confounder.residuals, pair.confounder.jacobian, strict=True)
-    ]
-    white = np.concatenate([w(part) for w, part in zip(whitenings, columns, strict=True)])
-    return Rows(white[:, 0], white[:, 1:])
 
 
 @dataclass(frozen=True)
