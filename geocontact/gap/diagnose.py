@@ -23,6 +23,7 @@ from geocontact.gap.case.numerical_error import coarse_rates
 from geocontact.gap.case.refit import free
 from geocontact.gap.experiment.proposal import first_of, next_experiment
 from geocontact.gap.identifiability.non_identifiable import non_identifiable
+from geocontact.gap.identifiability.one_law import one_law
 from geocontact.gap.levels import SURE
 from geocontact.gap.localise.gap_map import gap_map, windows
 from geocontact.gap.localise.on_surface import on_surface
@@ -93,6 +94,8 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
     offered = candidates(found.clean.system)
     at("what would be invisible")
     hidden = non_identifiable(found.clean, offered, said.effects)
+    at("what is one law with it")
+    law = one_law(found)
     at("the experiment to run next")
     then = next_experiment(found, first_of(offered, [each.name for each in hidden]))
     at("where it misses, and how far that shrinks")
@@ -135,6 +138,8 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
         next_experiment=then,
         partial=part,
         behind=behind(found) if said.effects else {},
+        one_law=law.classes,
+        apart=law.apart,
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
     curves, models = held_out(problem, errors, named), ranking(found, said.probabilities)

@@ -185,9 +185,6 @@ def paired() -> tuple[list[tuple[str, ...]], list[float], list[float], list[dict
     simulations it took.
     """
 
-    def drifting(_: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
-        return force + 0.04 * time
-
     case = elbow_case("damping", {"damping.b": 12.0, "damping.exponent": 1.0}, seed=5, change=drifting)
     problem = problem_of(case, system_of(case))
     base = base_contender(problem)
@@ -353,6 +350,11 @@ class Late:
 
     def __call__(self, _: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
         return np.interp(time - self.delay, time, force)
+
+
+def drifting(_: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """A sensor that drifts."""
+    return force + 0.04 * time
 
 
 def knock(name: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:

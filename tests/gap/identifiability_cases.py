@@ -22,12 +22,13 @@ from geocontact.gap.experiment.menu import menu
 from geocontact.gap.experiment.proposal import TELLS, first_of, next_experiment
 from geocontact.gap.identifiability.detectability import SURE, detectabilities, power
 from geocontact.gap.identifiability.non_identifiable import non_identifiable
+from geocontact.gap.identifiability.one_law import OneLaw, one_law
 from geocontact.gap.identifiability.separability import classes, confounder_of, refitted, separation, separations
 from geocontact.gap.identifiability.signatures import BaseState, at_nats, base_state_of, own_slopes, sized
-from geocontact.gap.selection.model_comparison import base_contender, singles
+from geocontact.gap.selection.model_comparison import base_contender, pairs, singles
 from geocontact.gap.selection.verdict import Answer
 from geocontact.systems.catalogue import system_of
-from tests.gap.cases import elbow_case
+from tests.gap.cases import Late, drifting, elbow_case
 
 LAG = 0.04  # s
 
@@ -177,3 +178,37 @@ def on_the_menu() -> dict[str, tuple[str, Trial]]:
     case = elbow_case(seed=1)
     found = {one.name: (one.words, one.trial) for one in menu(system_of(case), case.calibration)}
     return {"as it was": ("", sorted(case.calibration, key=len)[1]), **found}
+
+
+def attributed(case: GapCase, named: tuple[str, ...], rivals: tuple[str, ...]) -> Attribution:
+    """A case of which some effects are named, one or two, and others are in question; the best models of each."""
+    problem = problem_of(case, system_of(case))
+    base = base_contender(problem)
+    known = candidates(problem.system)
+    found = singles(problem, base, [one for one in known if one.name in (*named, *rivals)])
+    if len(named) == 2:
+        offered = [one for one in known if one.name in (*named, *rivals)]
+        found = [*found, *pairs(problem, found, offered)]
+    order = tuple(sorted(named))
+    chosen = max((one for one in found if one.names == order), key=lambda one: one.nats, default=base)
+    said = Answer("explained" if named else "no_gap", named, {}, (*named, *rivals), chosen)
+    return Attribution(problem, None, problem, base, tuple(found), {}, (), (), {}, (), said)
+
+
+def laws_of_slow_delay() -> tuple[OneLaw, OneLaw, OneLaw]:
+    """Of a delay of slow movements, where a filter and damping are in question; nothing named; something unknown."""
+    found = attributed(elbow_case(seed=1, change=Late(LAG)), ("time_shift",), ("filter_lag", "damping"))
+    nobody = Answer("no_gap", (), {}, found.answer.ambiguity, found.base)
+    unknown = replace(nobody, verdict="unknown", chosen=found.answer.chosen)
+    law, none, other = (one_law(replace(found, answer=each)) for each in (found.answer, nobody, unknown))
+    return law, none, other
+
+
+def laws_of_pair() -> OneLaw:
+    """Of a delay and a drift, where a filter and damping are in question."""
+
+    def both(name: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
+        return drifting(name, time, Late(LAG)(name, time, force))
+
+    found = attributed(elbow_case(seed=1, change=both), ("sensor_drift", "time_shift"), ("filter_lag", "damping"))
+    return one_law(found)

@@ -158,9 +158,11 @@ class Diagnosis:
 
     `probabilities` is a distribution over single answers (effects, "none", "unknown"), `ambiguity` the effects that
     these data cannot tell apart, or, where nothing is named, that gain and may not be named, the best first; `behind`
-    by how many nats the evidence of each of them that is not named is behind what is; `absorbed` those that would be
-    invisible here, `partial` what known effects explain of a gap that is otherwise unknown, `next_experiment` what to
-    record so that it can be identified; None where nothing is in question, or nothing that is simulated tells enough.
+    by how many nats the evidence of each of them that is not named is behind what is, `apart` by how many these trials
+    tell it from that if it is there; `one_law` the classes of what is named: effects that predict the same on these
+    trials, the named one first, for each named effect that has such; `absorbed` those that would be invisible here,
+    `partial` what known effects explain of a gap that is otherwise unknown, `next_experiment` what to record so that it
+    can be identified; None where nothing is in question, or nothing that is simulated tells enough.
     """
 
     case: str
@@ -180,6 +182,8 @@ class Diagnosis:
     next_experiment: NextExperiment | None = None
     partial: Partial | None = None
     behind: Mapping[str, float] = field(default_factory=dict)
+    one_law: tuple[tuple[str, ...], ...] = ()
+    apart: Mapping[str, float] = field(default_factory=dict)
 
     def as_dict(self) -> dict[str, Any]:
         """Plain dicts, lists, strings, numbers and None, ready for JSON."""
@@ -191,6 +195,8 @@ class Diagnosis:
             "probabilities": dict(self.probabilities),
             "ambiguity": list(self.ambiguity),
             "behind": dict(self.behind),
+            "one_law": [list(group) for group in self.one_law],
+            "apart": dict(self.apart),
             "absorbed": list(self.absorbed),
             "where": [
                 {"channel": w.channel, "phase": list(w.phase), "share": w.share, "p_value": w.p_value}

@@ -263,11 +263,30 @@ def test_the_sentence_of_the_issue() -> None:
     )
 
 
-def test_what_cannot_be_told_apart_is_said() -> None:
-    _, second = said(ambiguity=("damping", "filter_lag", "relaxation"))
-    assert second == "these data cannot tell damping from filter_lag or relaxation"
-    _, second = said(ambiguity=("damping", "filter_lag", "relaxation"), behind={"filter_lag": 1.24})
-    assert second == "these data cannot tell damping from filter_lag (1.2 nats behind) or relaxation"
+def test_what_is_not_ruled_out_is_said_with_how_far_it_is_behind() -> None:
+    _, second, third = said(ambiguity=("damping", "filter_lag", "relaxation"))
+    assert (second, third) == ("filter_lag is not ruled out", "relaxation is not ruled out")
+    rivals = {"ambiguity": ("damping", "filter_lag"), "behind": {"filter_lag": 1.24}, "apart": {"filter_lag": 9.71}}
+    _, second = said(**rivals)
+    assert second == "filter_lag is not ruled out: 1.2 nats behind, the two differ by 9.7 nats on these trials"
+
+
+def test_a_class_is_the_answer_where_effects_are_one_law() -> None:
+    alike = {
+        "ambiguity": ("damping", "filter_lag", "slip"),
+        "probabilities": {"damping": 0.6, "filter_lag": 0.3, "slip": 0.1},
+        "one_law": (("damping", "filter_lag"),),
+        "apart": {"filter_lag": 1.26, "slip": 8.0},
+    }
+    first, second, third = said(**alike)
+    assert first.startswith("damping or filter_lag (one law on these trials) is missing; it sits in force (")
+    close = "they predict the same to within 1.3 nats, together p = 0.90"
+    assert second == f"these trials cannot tell damping from filter_lag: {close}"
+    assert third == "slip is not ruled out: the two differ by 8.0 nats on these trials"
+    both = said(**alike | {"effects": ("damping", "preload")})[0]
+    assert both.startswith("damping or filter_lag (one law on these trials) and preload are missing")
+    many = said(**alike | {"effects": (), "verdict": "unresolved"})
+    assert many[1] == second and "tell damping, filter_lag and slip apart" in many[0]
 
 
 def test_two_effects_are_missing_together() -> None:

@@ -60,6 +60,7 @@ def row(d: Mapping[str, Any]) -> tuple[tuple[str, str | float], ...]:
         ("verdict", d["verdict"]),
         ("effects", " + ".join(effects)),
         ("ambiguity", " ".join(d["ambiguity"])),
+        ("one_law", " ".join("=".join(group) for group in d.get("one_law", []))),
         ("probability [-]", float(sum(d["probabilities"].get(name, 0.0) for name in answer))),
         ("largest_reduction [-]", max((g["reduction"] for g in d["gap"].values()), default=0.0)),
         ("seconds [s]", round(d["seconds"], 3)),

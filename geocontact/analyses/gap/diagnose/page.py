@@ -18,7 +18,7 @@ from geocontact.analyses.gap.diagnose.page_tables import (
     ranking_table,
     trials_table,
 )
-from geocontact.analyses.gap.diagnose.words import in_part, place, verdict_sentences
+from geocontact.analyses.gap.diagnose.words import in_part, in_question, place, verdict_sentences, with_classes
 from geocontact.analyses.gap.words import names, percent
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.data.gap.case import GapCase
@@ -137,7 +137,9 @@ def _subtitle(case: GapCase, d: Diagnosis) -> str:
 def _facts(findings: Findings) -> list[tuple[str, str]]:
     """What is missing, where, how far, how sure."""
     d = findings.diagnosis
-    answer = {"explained": names(d.effects), "no_gap": "nothing beyond noise"}.get(d.verdict, WORDS[d.verdict])
+    answer = {"explained": with_classes(d, d.effects), "no_gap": "nothing beyond noise"}.get(
+        d.verdict, WORDS[d.verdict]
+    )
     lines = [("What is missing", answer)]
     if d.where:
         lines.append(("Where", place(d.where[0], findings.cells)))
@@ -150,7 +152,9 @@ def _facts(findings: Findings) -> list[tuple[str, str]]:
         lines.append(("Explained in part", in_part(d.partial)))
     alive = ", ".join(f"{name} {value:.2f}" for name, value in _likeliest(d) if value >= 0.005)
     lines.append(("Probabilities", alive))
-    if len(d.ambiguity) > max(len(d.effects), 1):
+    if d.effects and (rivals := in_question(d)):
+        lines.append(("What it cannot be told from", "; ".join(rivals)))
+    elif len(d.ambiguity) > 1:
         lines.append(("Cannot be told apart", names(d.ambiguity)))
     return lines
 
@@ -217,6 +221,7 @@ def _svg(figure: Figure) -> bytes:
 
 def _confounded(d: Diagnosis) -> Words:
     said = []
+    said += [f"{sentence[0].upper()}{sentence[1:]}." for sentence in (in_question(d) if d.effects else ())]
     if len(d.ambiguity) > 1:
         said.append(f"Still possible, most probable first: {names(d.ambiguity)}.")
     if len(d.effects) == 2:

@@ -72,7 +72,7 @@ def states(channel: str, cells: Sequence[Cell]) -> list[str]:
 def _explained(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     mistakes = [name for name in d.effects if name in MISTAKES]
     lacking = [name for name in d.effects if name not in mistakes]
-    parts = [*_named(lacking, "missing"), *_named(mistakes, "a mistake in the data")]
+    parts = [*_named(d, lacking, "missing"), *_named(d, mistakes, "a mistake in the data")]
     it, main = "it" if len(d.effects) == 1 else "them", d.where[0].channel if d.where else next(iter(d.gap))
     if d.where:
         parts.append(f"{'it sits' if it == 'it' else 'they sit'} in {place(d.where[0], cells)}")
@@ -84,16 +84,39 @@ def _explained(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     rest = d.gap[main].unexplained
     if rest is not None:
         parts.append(f"{percent(rest)} % stays unexplained")
-    said = ["; ".join(parts)]
-    rivals = [name for name in d.ambiguity if name not in d.effects]
-    if rivals:
-        apart = [f"{name} ({d.behind[name]:.1f} nats behind)" if name in d.behind else name for name in rivals]
-        said.append(f"these data cannot tell {names(d.effects)} from {names(apart, 'or')}")
-    return said + _absorbed(d)
+    return ["; ".join(parts), *in_question(d), *_absorbed(d)]
 
 
-def _named(some: Sequence[str], what: str) -> list[str]:
-    return [f"{names(some)} {'is' if len(some) == 1 else 'are'} {what}"] if some else []
+def in_question(d: Diagnosis) -> list[str]:
+    """Why effects that are not named are in question: one law with what is named, or not far enough behind."""
+    alike = [name for group in d.one_law for name in group]
+    said = one_law_words(d)
+    for name in (each for each in d.ambiguity if each not in (*d.effects, *alike)):
+        why = [f"{d.behind[name]:.1f} nats behind"] if name in d.behind else []
+        why += [f"the two differ by {d.apart[name]:.1f} nats on these trials"] if name in d.apart else []
+        said.append(f"{name} is not ruled out{': ' if why else ''}{', '.join(why)}")
+    return said
+
+
+def one_law_words(d: Diagnosis) -> list[str]:
+    """Which effects are one law on these trials, how close they are, and how probable they are together."""
+    said = []
+    for group in d.one_law:
+        most = max(d.apart.get(name, 0.0) for name in group)
+        total = sum(d.probabilities.get(name, 0.0) for name in group)
+        close = f"they predict the same to within {most:.1f} nats, together p = {total:.2f}"
+        said.append(f"these trials cannot tell {names(group[:1])} from {names(group[1:], 'or')}: {close}")
+    return said
+
+
+def with_classes(d: Diagnosis, some: Sequence[str]) -> str:
+    """Effects that are named, each with the class that it is in: `damping or filter_lag (one law on these trials)`."""
+    groups = {group[0]: f"{names(group, 'or')} (one law on these trials)" for group in d.one_law}
+    return names([groups.get(name, name) for name in some])
+
+
+def _named(d: Diagnosis, some: Sequence[str], what: str) -> list[str]:
+    return [f"{with_classes(d, some)} {'is' if len(some) == 1 else 'are'} {what}"] if some else []
 
 
 def _removed(gap: ChannelGap) -> str:
@@ -135,7 +158,8 @@ def _not_ruled_out(d: Diagnosis) -> list[str]:
 
 def _unresolved(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     where = f" in {place(d.where[0], cells)}" if d.where else ""
-    return [f"there is a gap{where}; these data cannot tell {names(d.ambiguity)} apart", *_absorbed(d)]
+    alike = one_law_words(d)
+    return [f"there is a gap{where}; these data cannot tell {names(d.ambiguity)} apart", *alike, *_absorbed(d)]
 
 
 def _absorbed(d: Diagnosis) -> list[str]:

@@ -1,0 +1,26 @@
+"""Effects that are one law on the trials of a case, and effects that are not."""
+
+from __future__ import annotations
+
+import pytest
+
+from geocontact.gap.identifiability.separability import APART
+from tests.elsewhere import Elsewhere
+from tests.gap.identifiability_cases import laws_of_pair, laws_of_slow_delay
+
+pytestmark = pytest.mark.slow
+
+
+def test_what_moves_slowly_is_as_late_by_a_delay_as_by_a_filter_and_no_damper(elsewhere: Elsewhere) -> None:
+    named, nothing, unknown = elsewhere(laws_of_slow_delay)
+    assert named.classes == (("time_shift", "filter_lag"),)
+    assert named.apart["filter_lag"] < APART < named.apart["damping"]
+    for each in (nothing, unknown):
+        assert (each.classes, dict(each.apart)) == ((), {}), "where nothing is named there is no class"
+
+
+def test_of_two_effects_each_has_a_class_of_its_own(elsewhere: Elsewhere) -> None:
+    """A delay beside a drift may be a filter; nothing else takes the place of the drift."""
+    found = elsewhere(laws_of_pair)
+    assert found.classes == (("time_shift", "filter_lag"),)
+    assert found.apart["filter_lag"] < APART
