@@ -37,6 +37,8 @@ KEYS = [
     "probabilities",
     "ambiguity",
     "behind",
+    "one_law",
+    "apart",
     "absorbed",
     "where",
     "gap",

@@ -74,6 +74,6 @@ def test_where_it_is_far_above_noise_is_told() -> None:
 
 def test_the_error_is_allowed_for_beside_what_differs_between_trials() -> None:
     made = trial(np.sin(30.0 * STEP * np.arange(100)), np.zeros(100))
-    columns = placement(carriage(), [made], {"m": 1.0}, [])[0]
+    columns = placement(carriage(), [made], {"m": 1.0}, [], np.array([1.0]))[0]
     np.testing.assert_array_equal(columns[..., -1], error_of_rates(carriage(), made, {"m": 1.0}))
     assert np.abs(columns[..., -1]).max() > 0.0

@@ -11,6 +11,7 @@ from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
+from geocontact.gap.case.mains import WAVES
 from geocontact.gap.case.placement import ANGLE, GAIN, placement, put_on
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.selection.held_out_error import TrialWeight
@@ -36,14 +37,14 @@ def test_a_zero_of_its_own_costs_a_trial_next_to_nothing() -> None:
     system = JOINT.build((Parameter("k", "N m/rad", 60.0, 10.0, 200.0),), {}, {})
     trials = (swing(0.1), swing(-0.1))
     system = system.scaled(trials, {"k": 60.0})
-    columns = placement(system, trials, {"k": 60.0}, ["angle"])[0]
+    columns = placement(system, trials, {"k": 60.0}, ["angle"], np.array([NOISE]))[0]
     predicted = system.simulate(trials[0], {"k": 60.0})
     largest = float(np.abs(trials[0].column("torque")).max())
-    assert columns.shape == (120, 1, 4)
+    assert columns.shape == (120, 1, 4 + WAVES)
     assert columns[..., 0] == pytest.approx(60.0 * ANGLE), "zero of the angle"
     assert columns[..., 1] == pytest.approx(0.5 * GAIN * largest, rel=0.02), "zero of the torque"
     assert columns[..., 2] == pytest.approx(GAIN * predicted), "gain of the torque"
-    assert not columns[..., 3].any(), "a spring feels no rate"
+    assert not columns[..., -1].any(), "a spring feels no rate"
     weigh = TrialWeight.of(np.ones((120, 1), bool), np.array([NOISE]), columns)
     alike = np.full((120, 1), 0.1)
     quick = 0.1 * np.sign(np.sin(40.0 * trials[0].time))[:, None]
@@ -58,7 +59,7 @@ def test_a_length_that_is_not_fitted_is_put_on_anew_like_a_constant() -> None:
     constants = {name: value for name, value in case.constants.items() if name != "l"}
     other = replace(case, parameters=(*case.parameters, told), constants=constants)
     systems = [system_of(each).scaled(each.calibration, TRUE) for each in (case, other)]
-    expected, found = (placement(each, case.calibration[:1], TRUE, ["beta"])[0] for each in systems)
+    expected, found = (placement(each, case.calibration[:1], TRUE, ["beta"], np.array([NOISE]))[0] for each in systems)
     assert put_on(systems[1]) == put_on(systems[0]) and "l" in put_on(systems[1])
     assert sorted(np.abs(found).sum(axis=(0, 1))) == pytest.approx(sorted(np.abs(expected).sum(axis=(0, 1))))
 

@@ -7,9 +7,10 @@ import pytest
 
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
+from geocontact.gap.case.mains import at_mains
 from geocontact.gap.inputs.spectrum import switches
 from geocontact.gap.levels import LEFT_OVER
-from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, at_mains, moving
+from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, moving
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Tremor, held, in_steps, knock, odd, rung, share_of_line
 

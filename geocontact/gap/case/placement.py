@@ -1,4 +1,4 @@
-"""What differs from trial to trial beside base parameters: constants, zeros of inputs, zeros and gains of outputs.
+"""What differs from trial to trial beside base parameters: constants, zeros and gains, the phase of the mains' hum.
 
 A device is put on anew for every trial, sensors are zeroed and calibrated anew. The usual sizes are those of the
 contract of a gap case: about a millimetre on a device of some 20 cm, half a degree, a per cent of a channel's
@@ -20,6 +20,7 @@ from geocontact.chain.links import LAST, Modifier
 from geocontact.chain.system import FAR, System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
+from geocontact.gap.case.mains import hum
 from geocontact.gap.case.numerical_error import error_of_rates
 
 LENGTH = 0.006  # of the device's largest length: 1 mm of 17 cm
@@ -36,18 +37,27 @@ def varies_by(system: System, parameter: Parameter, value: float) -> float:
 
 
 def placement(
-    system: System, trials: Sequence[Trial], values: Mapping[str, float], movable: Sequence[str]
+    system: System,
+    trials: Sequence[Trial],
+    values: Mapping[str, float],
+    movable: Sequence[str],
+    rough: Float[np.ndarray, " c"],
 ) -> tuple[Float[np.ndarray, "_ c k"], ...]:
     """Per trial, what one usual standard deviation of each changes in the outputs, in their units.
 
-    Known lengths and angles, zeros of the inputs in `movable`, zeros of outputs, gains of outputs, the numerical error
-    of rates (`gap.case.numerical_error`), in this order; 0 where the model has no value.
+    Known lengths and angles, zeros of the inputs in `movable`, zeros of outputs, gains of outputs, hum of the mains
+    (`gap.case.mains`) beside noise of the level `rough`, the numerical error of rates (`gap.case.numerical_error`), in
+    this order; 0 where the model has no value.
     """
-    return tuple(_of_trial(system, trial, values, movable) for trial in trials)
+    return tuple(_of_trial(system, trial, values, movable, rough) for trial in trials)
 
 
 def _of_trial(
-    system: System, trial: Trial, values: Mapping[str, float], movable: Sequence[str]
+    system: System,
+    trial: Trial,
+    values: Mapping[str, float],
+    movable: Sequence[str],
+    rough: Float[np.ndarray, " c"],
 ) -> Float[np.ndarray, "t c k"]:
     columns = []
     for name, by in put_on(system).items():
@@ -66,8 +76,8 @@ def _of_trial(
             own = np.zeros_like(predicted)
             own[:, c] = column
             columns.append(own)
-    columns.append(error_of_rates(system, trial, values))
-    return np.stack(columns, axis=-1)
+    rates = error_of_rates(system, trial, values)[..., None]
+    return np.concatenate([np.stack(columns, axis=-1), hum(trial.time, rough), rates], axis=-1)
 
 
 def put_on(system: System) -> dict[str, float]:

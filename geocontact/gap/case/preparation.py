@@ -135,7 +135,7 @@ def _posed(
     """The problem around a fitted base model, its scale taken there; layouts of the trials in `heard`."""
     system = system.scaled(calm.calibration.trials, plain.values)
     trials = together(calm.calibration, calm.evaluation).trials
-    placed = placement(system, trials, plain.values, list(inputs.shown))
+    placed = placement(system, trials, plain.values, list(inputs.shown), recorded.rough)
     own = [varies_by(system, p, plain.values[p.name]) for p in free(system)]
     spread, signal = noise_spread(system, recorded.outputs, recorded.rough), signal_size(recorded.outputs)
     noisy = spread[: len(heard.trials)], signal[: len(heard.trials)]

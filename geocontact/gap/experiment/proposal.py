@@ -197,7 +197,8 @@ def _rehearsed(problem: Problem, lead: Judged, one: Experiment, pairs: list[Mode
     spread, signal = noise_spread(staged, expected, rough)[0], signal_size(expected)[0]
     heard = propagated_input_noise(staged, trial, base, problem.passed, problem.left)
     layout = Layout.of(trial.time, present, heard, spread, signal)
-    placed = placement(staged, (trial,), base, measured_inputs(problem.recorded.trials, staged.inputs))[0]
+    movable = measured_inputs(problem.recorded.trials, staged.inputs)
+    placed = placement(staged, (trial,), base, movable, rough)[0]
     varied = np.concatenate([derivatives(staged, zero, base)[0], placed], axis=-1) * lead.noise.varies
     whiten = Whitening.of(layout.whitener(lead.noise.levels), varied)
     found = []

@@ -15,6 +15,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.data.trial import Trial
+from geocontact.gap.case.mains import WAVES, at_mains
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.inputs.quantisation import resolution
@@ -31,8 +32,6 @@ OTHERS = 4  # times the width of a stretch that what it is compared with counts 
 PACKETS = (16, 24, 32)  # samples that an oscillation is looked for in
 CYCLES = 4  # periods per window from which it counts as one
 HELD_USUALLY = 2e-3  # share of samples that repeat the last by chance, at the least
-MAINS = (50.0, 60.0)  # frequencies of electric mains [Hz]
-HUMMING = 2.0  # bins about such a frequency, or where sampling folds it to, that are hum
 COARSE, SURELY = 0.33, 12.0  # steps, in noise levels, that are coarse, and how sure that makes of it [nats]
 
 
@@ -102,15 +101,16 @@ def hum(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
 
     A line that is something else falls there by chance only: they are a few bins of hundreds.
     """
-    found = _lines(problem, judged, "hum of the mains", mains=True)
+    found = _lines(problem, without_hum(problem, judged), "hum of the mains", mains=True)
     return [replace(one, share=0.0) for one in found]
 
 
-def at_mains(count: int, samples: int, step: float) -> Bool[np.ndarray, " f"]:
-    """Which of `count` frequencies of so many samples, every `step` [s], are those of the mains or of their images."""
-    cycles = np.array(MAINS) * step
-    image = np.abs(cycles - np.round(cycles)) * samples
-    return np.asarray((np.abs(np.arange(count)[:, None] - image) <= HUMMING).any(axis=1))
+def without_hum(problem: Problem, judged: Judged) -> Judged:
+    """A model judged as if hum were no part of the noise: what it leaves of hum is seen then."""
+    waves = WAVES * len(problem.floor)
+    varies = judged.noise.varies.copy()
+    varies[len(varies) - 1 - waves : -1] = 0.0
+    return replace(judged, noise=replace(judged.noise, varies=varies))
 
 
 def _lines(problem: Problem, judged: Judged, what: str, *, mains: bool) -> list[ResidualAnomaly]:
