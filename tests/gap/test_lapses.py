@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from geocontact.gap.selection.lapses import NAMED, SILENT, with_lapses
+from geocontact.gap.selection.lapses import NAMED, QUESTIONED, SILENT, with_lapses
 from geocontact.gap.selection.verdict import Answer, answer, ranking, with_refused
 from tests.gap.test_verdict import OFFERED, contender, shares
 
@@ -35,4 +35,6 @@ def test_what_gains_and_may_not_be_named_is_not_impossible() -> None:
     before = said(500.0, ("damping",))
     assert before.verdict == "no_gap" and before.ambiguity == ("damping",)
     assert before.probabilities.get("damping", 0.0) < 1e-3
-    assert with_lapses(before, EFFECTS).probabilities["damping"] > SILENT / 2.0
+    stated = with_lapses(before, EFFECTS).probabilities
+    assert stated["damping"] > QUESTIONED / 2.0 > SILENT
+    assert stated["none"] == pytest.approx(1.0 - QUESTIONED, abs=QUESTIONED / len(stated))
