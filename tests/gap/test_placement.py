@@ -12,7 +12,7 @@ from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.gap.case.mains import WAVES
-from geocontact.gap.case.placement import ANGLE, GAIN, placement, put_on
+from geocontact.gap.case.placement import ANGLE, GAIN, clock_offset, placement, put_on
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.selection.held_out_error import TrialWeight
 from geocontact.systems.catalogue import system_of
@@ -40,10 +40,12 @@ def test_a_zero_of_its_own_costs_a_trial_next_to_nothing() -> None:
     columns = placement(system, trials, {"k": 60.0}, ["angle"], np.array([NOISE]))[0]
     predicted = system.simulate(trials[0], {"k": 60.0})
     largest = float(np.abs(trials[0].column("torque")).max())
-    assert columns.shape == (120, 1, 4 + WAVES)
+    assert columns.shape == (120, 1, 5 + WAVES)
     assert columns[..., 0] == pytest.approx(60.0 * ANGLE), "zero of the angle"
     assert columns[..., 1] == pytest.approx(0.5 * GAIN * largest, rel=0.02), "zero of the torque"
     assert columns[..., 2] == pytest.approx(GAIN * predicted), "gain of the torque"
+    rate = 60.0 * 0.35 * 3.0 * np.cos(3.0 * trials[0].time)[1:-1]
+    assert columns[1:-1, 0, 3] == pytest.approx(rate * 0.04 / np.sqrt(12.0), abs=0.002), "two clocks"
     assert not columns[..., -1].any(), "a spring feels no rate"
     weigh = TrialWeight.of(np.ones((120, 1), bool), np.array([NOISE]), columns)
     alike = np.full((120, 1), 0.1)
@@ -51,6 +53,17 @@ def test_a_zero_of_its_own_costs_a_trial_next_to_nothing() -> None:
     costs = [float((weigh(each) ** 2).sum()) for each in (alike, quick)]
     assert costs[0] < 0.05 * costs[1]
     assert costs[1] > 0.9 * float((quick**2).sum()) / NOISE**2
+
+
+def test_a_clock_that_begins_later_is_a_delay_within_half_a_sample() -> None:
+    time = 0.01 * np.arange(300)
+    told = np.sin(5.0 * time)[:, None]
+    late = np.sin(5.0 * (time - 0.003))[:, None]
+    own = clock_offset(time, told)
+    size = -0.003 / (0.01 / np.sqrt(12.0))
+    assert np.abs((told + size * own - late)[1:-1]).max() < 2e-4
+    told[100:103] = np.nan
+    assert np.array_equal(np.flatnonzero(clock_offset(time, told)[:, 0] == 0.0), np.arange(99, 104))
 
 
 def test_a_length_that_is_not_fitted_is_put_on_anew_like_a_constant() -> None:

@@ -45,9 +45,9 @@ def placement(
 ) -> tuple[Float[np.ndarray, "_ c k"], ...]:
     """Per trial, what one usual standard deviation of each changes in the outputs, in their units.
 
-    Known lengths and angles, zeros of the inputs in `movable`, zeros of outputs, gains of outputs, hum of the mains
-    (`gap.case.mains`) beside noise of the level `rough`, the numerical error of rates (`gap.case.numerical_error`), in
-    this order; 0 where the model has no value.
+    Known lengths and angles, zeros of the inputs in `movable`, zeros of outputs, gains of outputs, the offset of
+    two clocks, hum of the mains (`gap.case.mains`) beside noise of the level `rough`, the numerical error of rates
+    (`gap.case.numerical_error`), in this order; 0 where the model has no value.
     """
     return tuple(_of_trial(system, trial, values, movable, rough) for trial in trials)
 
@@ -69,15 +69,26 @@ def _of_trial(
             by = zero_of_input(system, name)
             above, below = (shifted(system, row, s * by).simulate(trial, values) for s in (1.0, -1.0))
             columns.append(_half(above, below))
-    predicted = system.simulate(trial, values)
-    predicted = np.where(np.isfinite(predicted) & (np.abs(predicted) < 0.5 * FAR), predicted, 0.0)
+    told = system.simulate(trial, values)
+    told = np.where(np.abs(told) < 0.5 * FAR, told, np.nan)
+    predicted = np.nan_to_num(told)
     for c, name in enumerate(system.outputs):
         for column in (0.5 * GAIN * system.scale.of(name), GAIN * predicted[:, c]):
             own = np.zeros_like(predicted)
             own[:, c] = column
             columns.append(own)
+    columns.append(clock_offset(trial.time, told))
     rates = error_of_rates(system, trial, values)[..., None]
     return np.concatenate([np.stack(columns, axis=-1), hum(trial.time, rough), rates], axis=-1)
+
+
+def clock_offset(time: Float[np.ndarray, " t"], told: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "t c"]:
+    """What inputs and outputs of two clocks differ by that begin up to half a sample apart, as likely anywhere in it.
+
+    Such a delay has a standard deviation of 1/√12 of a sample. `told` is what is predicted, NaN where that has no
+    value; 0 there and beside it.
+    """
+    return np.nan_to_num(np.gradient(told, time, axis=0)) * float(np.median(np.diff(time))) / np.sqrt(12.0)
 
 
 def put_on(system: System) -> dict[str, float]:
