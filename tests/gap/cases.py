@@ -208,7 +208,8 @@ def contest_work(*, cut: bool) -> tuple[list[str], list[str], int, int]:
     case = elbow_case("damping", {"damping.b": 12.0, "damping.exponent": 1.0}, seed=5)
     problem = problem_of(case, system_of(case))
     base = base_contender(problem)
-    offered = [one for one in candidates(problem.system) if one.name in ("damping", "inertia_load", "end_stop")]
+    names = ("damping", "sensor_drift", "end_stop", "relaxation")
+    offered = [one for one in candidates(problem.system) if one.name in names]
     few = {"LEADING": 1}
     more = {} if cut else {"to_undercut": lambda *_: np.inf}
     with (

@@ -29,6 +29,7 @@ def hum(time: Float[np.ndarray, " t"], rough: Float[np.ndarray, " c"]) -> Float[
     """
     turns = 2.0 * np.pi * (time - time[0])[:, None] * np.array(MAINS)
     waves = np.concatenate([np.cos(turns), np.sin(turns)], axis=1)
+    waves = waves - waves.mean(axis=0)  # sampled once or so in a period it is a zero of the output, which is known
     found = np.zeros((len(time), len(rough), len(rough), WAVES))
     for c, level in enumerate(rough):
         found[:, c, c] = HUM * level * waves

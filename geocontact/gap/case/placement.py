@@ -22,6 +22,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.gap.case.mains import hum
 from geocontact.gap.case.numerical_error import error_of_rates
+from geocontact.gap.levels import DEVIATIONS
 
 LENGTH = 0.006  # of the device's largest length: 1 mm of 17 cm
 ANGLE = 0.0087  # rad: half a degree
@@ -83,12 +84,14 @@ def _of_trial(
 
 
 def clock_offset(time: Float[np.ndarray, " t"], told: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "t c"]:
-    """What inputs and outputs of two clocks differ by that begin up to half a sample apart, as likely anywhere in it.
+    """What inputs and outputs of two clocks differ by, which may begin up to half a sample apart.
 
-    Such a delay has a standard deviation of 1/√12 of a sample. `told` is what is predicted, NaN where that has no
-    value; 0 there and beside it.
+    Such a delay, as likely anywhere in that, has a standard deviation of 1/√12 of a sample. That is the most that
+    trials may show (DEVIATIONS of the usual one): most recorders have one clock. `told` is what is predicted, NaN where
+    that has no value; 0 there and beside it.
     """
-    return np.nan_to_num(np.gradient(told, time, axis=0)) * float(np.median(np.diff(time))) / np.sqrt(12.0)
+    usual = float(np.median(np.diff(time))) / np.sqrt(12.0) / DEVIATIONS
+    return np.nan_to_num(np.gradient(told, time, axis=0)) * usual
 
 
 def put_on(system: System) -> dict[str, float]:

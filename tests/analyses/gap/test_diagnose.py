@@ -118,6 +118,7 @@ def test_stages_are_told_as_they_begin(found: DiagnoseResult) -> None:
             "whether held-out trials are predicted better",
             "what is left over",
             "what would be invisible",
+            "what is one law with it",
             "the experiment to run next",
             "where it misses, and how far that shrinks",
         )
