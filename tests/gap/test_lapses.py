@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from geocontact.gap.selection.lapses import NAMED, QUESTIONED, SILENT, with_lapses
@@ -38,3 +40,5 @@ def test_what_gains_and_may_not_be_named_is_not_impossible() -> None:
     stated = with_lapses(before, EFFECTS).probabilities
     assert stated["damping"] > QUESTIONED / 2.0 > SILENT
     assert stated["none"] == pytest.approx(1.0 - QUESTIONED, abs=QUESTIONED / len(stated))
+    unknown = replace(before, verdict="unknown", probabilities={"unknown": 1.0})
+    assert with_lapses(unknown, EFFECTS).probabilities["unknown"] > 1.0 - SILENT

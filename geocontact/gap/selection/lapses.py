@@ -16,8 +16,8 @@ from dataclasses import replace
 from geocontact.gap.selection.verdict import Answer
 
 NAMED = 0.1  # rate where an effect is named
-QUESTIONED = 0.65  # where none is, though effects are in question: at home nothing was missing in 6 of 17 such cases
-SILENT = 0.3  # where none is, nor in question
+QUESTIONED = 0.65  # of "no gap" where effects are in question: at home nothing was missing in 6 of 17 such cases
+SILENT = 0.3  # of every other answer that names nothing
 
 
 def with_lapses(said: Answer, offered: Iterable[str]) -> Answer:
@@ -30,7 +30,8 @@ def with_lapses(said: Answer, offered: Iterable[str]) -> Answer:
     offered
         Effects that the system has candidates for, each once or more.
     """
-    rate = NAMED if said.effects else QUESTIONED if said.ambiguity else SILENT
+    questioned = said.verdict == "no_gap" and bool(said.ambiguity)
+    rate = NAMED if said.effects else QUESTIONED if questioned else SILENT
     every = dict.fromkeys(["none", "unknown", *offered, *said.probabilities])
     likely = said.ambiguity or tuple(every)
     blind = {name: 0.5 / len(every) + (0.5 / len(likely) if name in likely else 0.0) for name in every}
