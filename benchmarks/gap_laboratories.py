@@ -1,9 +1,9 @@
-"""The diagnosis on kinds of laboratories: `python -m benchmarks.gap_laboratories --kinds abroad --seed N --out FILE`.
+"""The diagnosis on kinds of laboratories: `python -m benchmarks.gap_laboratories --kinds fresh --seed N --out FILE`.
 
-Cases of every system are recorded by laboratories of every kind at home, or abroad, in turn
+Cases of every system are recorded by laboratories of every kind at home, or abroad, or fresh, in turn
 (`gap_benchmark/synthetic/laboratories/kinds.py`), written, read back and diagnosed as `geocontact gap diagnose` does.
 Every case is added to a journal beside the JSON as it is done, and the same call goes on where a run of the same
-sources ended. `--table HOME.json ABROAD.json` prints the table and the generalisation loss of two runs.
+sources ended. `--table HOME.json OTHER.json` prints the table and the generalisation loss of two runs.
 """
 
 from __future__ import annotations
@@ -37,6 +37,9 @@ WORDS = {
     "first_ahead": "– of these first",
     "set_ahead": "– of these in a set of three",
     "class_elsewhere": "of the other visible singles: class right",
+    "class_named": "– class named",
+    "class_right": "classes stated, truth in them, all cases",
+    "class_size": "– effects in such a class, mean",
     "first_right": "first, all visible singles",
     "first_right_anew": "– visible though all is placed anew",
     "in_small_set": "in a set of three, all visible singles",
@@ -65,7 +68,7 @@ def arguments() -> argparse.Namespace:
         parser.add_argument(f"--{name}", type=int, default=0, help="cases of each system")
     parser.add_argument("--workers", type=int, choices=(1, 2), default=1)
     parser.add_argument("--minutes", type=float, default=float("inf"), help="after which no further case is begun")
-    parser.add_argument("--table", nargs=2, type=Path, metavar=("HOME", "ABROAD"), help="compare two runs' JSON")
+    parser.add_argument("--table", nargs=2, type=Path, metavar=("HOME", "OTHER"), help="compare two runs' JSON")
     o = parser.parse_args()
     if not o.table and (o.kinds is None or o.seed is None or o.out is None):
         parser.error("--kinds, --seed and --out are needed, or --table")
@@ -183,24 +186,28 @@ def line_of(row: Worked) -> dict[str, Any]:
     found = {"system": lot.system, "kind": lot.kind, "place": lot.place, "laboratory": lot.laboratory}
     found |= {"planted": label["effects"], "nats": label["nats"], "ahead": ahead_by(label)}
     found |= {"verdict": said["verdict"], "effects": said["effects"], "ambiguity": said["ambiguity"]}
+    found["one_law"] = said.get("one_law", [])
     probable = sorted(said["probabilities"].items(), key=lambda pair: -pair[1])[:3]
     found |= {"probabilities": dict(probable), "confidently_wrong": confidently_wrong(label, said)}
     return found | {"seconds": row.cpu, "trouble": list(row.trouble)}
 
 
-def table(home: Mapping[str, Any], abroad: Mapping[str, Any]) -> Iterator[str]:
-    """In all at home and abroad, the loss, and abroad by system."""
-    there = [one for one in SYSTEMS if one in abroad["figures"]]
-    yield "| figure | home | abroad | loss, points | " + " | ".join(f"{one}, abroad" for one in there) + " |"
+def table(home: Mapping[str, Any], other: Mapping[str, Any]) -> Iterator[str]:
+    """In all on two sides, the loss, and by system of the second; without figures that neither run counted."""
+    there = [one for one in SYSTEMS if one in other["figures"]]
+    one, two = (side["asked"]["kinds"] for side in (home, other))
+    yield f"| figure | {one} | {two} | loss, points | " + " | ".join(f"{each}, {two}" for each in there) + " |"
     yield "|---" * (4 + len(there)) + "|"
-    sides = [read_back(side["figures"]["all"]) for side in (home, abroad)]
-    own = [read_back(abroad["figures"][one]) for one in there]
+    sides = [read_back(side["figures"]["all"]) for side in (home, other)]
+    own = [read_back(other["figures"][one]) for one in there]
     lost = losses(*sides)
     for name, words in WORDS.items():
+        if not any(name in side.shares or name in side.numbers for side in sides):
+            continue
         cells = [_cell(side, name) for side in sides]
-        if name in NUMBERS:
+        if name in NUMBERS and not any(np.isnan(side.numbers.get(name, np.nan)) for side in sides):
             cells.append(f"{sides[0].numbers[name] - sides[1].numbers[name]:+.3g}")
-        elif min(side.shares[name].count for side in sides):
+        elif name in lost and min(side.shares[name].count for side in sides):
             one = lost[name]
             cells.append(f"{100 * one.points:+.0f} [{100 * one.low:+.0f}, {100 * one.high:+.0f}]")
         else:
@@ -210,6 +217,8 @@ def table(home: Mapping[str, Any], abroad: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _cell(figures: LaboratoryFigures, name: str) -> str:
+    if name not in figures.shares and name not in figures.numbers:
+        return "not counted"
     if name not in NUMBERS:
         return str(figures.shares[name]).replace("%", " %")
     return "not told" if np.isnan(figures.numbers[name]) else f"{figures.numbers[name]:.3g}"

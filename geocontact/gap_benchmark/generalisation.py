@@ -2,9 +2,12 @@
 
 `figures_of` counts, beside what `score` does: *first, ahead* and *set, ahead*: of visible single effects whose own
 candidate is clearly ahead for somebody who knows the noise (`attainable`), those ranked first, or in a set of three;
-*class, elsewhere*: of the other visible ones, those where an effect of the same class is ranked first. The *log score*
-is where the mean logarithm of the probability of the truth (`LEAST` at least) lies between the constant answer's, 0,
-and certainty, 1.
+*class, elsewhere*: of the other visible ones, those where an effect of the same class is ranked first; *class, named*:
+those where one effect is named that is the truth, or that the diagnosis itself says these trials cannot tell from it
+(`one_law` of a diagnosis). *class, right*: of all diagnoses that state such a class, those where each class stated
+holds something that was planted; in a case that lacks nothing, or lacks what has no name, none does. A class of all
+effects is always right, so *class size*, the mean size of a class, stands beside. The *log score* is where the mean
+logarithm of the probability of the truth (`LEAST` at least) lies between the constant answer's, 0, and certainty, 1.
 """
 
 from __future__ import annotations
@@ -36,7 +39,7 @@ SCORED = (
     "coverage",
 )
 """Shares that `score` counts."""
-NUMBERS = ("reduction_error", "reduction_error_median", "log_score", "seconds_median", "seconds_most")
+NUMBERS = ("reduction_error", "reduction_error_median", "log_score", "class_size", "seconds_median", "seconds_most")
 
 
 @dataclass(frozen=True)
@@ -77,16 +80,30 @@ def figures_of(pairs: Sequence[tuple[Plain, Plain]]) -> LaboratoryFigures:
     shares["ahead"] = Rate(len(ahead), len(one))
     shares["first_ahead"] = Rate.of(answers(said)[:1] == list(label["effects"]) for label, said in ahead)
     shares["set_ahead"] = Rate.of(set(label["effects"]) <= small_set(said) for label, said in ahead)
+    classes = [(label, stated) for label, said in pairs if (stated := stated_classes(said))]
+    shares["class_named"] = Rate.of(
+        len(said["effects"]) == 1 and set(label["effects"]) <= set(said["effects"]).union(*stated_classes(said))
+        for label, said in beside
+    )
+    shares["class_right"] = Rate.of(all(one & set(label["effects"]) for one in stated) for label, stated in classes)
     shares["class_elsewhere"] = Rate.of(set(answers(said)[:1]) & one_law(label) != set() for label, said in beside)
     seconds = [float(said["seconds"]) for _, said in pairs if "seconds" in said]
     numbers = {
         "reduction_error": every.reduction_error,
         "reduction_error_median": every.reduction_error_median,
         "log_score": log_score(pairs),
+        "class_size": float(np.mean([len(one) for _, stated in classes for one in stated]))
+        if classes
+        else float("nan"),
         "seconds_median": float(np.median(seconds)) if seconds else float("nan"),
         "seconds_most": max(seconds, default=float("nan")),
     }
     return LaboratoryFigures(len(pairs), shares, numbers)
+
+
+def stated_classes(said: Plain) -> list[set[str]]:
+    """Classes of effects that a diagnosis says these trials cannot tell apart; none before it stated any."""
+    return [set(one) for one in said.get("one_law") or ()]
 
 
 def log_score(pairs: Sequence[tuple[Plain, Plain]]) -> float:
@@ -109,5 +126,5 @@ def _log_probability(label: Plain, said: Plain) -> float:
 
 
 def losses(home: LaboratoryFigures, abroad: LaboratoryFigures) -> dict[str, Loss]:
-    """Of every share."""
-    return {name: Loss.of(rate, abroad.shares[name]) for name, rate in home.shares.items()}
+    """Of every share that both have; an earlier run has fewer."""
+    return {name: Loss.of(rate, abroad.shares[name]) for name, rate in home.shares.items() if name in abroad.shares}

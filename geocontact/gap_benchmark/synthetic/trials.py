@@ -10,6 +10,7 @@ from jaxtyping import Float, Int
 
 from geocontact.gap_benchmark.synthetic.course import InputCourse, Path, through
 from geocontact.gap_benchmark.synthetic.equipment.placement import IN_PLACE, Placement
+from geocontact.gap_benchmark.synthetic.equipment.sampler import AT_ONCE, Sampler
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Outputs, written_down
 from geocontact.gap_benchmark.synthetic.noise import smooth_noise
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
@@ -98,6 +99,7 @@ def sensed(
     fine: int,
     late: float | Float[np.ndarray, " n"] = 0.0,
     placed: Placement = IN_PLACE,
+    sampler: Sampler = AT_ONCE,
 ) -> Outputs:
     """What the sensors give at `count` samples without noise, from steps `fine` times as short.
 
@@ -105,7 +107,18 @@ def sensed(
     """
     grid = np.arange((count - 1) * fine + 1) * (scene.step / fine)
     outputs = scene.body.respond(placed.moved(path(grid)), placed.shifted(scene.numbers(theta)), hooks)
-    return placed.measured(outputs[:, np.round((np.arange(count) + late) * fine).astype(int)])
+    at = np.round((np.arange(count) + late) * fine).astype(int)
+    return placed.measured(sampler.outputs(outputs, fine, at, scene.body.quotients) if sampler else outputs[:, at])
+
+
+def followed(
+    scene: SyntheticScene, path: Path, time: Float[np.ndarray, " s"], count: int, fine: int
+) -> Float[np.ndarray, "i s"]:
+    """Inputs as the scene's sampler has them at times, whole numbers of steps `fine` times as short as a sample."""
+    if not (sampler := scene.laboratory.sampler):
+        return path(time).position
+    h = scene.step / fine
+    return sampler.inputs(path(np.arange((count - 1) * fine + 1) * h).position, fine, np.round(time / h).astype(int))
 
 
 def samples(scene: SyntheticScene, path: Path) -> int:
@@ -147,13 +160,14 @@ def record(
     late = clock.late(rng, count, fine) / fine
     time = (np.arange(count) + late) * scene.step
     course = path(time)
-    outputs = scene.body.recorded(sensed(scene, path, count, theta, hooks, fine, late, placed))
+    outputs = scene.body.recorded(sensed(scene, path, count, theta, hooks, fine, late, placed, laboratory.sampler))
     outputs = recorder.noisy(outputs, np.array([one.draw(rng, count, scene.step) for one in scene.noise]))
     outputs = recorder.rounded(written_down(hooks, course, outputs), recorder.output_steps)
     outputs = scene.body.recorded(outputs)
     passed = zip(scene.input_noise, scene.filters, strict=True)
     noise = [smooth_noise(rng, sd, count, scene.step, one) for sd, one in passed]
-    seen = path(time + apart).position if (apart := scene.step * clock.apart(rng)) else course.position
+    apart = scene.step * clock.apart(rng)
+    seen = followed(scene, lambda at: path(at + apart), time, count, fine)
     inputs = recorder.rounded(seen + np.array(noise), recorder.input_steps)
     rows = np.arange(count) if gaps is None else gaps(rng, count)
     return SyntheticTrial(
@@ -162,7 +176,7 @@ def record(
         late,
         time[rows],
         data_error.inputs(scene, inputs)[:, rows],
-        data_error.outputs(scene, outputs)[:, rows],
+        data_error.outputs(scene, clock.heard(rng, outputs[:, rows])),
         course.duration,
         course.phase,
         data_error,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import pytest
@@ -56,6 +57,36 @@ def test_a_class_named_right_counts_where_two_effects_are_one_law() -> None:
     assert found.shares["first_ahead"] == found.shares["set_ahead"] == Rate(1, 2)
     assert found.shares["class_elsewhere"] == Rate(1, 2)
     assert found.numbers["seconds_median"] == 3.0 and found.shares["coverage"] == Rate(4, 4)
+
+
+def test_a_class_that_is_stated_holds_the_truth_or_not() -> None:
+    """Named: of singles that nobody can tell apart; right: of all that state classes, whatever was planted."""
+    one_name = {**said({"filter_lag": 1.0}, "explained", "filter_lag"), "one_law": [["filter_lag", "damping"]]}
+    no_class = said({"filter_lag": 1.0}, "explained", "filter_lag")  # as before there were classes
+    truth = {**said({"damping": 1.0}, "explained", "damping"), "one_law": []}
+    two_names = {**said({"damping": 1.0}, "explained", "filter_lag", "slip"), "one_law": [["filter_lag", "damping"]]}
+    wrong = {**said({"slip": 1.0}, "explained", "slip"), "one_law": [["slip", "filter_lag", "play"]]}
+    found = figures_of([(BESIDE, each) for each in (one_name, no_class, truth, two_names, wrong)])
+    assert found.shares["class_named"] == Rate(2, 5)  # one_name and truth
+    assert found.shares["class_right"] == Rate(2, 3)  # one_name and two_names
+    assert found.numbers["class_size"] == pytest.approx((2 + 2 + 3) / 3)
+    assert math.isnan(figures_of([(BESIDE, truth)]).numbers["class_size"])
+
+
+def test_every_class_that_is_stated_must_hold_something_planted() -> None:
+    both = {
+        **label("damping", {}),
+        "kind": "pair",
+        "effects": ["damping", "slip"],
+        "nats": {"damping": 9.0, "slip": 9.0},
+    }
+    one = {**said({}, "explained", "filter_lag"), "one_law": [["filter_lag", "damping"]]}
+    two = {**said({}, "explained", "filter_lag", "play"), "one_law": [["filter_lag", "damping"], ["play", "slip"]]}
+    half = {**two, "one_law": [["filter_lag", "damping"], ["play", "end_stop"]]}
+    found = figures_of([(both, one), (both, two), (both, half), (label("", {}), one), (AHEAD, one)])
+    assert found.shares["class_right"] == Rate(3, 5), "in a case that lacks nothing no class is right"
+    assert found.shares["class_named"] == Rate(0, 0), "ahead is not asked, nor what is no single effect"
+    assert found.numbers["class_size"] == 2.0
 
 
 def test_the_log_score_is_nothing_for_the_constant_answer_and_one_for_certainty() -> None:

@@ -9,23 +9,52 @@ import numpy as np
 import pytest
 
 from geocontact.gap_benchmark import drawing
-from geocontact.gap_benchmark.synthetic import LABORATORIES
+from geocontact.gap_benchmark.synthetic import LABORATORIES, cases
 from geocontact.gap_benchmark.synthetic.cases import prepared
 from geocontact.gap_benchmark.synthetic.catalogue import SECOND, plans
 from geocontact.gap_benchmark.synthetic.equipment.clock import Clock
 from geocontact.gap_benchmark.synthetic.equipment.disturbed import FilteredNoise, Humming, Knocked
 from geocontact.gap_benchmark.synthetic.equipment.placement import Placement
 from geocontact.gap_benchmark.synthetic.equipment.power_law import PowerLawNoise
+from geocontact.gap_benchmark.synthetic.equipment.wandering import Wandering
 from geocontact.gap_benchmark.synthetic.equipment.warm_up import WarmUp
-from geocontact.gap_benchmark.synthetic.laboratories.kinds import LABORATORY_KINDS, kinds_of
+from geocontact.gap_benchmark.synthetic.laboratories.kinds import LABORATORY_KINDS, SIDES, kinds_of
+from geocontact.gap_benchmark.synthetic.laboratories.of_kind import TRIALS
 from geocontact.gap_benchmark.synthetic.laboratories.placement import placed_as_usual
-from geocontact.gap_benchmark.synthetic.noise import NoiseFilter, SensorNoise
+from geocontact.gap_benchmark.synthetic.noise import Coloured, NoiseFilter, SensorNoise
 from geocontact.gap_benchmark.synthetic.plan import NotFoundError
 from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
 from geocontact.gap_benchmark.synthetic.scenes import SCENES
 from geocontact.gap_benchmark.synthetic.slight import UNSEEN, slightly_wrong
 from geocontact.gap_benchmark.synthetic.trials import record
 from geocontact.gap_benchmark.synthetic.visibility import floor, sight, whitener
+
+NEW = {
+    "noise": ("lasting", "walking", "hurried", "harmonics"),
+    "clock": ("averaging", "lagging", "interrupted"),
+    "steps": ("mixed",),
+    "trials": ("fewest", "several"),
+    "motion": ("sweep", "sines", "holds"),
+}
+"""What fresh kinds have."""
+AS_BEFORE = {
+    "white, rows dropped": 554.2055731569167,
+    "1/f, coarse, placed anew": 549.0371906990788,
+    "growing, uneven clock": 532.5361642603455,
+    "mains, raw inputs, many trials": 543.5059838090344,
+    "filtered, coarse, constants off": 582.9322064360321,
+    "heavy tails, two clocks, few trials": 552.7876393525073,
+    "mains, two clocks, coarse": 567.5129998936145,
+    "1/f, uneven clock, few trials": 543.8839668473239,
+    "filtered, two clocks, coarse": 582.8560642109156,
+    "filtered, rows dropped, many trials": 529.2152767323278,
+    "knocks, rows dropped": 549.9863708342208,
+    "growing, coarse, constants off": 538.8698353157625,
+    "white, uneven clock, raw inputs": 545.7304031548991,
+    "heavy tails, warming up, many trials": 555.6079844512446,
+    "knocks, placed anew, few trials": 543.4261831356195,
+}
+"""Force of a knee half-way through 198 samples [N], of kinds at home and abroad, before there were fresh ones."""
 
 
 def scene_of(kind: str, system: str, seed: int = 1) -> SyntheticScene:
@@ -40,12 +69,41 @@ def scene_of(kind: str, system: str, seed: int = 1) -> SyntheticScene:
 
 def test_kinds_at_home_and_abroad_are_disjoint() -> None:
     """No kind abroad has a noise and a clock together that are at home; some things are abroad only."""
-    home, abroad = ([LABORATORY_KINDS[name] for name in kinds_of(side)] for side in ("home", "abroad"))
-    assert len(home) + len(abroad) == len(LABORATORY_KINDS) and home and abroad
+    home, abroad, fresh = ([LABORATORY_KINDS[name] for name in kinds_of(side)] for side in SIDES)
+    assert len(home) + len(abroad) + len(fresh) == len(LABORATORY_KINDS) and home and abroad
     assert not {(one.noise, one.clock) for one in home} & {(one.noise, one.clock) for one in abroad}
     assert not {astuple(one)[1:] for one in home} & {astuple(one)[1:] for one in abroad}
     for name, value in (("noise", "knocked"), ("trouble", "warm_up"), ("forms", "second")):
         assert value in {getattr(one, name) for one in abroad} - {getattr(one, name) for one in home}
+
+
+def test_fresh_kinds_share_no_noise_and_clock_with_the_others() -> None:
+    """Nor with each other; and what was added for them is on no other side."""
+    fresh, others = (
+        [kind for kind in LABORATORY_KINDS.values() if (kind.side == "fresh") is side] for side in (True, False)
+    )
+    together = [(one.noise, one.clock) for one in fresh]
+    assert len(fresh) >= 6 and len(set(together)) == len(fresh)
+    assert not set(together) & {(one.noise, one.clock) for one in others}
+    for name, values in NEW.items():
+        assert set(values) <= {getattr(one, name) for one in fresh}, name
+        assert not set(values) & {getattr(one, name) for one in others}, name
+
+
+@pytest.mark.parametrize("name", AS_BEFORE)
+def test_the_other_kinds_record_what_they_did_before_there_were_fresh_ones(name: str) -> None:
+    scene, rng = scene_of(name, "knee"), np.random.default_rng(2)
+    outputs = record(scene, scene.path(rng, 0), rng).outputs
+    assert outputs.shape[1] == 198 and outputs[0, 99] == pytest.approx(AS_BEFORE[name], rel=1e-9)
+
+
+def test_numbers_of_trials_are_those_that_kinds_tell() -> None:
+    """In all, from 2 to 12; for fitting one trial at least and for holding out one."""
+    assert {sum(one) for one in cases.TRIALS} == {5, 6}
+    found = {name: {sum(one) for one in pairs} for name, pairs in TRIALS.items()}
+    assert found == {"fewest": {2, 3}, "few": {3, 4}, "several": {7, 8}, "many": {9, 10, 11, 12}}
+    assert all(min(one) >= 1 for pairs in TRIALS.values() for one in pairs)
+    assert any(learn == 2 for learn, _ in TRIALS["fewest"])
 
 
 @pytest.mark.parametrize("name", LABORATORY_KINDS)
@@ -53,17 +111,26 @@ def test_a_laboratory_has_what_its_kind_says(name: str) -> None:
     kind, scene = LABORATORY_KINDS[name], scene_of(name, "knee")
     laboratory = scene.laboratory
     steps = [step / scene.noise[row].sd for row, step in laboratory.recorder.output_steps.items()]
+    which = {"fine": ("fine", "fine"), "coarse": ("coarse", "coarse"), "mixed": ("fine", "coarse")}[kind.steps]
     assert len(steps) == 2 and all(
-        step <= 0.3 if kind.steps == "fine" else step >= 0.5 / np.sqrt(2.0) for step in steps
+        step <= 0.3 if one == "fine" else step >= 0.5 / np.sqrt(2.0) for one, step in zip(which, steps, strict=True)
     )
     assert bool(laboratory.clock.trigger) == (kind.clock == "triggered")
     assert bool(laboratory.clock.uneven) == (kind.clock == "uneven")
     assert (laboratory.clock.losing == 1.0) == (kind.clock == "dropping")
+    assert bool(laboratory.clock.interrupted) == (kind.clock == "interrupted")
+    assert bool(laboratory.sampler.over) == (kind.clock == "averaging")
+    assert bool(laboratory.sampler.lag) == (kind.clock == "lagging")
+    assert bool(laboratory.recorder.hurry) == (kind.noise == "hurried")
+    assert isinstance(scene.noise[0], Wandering) == (kind.noise == "walking")
+    assert isinstance(scene.noise[0], Coloured) == (kind.noise == "lasting")
+    assert (getattr(scene.noise[0], "third", 0.0) > 0.0) == (kind.noise == "harmonics")
     assert bool(len(laboratory.placement)) == (kind.trouble == "placed")
     assert bool(len(laboratory.standing)) == (kind.trouble == "constants")
     assert bool(len(laboratory.warm_up.cold)) == (kind.trouble == "warm_up")
     count = sum(laboratory.trials or (3, 2))
-    assert {"few": 2 <= count <= 4, "usual": laboratory.trials is None, "many": 9 <= count <= 12}[kind.trials]
+    within = {"fewest": (2, 3), "few": (3, 4), "usual": (5, 6), "several": (7, 8), "many": (9, 12)}[kind.trials]
+    assert within[0] <= count <= within[1] and (laboratory.trials is None) == (kind.trials == "usual")
     assert laboratory.forms == kind.forms
     if kind.inputs == "raw":
         assert {one.corner for one in scene.filters} == {0.5 / scene.step}
@@ -75,8 +142,11 @@ def test_a_laboratory_has_what_its_kind_says(name: str) -> None:
         FilteredNoise(2.0, NoiseFilter(8.0)),
         Humming(PowerLawNoise(1.0), 0.8, 50.0),
         Knocked(PowerLawNoise(1.0), 10.0, 0.05, 10.0, 0.5),
+        Humming(PowerLawNoise(1.0), 0.8, 4.0, 0.6),
+        Wandering(PowerLawNoise(1.0), 0.6),
+        Coloured(2.0, 0.0, 1.5, 0.7),
     ],
-    ids=["filtered", "hum", "knocks"],
+    ids=["filtered", "hum", "knocks", "harmonics", "walk", "long memory"],
 )
 def test_noise_has_the_covariance_that_labels_are_told_by(noise: SensorNoise) -> None:
     rng, count = np.random.default_rng(0), 300

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Float, Int
 
 Rng = np.random.Generator
 
@@ -24,6 +24,8 @@ class Clock:
         Share of rows that such a recording loses one by one.
     longest
         Most rows of a stretch that it loses, a fifth of a trial at most; there are two stretches at most.
+    interrupted
+        Chance of an output, in a trial, that a stretch of it is missing, a tenth to a fifth of the trial.
     trigger
         Most by which the inputs of a trial are recorded late or early against its outputs, as a share of the time
         between two samples: they have a clock each, started by one signal.
@@ -33,6 +35,7 @@ class Clock:
     losing: float = 0.2
     alone: float = 0.01
     longest: int = 5
+    interrupted: float = 0.0
     trigger: float = 0.0
 
     def late(self, rng: Rng, count: int, fine: int) -> Int[np.ndarray, " s"]:
@@ -54,6 +57,18 @@ class Clock:
             keep[begin : begin + int(rng.integers(2, longest + 1))] = False
         keep[0] = keep[-1] = True
         return np.flatnonzero(keep)
+
+    def heard(self, rng: Rng, outputs: Float[np.ndarray, "c s"]) -> Float[np.ndarray, "c s"]:
+        """Outputs with stretches of single ones missing (NaN); nothing is drawn where none is ever missing."""
+        if not self.interrupted:
+            return outputs
+        left, count = outputs.copy(), outputs.shape[1]
+        for row in left:
+            lasting = max(int(rng.uniform(0.1, 0.2) * count), 1)
+            begin, missing = int(rng.integers(0, count - lasting + 1)), rng.random() < self.interrupted
+            if missing:
+                row[begin : begin + lasting] = np.nan
+        return left
 
 
 USUAL = Clock()

@@ -52,25 +52,30 @@ class Humming:
         Root mean square of the hum.
     frequency
         Of the mains [Hz].
+    third
+        Root mean square of its third harmonic, whose phase follows that of the hum.
     """
 
     beside: SensorNoise
     hum: float
     frequency: float
+    third: float = 0.0
 
     @property
     def sd(self) -> float:
-        """Of both."""
-        return float(np.hypot(self.beside.sd, self.hum))
+        """Of all together."""
+        return float(np.hypot(np.hypot(self.beside.sd, self.hum), self.third))
 
     def draw(self, rng: np.random.Generator, count: int, step: float) -> Float[np.ndarray, " s"]:
         """One realisation."""
         angle = 2.0 * np.pi * self.frequency * step * np.arange(count) + rng.uniform(0.0, 2.0 * np.pi)
-        return np.asarray(self.beside.draw(rng, count, step) + np.sqrt(2.0) * self.hum * np.sin(angle))
+        noise = self.beside.draw(rng, count, step) + np.sqrt(2.0) * self.hum * np.sin(angle)
+        return np.asarray(noise + np.sqrt(2.0) * self.third * np.sin(3.0 * angle) if self.third else noise)
 
     def covariance(self, count: int, step: float) -> Float[np.ndarray, "s s"]:
         """Of `count` samples in a row, over all phases."""
-        along = self.hum**2 * np.cos(2.0 * np.pi * self.frequency * step * np.arange(count))
+        angle = 2.0 * np.pi * self.frequency * step * np.arange(count)
+        along = self.hum**2 * np.cos(angle) + self.third**2 * np.cos(3.0 * angle)
         return np.asarray(self.beside.covariance(count, step) + toeplitz(along))
 
 

@@ -8,6 +8,7 @@ from typing import Literal
 from geocontact.gap_benchmark.synthetic.equipment.clock import USUAL, Clock
 from geocontact.gap_benchmark.synthetic.equipment.placement import IN_PLACE, Placement
 from geocontact.gap_benchmark.synthetic.equipment.recorder import EXACT, Recorder
+from geocontact.gap_benchmark.synthetic.equipment.sampler import AT_ONCE, Sampler
 from geocontact.gap_benchmark.synthetic.equipment.warm_up import WARM, WarmUp
 
 Forms = Literal["first", "second"]
@@ -20,7 +21,7 @@ class Laboratory:
 
     Parameters
     ----------
-    recorder, clock
+    recorder, clock, sampler
         Of all trials.
     placement
         How far things are off in each trial, drawn anew in every one (standard deviations).
@@ -36,6 +37,7 @@ class Laboratory:
 
     recorder: Recorder = EXACT
     clock: Clock = USUAL
+    sampler: Sampler = AT_ONCE
     placement: Placement = IN_PLACE
     standing: Placement = IN_PLACE
     warm_up: WarmUp = WARM

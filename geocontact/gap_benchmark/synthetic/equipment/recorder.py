@@ -30,6 +30,8 @@ class Recorder:
     ----------
     growth
         Noise grows by sqrt(1 + (growth y)²); in one over the output's unit.
+    hurry
+        It grows by sqrt(1 + (hurry Δy)²), Δy the output's change from sample to sample; in one over its unit.
     quotients
         Outputs that are computed from others.
     output_steps, input_steps
@@ -37,6 +39,7 @@ class Recorder:
     """
 
     growth: Mapping[int, float] = field(default_factory=dict)
+    hurry: Mapping[int, float] = field(default_factory=dict)
     quotients: Mapping[int, Quotient] = field(default_factory=dict)
     output_steps: Mapping[int, float] = field(default_factory=dict)
     input_steps: Mapping[int, float] = field(default_factory=dict)
@@ -70,6 +73,8 @@ class Recorder:
         factor = np.ones_like(clean)
         for row, slope in self.growth.items():
             factor[row] = np.sqrt(1.0 + (slope * clean[row]) ** 2)
+        for row, slope in self.hurry.items():
+            factor[row] *= np.sqrt(1.0 + (slope * np.nan_to_num(np.gradient(clean[row]))) ** 2)
         return factor
 
 

@@ -11,7 +11,7 @@ from geocontact.gap_benchmark.synthetic.course import Path, through
 from geocontact.gap_benchmark.synthetic.hooks import BASE
 from geocontact.gap_benchmark.synthetic.plan import NotFoundError
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
-from geocontact.gap_benchmark.synthetic.trials import samples, truth
+from geocontact.gap_benchmark.synthetic.trials import followed, samples, sensed
 
 OTHER = 1.5
 """Largest factor between a parameter at home and of another device."""
@@ -60,9 +60,11 @@ def sampled(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
     path = scene.path(rng, 0)
     count = samples(scene, path)
     time = np.arange(count) * scene.step
-    course = path(time)
-    between = through(time, course.position, course.duration, course.phase, course.setting)
-    off = scene.base_model(between(time))(scene.theta) - truth(scene, path, count, scene.theta, BASE, scene.body.fine)
+    course, fine = path(time), scene.body.fine
+    inputs = followed(scene, path, time, count, fine)
+    between = through(time, inputs, course.duration, course.phase, course.setting)
+    there = scene.body.recorded(sensed(scene, path, count, scene.theta, BASE, fine, sampler=scene.laboratory.sampler))
+    off = scene.base_model(between(time))(scene.theta) - there
     noise = np.array([one.sd for one in scene.noise])
     bent = float((np.sqrt(np.nanmean(off**2, axis=1)) / noise).max())
     if bent > BENT:

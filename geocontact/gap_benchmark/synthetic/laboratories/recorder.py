@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from geocontact.gap_benchmark.synthetic.course import Path
 from geocontact.gap_benchmark.synthetic.equipment.clock import Clock
 from geocontact.gap_benchmark.synthetic.equipment.power_law import PowerLawNoise
 from geocontact.gap_benchmark.synthetic.equipment.recorder import Quotient, Recorder
@@ -13,6 +14,7 @@ from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import Sizes, ano
 from geocontact.gap_benchmark.synthetic.laboratories.paced import Pace, paced
 from geocontact.gap_benchmark.synthetic.noise import FAR_FROM_NYQUIST, USUAL, NoiseFilter
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
+from geocontact.gap_benchmark.synthetic.trials import samples
 
 SLOWEST, FASTEST = 25.0, 1000.0
 """Samples per second."""
@@ -43,6 +45,7 @@ def recorder_laboratory(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
     noise = tuple(power_law_noise(rng, sort, one.sd) for one in scene.noise)
     recorder = Recorder(
         growth_of(rng, scene, size) if sort == "growing" else {},
+        {},
         quotients_of(scene, size),
         {row: one.sd * _step(rng, COARSEST) for row, one in enumerate(noise)},
         {row: float(sd) * _step(rng, COARSEST_INPUT) for row, sd in enumerate(scene.input_noise) if sd},
@@ -83,6 +86,14 @@ def growth_of(rng: Rng, scene: SyntheticScene, size: Sizes) -> dict[int, float]:
     """Slope by which the noise of each output grows, but of a quotient."""
     rows = [row for row in range(len(scene.outputs)) if row not in scene.body.quotients]
     return {row: float(np.exp(rng.uniform(np.log(0.5), np.log(3.0)))) / float(size.largest[row]) for row in rows}
+
+
+def hurry_of(rng: Rng, scene: SyntheticScene, path: Path) -> dict[int, float]:
+    """Slope by which the noise of each output grows with its change from sample to sample, but of a quotient."""
+    outputs = scene.body.recorded(scene.base_model(path(np.arange(samples(scene, path)) * scene.step))(scene.theta))
+    largest = np.nanmax(np.abs(np.gradient(outputs, axis=1)), axis=1)
+    rows = [row for row in range(len(scene.outputs)) if row not in scene.body.quotients]
+    return {row: float(np.exp(rng.uniform(np.log(0.5), np.log(3.0)))) / float(largest[row]) for row in rows}
 
 
 def _step(rng: Rng, coarsest: float) -> float:
