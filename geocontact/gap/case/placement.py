@@ -91,7 +91,7 @@ def clock_offset(time: Float[np.ndarray, " t"], told: Float[np.ndarray, "t c"]) 
     that has no value; 0 there and beside it.
     """
     usual = float(np.median(np.diff(time))) / np.sqrt(12.0) / DEVIATIONS
-    return np.nan_to_num(np.gradient(told, time, axis=0)) * usual
+    return np.asarray(np.nan_to_num(np.gradient(told, time, axis=0)) * usual)
 
 
 def put_on(system: System) -> dict[str, float]:
