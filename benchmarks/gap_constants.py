@@ -3,9 +3,10 @@
 Every constant of the rooms that a verdict comes from is halved, and doubled, and the same synthetic cases, drawn at
 home, are attributed again. An answer is moved where the verdict or the first name is another one. Constants are tried
 in groups: where a group changes no answer, none of it does (two that undo each other would be missed, which is said);
-where it does, its halves are tried, down to single ones. Of these the table has the answers moved, false alarms
-and those first ranked right, beside what they were. Numbers inside compiled kernels stay as they are. Every trial is
-added to a file beside the JSON as it is done, and the same call goes on where a run of the same commit ended.
+where it does, its halves are tried, down to single ones. Of these the table has the answers moved, false alarms,
+those first ranked right and diagnoses that failed, beside what they were. Numbers inside compiled kernels stay as they
+are. Every trial is added to a file beside the JSON as it is done, and the same call goes on where a run of the same
+commit ended.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from typing import Any
 from benchmarks.constants_of import Constant, constants, put
 from benchmarks.gap_verdicts import attributed
 from benchmarks.machine import commit, machine
-from geocontact.gap_benchmark.drawing import SYSTEMS, Lot, lots
+from geocontact.gap_benchmark.drawing import SYSTEMS, Lot, drawn, lots
 
 HERE = Path(__file__).resolve().parent
 ROOMS = (
@@ -30,6 +31,8 @@ ROOMS = (
     "identify.noise", "identify.optimise",
 )  # fmt: skip
 """What is left out only draws, tells or proposes: localise, reduction, identifiability, experiment."""
+FAILED = "failed"
+"""How the verdict begins of a diagnosis that ended without one."""
 Answers = dict[str, dict[str, Any]]
 
 
@@ -38,7 +41,8 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.gap_constants", description=__doc__.splitlines()[0])
     parser.add_argument("--seed", type=int, required=True)
     parser.add_argument("--systems", nargs="+", default=list(SYSTEMS))
-    parser.add_argument("--cases", type=int, default=5, help="of each system; half of them lack nothing")
+    parser.add_argument("--cases", type=int, default=5, help="of each system, shared by the kinds")
+    parser.add_argument("--kinds", nargs="+", default=["none", "single"])
     parser.add_argument("--group", type=int, default=12, help="constants that are tried together")
     parser.add_argument("--only", nargs="*", default=[], help="constants whose label begins so")
     parser.add_argument("--minutes", type=float, default=float("inf"), help="after which no further trial is begun")
@@ -55,7 +59,8 @@ def answers(chosen: Sequence[Lot], changed: dict[Constant, float | int], send: A
         try:
             row = attributed(lot)
         except Exception as error:  # noqa: BLE001 a constant that ends the diagnosis is a finding
-            said[name] = {"verdict": f"failed: {type(error).__name__}", "first": "", "truth": []}
+            truth = list(drawn(lot).label.effects)
+            said[name] = {"verdict": f"{FAILED}: {type(error).__name__}", "first": "", "truth": truth}
             continue
         told = row["answer"]
         first = (*told["ambiguity"], *told["effects"], "")[0]
@@ -79,14 +84,20 @@ def apart(chosen: Sequence[Lot], changed: dict[Constant, float | int]) -> Answer
 
 
 def figures(before: Answers, after: Answers) -> dict[str, Any]:
-    """Answers moved; false alarms and first ranked right, before and after."""
+    """Answers moved; false alarms, first ranked right and failed diagnoses, before and after.
+
+    A diagnosis that ended without an answer, or whose process was killed, has failed: that is neither a false alarm
+    nor a right answer.
+    """
     moved = [name for name, one in before.items() if _told(after.get(name)) != _told(one)]
 
     def counted(said: Answers) -> dict[str, int]:
-        none = [one for one in said.values() if not one["truth"]]
-        some = [one for one in said.values() if one["truth"]]
-        alarms = sum(one["verdict"] != "no_gap" for one in none)
-        return {"false_alarms": alarms, "first_right": sum(one["first"] in one["truth"] for one in some)}
+        answered = [one for name in before if (one := said.get(name)) and not one["verdict"].startswith(FAILED)]
+        return {
+            "false_alarms": sum(not one["truth"] and one["verdict"] != "no_gap" for one in answered),
+            "first_right": sum(one["first"] in one["truth"] for one in answered),
+            "failed": len(before) - len(answered),
+        }
 
     return {"moved": moved, "before": counted(before), "after": counted(after)}
 
@@ -111,9 +122,9 @@ def main() -> int:
     """Halve, double, write."""
     o = arguments()
     what, began, log = commit(), time.monotonic(), o.out.with_suffix(".rows")
-    chosen = list(lots(tuple(o.systems), o.cases, ("none", "single"), o.seed))
+    chosen = list(lots(tuple(o.systems), o.cases, tuple(o.kinds), o.seed))
     named = [one for one in constants(ROOMS) if not o.only or one.label.startswith(tuple(o.only))]
-    asked = {"commit": what, "seed": o.seed, "systems": o.systems, "cases": o.cases}
+    asked = {"commit": what, "seed": o.seed, "systems": o.systems, "kinds": o.kinds, "cases": o.cases}
     rows = [json.loads(line) for line in log.read_text(encoding="utf-8").splitlines()] if log.exists() else []
     rows = [row for row in rows if row["asked"] == asked]
 

@@ -10,7 +10,7 @@ from website.stage import ROOT
 PAGE = "docs/reference/gap_constants.md"
 RESULTS = "benchmarks/results/gap_constants*.json"
 FACTORS = {"times 0.5": "halved", "times 2": "doubled"}
-KINDS = ("false_alarms", "first_right")
+KINDS = ("false_alarms", "first_right", "failed")
 
 
 def constants() -> str:
@@ -28,7 +28,7 @@ def head(runs: list[dict[str, Any]]) -> list[str]:
     most = max(len(run["constants"]) for run in runs)
     whole = [run for run in runs if len(run["constants"]) == most]  # others are of single constants
     cases, nothing = (sum(run[what] for run in whole) for what in ("answers", "nothing_missing"))
-    alarms, first = (sum(run["before"][kind] for run in whole) for kind in KINDS)
+    alarms, first, failed = (sum(run["before"].get(kind, 0) for run in whole) for kind in KINDS)
     calls = [
         f"`--seed {run['seed']} --systems {' '.join(run['systems'])} --cases {run['cases']}` at {run['commit']}"
         for run in runs
@@ -42,23 +42,21 @@ def head(runs: list[dict[str, Any]]) -> list[str]:
     )
     before = (
         f"With the constants as they are: {alarms} false alarms in {nothing} cases, the right effect first in {first} "
-        f"of {cases - nothing}. An answer is moved where its verdict or its first name is another one. Constants were "
-        "tried in groups, and one by one where a group moved an answer: two that undo each other would be missed. "
-        "Where a number ends the diagnosis, as the doubled CYCLES does since its shortest window holds no frequency, "
-        "an answer counts as moved, and as a false alarm. Not tried: rooms that only localise, report or propose, "
-        "tables of several values, numbers without a name; most on foot and shoulder. Some were "
-        f"tried on more cases. A constant that moves none of {cases} answers may still move {unseen:.0f} % of all "
-        "(95 %)."
+        f"of {cases - nothing}, {failed} that failed. An answer is moved where its verdict or its first name is "
+        "another one. Constants were tried in groups, and one by one where a group moved an answer: two that undo each "
+        "other would be missed. Where a number ends the diagnosis, as the doubled CYCLES does since its shortest "
+        "window holds no frequency, an answer counts as moved and as failed: neither as a false alarm nor as right. "
+        "Not tried: rooms that only localise, report or propose, tables of several values, numbers without a name; "
+        f"most on foot and shoulder. Some were tried on more cases. A constant that moves none of {cases} answers may "
+        f"still move {unseen:.0f} % of all (95 %)."
     )
     return ["# Constants of the diagnosis, halved and doubled", what, before]
 
 
 def table(rows: list[tuple[str, float, list[dict[str, int] | None]]]) -> str:
     """Constants that move an answer."""
-    lines = [
-        "| constant | value | " + " | ".join(f"{word}: moved, false alarms, first" for word in FACTORS.values()) + " |"
-    ]
-    lines.append("|---|---|---|---|")
+    effects = (f"{word}: moved, false alarms, first, failed" for word in FACTORS.values())
+    lines = ["| constant | value | " + " | ".join(effects) + " |", "|---|---|---|---|"]
     for label, value, effects in rows:
         lines.append(f"| `{label}` | {value:.4g} | " + " | ".join(map(said, effects)) + " |")
     return "\n".join(lines)
@@ -73,7 +71,7 @@ def foot(rows: list[tuple[str, float, list[dict[str, int] | None]]]) -> list[str
 
 
 def effect(runs: list[dict[str, Any]], label: str, factor: str) -> dict[str, int] | None:
-    """Answers moved, false alarms and right ones first, of all runs with it; None where one did not come to it."""
+    """Answers moved, false alarms, right ones first and failures, of all runs; None where one did not come to it."""
     found = {"moved": 0, "of": 0} | dict.fromkeys(KINDS, 0)
     for run in (run for run in runs if label in run["constants"]):
         told = run["constants"][label].get(factor)
@@ -83,7 +81,7 @@ def effect(runs: list[dict[str, Any]], label: str, factor: str) -> dict[str, int
         found["moved"] += 0 if told == "moves nothing" else len(told["moved"])
         found["of"] += run["answers"]
         for kind in KINDS:
-            found[kind] += after[kind]
+            found[kind] += after.get(kind, 0)
     return found
 
 
@@ -93,5 +91,5 @@ def moved(one: dict[str, int] | None) -> int:
 
 
 def said(one: dict[str, int] | None) -> str:
-    """The three figures as a cell of the table has them."""
-    return f"{one['moved']} of {one['of']}, {one['false_alarms']}, {one['first_right']}" if one else "not tried"
+    """The four figures as a cell of the table has them."""
+    return f"{one['moved']} of {one['of']}, {', '.join(str(one[kind]) for kind in KINDS)}" if one else "not tried"

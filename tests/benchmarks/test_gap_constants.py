@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import inspect
 
+import pytest
+
+from benchmarks import gap_constants
 from benchmarks.constants_of import bare, constants, put
 from benchmarks.gap_constants import ROOMS, figures, searched
 from geocontact.gap import levels, partial_answer
 from geocontact.gap.case import plain_fit, refit
 from geocontact.gap.selection import clipping, verdict
+from geocontact.gap_benchmark.drawing import Lot, drawn
 
 
 def test_a_number_is_another_one_wherever_it_was_imported() -> None:
@@ -48,10 +52,32 @@ def test_answers_are_counted_by_what_they_were_and_are() -> None:
     quiet = {"verdict": "no_gap", "first": "", "truth": []}
     right = {"verdict": "explained", "first": "damping", "truth": ["damping"]}
     alarm = {"verdict": "unknown", "first": "slip", "truth": []}
-    told = figures({"a": quiet, "b": right}, {"a": alarm})
+    told = figures({"a": quiet, "b": right}, {"a": alarm, "b": quiet | {"truth": ["damping"]}})
     assert told["moved"] == ["a", "b"]
-    assert told["before"] == {"false_alarms": 0, "first_right": 1}
-    assert told["after"] == {"false_alarms": 1, "first_right": 0}
+    assert told["before"] == {"false_alarms": 0, "first_right": 1, "failed": 0}
+    assert told["after"] == {"false_alarms": 1, "first_right": 0, "failed": 0}
+
+
+def test_a_diagnosis_that_fails_is_no_false_alarm(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(lot: Lot) -> dict:
+        raise ValueError(lot.kind)
+
+    class Sent:
+        told: gap_constants.Answers
+
+        def send(self, told: gap_constants.Answers) -> None:
+            self.told = told
+
+    monkeypatch.setattr(gap_constants, "attributed", broken)
+    some, sent = [Lot("elbow", kind, 352612, 0) for kind in ("none", "single")], Sent()
+    gap_constants.answers(some, {}, sent)
+    planted = list(drawn(some[1]).label.effects)
+    assert planted and [one["truth"] for one in sent.told.values()] == [[], planted]
+    right = {name: {**one, "verdict": "no_gap", "first": (*one["truth"], "")[0]} for name, one in sent.told.items()}
+    told = figures(right, sent.told)
+    assert told["before"] == {"false_alarms": 0, "first_right": 1, "failed": 0}
+    assert told["after"] == {"false_alarms": 0, "first_right": 0, "failed": 2} and len(told["moved"]) == 2
+    assert figures(right, {})["after"] == told["after"]  # a process that was killed has told nothing
 
 
 def test_a_group_is_halved_down_to_what_moves_an_answer() -> None:
