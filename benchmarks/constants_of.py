@@ -9,6 +9,9 @@ import pkgutil
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -36,7 +39,10 @@ class Constant:
 
 
 def constants(rooms: Sequence[str]) -> list[Constant]:
-    """All of these rooms, in the order of modules and lines; neither words nor tables of several values."""
+    """All of these rooms, in the order of modules and lines; neither words nor tables of several values.
+
+    Of modules that a diagnosis imports: others are of other analyses.
+    """
     found = []
     for module in _modules(rooms):
         tree = ast.parse(inspect.getsource(module))
@@ -94,8 +100,33 @@ def _put_defaults(module: ModuleType, name: str) -> None:
 
 def _modules(rooms: Sequence[str]) -> Iterator[ModuleType]:
     for found in pkgutil.walk_packages(geocontact.__path__, "geocontact."):
-        if not found.ispkg and any(f"{found.name}.".startswith(f"geocontact.{room}.") for room in rooms):
+        inside = any(f"{found.name}.".startswith(f"geocontact.{room}.") for room in rooms)
+        if not found.ispkg and inside and found.name in in_use():
             yield importlib.import_module(found.name)
+
+
+@cache
+def in_use(by: str = "geocontact.gap.diagnose") -> frozenset[str]:
+    """Modules of the package that one imports, itself or through others, at the top or when it is called."""
+    seen, waiting = {by}, [by]
+    while waiting:
+        found = find_spec(waiting.pop())
+        if found is None or found.origin is None:
+            continue
+        for node in ast.walk(ast.parse(Path(found.origin).read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("geocontact"):
+                named = [str(node.module), *(f"{node.module}.{alias.name}" for alias in node.names)]
+                new = [name for name in named if name not in seen and _is_module(name)]
+                seen.update(new)
+                waiting += new
+    return frozenset(seen)
+
+
+def _is_module(name: str) -> bool:
+    try:
+        return find_spec(name) is not None
+    except ModuleNotFoundError:  # what it is named in is no package
+        return False
 
 
 def _names(node: ast.stmt) -> list[str]:
@@ -113,8 +144,9 @@ def _numbers(node: ast.FunctionDef | ast.Lambda) -> Iterator[float | int]:
         one = waiting.pop()
         if isinstance(one, ast.Constant) and type(one.value) in (int, float):
             yield one.value
-        if isinstance(one, ast.Subscript) and isinstance(one.slice, ast.Constant):
-            waiting.append(one.value)
+        if isinstance(one, ast.Subscript):
+            places = one.slice.elts if isinstance(one.slice, ast.Tuple) else [one.slice]
+            waiting += [one.value, *(each for each in places if not isinstance(each, ast.Constant))]
         elif not isinstance(one, (ast.FunctionDef, ast.Lambda)):
             waiting += ast.iter_child_nodes(one)
 

@@ -28,7 +28,7 @@ from geocontact.gap_benchmark.drawing import SYSTEMS, Lot, drawn, lots
 HERE = Path(__file__).resolve().parent
 ROOMS = (
     "gap.attribute", "gap.case", "gap.data_errors", "gap.inputs", "gap.levels", "gap.selection",
-    "identify.noise", "identify.optimise",
+    "identify.intervals", "identify.noise", "identify.optimise", "identify.signals",
 )  # fmt: skip
 """What is left out only draws, tells or proposes: localise, reduction, identifiability, experiment."""
 FAILED = "failed"

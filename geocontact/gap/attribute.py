@@ -28,7 +28,6 @@ from geocontact.gap.selection.verdict import Answer, answer, borne_out, most_of,
 from geocontact.identify.noise.student import StudentNoise
 
 CLIPPED = "saturation"  # what a flat top speaks for
-ODD = 5.0  # nats from which an anomaly is told
 
 Offer = Callable[[System], Sequence[Candidate]]
 Listener = Callable[[str], None]
@@ -197,8 +196,8 @@ def _answered(
     objections |= rules.outdone([c for c in gaining if c.label not in objections])
     variants = Counter(one.name for one in contest.entered)
     held = ranking(base, contenders, shares, variants, objections)
-    odd = tuple(each for each in residual_anomalies(clean, held.leader.judged) if each.nats > ODD)
-    recorder = tuple(each for each in recorder_remarks(clean, held.leader.judged) if each.nats > ODD)
+    odd = tuple(each for each in residual_anomalies(clean, held.leader.judged) if each.nats > SURE)
+    recorder = tuple(each for each in recorder_remarks(clean, held.leader.judged) if each.nats > SURE)
     strange = float(sum(each.nats for each in odd if each.counts))
     best = held.best
     at("what is left over")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
+from statistics import NormalDist
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -34,8 +35,8 @@ from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors, raw_input_errors
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import Contender, base_contender
+from geocontact.identify.intervals.quantile_intervals import ENDS
 
-Z95 = 1.959964
 TOLD = 0.5  # of the prior's spread that the fit's may be, for a parameter that the trials tell
 
 
@@ -233,10 +234,10 @@ def estimates(judged: Judged, told: dict[str, float]) -> dict[str, Estimate]:
     held = (spread == 0.0) | (prior_spread(system, told) == 0.0)
     scaled = judged.model.whitened_jacobian[: judged.fitted_rows] * spread
     covariance = spread[:, None] * np.linalg.inv(np.eye(len(spread)) + scaled.T @ scaled) * spread
-    found = {}
+    found, reach = {}, NormalDist().inv_cdf(ENDS[1])
     for k, p in enumerate(free(system)):
         sd = float(np.hypot(np.sqrt(covariance[k, k]), told[p.name] - values[p.name])) if not held[k] else np.inf
-        low, high = (min(max(told[p.name] + s * Z95 * sd, p.lower), p.upper) for s in (-1.0, 1.0))
+        low, high = (min(max(told[p.name] + s * reach * sd, p.lower), p.upper) for s in (-1.0, 1.0))
         identified = not held[k] and sd < TOLD * spread[k]
         found[p.name] = Estimate(told[p.name], (low, high), p.unit, bool(identified))
     return found

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import ast
 import inspect
 
 import pytest
 
 from benchmarks import gap_constants
-from benchmarks.constants_of import bare, constants, put
+from benchmarks.constants_of import _numbers, bare, constants, in_use, put
 from benchmarks.gap_constants import ROOMS, figures, searched
 from geocontact.gap import levels, partial_answer
 from geocontact.gap.case import plain_fit, refit
 from geocontact.gap.selection import clipping, verdict
 from geocontact.gap_benchmark.drawing import Lot, drawn
+from tests.house.test_gap_theory import ROWS
+
+WHOLE = ("gap", "identify")
 
 
 def test_a_number_is_another_one_wherever_it_was_imported() -> None:
@@ -81,7 +85,7 @@ def test_a_diagnosis_that_fails_is_no_false_alarm(monkeypatch: pytest.MonkeyPatc
 
 
 def test_a_group_is_halved_down_to_what_moves_an_answer() -> None:
-    named, asked = constants(["gap.levels"]), []
+    named, asked = constants(["gap.levels"])[:10], []
 
     def tried(group: list, factor: float) -> dict:
         asked.append([one.name for one in group])
@@ -92,5 +96,25 @@ def test_a_group_is_halved_down_to_what_moves_an_answer() -> None:
 
 
 def test_choices_do_not_become_more_again() -> None:
-    assert len(constants(ROOMS)) <= 104
-    assert len(bare(ROOMS)) <= 69
+    """Of a verdict, and of all that a diagnosis imports of gap and identify."""
+    assert len(constants(ROOMS)) <= 90
+    assert len(bare(ROOMS)) <= 12
+    assert len(constants(WHOLE)) <= 127
+    assert len(bare(WHOLE)) <= 17
+
+
+def test_every_constant_of_a_diagnosis_has_a_row() -> None:
+    rows = {f"{module}.{name}" for module, name, _ in ROWS}
+    assert {one.label for one in constants(WHOLE)} <= rows
+
+
+def test_modules_that_no_diagnosis_imports_have_no_constants_of_it() -> None:
+    used = in_use()
+    assert {"geocontact.gap.selection.verdict", "geocontact.identify.noise.covariance"} <= used
+    assert "geocontact.identify.noise.autocorrelation" not in used and not constants(["identify.noise.autocorrelation"])
+
+
+def test_places_of_a_sequence_are_no_choices() -> None:
+    function = ast.parse("def f(x):\n    return x[3] + x[:, 4] + 7.0 * x[5 * x[6]:, 0]").body[0]
+    assert isinstance(function, ast.FunctionDef)
+    assert sorted(_numbers(function)) == [5, 7.0]

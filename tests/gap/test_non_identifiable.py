@@ -9,13 +9,13 @@ from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.experiment.proposal import first_of
 from geocontact.gap.identifiability.non_identifiable import (
-    UNSEEN,
     VISIBLE,
     Visibility,
     mistakes,
     non_identifiable,
     shown,
 )
+from geocontact.gap.levels import APART
 from geocontact.gap_benchmark.drawing import Lot, drawn
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
@@ -67,8 +67,8 @@ def test_a_unit_hides_as_far_as_bounds_of_parameters_let_it(elsewhere: Elsewhere
 
 
 def test_what_is_small_beside_a_mistake_may_still_be_a_gap() -> None:
-    assert Visibility("unit_error", 1e-4, 0.1 * UNSEEN).absorbed
-    assert not Visibility("unit_error", 1e-4, 10.0 * UNSEEN).absorbed
+    assert Visibility("unit_error", 1e-4, 0.1 * APART).absorbed
+    assert not Visibility("unit_error", 1e-4, 10.0 * APART).absorbed
     assert not Visibility("sensor_gain", 2.0 * VISIBLE).absorbed
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from geocontact.gap.identifiability.separability import APART
+from geocontact.gap.levels import APART
 from tests.elsewhere import Elsewhere
 from tests.gap.identifiability_cases import laws_of_pair, laws_of_slow_delay
 

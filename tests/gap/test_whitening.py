@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.gap.case.whitening import LOUDER, SENSOR_LOUDER, Whitening, usual_levels
+from geocontact.gap.case.whitening import SENSOR_LOUDER, Whitening, usual_levels
 from geocontact.gap.selection.evidence import log_evidence
 from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.input_noise import Instant
@@ -69,7 +69,7 @@ def test_an_input_is_hardly_noisier_than_is_believed_or_than_its_spectrum_allows
     case = elbow_case(duration=2.0)
     system = system_of(case).scaled(case.calibration)
     believed = usual_levels(system, {}, np.array([0.15]), {"beta": 0.01}, {}, np.zeros(1))
-    assert believed.inputs == pytest.approx([LOUDER * 0.01])
+    assert believed.inputs == pytest.approx([2.0 * 0.01])
     assert usual_levels(
         system, {}, np.array([0.15]), {"beta": 0.01}, {"beta": 0.02}, np.zeros(1)
     ).inputs == pytest.approx([0.02])

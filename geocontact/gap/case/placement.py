@@ -123,5 +123,5 @@ def shifted(system: System, row: int, by: float) -> System:
 
 
 def _half(above: Float[np.ndarray, "t c"], below: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "t c"]:
-    off = 0.5 * (above - below)
-    return np.asarray(np.where(np.isfinite(off) & (np.abs(off) < 0.25 * FAR), off, 0.0))
+    off = above - below
+    return np.asarray(np.where(np.isfinite(off) & (np.abs(off) < 0.5 * FAR), 0.5 * off, 0.0))

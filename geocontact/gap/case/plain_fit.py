@@ -10,8 +10,7 @@ from jaxtyping import Float
 
 from geocontact.chain.system import System
 from geocontact.gap.case.refit import ROUNDS, Measured, Refit, free, refit
-
-STARTS = 4  # of the base fit, besides the case's own
+from geocontact.gap.levels import FEW
 
 
 @dataclass(frozen=True)
@@ -43,12 +42,12 @@ def base_starts(system: System) -> list[dict[str, float]]:
     from scipy.stats import qmc
 
     parameters = [p for p in free(system) if np.isfinite(p.upper - p.lower)]
-    spread = qmc.Sobol(len(parameters), seed=0).random(STARTS) if parameters else np.zeros((0, 0))
+    spread = qmc.Sobol(len(parameters), seed=0).random(FEW) if parameters else np.zeros((0, 0))
     return [
         {},
         *(
             {
-                p.name: float(p.lower + (0.1 + 0.8 * u) * (p.upper - p.lower))
+                p.name: float(p.lower + np.interp(u, [0.0, 1.0], [0.1, 1.0 - 0.1]) * (p.upper - p.lower))
                 for p, u in zip(parameters, row, strict=True)
             }
             for row in spread

@@ -10,9 +10,9 @@ from jaxtyping import Float
 
 from geocontact.chain.system import FAR, System
 from geocontact.gap.case.refit import Measured, Refit, at, free
-from geocontact.gap.case.whitening import LOUDER, Share, Whitening
+from geocontact.gap.case.whitening import Share, Whitening
 from geocontact.gap.inputs.denoise import Filters
-from geocontact.gap.levels import DEVIATIONS
+from geocontact.gap.levels import DEVIATIONS, TWOFOLD
 from geocontact.identify.noise.covariance import Layout, Whitener
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_search import most_likely
@@ -134,7 +134,7 @@ class Problem:
             noise.levels,
             white=np.minimum(noise.levels.white, usual.white),
             coloured=np.minimum(noise.levels.coloured, usual.coloured),
-            memory=np.minimum(noise.levels.memory, LOUDER * usual.memory),
+            memory=np.minimum(noise.levels.memory, np.exp(TWOFOLD) * usual.memory),
             growing=np.minimum(noise.levels.growing, usual.growing),
             inputs=np.minimum(np.array(best), usual.inputs),
         )
@@ -193,7 +193,7 @@ def floor_of(problem: Problem, noise: Noise, model: Refit) -> Float[np.ndarray, 
     Never more than what the model misses on the calibration trials, which holds all of it: variation is believed to be
     as large as is usual while few trials tell, and may be hundreds of newtons where a millimetre is that stiff.
     """
-    squares, missed, counts = (np.zeros(len(problem.floor)) for _ in range(3))
+    squares, missed, counts = np.zeros_like(problem.floor), np.zeros_like(problem.floor), np.zeros_like(problem.floor)
     fitted = problem.varied(model.jacobian[: len(problem.calibration.trials)])
     each = zip(
         problem.calibration_layouts, fitted, problem.calibration.present, model.residuals[: len(fitted)], strict=True

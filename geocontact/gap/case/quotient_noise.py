@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import System
+from geocontact.gap.case.usual_range import usual_range
 
 
 def noise_spread(
@@ -32,7 +33,7 @@ def noise_spread(
         together = np.concatenate([each[:, c] for each in outputs])
         if not np.isfinite(together).any():
             continue
-        low, high = np.nanpercentile(together, [1.0, 99.0])
+        low, high = usual_range(together)
         moment = rough[d] * 0.5 * (high - low)
         own = [np.hypot(rough[c], moment / np.maximum(np.abs(each[:, d]), rough[d])) for each in outputs]
         measured = np.concatenate([s[np.isfinite(each[:, c])] for s, each in zip(own, outputs, strict=True)])

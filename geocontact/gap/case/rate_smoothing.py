@@ -45,7 +45,7 @@ def with_smoothed_rates(
 
     def likelihood(reach: float) -> float:
         other = system.reaching(reach)
-        model = plain_fit(other, measured, rough, [plain.values], ROUNDS // 4)
+        model = plain_fit(other, measured, rough, [plain.values], ROUNDS // 2)
         layouts = layouts_of(other, measured.trials, model.values, measured.present, passed, {}, spread, signal)
         varied = [j[..., : len(usual)] * usual for j in model.jacobian]
         return most_likely(layouts, model.residuals, varied, beliefs, beliefs.middle, ROUNDS)[2]

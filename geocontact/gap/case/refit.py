@@ -16,10 +16,9 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.identify.optimise.bounded_gauss_newton import GaussNewtonResult, least
 from geocontact.identify.optimise.least_squares import NO_VALUE
+from geocontact.identify.optimise.tolerances import STEP
 
-ROUNDS = 24  # of a search to its end; twice as many from far away, half of it or a quarter where it sets out nearer
-STEP = 1e-5  # of a parameter's magnitude, for differences
-NEAR = 1e-7  # the same, for differences of what is linear but for balance and sensor
+ROUNDS = 24  # of a search to its end; twice as many from far away, half of it where it sets out near
 ENOUGH = 0.01  # nats that a search does not go on for
 
 
@@ -130,7 +129,7 @@ def derivatives(
     so small a step changes a prediction by a thousand times its channel's largest value: the motion left its way.
     """
     parameters = free(system)
-    near = {p.name: _step(p, values[p.name], NEAR) for p in parameters}
+    near = {p.name: _step(p, values[p.name]) for p in parameters}
     known = [tangents(system, trial, values, near) for trial in measured.trials]
     left = {p.name for p in parameters if any(p.name not in each for each in known)}
     out = [np.zeros((*there.shape, len(parameters))) for there in measured.present]
@@ -146,7 +145,7 @@ def derivatives(
         group = [k for k in some if parameters[k].name in left]
         if not group:
             continue
-        steps = {parameters[k].name: _step(parameters[k], values[parameters[k].name], STEP) for k in group}
+        steps = {parameters[k].name: _step(parameters[k], values[parameters[k].name]) for k in group}
         moved = measured.residuals(system, {**values, **{name: values[name] + by for name, by in steps.items()}})
         for k in group:
             name = parameters[k].name
@@ -158,9 +157,9 @@ def derivatives(
     return out
 
 
-def _step(p: Parameter, value: float, share: float) -> float:
-    """A share of a parameter's magnitude, back where there is no room ahead."""
-    step = share * magnitude(p)
+def _step(p: Parameter, value: float) -> float:
+    """A small share of a parameter's magnitude, back where there is no room ahead."""
+    step = STEP * magnitude(p)
     return -step if value + step > p.upper else step
 
 

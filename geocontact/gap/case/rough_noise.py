@@ -8,6 +8,8 @@ from jaxtyping import Float
 from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
 from geocontact.gap.inputs.quantisation import resolution
+from geocontact.gap.levels import FLAT
+from geocontact.identify.noise.typical_noise import typical_noise
 
 
 def with_rounding(case: GapCase) -> dict[str, float]:
@@ -18,7 +20,7 @@ def with_rounding(case: GapCase) -> dict[str, float]:
 def rounding(case: GapCase, name: str) -> float:
     """Standard deviation of the noise that rounding makes of a channel."""
     columns = [trial.column(name) for trial in (*case.calibration, *case.evaluation)]
-    return resolution([x[np.isfinite(x)] for x in columns]) / float(np.sqrt(12.0))
+    return resolution([x[np.isfinite(x)] for x in columns]) / FLAT
 
 
 def typical_step(case: GapCase) -> float:
@@ -35,6 +37,6 @@ def rough_noise(system: System, case: GapCase) -> Float[np.ndarray, " c"]:
 
 def _jumpiness(case: GapCase, name: str) -> float:
     steps = np.concatenate([np.diff(t.column(name)[np.isfinite(t.column(name))], 2) for t in case.calibration])
-    spread = float(np.median(np.abs(steps))) / 0.6745 / np.sqrt(6.0) if len(steps) else 0.0
+    spread = typical_noise(steps, 2)
     most = max(float(np.nanmax(np.abs(t.column(name)), initial=0.0)) for t in case.calibration)
     return max(spread, 1e-4 * most, 1e-12)

@@ -14,8 +14,10 @@ import numpy as np
 from jaxtyping import Float
 from scipy.ndimage import uniform_filter1d
 
+from geocontact.identify.noise.typical_noise import typical_noise
+
 ASIDE = 4  # samples to either side that the recording is smoothed over
-ORDER, POWER = 4, 70.0  # of differences that show noise beside a movement, and the sum of their squared weights
+ORDER = 4  # of differences that show noise beside a movement
 
 
 def signal_size(outputs: Sequence[Float[np.ndarray, "_ c"]]) -> list[Float[np.ndarray, "_ c"]]:
@@ -52,10 +54,10 @@ def seen_growth(
     for c in range(len(grown)):
         rows = [_differences(y[:, c], size[:, c], s[:, c]) for y, size, s in zip(outputs, sizes, spread, strict=True)]
         rough, size = np.concatenate(rows, axis=1)
-        low, high = np.quantile(size, [1.0 / 3.0, 2.0 / 3.0]) if len(size) else (0.0, 0.0)
+        low, high = np.quantile(size, np.array([1.0, 2.0]) / 3.0) if len(size) else (0.0, 0.0)
         if high > low:
             parts = size <= low, size >= high
-            noise = [(np.median(np.abs(rough[part])) / 0.6745) ** 2 / POWER for part in parts]
+            noise = [typical_noise(rough[part], ORDER) ** 2 for part in parts]
             signal = [np.mean(size[part] ** 2) for part in parts]
             grown[c] = np.sqrt(max(noise[1] - noise[0], 0.0) / (signal[1] - signal[0]))
     return grown

@@ -20,8 +20,6 @@ from geocontact.gap.case.refit import ROUNDS, Measured
 from geocontact.gap.inputs.denoise import Filters, denoised
 from geocontact.gap.levels import SLIGHT
 
-HALVINGS = 6  # of a level, before nothing is believed of it
-
 
 def tolerated(
     system: System,
@@ -32,6 +30,8 @@ def tolerated(
     passed: Filters,
 ) -> dict[str, float]:
     """The largest of each level, its half, its quarter and so on whose taking off does no harm; 0 where all do.
+
+    Levels below `SLIGHT` of what they were are not tried.
 
     Every input is tried alone. The base model is refitted to the calibration trials, every channel divided by its rough
     noise. The error there may not grow in the sum, nor surely in any channel of the held-out trials.
@@ -51,7 +51,7 @@ def tolerated(
             replace(some, trials=tuple(denoised(trial, noise, passed) for trial in some.trials))
             for some in (measured, held_out)
         )
-        fitted = plain_fit(system, first, measured.rough, [values], ROUNDS // 4)
+        fitted = plain_fit(system, first, measured.rough, [values], ROUNDS // 2)
         return fitted.cost, later.residuals(system, fitted.values)
 
     def harmless(name: str, level: float) -> bool:
@@ -60,7 +60,7 @@ def tolerated(
 
     (whole, before), found = without({}), {}
     for name, level in levels.items():
-        tried = (level * 0.5**k for k in range(HALVINGS))
+        tried = (level * 0.5**k for k in range(int(np.log2(1.0 / SLIGHT)) + 1))
         found[name] = next((own for own in tried if harmless(name, own)), 0.0)
     return found
 

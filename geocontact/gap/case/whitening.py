@@ -23,7 +23,6 @@ from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 
-LOUDER = 2.0  # times what is believed of an input's noise that it may be
 SENSOR_LOUDER = 1.2  # times the stated noise of a sensor
 QUIETEST = 0.1  # of `INPUT_NOISE`, that an input's limit is at the least: resolution, slow errors
 Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
@@ -33,7 +32,7 @@ SLOW = 30.0  # samples, that slow noise usually remembers
 QUICK = 2.0  # samples, that quick noise usually remembers
 SLOW_SHARE = 0.3  # of the quick noise, that it usually is
 SLOW_LEVEL = 0.8  # standard deviation of the logarithm of that
-GROWN, GROWN_LEVEL = 0.2, 0.35  # of its noise, that grows to the largest signal, at the least; and of the logarithm
+GROWN = 0.2  # of its noise, that grows to the largest signal, at the least
 
 
 @runtime_checkable
@@ -150,7 +149,7 @@ def usual_levels(
     little at the least. Inputs are known as well as their spectra show (`seen`), 0.2 % of their half-range at the least
     unless `most` is less, and those of one unit about equally well, since they come from the same markers; what is
     stated of one is believed. A sensor is hardly noisier than `SENSOR_LOUDER` times what was stated, an input than
-    `LOUDER` times what is believed, or than `most` (a tenth of the 0.2 % at the least); nothing more is believed of it
+    twice what is believed, or than `most` (a tenth of the 0.2 % at the least); nothing more is believed of it
     than that.
     """
     known = np.array([name in stated for name in system.outputs])
@@ -163,14 +162,16 @@ def usual_levels(
     covariance = TWOFOLD**2 * alike + 0.5**2 * np.eye(len(units))
     white, sure = np.where(known, 0.5, 1.0), np.ones(len(sd))
     levels = [white, 2.0 * TWOFOLD * white, SLOW_LEVEL * sure]
-    widths = np.concatenate([*levels, sure, TWOFOLD * sure, GROWN_LEVEL * sure])
+    widths = np.concatenate([*levels, sure, TWOFOLD * sure, 0.5 * TWOFOLD * sure])
     largest = np.array([system.scale.of(name) for name in system.outputs])
     factor = np.zeros((len(widths) + len(units),) * 2)
     factor[: len(widths), : len(widths)] = np.diag(widths)
     factor[len(widths) :, len(widths) :] = np.linalg.cholesky(covariance)
     memory = system.scale.step * np.array([QUICK * sure, SLOW * sure])
     sensors = SENSOR_LOUDER * np.array([stated.get(name, np.inf) for name in system.outputs])
-    highest_noise = np.minimum(LOUDER * np.maximum(inputs, own), [most.get(name, np.inf) for name in system.inputs])
+    highest_noise = np.minimum(
+        np.exp(TWOFOLD) * np.maximum(inputs, own), [most.get(name, np.inf) for name in system.inputs]
+    )
     highest_noise = np.maximum(
         highest_noise, [QUIETEST * INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs]
     )

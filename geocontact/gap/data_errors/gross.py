@@ -19,9 +19,7 @@ from geocontact.gap.case.plain_fit import Plain, base_starts
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.rate_smoothing import REACHES
 from geocontact.gap.case.refit import ROUNDS, Measured, Refit, refit
-from geocontact.gap.levels import DEVIATIONS, LEFT_OVER, WORTH_NAMING
-
-FEW = 4  # calibration trials of which every set is tried
+from geocontact.gap.levels import DEVIATIONS, FEW, LEFT_OVER, WORTH_NAMING
 
 
 @dataclass(frozen=True)

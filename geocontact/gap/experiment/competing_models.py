@@ -19,12 +19,10 @@ from jaxtyping import Float
 from geocontact.chain.system import System
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.refit import Measured, RefitSearch, Whiten
+from geocontact.gap.case.refit import ROUNDS, Measured, RefitSearch, Whiten
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import Contender
-
-ROUNDS = 20  # of a refit
-CLOSE = 1e-4  # relative change of the nats at which it ends
+from geocontact.identify.optimise.tolerances import CLOSE
 
 
 @dataclass(frozen=True)

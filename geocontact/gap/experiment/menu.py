@@ -19,18 +19,17 @@ from geocontact.chain.links import Modifier
 from geocontact.chain.system import System
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
+from geocontact.gap.levels import FEWEST
 
 LOADS, ANGLE = ("N", "N m"), "rad"
 LAST = 1e6  # rank of what is done to the loads: after everything that loads the sensor
-FASTER, SLOWER = (4.0, 2.0), 0.5  # times as fast as before
+FASTER = (4.0, 2.0)  # times as fast as before
 LEAST_FASTER = 1.25  # below which a movement does not count as faster
 FASTEST = 2.0  # Hz, up to which nine tenths of the power of a voluntary movement's rate may lie
 SAMPLED = 0.1  # cycles per sample up to which it may, so that the recording still shows it
 HOLDS, HELD = 5, 2.0  # plateaus of a movement in steps, and how long each lasts [s]
-SMALLER = 0.5  # times as large about its middle
+HALF = 0.5  # of the speed, of the size, of the largest load that was measured, of the least setting of a covariate
 STILL = 10.0  # s, at rest with nothing or a weight on the sensor
-WEIGHT = 0.5  # of the largest load that was measured
-OTHER_SETTING = 0.5  # times the least value that a covariate had, besides 0
 WHOLE_MOVEMENT = ("foot",)  # systems whose movement makes contact by its size: it cannot be made smaller
 
 Staging = Callable[[System], System]
@@ -82,10 +81,11 @@ def band(system: System, trial: Trial) -> tuple[str, float, float]:
     step = float(np.median(np.diff(trial.time)))
     even = np.arange(trial.time[0], trial.time[-1], step)
     rate = np.interp(even, trial.time, movement.rate[movement.row(most)])
-    power = np.abs(np.fft.rfft(rate * np.hanning(len(rate)), 4 * len(rate))) ** 2
+    long = 4 * len(rate)  # zeros behind it: frequencies in between
+    power = np.abs(np.fft.rfft(rate * np.hanning(len(rate)), long)) ** 2
     grown = np.cumsum(power) / max(float(power.sum()), 1e-300)
-    frequency = np.fft.rfftfreq(4 * len(rate), step)
-    low, high = (float(frequency[np.searchsorted(grown, share)]) for share in (0.1, 0.9))
+    frequency = np.fft.rfftfreq(long, step)
+    low, high = (float(frequency[np.searchsorted(grown, share)]) for share in (0.1, 1.0 - 0.1))
     return most, low, high
 
 
@@ -106,7 +106,7 @@ def paces(system: System, trial: Trial) -> tuple[Experiment, ...]:
     most = fastest(system, trial)
     factors = dict.fromkeys(round(min(factor, most), 2) for factor in FASTER)
     found = []
-    for factor in [*(f for f in factors if f >= LEAST_FASTER), SLOWER]:
+    for factor in [*(f for f in factors if f >= LEAST_FASTER), HALF]:
         pace = f"{factor:.2g} times as fast" if factor > 1.0 else "half as fast"
         words = f"sweep {name} at {factor * low:.2g}–{factor * high:.2g} Hz, {pace} as in these trials"
         length = (trial.time[-1] - trial.time[0]) / max(factor, 1.0)
@@ -140,7 +140,7 @@ def _smaller(system: System, template: Trial) -> tuple[Experiment, ...]:
     values = made.signals.values
     flag = ((values == 0.0) | (values == 1.0)).all(axis=0)  # an event is no movement
     middle = values.mean(axis=0)
-    values = np.where(flag, values, middle + SMALLER * (values - middle))
+    values = np.where(flag, values, middle + HALF * (values - middle))
     words = "the same movement, half as large about its middle"
     return (Experiment("smaller", words, replace(made, signals=replace(made.signals, values=values))),)
 
@@ -168,7 +168,7 @@ def _on_the_bench(system: System, template: Trial) -> tuple[Experiment, ...]:
 def _weighed(system: System, still: Trial, loads: Sequence[int], on: int, length: float) -> Experiment:
     """A known weight on one sensor."""
     name = system.outputs[on]
-    weight = WEIGHT * system.scale.of(name)
+    weight = HALF * system.scale.of(name)
     which = f"the sensor of {name}" if len(loads) > 1 else "the sensor"
     words = f"take {which} off and put a known load of {weight:.2g} {system.unit(name)} on it, {length:.2g} s in all"
     return Experiment("static weight", words, still, bench(loads, {on: weight}))
@@ -220,7 +220,7 @@ def _settings(template: Trial, trials: Sequence[Trial]) -> tuple[Experiment, ...
         some = [value for value in known if value != 0.0]
         if not some:
             continue
-        for value in dict.fromkeys((OTHER_SETTING * some[0], some[-1], 0.0)):
+        for value in dict.fromkeys((HALF * some[0], some[-1], 0.0)):
             if value != own and (value != 0.0 or known[0] == 0.0):
                 changed = replace(template, covariates={**template.covariates, name: value})
                 found.append(Experiment("other setting", f"the same movement with {name} at {value:.3g}", changed))
@@ -229,7 +229,7 @@ def _settings(template: Trial, trials: Sequence[Trial]) -> tuple[Experiment, ...
 
 def _grid(trial: Trial, length: float) -> Float[np.ndarray, " n"]:
     step = float(np.median(np.diff(trial.time)))
-    return step * np.arange(max(round(length / step), 20))
+    return step * np.arange(max(round(length / step), FEWEST))
 
 
 def along(trial: Trial, inputs: Sequence[str], time: Float[np.ndarray, " n"], source: Float[np.ndarray, " n"]) -> Trial:

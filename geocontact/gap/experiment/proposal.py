@@ -35,13 +35,12 @@ from geocontact.gap.experiment.competing_models import (
 )
 from geocontact.gap.experiment.menu import Experiment, menu
 from geocontact.gap.inputs.spectrum import measured_inputs
+from geocontact.gap.levels import APART, LEADING
 from geocontact.gap.selection.evidence import Judged
 from geocontact.identify.noise.covariance import Layout
 
 TRIALS = 3  # of the new kind
 TELLS = 3.0  # times the smallest separation that a change must promise
-APART = 5.0  # nats that it must promise
-RIVALS = 3  # answers that are compared
 CHECKED = 4  # changes, the most promising ones, that are simulated with competing models refitted
 
 
@@ -77,7 +76,7 @@ def proposed(found: Attribution, confounded: Sequence[Candidate] = ()) -> Propos
     confounded
         Candidates that the base parameters reproduce, asked about where nothing was found.
     """
-    competitors = competing_models(found)[:RIVALS]
+    competitors = competing_models(found)[:LEADING]
     problem = found.clean
     if len(competitors) > 1:
         known = [fitted(one) for one in competitors]

@@ -36,12 +36,10 @@ from geocontact.gap.identifiability.signatures import (
     rest_of,
     sized,
 )
-from geocontact.gap.levels import SLIGHT, SURE
-from geocontact.gap.selection.evidence import FLAT
+from geocontact.gap.levels import DRAWS, FLAT, SLIGHT, SURE
 from geocontact.gap.selection.verdict import borne_out
 
 POWER = 0.8  # share of repetitions in which an effect of the stated amplitude is seen
-REPETITIONS = 2000
 HALVINGS = 10  # of the bracket that the amplitude is in
 FAINTEST = 0.5  # visible nats from which the search sets out; two more at least are needed to be seen
 CLEAR = 80.0  # visible nats at which every effect is seen
@@ -157,7 +155,7 @@ def power(ground: BaseState, one: Sized, others: Sequence[Gainer], variants: int
     gainers = [own, *others]
     rows = _independent(gainers)
     rng = np.random.default_rng(0)
-    draws = rng.standard_normal((REPETITIONS, rows.shape[1])) + rows.T @ ground.left(moved)
+    draws = rng.standard_normal((DRAWS, rows.shape[1])) + rows.T @ ground.left(moved)
     best: dict[str, Float[np.ndarray, " r"]] = {}
     for each in gainers:
         gain = _gains(each, rows, draws)

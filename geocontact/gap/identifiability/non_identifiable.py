@@ -18,10 +18,9 @@ from geocontact.gap.case.plain_fit import Plain, base_starts
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Measured, derivatives, refit
 from geocontact.gap.data_errors.correction import exchanged
+from geocontact.gap.levels import APART
 
 VISIBLE = 0.03  # share of the energy that may be left of an effect that counts as absorbed
-UNSEEN = 5.0  # nats that may be left of a mistake that counts as absorbed
-ROUNDS = 8  # of a refit to trials with a mistake
 MOST = 10
 TIED = 6  # digits of a share; what agrees in these is listed by name
 
@@ -37,7 +36,7 @@ class Visibility:
     @property
     def absorbed(self) -> bool:
         """Whether base parameters reproduce it."""
-        return self.share < VISIBLE and self.nats < UNSEEN
+        return self.share < VISIBLE and self.nats < APART
 
 
 NOTHING = Visibility("", np.inf)
@@ -61,7 +60,7 @@ def shown(seen: Sequence[Visibility]) -> tuple[str, ...]:
     """Mistakes of which every variant that was tried leaves a gap, by name."""
     gaps: dict[str, bool] = {}
     for each in seen:
-        gaps[each.name] = gaps.get(each.name, True) and not each.absorbed and each.nats >= UNSEEN
+        gaps[each.name] = gaps.get(each.name, True) and not each.absorbed and each.nats >= APART
     return tuple(sorted(name for name, gap in gaps.items() if gap))
 
 
@@ -108,7 +107,7 @@ def mistakes(problem: Problem, candidates: Sequence[Candidate]) -> list[Visibili
         energy = 0.5 * sum(float(each @ each) for each in moved)
         if energy > 0.0:
             trials = Measured(measured.trials, tuple(outputs), measured.rough)
-            left = refit(system, trials, whiten, starts, ROUNDS, useful=min(UNSEEN, VISIBLE * energy)).cost
+            left = refit(system, trials, whiten, starts, useful=min(APART, VISIBLE * energy)).cost
             found.append(Visibility(one.name, left / energy, left))
     return found
 

@@ -21,11 +21,10 @@ from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.gap.case.refit import free, refit
 from geocontact.gap.identifiability.signatures import BaseState, Sized, orthonormal, own_slopes
+from geocontact.gap.levels import APART
 
-APART = 5.0  # nats from which two effects count as told apart
 FAR = 25.0  # nats from which a first-order figure is not checked
 KEPT = 0.5  # nats by which the simulated end of a straight step may lie beside what it promises, and a tenth of that
-REFITTED = 8  # rounds of a refit
 NONE = "none"
 Way = Literal["itself", "linearised", "refitted"]
 
@@ -133,7 +132,7 @@ def refitted(ground: BaseState, one: Sized, other: Confounder, start: Mapping[st
         for t, o in zip(ground.measured.trials, ground.measured.outputs, strict=True)
     ]
     measured = replace(ground.measured, outputs=tuple(outputs))
-    return refit(other.system, measured, ground.whitenings, [start, *other.starts], REFITTED).cost
+    return refit(other.system, measured, ground.whitenings, [start, *other.starts]).cost
 
 
 def classes(found: Sequence[Separation], least: float = APART) -> tuple[tuple[str, ...], ...]:

@@ -18,10 +18,11 @@ from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.gap.case.problem import Noise, Problem
-from geocontact.gap.case.refit import STEP, Measured, Refit, at, magnitude
+from geocontact.gap.case.refit import ROUNDS, Measured, Refit, at, magnitude
 from geocontact.gap.case.whitening import Whitening
+from geocontact.gap.levels import SLIGHT
+from geocontact.identify.optimise.tolerances import STEP
 
-ROUNDS, CLOSE = 16, 0.02  # steps to an amplitude of given nats, and how close these must be
 ADDS = 1e-9  # of the largest singular value, from which a direction counts
 LEAST, FAINT = 1e-6, 1e-3  # of the way to the end of its bounds, and of the nats asked for, that are looked at
 
@@ -168,7 +169,7 @@ def at_nats(ground: BaseState, candidate: Candidate, nats: float) -> Sized:
     for _ in range(ROUNDS):
         if _off(one, nats) < _off(best, nats):
             best = one
-        if _off(best, nats) < CLOSE or low >= high * (1.0 - 1e-6):
+        if _off(best, nats) < SLIGHT or low >= high * (1.0 - 1e-6):
             break
         low, high = (share, high) if one.visible < nats else (low, share)
         quadratic = share * float(np.sqrt(nats / max(one.visible, FAINT * nats)))

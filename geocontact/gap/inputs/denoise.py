@@ -20,14 +20,15 @@ from jaxtyping import Complex, Float, Int
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs.even_grid import even_grid
 from geocontact.gap.inputs.filter_cutoff import USUAL
+from geocontact.gap.inputs.spectrum import TREND
 from geocontact.gap.levels import FEWEST, SURE
 from geocontact.identify.signals.low_pass import BELOW_NYQUIST, LowPass
 
 PLATEAU = (0.25, 0.42, 0.58, 0.75, 0.92)  # of the corner
 FLAT = 2.5  # largest over smallest power of a plateau
-BLACKMAN = 1.73  # bins as wide as one under the window (Harris 1978, Proc. IEEE 66:51)
 SMOOTH = 5  # bins that the spectrum of a stretch is averaged over
 PERIODS = 8.0  # of the corner in a stretch
+SHIFTS = 4  # by which a stretch is passed: at a quarter of it squared Hann windows add up to the same everywhere
 Filters = Mapping[str, LowPass]
 """What each input came through."""
 
@@ -106,9 +107,14 @@ def highest_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
         if not bands:
             return float("inf")
         least = float(np.exp(-SURE)) / len(bands)
-        freedom = [2.0 * band.values / BLACKMAN for band in bands]
+        freedom = [2.0 * band.values / bins_wide(np.blackman(max(len(x) for x, _ in recordings))) for band in bands]
         found.append(min(band.variance * f / chi2.ppf(least, f) for band, f in zip(bands, freedom, strict=True)))
     return float(np.sqrt(max(found)))
+
+
+def bins_wide(window: Float[np.ndarray, " n"]) -> float:
+    """Bins of a spectrum under a window that hold as much noise as one: n Σw²/(Σw)² (Harris 1978, Proc. IEEE 66:51)."""
+    return float(len(window) * (window**2).sum() / window.sum() ** 2)
 
 
 def _evenly(trials: Sequence[Trial], name: str) -> list[tuple[Float[np.ndarray, " _"], float]]:
@@ -204,7 +210,7 @@ def left(trials: Sequence[Trial], name: str, sd: float, passed: LowPass) -> Left
 
 def cubics(width: int) -> Float[np.ndarray, "w four"]:
     """Orthonormal polynomials up to the third degree over a stretch."""
-    return np.asarray(np.linalg.qr(np.vander((2.0 * np.arange(width) + 1.0) / width - 1.0, 4))[0])
+    return np.asarray(np.linalg.qr(np.vander((2.0 * np.arange(width) + 1.0) / width - 1.0, TREND + 1))[0])
 
 
 @dataclass(frozen=True)
@@ -239,8 +245,8 @@ class Stretches:
     @classmethod
     def of(cls, values: Float[np.ndarray, " n"], step: float, passed: LowPass) -> Stretches:
         """Of values `step` seconds apart."""
-        hop = max(round(0.25 * PERIODS / min(passed.corner * step, 0.5 * BELOW_NYQUIST)), FEWEST // 4)
-        width = 4 * hop
+        hop = max(round(PERIODS / SHIFTS / min(passed.corner * step, 0.5 * BELOW_NYQUIST)), FEWEST // SHIFTS)
+        width = SHIFTS * hop
         longer = np.pad(values, (width, 2 * width), mode="reflect", reflect_type="odd")
         window = np.sin(np.pi * (np.arange(width) + 0.5) / width) ** 2
         slow = cubics(width)
@@ -271,7 +277,7 @@ class Stretches:
         off = np.zeros(int(self.begin[-1]) + self.width)
         for begin, part in zip(self.begin, np.fft.irfft(shares * self.spectra, self.width), strict=True):
             off[begin : begin + self.width] += self.window * part
-        return np.asarray(off[self.width : self.width + self.count] / (4.0 * np.mean(self.window**2)))
+        return np.asarray(off[self.width : self.width + self.count] / (SHIFTS * np.mean(self.window**2)))
 
 
 def noise_in(values: Float[np.ndarray, " n"], step: float, sd: float, passed: LowPass) -> Float[np.ndarray, " n"]:

@@ -11,7 +11,7 @@ from jaxtyping import Float
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs.even_grid import even_grid
 from geocontact.gap.inputs.quantisation import resolution
-from geocontact.gap.levels import FEWEST
+from geocontact.gap.levels import FEWEST, FLAT
 
 ROUNDED = 1e-5  # of a half-range, up to which a white rest is rounding at any rate: five digits
 TREND = 3  # degree of the polynomial that is taken off before the window
@@ -79,7 +79,7 @@ def spectrum(trials: Sequence[Trial], name: str, step: float) -> Spectrum | None
         return None
     half_range = 0.5 * float(np.ptp(np.concatenate(values)))
     least = (1e-12 * half_range) ** 2
-    rounding = max(resolution(values) / np.sqrt(12.0), ROUNDED * half_range)
+    rounding = max(resolution(values) / FLAT, ROUNDED * half_range)
     f, p = np.concatenate(frequency), np.concatenate(power) + least
     below = f < 0.5 / step  # a quicker recording than the others goes beyond
     return Spectrum(f[below], p[below], half_range, rounding) if below.any() and least > 0.0 else None

@@ -20,7 +20,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.gap.inputs.spectrum import Spectrum
-from geocontact.gap.levels import INPUT_NOISE, LEADING, SURE
+from geocontact.gap.levels import FEW, INPUT_NOISE, SURE
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.identify.noise.noise_spectrum import FREQUENCIES
 from geocontact.identify.optimise.fisher_scoring import Batch, Scored, least
@@ -33,8 +33,7 @@ FLATTEST, STEEPEST = np.log([0.7, 3.0])  # bounds of log q
 SLOWEST = np.log(1e-4)  # least log b
 FALLS, STEEPS = (0.001, 0.004, 0.012, 0.03, 0.08), (0.9, 1.6)  # b, per sample, and q that a search starts from
 BROAD = ((0.08, 0.7), (0.2, 0.7))  # the same of movements that fill the spectrum
-FIRST = 40  # steps from all starts, the best of which, for each filter, go on
-LARGEST = float(np.log(-np.log(np.finfo(float).tiny)))  # logarithm of the exponent beyond which a movement is nothing
+NOTHING = -2.0 * float(np.log(np.finfo(float).eps))  # nats below the largest power at which there is none
 
 
 @dataclass(frozen=True)
@@ -147,7 +146,7 @@ def whittle(
         high = exp(x[row, 5]) if size > 5 else 0.0
         for f in range(power.size):
             ratio = logarithm[f] - x[row, 1]
-            fall = exp(min(steep * ratio, LARGEST))
+            fall = exp(min(steep * ratio, NOTHING))
             movement = exp(x[row, 0] - fall)
             bend = movement * fall * steep
             slope[0], slope[1], slope[2] = movement, bend, -bend * ratio
@@ -189,27 +188,26 @@ def _pooled(seen: Spectrum) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, 
 def _likeliest(parts: Parts, with_tail: bool) -> Split:
     """Of all starts, for each filter."""
     top = float(np.log(parts.power.max()))
-    low = np.array([top - 20.0, SLOWEST, FLATTEST, top - 60.0, top - 80.0, top - 60.0])
-    high = np.array([top + 40.0, float(np.log(0.5)), STEEPEST, top + 2.0, top, top + 20.0])
+    bottom, beyond = top - NOTHING, top + NOTHING
+    low = np.array([top - 20.0, SLOWEST, FLATTEST, bottom, bottom, bottom])  # of a movement there is something
+    high = np.array([beyond, float(np.log(0.5)), STEEPEST, top + 2.0, top, beyond])
     start = _starts(parts)
     places = len(start) // len(parts.part)
     which = np.repeat(np.arange(len(parts.part)), places)
-    chosen = slice(6 if with_tail else 5)
+    chosen = slice(None if with_tail else -1)
     low, high, start = low[chosen], high[chosen], start[:, chosen]
-    first = least(lambda x, rows: parts.scored(x, which[rows]), start, low, high, FIRST)
-    order = np.argsort(first.value.reshape(-1, places), axis=1, kind="stable")[:, :LEADING]
-    best = (order + places * np.arange(len(order))[:, None]).ravel()
-    found = least(lambda x, rows: parts.scored(x, which[best][rows]), first.at[best], low, high)
-    value, noise = (each.reshape(order.shape) for each in (found.value, found.at[:, 3]))
-    k = np.arange(len(order)), value.argmin(axis=1)
+    found = least(lambda x, rows: parts.scored(x, which[rows]), start, low, high)
+    value, noise = (each.reshape(-1, places) for each in (found.value, found.at[:, 3]))
+    k = np.arange(len(value)), value.argmin(axis=1)
     return Split(value[k], np.sqrt(np.exp(noise[k]) * parts.part))
 
 
 def _starts(parts: Parts) -> Batch:
     """Parameters to start from, tail and all: as many rows for each filter, one filter after the other."""
-    slow = np.argsort(parts.frequency)[: max(4, len(parts.frequency) // 20)]
+    few = 0.05  # of all values
+    slow = np.argsort(parts.frequency)[: max(FEW, int(few * len(parts.frequency)))]
     powers = np.log(parts.power)
-    top, (bottom, middle) = float(powers.max()), np.quantile(powers, [0.05, 0.3])
+    top, (bottom, middle) = float(powers.max()), np.quantile(powers, [few, 0.3])
     heights = [
         (b, q, float(np.median(powers[slow] + np.minimum((parts.frequency[slow] / b) ** q, 30.0))))
         for b, q in product(FALLS, STEEPS)

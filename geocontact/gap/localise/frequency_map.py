@@ -18,11 +18,12 @@ from scipy.fft import dct, idct
 
 from geocontact.data.gap.cell import BAND, FAST, FAST_PHASE, Cell, shares
 from geocontact.gap.case.problem import Problem
+from geocontact.gap.levels import PHASES
 from geocontact.gap.selection.evidence import Judged
+from geocontact.identify.intervals.quantile_intervals import ENDS
 
-DRAWS = 200
+FEW_DRAWS = 200  # where each is a simulation or a map
 BANDS = (0.0, 1.0, 5.0, np.inf)  # Hz
-PHASES = 20
 FINEST = 10  # times as many even steps as samples, where steps differ
 
 
@@ -35,19 +36,19 @@ def frequency_map(problem: Problem, base: Judged, residuals: list[Float[np.ndarr
     trials = problem.calibration.trials + problem.evaluation.trials
     channels = problem.system.outputs
     rng = np.random.default_rng(0)
-    observed, drawn = [], np.zeros((DRAWS, len(channels), len(BANDS) - 1 + PHASES))
+    observed, drawn = [], np.zeros((FEW_DRAWS, len(channels), len(BANDS) - 1 + PHASES))
     for trial, whitener, residual in zip(trials, base.noise.whiteners, residuals, strict=True):
         rows = np.concatenate(whitener.rows)
         without = ~np.isfinite(base.model.system.simulate(trial, base.model.values))
         observed.append(energies(trial.time, _placed(residual.ravel()[rows], rows, without)))
-        for k, noise in enumerate(whitener.coloured(rng.standard_normal((DRAWS, len(rows))).T).T):
+        for k, noise in enumerate(whitener.coloured(rng.standard_normal((FEW_DRAWS, len(rows))).T).T):
             drawn[k] += energies(trial.time, _placed(noise, rows, without)) / len(trials)
     each = np.array(observed)
     seen = each.mean(axis=0)
     middle, spread = drawn.mean(axis=0), np.maximum(drawn.std(axis=0), 1e-300)
     largest = ((drawn - middle) / spread).max(axis=(1, 2))
     score = (seen - middle) / spread
-    again = each[rng.integers(len(trials), size=(DRAWS, len(trials)))].mean(axis=1)
+    again = each[rng.integers(len(trials), size=(FEW_DRAWS, len(trials)))].mean(axis=1)
     bands = list(pairwise(BANDS))
     parts = [(k / PHASES, (k + 1) / PHASES) for k in range(PHASES)]
     cells = []
@@ -55,11 +56,11 @@ def frequency_map(problem: Problem, base: Judged, residuals: list[Float[np.ndarr
         for axis, edges, own in ((BAND, bands, slice(len(bands))), (FAST_PHASE, parts, slice(len(bands), None))):
             excess = np.maximum(seen[c, own] - middle[c, own], 0.0)
             some = np.array([shares(np.maximum(one - middle[c, own], 0.0)) for one in again[:, c, own]])
-            low, high = np.quantile(some, [0.025, 0.975], axis=0)
+            low, high = np.quantile(some, ENDS, axis=0)
             share = shares(excess)
             floor = 1.0 - float(excess.sum()) / max(float(seen[c, own].sum()), 1e-300)
             for b, (begin, end) in enumerate(edges):
-                p = (1.0 + float((largest >= score[c, own][b]).sum())) / (1.0 + DRAWS)
+                p = (1.0 + float((largest >= score[c, own][b]).sum())) / (1.0 + FEW_DRAWS)
                 size, interval = float(seen[c, own][b] ** 0.5), (float(low[b]), float(high[b]))
                 cells.append(Cell(name, axis, begin, end, size, float(share[b]), p, interval, floor))
     return cells

@@ -18,18 +18,17 @@ from jaxtyping import Float
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.system import System
 from geocontact.data.gap.cell import Cell, shares
+from geocontact.gap.case.change_amplitude import BLOCKS
 from geocontact.gap.case.problem import Problem, noise_variance
 from geocontact.gap.data_errors.correction import put_back
 from geocontact.gap.data_errors.gross import DataError
-from geocontact.gap.localise.frequency_map import frequency_map
+from geocontact.gap.levels import DRAWS, PHASES
+from geocontact.gap.localise.frequency_map import FEW_DRAWS, frequency_map
 from geocontact.gap.selection.evidence import Judged
+from geocontact.identify.intervals.quantile_intervals import ENDS
 
 LOADS = ("N", "N m")
-PHASES = 20
 BINS = 6
-BLOCKS = 16  # per trial
-FLIPS = 2000
-RESAMPLED = 400  # times that blocks are drawn anew
 FAMILIES = 2  # of cells, each with its own family-wise p
 HOLDS = 0.70  # of the squared gap lies in the window that is reported
 GRID = 101
@@ -176,12 +175,12 @@ class _GapSums:
         sums, counts = self.sums.reshape(blocks, -1), self.counts.reshape(blocks, -1)
         squares = systematic(sums, counts, np.ones((1, blocks)))[0]
         some = (
-            rng.integers(BLOCKS, size=(RESAMPLED, *self.sums.shape[:2])) + BLOCKS * np.arange(len(self.sums))[:, None]
+            rng.integers(BLOCKS, size=(FEW_DRAWS, *self.sums.shape[:2])) + BLOCKS * np.arange(len(self.sums))[:, None]
         )
-        at = some.reshape(RESAMPLED, blocks) + blocks * np.arange(RESAMPLED)[:, None]
-        times = np.bincount(at.ravel(), minlength=RESAMPLED * blocks).reshape(RESAMPLED, blocks)
+        at = some.reshape(FEW_DRAWS, blocks) + blocks * np.arange(FEW_DRAWS)[:, None]
+        times = np.bincount(at.ravel(), minlength=FEW_DRAWS * blocks).reshape(FEW_DRAWS, blocks)
         drawn = np.array([shares(each) for each in systematic(sums, counts, times.astype(float))])
-        low, high = np.quantile(drawn, [0.025, 0.975], axis=0)
+        low, high = np.quantile(drawn, ENDS, axis=0)
         share, floor = shares(squares), 1.0 - float(squares.sum()) / max(self.total, 1e-300)
         mean = self.sums.sum(axis=(0, 1)) / np.maximum(count, 1.0)
         return [
@@ -215,10 +214,10 @@ def _family_wise(tables: list[Float[np.ndarray, "k _"]]) -> list[Float[np.ndarra
     together = np.concatenate(tables, axis=1)
     size = np.sqrt((together**2).sum(axis=0))
     size[size == 0.0] = np.inf
-    signs = np.random.default_rng(0).choice([-1.0, 1.0], (FLIPS, len(together)))
+    signs = np.random.default_rng(0).choice([-1.0, 1.0], (DRAWS, len(together)))
     largest = np.abs(signs @ (together / size)).max(axis=1)
     statistic = np.abs((together / size).sum(axis=0))
-    p_values = (1.0 + (largest[:, None] >= statistic).sum(axis=0)) / (1.0 + FLIPS)
+    p_values = (1.0 + (largest[:, None] >= statistic).sum(axis=0)) / (1.0 + DRAWS)
     return np.split(p_values, np.cumsum([table.shape[1] for table in tables])[:-1])
 
 

@@ -26,12 +26,14 @@ from jaxtyping import Float
 from geocontact.data.gap.cell_channels import CellChannels
 from geocontact.data.gap.surface_gap import SurfaceGap
 from geocontact.data.trial import Trial
+from geocontact.gap.case.change_amplitude import BLOCKS
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.data_errors.gross import DataError
-from geocontact.gap.localise.gap_map import BLOCKS, FLIPS, HOLDS, missed, smoothed
+from geocontact.gap.levels import DRAWS
+from geocontact.gap.localise.frequency_map import FEW_DRAWS
+from geocontact.gap.localise.gap_map import HOLDS, missed, smoothed
 from geocontact.gap.selection.evidence import Judged
 
-TURNS = 200  # times to which the gap is turned
 SHOWN = 0.5  # of the gap that the cells together must show: less, and most of it was made behind the mat
 
 
@@ -119,15 +121,15 @@ def _flipped(seen: Seen) -> float:
     table = np.array(blocks)
     size = np.sqrt((table**2).sum(axis=0))
     table = table / np.where(size > 0.0, size, np.inf)
-    signs = np.random.default_rng(0).choice([-1.0, 1.0], (FLIPS, len(table)))
+    signs = np.random.default_rng(0).choice([-1.0, 1.0], (DRAWS, len(table)))
     largest = np.abs(signs @ table).max(axis=1)
-    return float((1.0 + (largest >= np.abs(table.sum(axis=0)).max()).sum()) / (1.0 + FLIPS))
+    return float((1.0 + (largest >= np.abs(table.sum(axis=0)).max()).sum()) / (1.0 + DRAWS))
 
 
 def _turned(seen: Seen) -> float:
     """How often the gap at another time gives a cell that stands out as much."""
-    turns = np.arange(TURNS) / TURNS
-    sums = np.zeros((TURNS, seen[0][0].shape[1]))
+    turns = np.arange(FEW_DRAWS) / FEW_DRAWS
+    sums = np.zeros((FEW_DRAWS, seen[0][0].shape[1]))
     for off, g in seen:
         for k, turn in enumerate(turns):
             sums[k] += np.roll(g, round(turn * len(g))) @ off

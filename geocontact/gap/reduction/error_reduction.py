@@ -24,6 +24,7 @@ from geocontact.gap.case.problem import Problem
 from geocontact.gap.data_errors.gross import DataError
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors, misjudged, passed_on, raw_input_errors
 from geocontact.gap.selection.evidence import Judged
+from geocontact.identify.intervals.quantile_intervals import ENDS
 
 FORM = 0.04  # relative standard deviation of g² for the form of the effect
 HEARD, UNHEARD = (
@@ -87,7 +88,7 @@ def error_reduction_of(
     from scipy.stats import t
 
     count, present = len(problem.calibration.trials), problem.recorded.present
-    student = float(t.ppf(0.975, max(errors.told_by - 1, 1)))  # a spread that is known from as few trials
+    student = float(t.ppf(ENDS[1], max(errors.told_by - 1, 1)))  # a spread that is known from as few trials
     heard = np.zeros(len(problem.system.outputs))
     if named and data_error is None:  # beside a mistake in the data noise of the inputs is nothing
         base = (problem.system.as_measured(), errors.values, errors.before[count:])

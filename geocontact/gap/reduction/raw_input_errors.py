@@ -14,7 +14,7 @@ from geocontact.chain.system import System
 from geocontact.gap.case.measured_fit import measured_fit
 from geocontact.gap.case.plain_fit import Plain
 from geocontact.gap.case.problem import Problem, differences, noise_variance
-from geocontact.gap.case.refit import refit
+from geocontact.gap.case.refit import ROUNDS, refit
 from geocontact.gap.data_errors.correction import put_back
 from geocontact.gap.data_errors.gross import DataError
 from geocontact.gap.inputs.denoise import changed, drawn
@@ -22,8 +22,7 @@ from geocontact.gap.inputs.spectrum import measured_inputs
 from geocontact.gap.selection.evidence import Judged, prior_spread
 
 IMPLIED = 0.3  # trials that the fitted noise levels count as
-DRAWS, SEED = 16, 0  # of noise that is added to inputs
-NOTHING = 1e-300  # mean square of a channel that is never measured
+DRAWS = 16  # of noise that is added to inputs
 
 
 @dataclass(frozen=True)
@@ -90,7 +89,7 @@ def raw_input_errors(problem: Problem, clean: Problem, answer: Judged, data_erro
     first = replace(whole, trials=whole.trials[:count], outputs=whole.outputs[:count])
     whiten = [Plain(there, np.sqrt([value for value, _ in left])) for there in first.present]
     base = problem.system.as_measured()
-    values = refit(base, first, whiten, [problem.plain.values], 20).values
+    values = refit(base, first, whiten, [problem.plain.values], ROUNDS).values
     before = whole.residuals(base, values)
     return RawInputErrors(before, after, best, derivatives, known, implied, left, sum(used), values, fitted)
 
@@ -106,7 +105,7 @@ def passed_on(
     recorded (simulation extrapolation: Cook & Stefanski 1994, J. Am. Stat. Assoc. 89:1314). A draw in which a
     simulation fails tells nothing.
     """
-    trials, rng = problem.recorded.trials[len(problem.calibration.trials) :], np.random.default_rng(SEED)
+    trials, rng = problem.recorded.trials[len(problem.calibration.trials) :], np.random.default_rng(0)
     held_out = replace(problem.recorded, trials=trials, outputs=problem.evaluation.outputs)
     levels = dict(zip(problem.system.inputs, answer.noise.levels.inputs, strict=True))
     noisy = measured_inputs(problem.recorded.trials, list(levels))
@@ -208,6 +207,6 @@ def _left(
     floor = float(np.mean([f[c] for f in implied[count:]]))
     weight = len(each) + IMPLIED
     seen = sum(each) / len(each) if each else floor
-    left = max((sum(each) + IMPLIED * min(floor, seen)) / weight, NOTHING)
+    left = max((sum(each) + IMPLIED * min(floor, seen)) / weight, 1e-300)
     scatter = float(np.var(each, ddof=1)) if len(each) > 1 else left**2
     return left, float(np.sqrt(scatter / weight + np.mean(more) ** 2)) if more else left

@@ -17,11 +17,10 @@ from jaxtyping import Float
 
 from geocontact.chain.system import System
 from geocontact.gap.case.problem import Noise, Problem
-from geocontact.gap.case.refit import STEP, Refit, free, magnitude
+from geocontact.gap.case.refit import Refit, free, magnitude
 from geocontact.gap.case.whitening import Whitening
-from geocontact.identify.optimise.tolerances import ROUNDING
-
-FLAT = float(np.sqrt(12.0))  # range of a flat prior over its standard deviation
+from geocontact.gap.levels import FLAT
+from geocontact.identify.optimise.tolerances import ROUNDING, STEP
 
 
 @dataclass(frozen=True)

@@ -12,11 +12,9 @@ from geocontact.chain.candidate import Candidate
 from geocontact.gap.case.problem import Noise, Problem, evaluated
 from geocontact.gap.case.refit import ENOUGH, ROUNDS, Refit, free, refit
 from geocontact.gap.case.whitening import Whitening
-from geocontact.gap.levels import LEADING, TURNS
+from geocontact.gap.levels import FEW, LEADING, TURNS
 from geocontact.gap.selection.evidence import Judged, judged, without_discrepancy
 from geocontact.gap.selection.model_discrepancy import discrepancy_basis
-
-FEW = 5  # free parameters up to which a joint fit also sets out from the case's own start
 
 
 @dataclass(frozen=True)
@@ -95,7 +93,7 @@ def finished(
     The search for that sets out from the likeliest of those that are known, `others` beside the one it was fitted with.
     """
     noise = problem.weighed(model, before, others)
-    again = refit(model.system, problem.calibration, problem.fitting(noise, model), [model.values], ROUNDS // 4)
+    again = refit(model.system, problem.calibration, problem.fitting(noise, model), [model.values], ROUNDS // 2)
     everywhere = evaluated(problem, again)
     one = judged(problem, everywhere, noise, discrepancy_basis(problem, candidates, everywhere))
     return Contender(candidates, one)
@@ -161,7 +159,7 @@ def singles(
 def _from_base(problem: Problem, base: Contender, one: Candidate) -> list[Mapping[str, float]]:
     """Where the search for a candidate sets out: the fitted base, with few parameters the case's own start as well."""
     starts: list[Mapping[str, float]] = [{**base.judged.model.values, **start} for start in one.starts]
-    return [*starts, one.starts[0]] if len(free(problem.system)) < FEW and one.parameters else starts
+    return [*starts, one.starts[0]] if len(free(problem.system)) <= FEW and one.parameters else starts
 
 
 def pairs(

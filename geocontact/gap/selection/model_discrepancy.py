@@ -17,6 +17,7 @@ from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.system import System
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Refit
+from geocontact.gap.case.usual_range import usual_range
 from geocontact.identify.optimise.tolerances import CLOSE
 
 BENT = 0.15  # root mean square of the bending, as a share of the effect's
@@ -98,5 +99,5 @@ def _monomials(problem: Problem) -> list[Float[np.ndarray, "_ m"]]:
 
 def _within(values: list[Float[np.ndarray, " _"]]) -> list[Float[np.ndarray, " _"]]:
     """-1 … 1 over the range that 98 % of the samples are in."""
-    low, high = np.percentile(np.concatenate(values), [1.0, 99.0])
+    low, high = usual_range(np.concatenate(values))
     return [np.clip(2.0 * (v - low) / max(high - low, 1e-300) - 1.0, -1.0, 1.0) for v in values]

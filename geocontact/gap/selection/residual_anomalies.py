@@ -18,21 +18,18 @@ from geocontact.data.trial import Trial
 from geocontact.gap.case.mains import WAVES, at_mains
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.recorded_steps import measured_columns
+from geocontact.gap.case.usual_range import usual_range
 from geocontact.gap.inputs.quantisation import resolution
 from geocontact.gap.inputs.spectrum import switches
-from geocontact.gap.levels import LEFT_OVER
+from geocontact.gap.levels import FLAT, LEFT_OVER, SLIGHT, SURE
 from geocontact.gap.selection.evidence import Judged, without_discrepancy
+from geocontact.identify.noise.typical_noise import typical_noise
 
 WINDOWS = (4, 8, 16, 32, 64)  # samples
-SHORTEST = 64  # samples of a trial whose spectrum is looked at
 BESIDE = (-8, -7, -6, -5, -4, -3, 3, 4, 5, 6, 7, 8)  # bins that a line is compared with
-TURNS = 6  # periods in a trial from which something may be a line
-MOVES = 0.01  # of the largest amplitude in an input's spectrum, from which a frequency belongs to the movement
-OTHERS = 4  # times the width of a stretch that what it is compared with counts for
+OTHERS = 4  # stretches that one is compared with, at the least
 PACKETS = (16, 24, 32)  # samples that an oscillation is looked for in
-CYCLES = 4  # periods per window from which it counts as one
-HELD_USUALLY = 2e-3  # share of samples that repeat the last by chance, at the least
-COARSE, SURELY = 0.33, 12.0  # steps, in noise levels, that are coarse, and how sure that makes of it [nats]
+CYCLES = 4  # periods in a window, or in a trial, from which something counts as an oscillation
 
 
 @dataclass(frozen=True)
@@ -123,7 +120,7 @@ def _lines(problem: Problem, judged: Judged, what: str, *, mains: bool) -> list[
     moved = [name for name in problem.system.inputs if not switches(trials, name)]
     rows = innovations(problem, judged)
     for c, name in enumerate(problem.system.outputs):
-        long = [(trial, row[c]) for trial, row in zip(trials, rows, strict=True) if len(row[c]) >= SHORTEST]
+        long = [(trial, row[c]) for trial, row in zip(trials, rows, strict=True) if len(row[c]) >= WINDOWS[-1]]
         series = [x for _, x in long]
         if not series:
             continue
@@ -135,7 +132,7 @@ def _lines(problem: Problem, judged: Judged, what: str, *, mains: bool) -> list[
             nats = -f.logsf(power / usual, 2, beside)  # neighbours overlap under the window, so half of them count
             ruled_out = moving(trial, moved, len(power))
             ruled_out |= at_mains(len(power), len(x), step) != mains
-            ruled_out[:TURNS] = ruled_out[-1] = True  # at Nyquist's frequency power has half the freedom
+            ruled_out[:CYCLES] = ruled_out[-1] = True  # at Nyquist's frequency power has half the freedom
             doubt += np.interp(grid, np.arange(len(power)) / len(x), np.where(ruled_out, 0.0, nats))
         peak = int(np.argmax(doubt))
         nats = -float(gamma.logsf(doubt[peak], len(series))) - float(np.log(len(grid)))
@@ -157,7 +154,7 @@ def moving(trial: Trial, inputs: Sequence[str], count: int) -> Bool[np.ndarray, 
         even = np.interp(grid, grid[there], column[there])
         size = np.abs(np.fft.rfft((even - even.mean()) * np.hanning(len(even))))
         wide = np.maximum.reduce([size, np.roll(size, 1), np.roll(size, -1)])
-        found |= np.interp(frequency, np.fft.rfftfreq(len(even)), wide) > MOVES * size.max()
+        found |= np.interp(frequency, np.fft.rfftfreq(len(even)), wide) > SLIGHT * size.max()
     return found
 
 
@@ -181,7 +178,7 @@ def ringing(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
     for c, name in enumerate(problem.system.outputs):
         best, at_best, narrow = 0.0, 0.0, 0.0
         for width in PACKETS:
-            spectra = [_packets(trial[c], width) for trial in rows if len(trial[c]) >= 4 * width]
+            spectra = [_packets(trial[c], width) for trial in rows if len(trial[c]) >= OTHERS * width]
             if not spectra:
                 continue
             frames = min(map(len, spectra))
@@ -209,7 +206,7 @@ def share_of_band(problem: Problem, judged: Judged, c: int, centre: float, half:
     inside = whole = 0.0
     for residual, present in zip(judged.model.residuals, problem.recorded.present, strict=True):
         x = residual[present[:, c], c]
-        if len(x) < SHORTEST:
+        if len(x) < WINDOWS[-1]:
             continue
         power = 2.0 * np.abs(np.fft.rfft(x)) ** 2 / len(x)
         near = np.abs(np.arange(len(power)) / len(x) - centre) <= max(half, 1.5 / len(x))
@@ -239,7 +236,7 @@ def bursts(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
     for c, name in enumerate(problem.system.outputs):
         best, looked = 0.0, 0
         for width in WINDOWS:
-            energies = [_energy(trial[c], width) for trial in rows if len(trial[c]) >= 4 * width]
+            energies = [_energy(trial[c], width) for trial in rows if len(trial[c]) >= OTHERS * width]
             for own, energy in enumerate(energies):
                 phase = np.linspace(0.0, 1.0, len(energy))
                 others = [
@@ -261,7 +258,8 @@ def _energy(values: Float[np.ndarray, " n"], width: int) -> Float[np.ndarray, " 
 def held_samples(problem: Problem) -> list[ResidualAnomaly]:
     """Samples that repeat the one before, away from the ends of the range, where saturation would hold them.
 
-    By chance as many repeat as the resolution of the recording and the size of its steps suggest.
+    By chance as many repeat as the resolution of the recording and the size of its steps suggest (the density of normal
+    steps at 0), and one more.
     """
     found = []
     for c, name in enumerate(problem.system.outputs):
@@ -269,14 +267,14 @@ def held_samples(problem: Problem) -> list[ResidualAnomaly]:
         step = resolution(columns)
         repeats, count, expected = 0, 0, 0.0
         for x in columns:
-            low, high = np.percentile(x, [2.0, 98.0])
+            low, high = usual_range(x)
             inside = (x[1:] > low) & (x[1:] < high)
             steps = np.diff(x)[inside]
             repeats += int((steps == 0.0).sum())
             count += len(steps)
-            usual = float(np.median(np.abs(steps))) / 0.6745 if len(steps) else 0.0
-            expected += len(steps) * min(0.4 * step / usual if usual > 0.0 else 1.0, 1.0)
-        share, chance = repeats / max(count, 1), max(expected / max(count, 1), HELD_USUALLY)
+            usual = typical_noise(steps)
+            expected += len(steps) * min(step / (np.sqrt(2.0 * np.pi) * usual) if usual > 0.0 else 1.0, 1.0)
+        share, chance = repeats / max(count, 1), (expected + 1.0) / max(count, 1)
         if share > chance:
             rest = np.log(max(1.0 - share, 1e-12) / max(1.0 - chance, 1e-12))
             nats = count * (share * np.log(share / chance) + (1.0 - share) * rest)
@@ -285,14 +283,14 @@ def held_samples(problem: Problem) -> list[ResidualAnomaly]:
 
 
 def steps(problem: Problem) -> list[ResidualAnomaly]:
-    """A recording that comes in steps that are coarse against its noise."""
-    found = []
+    """A recording whose steps are coarse against its noise: rounding adds more than `SLIGHT` to its variance."""
+    found, usual = [], FLAT * float(np.sqrt(SLIGHT))
     for c, name in enumerate(problem.system.outputs):
         columns = measured_columns(problem, c)
         step = resolution(columns)
         values = sum(map(len, columns))
         distinct = len(np.unique(np.round(np.concatenate(columns) / max(step, 1e-300)))) if values else 0
         coarse = step / problem.floor_of_noise[c]
-        if coarse > COARSE and distinct < values:
-            found.append(ResidualAnomaly(f"it comes in steps of {step:.3g}", name, SURELY * coarse / COARSE))
+        if coarse > usual and distinct < values:
+            found.append(ResidualAnomaly(f"it comes in steps of {step:.3g}", name, SURE * coarse / usual))
     return found

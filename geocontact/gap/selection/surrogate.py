@@ -16,6 +16,7 @@ from jaxtyping import Float
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.gap.case.problem import Problem
+from geocontact.gap.case.usual_range import usual_range
 from geocontact.gap.selection.evidence import Judged, log_evidence, prior_spread
 from geocontact.gap.selection.evidence import judged as judged_as
 from geocontact.identify.optimise.tolerances import CLOSE
@@ -248,7 +249,7 @@ def _line(
 
     As wide as their distance if there were `counts` of them; they stand `closer` times as close: none falls in between.
     """
-    low, high = np.percentile(np.concatenate(values), [1.0, 99.0])
+    low, high = usual_range(np.concatenate(values))
     clipped = [np.clip(v, low, high)[:, None] for v in values]
     made = []
     for count in counts:

@@ -16,14 +16,11 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.levels import DEVIATIONS, SURE, TURNS
+from geocontact.gap.levels import DEVIATIONS, PHASES, SURE, TURNS
 from geocontact.gap.selection.evidence import Judged
 from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.identify.noise.student import StudentNoise, student_noise
-
-PHASES = 20
-"""Parts of a trial in which tails are compared between trials."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +99,7 @@ def sharp(off: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
     standard deviations of independent noise, it is the smaller.
     """
     beside = np.concatenate([off[1:2], 0.5 * (off[:-2] + off[2:]), off[-2:-1]])
-    apart = (off - np.where(np.isfinite(beside), beside, 0.0)) / np.sqrt(1.5)
+    apart = (off - np.where(np.isfinite(beside), beside, 0.0)) / np.sqrt(1.0 + 0.5)
     return np.asarray(np.where(np.abs(apart) < np.abs(off), apart, off))
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 CONFIDENCE = 0.95
+ENDS = (0.5 * (1.0 - CONFIDENCE), 0.5 * (1.0 + CONFIDENCE))  # of an interval, as shares of a distribution
 
 
 @dataclass(frozen=True)

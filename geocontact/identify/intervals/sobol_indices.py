@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.identify.intervals.quantile_intervals import ENDS
+
 POINTS = 2**11
 """Samples of each of the matrices of Sobol' indices; a power of two, as their points ask for."""
 
@@ -58,7 +60,7 @@ def variance_shares(
     first, total = (
         np.array([np.ravel(getattr(run, each))[:factors] for run in runs]) for each in ("first_order", "total_order")
     )
-    wide = float(t.ppf(0.975, REPEATS - 1)) / np.sqrt(REPEATS)
+    wide = float(t.ppf(ENDS[1], REPEATS - 1)) / np.sqrt(REPEATS)
     ends = [
         each.mean(axis=0)[:, None] + wide * each.std(axis=0, ddof=1)[:, None] * np.array([-1.0, 1.0])
         for each in (first, total)

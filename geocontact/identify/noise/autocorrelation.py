@@ -64,7 +64,7 @@ class Autocorrelation:
             inside = 2.0 * student.cdf(half / np.maximum(spread, 1e-300), self.freedom) - 1.0
             return float(self.weight @ inside) - level
 
-        return float(brentq(missing, 0.0, 1.001 * far, rtol=1e-10))
+        return float(brentq(missing, 0.0, 2.0 * far, rtol=1e-10))
 
 
 def autocorrelation_of(

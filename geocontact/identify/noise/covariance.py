@@ -25,9 +25,9 @@ from scipy.linalg import lapack
 from geocontact.identify.noise.block_sums import carried, pulled, summed
 from geocontact.identify.noise.input_noise import InputNoise
 from geocontact.identify.noise.noise_levels import NoiseLevels
+from geocontact.identify.optimise.tolerances import ROUNDING
 
 BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
-JITTER = 1e-9  # of the diagonal, so that a factor always exists
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class NoiseBlock:
     def covariance(self, levels: NoiseLevels) -> Float[np.ndarray, "n n"]:
         """Of rows divided by `spread`, at these levels."""
         powers = (levels.white**2, levels.coloured**2, levels.memory, levels.growing**2, levels.inputs**2)
-        return summed(self.time, self.channel, self.signal, self.inputs, *powers, 1.0 + JITTER)
+        return summed(self.time, self.channel, self.signal, self.inputs, *powers, 1.0 + ROUNDING)
 
     def pulls(self, levels: NoiseLevels, pull: Float[np.ndarray, "n n"]) -> Float[np.ndarray, " h"]:
         """Sum of `pull` times the derivative of the covariance with respect to each logarithm of a level.
@@ -205,7 +205,7 @@ def factor_of(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "
     Tables of the low-pass kernel are exact to a few digits; where input noise dwarfs the rest, the diagonal is raised
     until there is a factor.
     """
-    raised, more = covariance, 10.0 * JITTER
+    raised, more = covariance, 10.0 * ROUNDING
     while True:
         factor, failed = lapack.dpotrf(
             raised.T, lower=1, clean=1

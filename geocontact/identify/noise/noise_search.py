@@ -18,7 +18,7 @@ from scipy.linalg import lapack
 from geocontact.identify.noise.covariance import Layout, NoiseBlock, factor_of
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.optimise.bounded_gauss_newton import QuadraticModel
-from geocontact.identify.optimise.tolerances import BROKEN, CLOSE, DAMPED, KEPT, ROUNDING, TENFOLD
+from geocontact.identify.optimise.tolerances import BROKEN, CLOSE, DAMPED, KEPT, LIMIT, ROUNDING, TENFOLD
 
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
 LONGEST = 2.0  # that a correlation time is, and how noise grows: longer, and noise becomes what the model misses
@@ -115,7 +115,7 @@ def most_likely(
     jitter: Sequence[Float[np.ndarray, "_ c q"]],
     beliefs: NoisePriors,
     start: NoiseLevels,
-    rounds: int = 80,
+    rounds: int = LIMIT,
     others: Sequence[NoiseLevels] = (),
 ) -> tuple[NoiseLevels, float, float]:
     """Levels that make the residuals most likely, given what was believed of them.

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.optimise.tolerances import CLOSE
+from geocontact.identify.optimise.tolerances import CLOSE, LIMIT
 
 
 @dataclass(frozen=True)
@@ -38,9 +38,9 @@ class Products:
 def variation(
     trials: Sequence[Products],
     prior_sd: Float[np.ndarray, " q"],
-    weight: float | Float[np.ndarray, " q"] = 4.0,
+    weight: float | Float[np.ndarray, " q"],
     spent: float | Float[np.ndarray, " q"] = 0.0,
-    rounds: int = 50,
+    rounds: int = LIMIT,
 ) -> Float[np.ndarray, " q"]:
     """Most likely standard deviation of each varying parameter.
 

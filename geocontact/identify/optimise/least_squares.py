@@ -10,12 +10,12 @@ from jaxtyping import Float
 from scipy.optimize import least_squares
 
 from geocontact.data.parameter import Parameter
+from geocontact.identify.optimise.tolerances import STEP
 
 Predict = Callable[[Mapping[str, float]], list[Float[np.ndarray, "_ c"]]]
 """Predicted channels of every trial at given values of the free parameters."""
 
 NO_VALUE = 3.0  # residual, in floors, where something was measured and the model has no value
-STEP = 1e-6  # of a parameter's scale, for differences
 
 
 @dataclass(frozen=True)

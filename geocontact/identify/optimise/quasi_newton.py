@@ -12,8 +12,8 @@ from scipy.optimize import minimize
 from scipy.stats import qmc
 
 from geocontact.data.parameter import Parameter
-from geocontact.identify.optimise.least_squares import STEP, Fit, Predict, divided, fit
-from geocontact.identify.optimise.tolerances import ROUNDING
+from geocontact.identify.optimise.least_squares import Fit, Predict, divided, fit
+from geocontact.identify.optimise.tolerances import ROUNDING, STEP
 
 DECADES = 100.0  # bounds farther apart than this factor: the search is in the logarithm
 OPTIONS: Any = {"maxiter": 200, "ftol": 1e-10, "gtol": 1e-7}

@@ -8,8 +8,9 @@ from geocontact.data.gap.case import GapCase
 from geocontact.data.version import VERSION
 from geocontact.gap.identifiability.detectability import POWER, Detectability
 from geocontact.gap.identifiability.discriminability import Discriminability
-from geocontact.gap.identifiability.separability import APART, table
+from geocontact.gap.identifiability.separability import table
 from geocontact.gap.identifiability.signatures import rest_of
+from geocontact.gap.levels import APART
 
 
 def answer(case: GapCase, found: Discriminability, nats: float) -> dict[str, Any]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from geocontact.analyses.gap.words import names, percent, proposal_words
 from geocontact.gap.identifiability.detectability import POWER, Detectability
 from geocontact.gap.identifiability.discriminability import Discriminability
-from geocontact.gap.identifiability.separability import APART
 from geocontact.gap.identifiability.signatures import rest_of
+from geocontact.gap.levels import APART
 
 
 def confusion_sentences(c: Discriminability) -> list[str]:
