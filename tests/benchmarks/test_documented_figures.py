@@ -566,11 +566,12 @@ def test_the_benchmark_of_the_diagnosis() -> None:
 
 
 def test_kinds_of_laboratories() -> None:
-    """The table of the last run, and the sentence of the README, which is of kinds abroad."""
-    home, abroad = (results(f"gap_laboratories_{side}_3") for side in ("home", "abroad"))
+    """The tables of the last runs, and the sentence of the README, which is of fresh kinds."""
     page = (ROOT / "docs" / "reference/gap_benchmark.md").read_text(encoding="utf-8")
-    assert "\n".join(gap_laboratories.table(home, abroad)) in page
-    assert home["commit"] == abroad["commit"] and f"commit {abroad['commit']} (" in page
+    for away, number in (("abroad", 3), ("fresh", 4)):
+        home, abroad = (results(f"gap_laboratories_{side}_{number}") for side in ("home", away))
+        assert "\n".join(gap_laboratories.table(home, abroad)) in page
+        assert home["commit"] == abroad["commit"] and f"commit {abroad['commit']} (" in page
     readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
     shares = abroad["figures"]["all"]["shares"]
     for words, key in README.items():
