@@ -42,12 +42,13 @@ def base_starts(system: System) -> list[dict[str, float]]:
     from scipy.stats import qmc
 
     parameters = [p for p in free(system) if np.isfinite(p.upper - p.lower)]
+    edge = 0.1  # of the range, that stays free at either end
     spread = qmc.Sobol(len(parameters), seed=0).random(FEW) if parameters else np.zeros((0, 0))
     return [
         {},
         *(
             {
-                p.name: float(p.lower + np.interp(u, [0.0, 1.0], [0.1, 1.0 - 0.1]) * (p.upper - p.lower))
+                p.name: float(p.lower + (edge + (1.0 - 2.0 * edge) * u) * (p.upper - p.lower))
                 for p, u in zip(parameters, row, strict=True)
             }
             for row in spread
