@@ -204,7 +204,7 @@ def floor_of(problem: Problem, noise: Noise, model: Refit) -> Float[np.ndarray, 
         missed += np.where(present, residual**2, 0.0).sum(axis=0)
         counts += present.sum(axis=0)
     least = np.where(missed > 0.0, np.minimum(squares, missed), squares)
-    return np.sqrt(least / np.maximum(counts, 1))
+    return np.asarray(np.sqrt(least / np.maximum(counts, 1)))
 
 
 def noise_variance(layout: Layout, levels: NoiseLevels) -> Float[np.ndarray, "t c"]:
