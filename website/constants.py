@@ -58,16 +58,17 @@ def head(runs: list[dict[str, Any]], count: int) -> list[str]:
         f"{'; '.join(calls)}."
     )
     since = (
-        "The runs are of the commits that they name. Since then constants were merged: SURE, SLIGHT, TWOFOLD, FEWEST, "
-        "ROUNDS, LIMIT, ROUNDING, OTHERS and CYCLES now also stand for what others did, and their rows are of what "
-        "they did before. Numbers that are new, or have another value, were not tried."
+        "The runs are of the commits that they name. Since then constants were merged: SURE, SLIGHT, TWOFOLD, "
+        "DEVIATIONS, LEADING, FEWEST, ROUNDS, LIMIT, ROUNDING, TREND, OTHERS and CYCLES now also stand for what others "
+        "did, and their rows are of what they did before. Numbers that are new, or have another value, were not tried."
     )
     before = (
         f"With the constants as they were: {alarms} false alarms in {nothing} cases, the right effect first in {first} "
         f"of {cases - nothing}, {failed} that failed. An answer is moved where its verdict or its first name is "
         "another one. Constants were tried in groups, and one by one where a group moved an answer: two that undo each "
         "other would be missed. Where a number ends the diagnosis an answer counts as moved and as failed: neither as "
-        "a false alarm nor as right. Runs that moved every answer and did not count failures are left out. Not tried: "
+        "a false alarm nor as right. Runs that moved every answer and did not count failures are left out, as if that "
+        "factor had not been tried. Not tried: "
         "tables of several values, numbers without a name; most on foot and shoulder. A constant that moves none of "
         f"{cases} answers may still move {unseen:.0f} % of all (95 %)."
     )

@@ -99,7 +99,7 @@ def test_choices_do_not_become_more_again() -> None:
     """Of a verdict, and of all that a diagnosis imports of gap and identify."""
     assert len(constants(ROOMS)) <= 90
     assert len(bare(ROOMS)) <= 12
-    assert len(constants(WHOLE)) <= 127
+    assert len(constants(WHOLE)) <= 126
     assert len(bare(WHOLE)) <= 17
 
 

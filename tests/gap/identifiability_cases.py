@@ -195,13 +195,16 @@ def attributed(case: GapCase, named: tuple[str, ...], rivals: tuple[str, ...]) -
     return Attribution(problem, None, problem, base, tuple(found), {}, (), (), {}, (), said)
 
 
-def laws_of_slow_delay() -> tuple[OneLaw, OneLaw, OneLaw]:
-    """Of a delay of slow movements, where a filter and damping are in question; nothing named; something unknown."""
+def laws_of_slow_delay() -> tuple[OneLaw, OneLaw, OneLaw, OneLaw]:
+    """Of a delay of slow movements, where a filter and damping are in question; too many; nothing; something unknown."""
     found = attributed(elbow_case(seed=1, change=Late(LAG)), ("time_shift",), ("filter_lag", "damping"))
     nobody = Answer("no_gap", (), {}, found.answer.ambiguity, found.base)
     unknown = replace(nobody, verdict="unknown", chosen=found.answer.chosen)
-    law, none, other = (one_law(replace(found, answer=each)) for each in (found.answer, nobody, unknown))
-    return law, none, other
+    many = replace(found.answer, verdict="unresolved", effects=())
+    law, all_of_them, none, other = (
+        one_law(replace(found, answer=each)) for each in (found.answer, many, nobody, unknown)
+    )
+    return law, all_of_them, none, other
 
 
 def laws_of_pair() -> OneLaw:

@@ -8,7 +8,7 @@ from scipy.signal import butter, filtfilt
 
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.inputs.denoise import denoised, highest_noise, left, seen_noise, shaken
+from geocontact.gap.inputs.denoise import bins_wide, denoised, highest_noise, left, seen_noise, shaken
 from geocontact.gap.inputs.spectrum import switches
 from geocontact.identify.signals.low_pass import LowPass
 
@@ -142,3 +142,9 @@ def test_what_goes_on_and_off_is_no_measurement(values: list[float], flag: bool)
     column = np.resize(values, 100)
     recorded = Trial("t", Signals(STEP * np.arange(100), column[:, None], ("u",), ("-",)))
     assert switches([recorded], "u") is flag
+
+
+def test_bins_that_a_window_makes_one_of() -> None:
+    """Blackman's window has the noise of 1.73 bins in each, no window that of one (Harris 1978, table 1)."""
+    assert bins_wide(np.blackman(10_000)) == pytest.approx(1.73, abs=0.005)
+    assert bins_wide(np.ones(100)) == pytest.approx(1.0)

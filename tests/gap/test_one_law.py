@@ -12,9 +12,10 @@ pytestmark = pytest.mark.slow
 
 
 def test_what_moves_slowly_is_as_late_by_a_delay_as_by_a_filter_and_no_damper(elsewhere: Elsewhere) -> None:
-    named, nothing, unknown = elsewhere(laws_of_slow_delay)
+    named, unresolved, nothing, unknown = elsewhere(laws_of_slow_delay)
     assert named.classes == (("time_shift", "filter_lag"),)
     assert named.apart["filter_lag"] < APART < named.apart["damping"]
+    assert unresolved == named, "where too many remain the class is that of the likeliest"
     for each in (nothing, unknown):
         assert (each.classes, dict(each.apart)) == ((), {}), "where nothing is named there is no class"
 

@@ -159,10 +159,11 @@ class Diagnosis:
     `probabilities` is a distribution over single answers (effects, "none", "unknown"), `ambiguity` the effects that
     these data cannot tell apart, or, where nothing is named, that gain and may not be named, the best first; `behind`
     by how many nats the evidence of each of them that is not named is behind what is, `apart` by how many these trials
-    tell it from that if it is there; `one_law` the classes of what is named: effects that predict the same on these
-    trials, the named one first, for each named effect that has such; `absorbed` those that would be invisible here,
-    `partial` what known effects explain of a gap that is otherwise unknown, `next_experiment` what to record so that it
-    can be identified; None where nothing is in question, or nothing that is simulated tells enough.
+    tell it from that if it is there; `one_law` the classes of what is named, or of the likeliest where too many remain:
+    effects that predict the same on these trials, that one first, for each that has such; `absorbed` those that would
+    be invisible here, `partial` what known effects explain of a gap that is otherwise unknown, `next_experiment` what
+    to record so that it can be identified; None where nothing is in question, or nothing that is simulated tells
+    enough.
     """
 
     case: str

@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 MAINS = (50.0, 60.0)  # Hz
-HUM = 0.3  # root mean square, in noise levels of the channel, that hum usually has
+HUM = 0.3  # root mean square, in noise levels of the channel, that hum of either frequency usually has
 WAVES = 2 * len(MAINS)  # columns of each channel
 HUMMING = 2.0  # bins about such a frequency, or where sampling folds it to, that are hum
 

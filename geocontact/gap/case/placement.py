@@ -1,4 +1,4 @@
-"""What differs from trial to trial beside base parameters: constants, zeros and gains, the phase of the mains' hum.
+"""What differs from trial to trial beside base parameters: constants, zeros, gains, two clocks, the mains' hum.
 
 A device is put on anew for every trial, sensors are zeroed and calibrated anew. The usual sizes are those of the
 contract of a gap case: about a millimetre on a device of some 20 cm, half a degree, a per cent of a channel's

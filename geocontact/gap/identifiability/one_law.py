@@ -2,9 +2,10 @@
 
 Two models with effects, both fitted to the trials, are held against each other: what one leaves of the other's
 prediction (`gap.experiment.competing_models`), either way round, are the nats by which trials of this kind tell them
-apart. Effects that leave less than `APART` of each other are an equivalence class: the trials answer with the class,
-and which of its members is there is not for them to say. Others that are still in question could be told apart by
-these trials, yet the evidence does not: the form of no candidate is exact, so that a lead counts for less than it is.
+apart. Effects that all leave less than `APART` of each other are an equivalence class: the trials answer with the
+class, and which of its members is there is not for them to say. Others that are still in question can mostly be told
+apart by these trials, yet the evidence does not: the form of no candidate is exact, so that a lead counts for less than
+it is. A model with fewer effects than what is named is in no class.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ class OneLaw:
 
 
 def one_law(found: Attribution) -> OneLaw:
-    """The classes of what is named, or of what is likeliest where too many remain; none where nothing is named.
+    """The classes of what is named, or of what is likeliest where too many remain; none of no gap and of unknown.
 
     Of two effects each has a class of its own: those that may stand in its place beside the other.
     """

@@ -33,7 +33,7 @@ FLATTEST, STEEPEST = np.log([0.7, 3.0])  # bounds of log q
 SLOWEST = np.log(1e-4)  # least log b
 FALLS, STEEPS = (0.001, 0.004, 0.012, 0.03, 0.08), (0.9, 1.6)  # b, per sample, and q that a search starts from
 BROAD = ((0.08, 0.7), (0.2, 0.7))  # the same of movements that fill the spectrum
-NOTHING = -2.0 * float(np.log(np.finfo(float).eps))  # nats below the largest power at which there is none
+NOTHING = -2.0 * float(np.log(np.finfo(float).eps))  # nats below the top at which there is none; a bound of exponents
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.gap.diagnose.figures import axis_units, gap_figures
-from geocontact.analyses.gap.diagnose.page import gap_page
+from geocontact.analyses.gap.diagnose.page import facts_of, gap_page
 from geocontact.analyses.gap.diagnose.words import states, untried_law, verdict_sentences
 from geocontact.analyses.gap.words import percent
 from geocontact.chain.system import System
@@ -280,13 +280,34 @@ def test_a_class_is_the_answer_where_effects_are_one_law() -> None:
     }
     first, second, third = said(**alike)
     assert first.startswith("damping or filter_lag (one law on these trials) is missing; it sits in force (")
-    close = "they predict the same to within 1.3 nats, together p = 0.90"
+    close = "they predict what damping does to within 1.3 nats, together p = 0.90"
     assert second == f"these trials cannot tell damping from filter_lag: {close}"
     assert third == "slip is not ruled out: the two differ by 8.0 nats on these trials"
     both = said(**alike | {"effects": ("damping", "preload")})[0]
     assert both.startswith("damping or filter_lag (one law on these trials) and preload are missing")
     many = said(**alike | {"effects": (), "verdict": "unresolved"})
     assert many[1] == second and "tell damping, filter_lag and slip apart" in many[0]
+
+
+def test_what_is_not_ruled_out_stands_apart_from_what_cannot_be_told(told: Told) -> None:
+    """At the top of the page, for each verdict."""
+
+    def facts(**changes: object) -> dict[str, str]:
+        findings = told[1]
+        return dict(facts_of(replace(findings, diagnosis=replace(findings.diagnosis, **changes))))
+
+    alike = {"one_law": (("damping", "filter_lag"),), "apart": {"filter_lag": 0.4, "slip": 8.0}}
+    rivals = {"effects": ("damping",), "ambiguity": ("damping", "filter_lag", "slip"), "behind": {"slip": 3.0}}
+    found = facts(verdict="explained", **alike, **rivals)
+    assert found["What it cannot be told from"].startswith("these trials cannot tell damping from filter_lag: ")
+    assert (
+        found["Not ruled out"] == "slip is not ruled out: 3.0 nats behind, the two differ by 8.0 nats on these trials"
+    )
+    nothing = facts(verdict="no_gap", effects=(), ambiguity=("slip",), one_law=(), apart={})
+    assert nothing["Not ruled out"] == "slip" and "What it cannot be told from" not in nothing
+    many = facts(verdict="unresolved", effects=(), ambiguity=("damping", "filter_lag", "slip"), **alike)
+    assert many["Cannot be told apart"] == "damping, filter_lag and slip" and "Not ruled out" not in many
+    assert "damping from filter_lag" in many["What it cannot be told from"]
 
 
 def test_two_effects_are_missing_together() -> None:

@@ -18,7 +18,15 @@ from geocontact.analyses.gap.diagnose.page_tables import (
     ranking_table,
     trials_table,
 )
-from geocontact.analyses.gap.diagnose.words import in_part, in_question, place, verdict_sentences, with_classes
+from geocontact.analyses.gap.diagnose.words import (
+    in_part,
+    in_question,
+    not_ruled_out,
+    one_law_words,
+    place,
+    verdict_sentences,
+    with_classes,
+)
 from geocontact.analyses.gap.words import names, percent
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.data.gap.case import GapCase
@@ -110,7 +118,7 @@ def gap_page(
         time=100.0 * phase,
         time_label="phase of the trial [%]",
         headline=headline(sentences, most=1),
-        facts=_facts(findings),
+        facts=facts_of(findings),
         reservations=tuple(warnings),
         start_frame=round(0.5 * sum(window) * (FRAMES - 1)),
         sections=tuple(sections),
@@ -134,7 +142,7 @@ def _subtitle(case: GapCase, d: Diagnosis) -> str:
     )
 
 
-def _facts(findings: Findings) -> list[tuple[str, str]]:
+def facts_of(findings: Findings) -> list[tuple[str, str]]:
     """What is missing, where, how far, how sure."""
     d = findings.diagnosis
     answer = {"explained": with_classes(d, d.effects), "no_gap": "nothing beyond noise"}.get(
@@ -152,10 +160,12 @@ def _facts(findings: Findings) -> list[tuple[str, str]]:
         lines.append(("Explained in part", in_part(d.partial)))
     alive = ", ".join(f"{name} {value:.2f}" for name, value in _likeliest(d) if value >= 0.005)
     lines.append(("Probabilities", alive))
-    if d.effects and (rivals := in_question(d)):
-        lines.append(("What it cannot be told from", "; ".join(rivals)))
-    elif len(d.ambiguity) > 1:
+    if d.one_law:
+        lines.append(("What it cannot be told from", "; ".join(one_law_words(d))))
+    if d.verdict == "unresolved":
         lines.append(("Cannot be told apart", names(d.ambiguity)))
+    elif rest := not_ruled_out(d) if d.effects else d.ambiguity:
+        lines.append(("Not ruled out", "; ".join(rest)))
     return lines
 
 

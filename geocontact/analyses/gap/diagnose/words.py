@@ -89,8 +89,12 @@ def _explained(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
 
 def in_question(d: Diagnosis) -> list[str]:
     """Why effects that are not named are in question: one law with what is named, or not far enough behind."""
-    alike = [name for group in d.one_law for name in group]
-    said = one_law_words(d)
+    return [*one_law_words(d), *not_ruled_out(d)]
+
+
+def not_ruled_out(d: Diagnosis) -> list[str]:
+    """How far effects are behind what is named that are not one law with it, and how much these trials tell."""
+    said, alike = [], [name for group in d.one_law for name in group]
     for name in (each for each in d.ambiguity if each not in (*d.effects, *alike)):
         why = [f"{d.behind[name]:.1f} nats behind"] if name in d.behind else []
         why += [f"the two differ by {d.apart[name]:.1f} nats on these trials"] if name in d.apart else []
@@ -104,7 +108,7 @@ def one_law_words(d: Diagnosis) -> list[str]:
     for group in d.one_law:
         most = max(d.apart.get(name, 0.0) for name in group)
         total = sum(d.probabilities.get(name, 0.0) for name in group)
-        close = f"they predict the same to within {most:.1f} nats, together p = {total:.2f}"
+        close = f"they predict what {group[0]} does to within {most:.1f} nats, together p = {total:.2f}"
         said.append(f"these trials cannot tell {names(group[:1])} from {names(group[1:], 'or')}: {close}")
     return said
 

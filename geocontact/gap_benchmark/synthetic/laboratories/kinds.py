@@ -5,8 +5,9 @@ changes the diagnosis because of a case there puts that kind at home and adds an
 clock together that a kind at home has, and knocks, warming up and the second family of effects are abroad only.
 
 Kinds abroad have been reported on more than once. *Fresh* kinds were added for a report on kinds that no version of the
-diagnosis has seen: none has a noise and a clock together that another side has, and their noises, samplers, movements,
-steps and numbers of trials are on no other side. Once they were reported on they are kinds abroad as the others are.
+diagnosis has seen: none has a noise and a clock together that another side has, and their noises, and the samplers,
+movements, mixed steps and numbers of trials that were added for them, are on no other side. Once they were reported on
+they are kinds abroad as the others are.
 """
 
 from __future__ import annotations
