@@ -10,6 +10,7 @@ from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.plain_fit import Plain, base_starts
 from geocontact.gap.case.refit import Measured, derivatives, free, magnitude, moved_at_once, refit
 from geocontact.gap.case.rough_noise import rough_noise
+from geocontact.identify.optimise.tolerances import STEP
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import NOISE, TRUE, elbow_case, lost
 from tests.systems.examples import example
@@ -69,7 +70,7 @@ def test_moving_parameters_at_once_gives_what_each_alone_gives(one: Candidate) -
     measured, values = Measured.of(system, SITES_TRIALS, np.ones(3)), system.start
     found, base = derivatives(system, measured, values), measured.residuals(system, values)
     for k, p in enumerate(free(system)):
-        step = 1e-5 * magnitude(p)
+        step = STEP * magnitude(p)
         step = -step if values[p.name] + step > p.upper else step
         moved = measured.residuals(system, {**values, p.name: values[p.name] + step})
         for slopes, before, after in zip(found, base, moved, strict=True):
