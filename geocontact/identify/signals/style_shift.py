@@ -8,8 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.intervals.quantile_intervals import ENDS
-
 FARTHEST = 25
 """Steps of a curve that it may be later or earlier."""
 REPLICATES = 2000
@@ -72,7 +70,7 @@ def style_shift(style: Float[np.ndarray, "c t"], reference: Float[np.ndarray, "d
         value = float(number(means[0], means[1])[0])
         if drawn is None:
             return WithInterval(value, np.nan, np.nan)
-        lower, upper = np.quantile(number(drawn[0], drawn[1]), ENDS)
+        lower, upper = np.percentile(number(drawn[0], drawn[1]), [2.5, 97.5])
         return WithInterval(value, float(lower), float(upper))
 
     return StyleShift(
