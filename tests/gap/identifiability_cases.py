@@ -196,7 +196,7 @@ def attributed(case: GapCase, named: tuple[str, ...], rivals: tuple[str, ...]) -
 
 
 def laws_of_slow_delay() -> tuple[OneLaw, OneLaw, OneLaw, OneLaw]:
-    """Of a delay of slow movements, where a filter and damping are in question; too many; nothing; something unknown."""
+    """Of a delay of slow movements, a filter and damping in question; too many; nothing named; something unknown."""
     found = attributed(elbow_case(seed=1, change=Late(LAG)), ("time_shift",), ("filter_lag", "damping"))
     nobody = Answer("no_gap", (), {}, found.answer.ambiguity, found.base)
     unknown = replace(nobody, verdict="unknown", chosen=found.answer.chosen)

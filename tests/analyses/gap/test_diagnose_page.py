@@ -300,9 +300,8 @@ def test_what_is_not_ruled_out_stands_apart_from_what_cannot_be_told(told: Told)
     rivals = {"effects": ("damping",), "ambiguity": ("damping", "filter_lag", "slip"), "behind": {"slip": 3.0}}
     found = facts(verdict="explained", **alike, **rivals)
     assert found["What it cannot be told from"].startswith("these trials cannot tell damping from filter_lag: ")
-    assert (
-        found["Not ruled out"] == "slip is not ruled out: 3.0 nats behind, the two differ by 8.0 nats on these trials"
-    )
+    why = "slip is not ruled out: 3.0 nats behind, the two differ by 8.0 nats on these trials"
+    assert found["Not ruled out"] == why
     nothing = facts(verdict="no_gap", effects=(), ambiguity=("slip",), one_law=(), apart={})
     assert nothing["Not ruled out"] == "slip" and "What it cannot be told from" not in nothing
     many = facts(verdict="unresolved", effects=(), ambiguity=("damping", "filter_lag", "slip"), **alike)
