@@ -223,7 +223,8 @@ def whitenings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain
         heard = propagated_input_noise(system, trial, base, problem.passed, problem.left)
         spread = noise_spread(system, measured.outputs, problem.calibration.rough)[0]
         layout = Layout.of(trial.time, measured.present[0], heard, spread, signal_size(measured.outputs)[0])
-        placed = placement(system, [trial], base, measured_inputs(problem.recorded.trials, system.inputs))[0]
+        movable = measured_inputs(problem.recorded.trials, system.inputs)
+        placed = placement(system, [trial], base, movable, problem.calibration.rough)[0]
         varied = np.concatenate([derivatives(system, measured, base)[0], placed], axis=-1) * lead.noise.varies
         made.append(Whitening.of(layout.whitener(lead.noise.levels), varied))
     return made
