@@ -18,9 +18,8 @@ from jaxtyping import Float
 
 from geocontact.chain.system import System
 from geocontact.gap.attribute import Attribution
-from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import ROUNDS, Measured, RefitSearch, Whiten
-from geocontact.gap.selection.evidence import Judged, prior_spread
+from geocontact.gap.selection.evidence import prior_spread
 from geocontact.gap.selection.model_comparison import Contender
 from geocontact.identify.optimise.tolerances import CLOSE
 
@@ -97,9 +96,8 @@ def fitted(one: Contender) -> Hypothesis:
     return Hypothesis("+".join(one.names), model.system, model.values, model.residuals, model.jacobian)
 
 
-def on_trials(problem: Problem, lead: Judged, pair: ModelPair) -> Rows:
-    """A pair on the trials that exist, under the noise of the model that leads."""
-    whitenings = problem.whitenings(lead.noise, lead.model)
+def on_trials(whitenings: Sequence[Whiten], pair: ModelPair) -> Rows:
+    """A pair on the trials that exist, under some noise."""
     columns = [
         np.concatenate([(b - a)[..., None], j * pair.confounder.spread], axis=-1)
         for a, b, j in zip(pair.true.residuals, pair.confounder.residuals, pair.confounder.jacobian, strict=True)

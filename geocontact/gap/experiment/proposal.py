@@ -101,7 +101,8 @@ def _confounded(problem: Problem, base: Judged, one: Candidate) -> Hypothesis:
 
 def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[ModelPair]) -> Proposal | None:
     """The most promising change that raises the smallest separation enough once competing models are refitted."""
-    before = [on_trials(problem, lead, pair) for pair in pairs]
+    whitenings = problem.whitenings(lead.noise, lead.model)
+    before = [on_trials(whitenings, pair) for pair in pairs]
     least = min(rows.nats for rows in before)
     needed = max(TELLS * least, APART)
     promised = [
@@ -143,7 +144,8 @@ def _remaining(problem: Problem, lead: Judged, one: Rehearsed, pair: ModelPair) 
 
 def _unveiling(problem: Problem, base: Judged, pairs: list[ModelPair]) -> Proposal | None:
     """The change that makes most effects visible that were reproduced, and of several the one that shows them best."""
-    before = [on_trials(problem, base, pair) for pair in pairs]
+    whitenings = problem.whitenings(base.noise, base.model)
+    before = [on_trials(whitenings, pair) for pair in pairs]
     best: tuple[int, float, Experiment, list[str]] | None = None
     for one in _new(problem, base, pairs):
         shown = []

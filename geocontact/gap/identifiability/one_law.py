@@ -44,11 +44,12 @@ def one_law(found: Attribution) -> OneLaw:
     if not said.chosen.candidates or said.verdict == "unknown":
         return OneLaw()
     models = {frozenset(one.names): fitted(one) for one in competing_models(found)}
-    problem, lead, first = found.clean, said.chosen.judged, frozenset(said.chosen.names)
+    lead, first = said.chosen.judged, frozenset(said.chosen.names)
     if first not in models:  # a mistake in the data
         return OneLaw()
+    whitenings = found.clean.whitenings(lead.noise, lead.model)
     apart = {
-        (a, b): 0.0 if a == b else on_trials(problem, lead, ModelPair(models[a], models[b])).nats
+        (a, b): 0.0 if a == b else on_trials(whitenings, ModelPair(models[a], models[b])).nats
         for a in models
         for b in models
     }

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from geocontact.gap_benchmark.drawing import Lot, drawn
-from geocontact.gap_benchmark.synthetic import LABORATORIES
 from geocontact.gap_benchmark.synthetic.equipment.clock import Clock
 from geocontact.gap_benchmark.synthetic.equipment.power_law import PowerLawNoise
 from geocontact.gap_benchmark.synthetic.equipment.recorder import Recorder
@@ -20,24 +19,14 @@ from geocontact.gap_benchmark.synthetic.laboratories.kinds import LABORATORY_KIN
 from geocontact.gap_benchmark.synthetic.laboratories.movements import FAMILIES, moving
 from geocontact.gap_benchmark.synthetic.laboratories.sampling_gap import sampled_unseen, sampling_gap
 from geocontact.gap_benchmark.synthetic.plan import NotFoundError
-from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
 from geocontact.gap_benchmark.synthetic.scenes import SCENES
 from geocontact.gap_benchmark.synthetic.slight import UNSEEN
 from geocontact.gap_benchmark.synthetic.trials import record
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.gap_case_writer import write_gap_case
+from tests.gap.benchmark.scene_of_kind import scene_of
 
 SAMPLED = [name for name, kind in LABORATORY_KINDS.items() if kind.clock in ("averaging", "lagging")]
-
-
-def scene_of(kind: str, system: str, seed: int = 1) -> SyntheticScene:
-    for attempt in range(20):
-        rng = np.random.default_rng([seed, attempt])
-        try:
-            return LABORATORIES[kind](rng, SCENES[system](rng, shifted=False))
-        except NotFoundError:
-            continue
-    raise AssertionError("none of 20 draws")
 
 
 def test_a_sample_is_the_mean_over_its_interval() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from geocontact.gap_benchmark import drawing
-from geocontact.gap_benchmark.synthetic import LABORATORIES, cases
+from geocontact.gap_benchmark.synthetic import cases
 from geocontact.gap_benchmark.synthetic.cases import prepared
 from geocontact.gap_benchmark.synthetic.catalogue import SECOND, plans
 from geocontact.gap_benchmark.synthetic.equipment.clock import Clock
@@ -22,12 +22,11 @@ from geocontact.gap_benchmark.synthetic.laboratories.kinds import LABORATORY_KIN
 from geocontact.gap_benchmark.synthetic.laboratories.of_kind import TRIALS
 from geocontact.gap_benchmark.synthetic.laboratories.placement import placed_as_usual
 from geocontact.gap_benchmark.synthetic.noise import Coloured, NoiseFilter, SensorNoise
-from geocontact.gap_benchmark.synthetic.plan import NotFoundError
-from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
 from geocontact.gap_benchmark.synthetic.scenes import SCENES
 from geocontact.gap_benchmark.synthetic.slight import UNSEEN, slightly_wrong
 from geocontact.gap_benchmark.synthetic.trials import record
 from geocontact.gap_benchmark.synthetic.visibility import floor, sight, whitener
+from tests.gap.benchmark.scene_of_kind import scene_of
 
 NEW = {
     "noise": ("lasting", "walking", "hurried", "harmonics"),
@@ -55,16 +54,6 @@ AS_BEFORE = {
     "knocks, placed anew, few trials": 543.4261831356195,
 }
 """Force of a knee half-way through 198 samples [N], of kinds at home and abroad, before there were fresh ones."""
-
-
-def scene_of(kind: str, system: str, seed: int = 1) -> SyntheticScene:
-    for attempt in range(20):
-        rng = np.random.default_rng([seed, attempt])
-        try:
-            return LABORATORIES[kind](rng, SCENES[system](rng, shifted=False))
-        except NotFoundError:
-            continue
-    raise AssertionError("none of 20 draws")
 
 
 def test_kinds_at_home_and_abroad_are_disjoint() -> None:
