@@ -4,9 +4,9 @@ Every constant of the rooms that a verdict comes from is halved, and doubled, an
 home, are attributed again. An answer is moved where the verdict or the first name is another one. Constants are tried
 in groups: where a group changes no answer, none of it does (two that undo each other would be missed, which is said);
 where it does, its halves are tried, down to single ones. Of these the table has the answers moved, false alarms,
-those first ranked right and diagnoses that failed, beside what they were. Numbers inside compiled kernels stay as they
-are. Every trial is added to a file beside the JSON as it is done, and the same call goes on where a run of the same
-commit ended.
+those first ranked right, diagnoses that failed and the mean logarithm of the probability of the truth, beside what
+they were. Cases are drawn before anything is changed. Numbers inside compiled kernels stay as they are. Every trial
+is added to a file beside the JSON as it is done, and the same call goes on where a run of the same commit ended.
 """
 
 from __future__ import annotations
@@ -15,15 +15,17 @@ import argparse
 import json
 import multiprocessing
 import sys
+import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from benchmarks.constants_of import Constant, constants, put
-from benchmarks.gap_verdicts import attributed
+from benchmarks.gap_verdicts import answer_of, written
 from benchmarks.machine import commit, machine
-from geocontact.gap_benchmark.drawing import SYSTEMS, Lot, drawn, lots
+from geocontact.gap_benchmark.drawing import HOME, SYSTEMS, lots
+from geocontact.gap_benchmark.generalisation import log_probability
 
 HERE = Path(__file__).resolve().parent
 ROOMS = (
@@ -43,6 +45,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--systems", nargs="+", default=list(SYSTEMS))
     parser.add_argument("--cases", type=int, default=5, help="of each system, shared by the kinds")
     parser.add_argument("--kinds", nargs="+", default=["none", "single"])
+    parser.add_argument("--laboratories", nargs="+", default=[HOME], help="they take turns")
     parser.add_argument("--group", type=int, default=12, help="constants that are tried together")
     parser.add_argument("--only", nargs="*", default=[], help="constants whose label begins so")
     parser.add_argument("--minutes", type=float, default=float("inf"), help="after which no further trial is begun")
@@ -50,29 +53,26 @@ def arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def answers(chosen: Sequence[Lot], changed: dict[Constant, float | int], send: Any) -> None:
-    """Verdict and first name of every case with other constants: the work of a process."""
+def answers(cases: Mapping[str, Path], changed: dict[Constant, float | int], send: Any) -> None:
+    """Verdict, first name and probabilities of every case with other constants: the work of a process."""
     put(changed)
     said: Answers = {}
-    for lot in chosen:
-        name = f"{lot.system} {lot.kind} {lot.place}"
+    for name, folder in cases.items():
         try:
-            row = attributed(lot)
+            told = answer_of(folder)
         except Exception as error:  # noqa: BLE001 a constant that ends the diagnosis is a finding
-            truth = list(drawn(lot).label.effects)
-            said[name] = {"verdict": f"{FAILED}: {type(error).__name__}", "first": "", "truth": truth}
+            said[name] = {"verdict": f"{FAILED}: {type(error).__name__}", "first": "", "probabilities": {}}
             continue
-        told = row["answer"]
         first = (*told["ambiguity"], *told["effects"], "")[0]
-        said[name] = {"verdict": told["verdict"], "first": first, "truth": row["label"]["effects"]}
+        said[name] = {"verdict": told["verdict"], "first": first, "probabilities": told["probabilities"]}
     send.send(said)
 
 
-def apart(chosen: Sequence[Lot], changed: dict[Constant, float | int]) -> Answers:
+def apart(cases: Mapping[str, Path], changed: dict[Constant, float | int]) -> Answers:
     """The same in a process of its own, whose constants end with it; empty where it was killed."""
     context = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
     receive, send = context.Pipe(duplex=False)
-    process = context.Process(target=answers, args=(chosen, changed, send))
+    process = context.Process(target=answers, args=(cases, changed, send))
     process.start()
     send.close()
     try:
@@ -83,20 +83,23 @@ def apart(chosen: Sequence[Lot], changed: dict[Constant, float | int]) -> Answer
         process.join()
 
 
-def figures(before: Answers, after: Answers) -> dict[str, Any]:
-    """Answers moved; false alarms, first ranked right and failed diagnoses, before and after.
+def figures(truths: Mapping[str, dict[str, Any]], before: Answers, after: Answers) -> dict[str, Any]:
+    """Answers moved; false alarms, first ranked right, failed diagnoses and nats, before and after.
 
     A diagnosis that ended without an answer, or whose process was killed, has failed: that is neither a false alarm
-    nor a right answer.
+    nor a right answer. Nats are the mean logarithm of the probability that is stated for the truth.
     """
-    moved = [name for name, one in before.items() if _told(after.get(name)) != _told(one)]
+    moved = [name for name in truths if _told(after.get(name)) != _told(before.get(name))]
 
-    def counted(said: Answers) -> dict[str, int]:
-        answered = [one for name in before if (one := said.get(name)) and not one["verdict"].startswith(FAILED)]
+    def counted(said: Answers) -> dict[str, float]:
+        names = [name for name in truths if name in said and not said[name]["verdict"].startswith(FAILED)]
+        effects = {name: truths[name]["effects"] for name in names}
+        nats = [log_probability(truths[name], said[name]) for name in names]
         return {
-            "false_alarms": sum(not one["truth"] and one["verdict"] != "no_gap" for one in answered),
-            "first_right": sum(one["first"] in one["truth"] for one in answered),
-            "failed": len(before) - len(answered),
+            "false_alarms": sum(not effects[name] and said[name]["verdict"] != "no_gap" for name in names),
+            "first_right": sum(said[name]["first"] in effects[name] for name in names),
+            "failed": len(truths) - len(names),
+            "nats": sum(nats) / len(nats) if nats else float("-inf"),
         }
 
     return {"moved": moved, "before": counted(before), "after": counted(after)}
@@ -119,12 +122,11 @@ def searched(
 
 
 def main() -> int:
-    """Halve, double, write."""
+    """Draw, halve, double, write."""
     o = arguments()
     what, began, log = commit(), time.monotonic(), o.out.with_suffix(".rows")
-    chosen = list(lots(tuple(o.systems), o.cases, tuple(o.kinds), o.seed))
     named = [one for one in constants(ROOMS) if not o.only or one.label.startswith(tuple(o.only))]
-    asked = {"commit": what, "seed": o.seed, "systems": o.systems, "kinds": o.kinds, "cases": o.cases}
+    asked = {"commit": what} | {name: vars(o)[name] for name in ("seed", "systems", "kinds", "cases", "laboratories")}
     rows = [json.loads(line) for line in log.read_text(encoding="utf-8").splitlines()] if log.exists() else []
     rows = [row for row in rows if row["asked"] == asked]
 
@@ -135,25 +137,31 @@ def main() -> int:
         o.out.write_text(json.dumps(report(asked, rows, named), indent=1) + "\n", encoding="utf-8")
         return rows[-1]
 
-    plain = next((row for row in rows if not row["constants"]), None)
-    base: Answers = (plain or kept({"constants": [], "factor": 1.0, "answers": apart(chosen, {})}))["answers"]
+    with tempfile.TemporaryDirectory() as scratch:
+        cases, truths = {}, {}
+        for place, lot in enumerate(lots(tuple(o.systems), o.cases, tuple(o.kinds), o.seed, tuple(o.laboratories))):
+            name = f"{lot.system} {lot.kind} {lot.place} {lot.laboratory}"
+            cases[name], truths[name] = written(lot, Path(scratch) / str(place))
+        plain = next((row for row in rows if not row["constants"]), None)
+        base: Answers = (
+            plain or kept({"constants": [], "factor": 1.0, "answers": apart(cases, {}), "truths": truths})
+        )["answers"]
 
-    def tried(group: Sequence[Constant], factor: float) -> dict[str, Any] | None:
-        labels = [one.label for one in group]
-        for row in rows:
-            if row["constants"] == labels and row["factor"] == factor:
-                return dict(row["figures"])
-        if time.monotonic() - began > 60.0 * o.minutes:
-            return None
-        after = apart(chosen, {one: one.times(factor) for one in group})
-        told = figures(base, after)
-        kept({"constants": labels, "factor": factor, "figures": told})
-        print(f"{factor:g} x {', '.join(labels)}: {len(told['moved'])} of {len(base)} moved", flush=True)
-        return told
+        def tried(group: Sequence[Constant], factor: float) -> dict[str, Any] | None:
+            labels = [one.label for one in group]
+            for row in rows:
+                if row["constants"] == labels and row["factor"] == factor:
+                    return dict(row["figures"])
+            if time.monotonic() - began > 60.0 * o.minutes:
+                return None
+            told = figures(truths, base, apart(cases, {one: one.times(factor) for one in group}))
+            kept({"constants": labels, "factor": factor, "figures": told})
+            print(f"{factor:g} x {', '.join(labels)}: {len(told['moved'])} of {len(truths)} moved", flush=True)
+            return told
 
-    for factor in (0.5, 2.0):
-        for at in range(0, len(named), o.group):
-            searched(named[at : at + o.group], factor, tried)
+        for factor in (0.5, 2.0):
+            for at in range(0, len(named), o.group):
+                searched(named[at : at + o.group], factor, tried)
     return 0
 
 
@@ -165,9 +173,12 @@ def report(asked: dict[str, Any], rows: Sequence[dict[str, Any]], named: Sequenc
             single = len(row["constants"]) == 1
             if label in table and (single or not row["figures"]["moved"]):
                 table[label][f"times {row['factor']:g}"] = row["figures"] if single else "moves nothing"
-    answers = next(row["answers"] for row in rows if not row["constants"])
-    told = {"answers": len(answers), "before": figures(answers, answers)["before"]}
-    told["nothing_missing"] = sum(not one["truth"] for one in answers.values())
+    first = next(row for row in rows if not row["constants"])
+    told = {
+        "answers": len(first["truths"]),
+        "before": figures(first["truths"], first["answers"], first["answers"])["before"],
+    }
+    told["nothing_missing"] = sum(not one["effects"] for one in first["truths"].values())
     return {"what": __doc__.splitlines()[0], **asked, **machine(), **told, "constants": table}
 
 

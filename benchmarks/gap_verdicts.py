@@ -53,21 +53,35 @@ def arguments() -> argparse.Namespace:
 
 def attributed(lot: Lot) -> dict[str, Any]:
     """Truth and answer of one case."""
+    with tempfile.TemporaryDirectory() as scratch:
+        folder, label = written(lot, Path(scratch))
+        return {"lot": asdict(lot), "label": label, "answer": answer_of(folder)}
+
+
+def written(lot: Lot, scratch: Path) -> tuple[Path, dict[str, Any]]:
+    """The folder of a case, drawn and written below `scratch`, and its truth."""
+    from geocontact.analyses.json_file import plain
+    from geocontact.gap_benchmark.drawing import drawn
+    from geocontact.io.cases.gap_case_writer import write_gap_case
+
+    planted = drawn(lot)
+    folder = scratch / planted.case.name
+    write_gap_case(planted.case, folder)
+    return folder, dict(plain(planted.label.as_dict()))
+
+
+def answer_of(folder: Path) -> dict[str, Any]:
+    """The case in a folder, read and attributed on one thread."""
     from threadpoolctl import threadpool_limits
 
     from geocontact.analyses.json_file import plain
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.attribute import attribute
     from geocontact.gap.case.admission import admitted
-    from geocontact.gap_benchmark.drawing import drawn
     from geocontact.io.cases.gap_case import read_gap_case
-    from geocontact.io.cases.gap_case_writer import write_gap_case
     from geocontact.systems.catalogue import system_of
 
-    with threadpool_limits(limits=1), tempfile.TemporaryDirectory() as scratch:
-        planted = drawn(lot)
-        folder = Path(scratch) / planted.case.name
-        write_gap_case(planted.case, folder)
+    with threadpool_limits(limits=1):
         began, case = time.process_time(), read_gap_case(folder)
         system = system_of(case)
         found = attribute(admitted(case, system), system, candidates)
@@ -81,7 +95,7 @@ def attributed(lot: Lot) -> dict[str, Any]:
             "seconds": time.process_time() - began,
             "most": [most.label, most.nats - found.base.nats, found.objections.get(most.label, "")],
         }
-        return dict(plain({"lot": asdict(lot), "label": planted.label.as_dict(), "answer": answer}))
+        return dict(plain(answer))
 
 
 def held_out_errors(found: Any) -> dict[str, dict[str, float]]:

@@ -110,7 +110,7 @@ def log_score(pairs: Sequence[tuple[Plain, Plain]]) -> float:
     """1 for certainty, 0 for the constant answer, below 0 for less; NaN where the constant answer is certain."""
     constant = constant_answer(label for label, _ in pairs)
     best, said, same = (
-        sum(_log_probability(label, given) for label, given in those)
+        sum(log_probability(label, given) for label, given in those)
         for those in (
             [(label, {"probabilities": true_distribution(label)}) for label, _ in pairs],
             pairs,
@@ -120,7 +120,8 @@ def log_score(pairs: Sequence[tuple[Plain, Plain]]) -> float:
     return (said - same) / (best - same) if best > same else float("nan")
 
 
-def _log_probability(label: Plain, said: Plain) -> float:
+def log_probability(label: Plain, said: Plain) -> float:
+    """Of the truth as it is stated [nats], `LEAST` at the least; of two effects the mean."""
     stated = said["probabilities"]
     return sum(p * math.log(max(float(stated.get(name, 0.0)), LEAST)) for name, p in true_distribution(label).items())
 
