@@ -5,17 +5,20 @@ from __future__ import annotations
 import ast
 import importlib
 import inspect
+import multiprocessing
 import pkgutil
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, TypeVar
 
 import geocontact
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -80,6 +83,29 @@ def put(changed: Mapping[Constant, float | int]) -> None:
             for here in _imported(module, constant):
                 setattr(module, here, value)
                 _put_defaults(module, here)
+
+
+def with_others(changed: Mapping[Constant, float | int], work: Callable[[], T]) -> T | None:
+    """What is worked out in a process of its own, whose constants end with it; None where it was killed.
+
+    The process is forked where that can be: it has what the caller has.
+    """
+    context = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
+    receive, send = context.Pipe(duplex=False)
+    process = context.Process(target=_sent, args=(changed, work, send))
+    process.start()
+    send.close()
+    try:
+        return receive.recv()
+    except EOFError:
+        return None
+    finally:
+        process.join()
+
+
+def _sent(changed: Mapping[Constant, float | int], work: Callable[[], Any], send: Any) -> None:
+    put(changed)
+    send.send(work())
 
 
 def _put_defaults(module: ModuleType, name: str) -> None:

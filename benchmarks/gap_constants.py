@@ -13,15 +13,15 @@ from __future__ import annotations
 
 import argparse
 import json
-import multiprocessing
 import sys
 import tempfile
 import time
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from benchmarks.constants_of import Constant, constants, put
+from benchmarks.constants_of import Constant, constants, with_others
 from benchmarks.gap_verdicts import answer_of, written
 from benchmarks.machine import commit, machine
 from geocontact.gap_benchmark.drawing import HOME, SYSTEMS, lots
@@ -53,9 +53,8 @@ def arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def answers(cases: Mapping[str, Path], changed: dict[Constant, float | int], send: Any) -> None:
-    """Verdict, first name and probabilities of every case with other constants: the work of a process."""
-    put(changed)
+def answers(cases: Mapping[str, Path]) -> Answers:
+    """Verdict, first name and probabilities of every case."""
     said: Answers = {}
     for name, folder in cases.items():
         try:
@@ -65,22 +64,7 @@ def answers(cases: Mapping[str, Path], changed: dict[Constant, float | int], sen
             continue
         first = (*told["ambiguity"], *told["effects"], "")[0]
         said[name] = {"verdict": told["verdict"], "first": first, "probabilities": told["probabilities"]}
-    send.send(said)
-
-
-def apart(cases: Mapping[str, Path], changed: dict[Constant, float | int]) -> Answers:
-    """The same in a process of its own, whose constants end with it; empty where it was killed."""
-    context = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
-    receive, send = context.Pipe(duplex=False)
-    process = context.Process(target=answers, args=(cases, changed, send))
-    process.start()
-    send.close()
-    try:
-        return dict(receive.recv())
-    except EOFError:
-        return {}
-    finally:
-        process.join()
+    return said
 
 
 def figures(truths: Mapping[str, dict[str, Any]], before: Answers, after: Answers) -> dict[str, Any]:
@@ -121,6 +105,15 @@ def searched(
         searched(half, factor, tried)
 
 
+def drawn_cases(o: argparse.Namespace, scratch: Path) -> tuple[dict[str, Path], dict[str, dict[str, Any]]]:
+    """Folders and truths of the cases that are asked for, by name."""
+    cases, truths = {}, {}
+    for place, lot in enumerate(lots(tuple(o.systems), o.cases, tuple(o.kinds), o.seed, tuple(o.laboratories))):
+        name = f"{lot.system} {lot.kind} {lot.place} {lot.laboratory}"
+        cases[name], truths[name] = written(lot, scratch / str(place))
+    return cases, truths
+
+
 def main() -> int:
     """Draw, halve, double, write."""
     o = arguments()
@@ -138,14 +131,15 @@ def main() -> int:
         return rows[-1]
 
     with tempfile.TemporaryDirectory() as scratch:
-        cases, truths = {}, {}
-        for place, lot in enumerate(lots(tuple(o.systems), o.cases, tuple(o.kinds), o.seed, tuple(o.laboratories))):
-            name = f"{lot.system} {lot.kind} {lot.place} {lot.laboratory}"
-            cases[name], truths[name] = written(lot, Path(scratch) / str(place))
+        cases, truths = drawn_cases(o, Path(scratch))
+
+        def answered(changed: dict[Constant, float | int]) -> Answers:
+            return with_others(changed, partial(answers, cases)) or {}
+
         plain = next((row for row in rows if not row["constants"]), None)
-        base: Answers = (
-            plain or kept({"constants": [], "factor": 1.0, "answers": apart(cases, {}), "truths": truths})
-        )["answers"]
+        if plain is None:
+            plain = kept({"constants": [], "factor": 1.0, "answers": answered({}), "truths": truths})
+        base: Answers = plain["answers"]
 
         def tried(group: Sequence[Constant], factor: float) -> dict[str, Any] | None:
             labels = [one.label for one in group]
@@ -154,7 +148,7 @@ def main() -> int:
                     return dict(row["figures"])
             if time.monotonic() - began > 60.0 * o.minutes:
                 return None
-            told = figures(truths, base, apart(cases, {one: one.times(factor) for one in group}))
+            told = figures(truths, base, answered({one: one.times(factor) for one in group}))
             kept({"constants": labels, "factor": factor, "figures": told})
             print(f"{factor:g} x {', '.join(labels)}: {len(told['moved'])} of {len(truths)} moved", flush=True)
             return told

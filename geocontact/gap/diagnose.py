@@ -88,7 +88,23 @@ def diagnose(case: GapCase, system: System, version: str = "", at: Listener = no
 def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Findings:
     began = time.perf_counter()
     case = admitted(case, system)
-    found = attribute(case, system, candidates, at)
+    return findings(case, attribute(case, system, candidates, at), began, version, at)
+
+
+def findings(case: GapCase, found: Attribution, began: float, version: str = "", at: Listener = nobody) -> Findings:
+    """What follows from an answer: where, how far, what these trials cannot tell, what to record next.
+
+    Parameters
+    ----------
+    case
+        That was attributed.
+    found
+        The answer and what it rests on.
+    began
+        `time.perf_counter` when the diagnosis did.
+    version, at
+        As in `diagnose`.
+    """
     said, problem = found.answer, found.problem
     named = bool(said.effects) or said.verdict == "unresolved"
     chosen = said.chosen.judged

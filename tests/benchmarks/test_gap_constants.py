@@ -4,16 +4,24 @@ from __future__ import annotations
 
 import ast
 import inspect
+import os
+from argparse import Namespace
+from functools import partial
+from pathlib import Path
 
+import numpy as np
 import pytest
 
-from benchmarks import gap_constants
-from benchmarks.constants_of import _numbers, bare, constants, in_use, put
+from benchmarks import gap_constants, gap_told_constants
+from benchmarks.constants_of import _numbers, bare, constants, in_use, put, with_others
 from benchmarks.gap_constants import ROOMS, figures, searched
+from benchmarks.gap_told_constants import attributed, changes, inside, row, told
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.system import System
+from geocontact.effects.catalogue import candidates
 from geocontact.gap import levels, partial_answer
 from geocontact.gap.case import plain_fit, refit
 from geocontact.gap.selection import clipping, verdict
-from geocontact.gap_benchmark.drawing import Lot, drawn
 from tests.house.test_gap_theory import ROWS
 
 WHOLE = ("gap", "identify")
@@ -52,36 +60,86 @@ def test_a_default_of_an_argument_is_another_one_too() -> None:
     assert after == [rounds.value // 4, rounds.value // 2]
 
 
+NONE, DAMPED = {"kind": "none", "effects": []}, {"kind": "single", "effects": ["damping"]}
+QUIET = {"verdict": "no_gap", "first": "", "probabilities": {"none": 1.0}}
+RIGHT = {"verdict": "explained", "first": "damping", "probabilities": {"damping": 0.5, "none": 0.5}}
+
+
 def test_answers_are_counted_by_what_they_were_and_are() -> None:
-    quiet = {"verdict": "no_gap", "first": "", "truth": []}
-    right = {"verdict": "explained", "first": "damping", "truth": ["damping"]}
-    alarm = {"verdict": "unknown", "first": "slip", "truth": []}
-    told = figures({"a": quiet, "b": right}, {"a": alarm, "b": quiet | {"truth": ["damping"]}})
+    alarm = {"verdict": "unknown", "first": "slip", "probabilities": {"none": float(np.exp(-2.0))}}
+    told = figures({"a": NONE, "b": DAMPED}, {"a": QUIET, "b": RIGHT}, {"a": alarm, "b": RIGHT | {"first": "slip"}})
     assert told["moved"] == ["a", "b"]
-    assert told["before"] == {"false_alarms": 0, "first_right": 1, "failed": 0}
-    assert told["after"] == {"false_alarms": 1, "first_right": 0, "failed": 0}
+    half = pytest.approx(np.log(0.5) / 2)
+    assert told["before"] == {"false_alarms": 0, "first_right": 1, "failed": 0, "nats": half}
+    later = pytest.approx((np.log(0.5) - 2.0) / 2)
+    assert told["after"] == {"false_alarms": 1, "first_right": 0, "failed": 0, "nats": later}
 
 
 def test_a_diagnosis_that_fails_is_no_false_alarm(monkeypatch: pytest.MonkeyPatch) -> None:
-    def broken(lot: Lot) -> dict:
-        raise ValueError(lot.kind)
+    def broken(folder: Path) -> dict:
+        raise ValueError(folder.name)
 
-    class Sent:
-        told: gap_constants.Answers
+    monkeypatch.setattr(gap_constants, "answer_of", broken)
+    truths, right = {"a": NONE, "b": DAMPED}, {"a": QUIET, "b": RIGHT}
+    failed = gap_constants.answers({name: Path(name) for name in truths})
+    told = figures(truths, right, failed)
+    assert told["before"] | {"nats": 0.0} == {"false_alarms": 0, "first_right": 1, "failed": 0, "nats": 0.0}
+    assert told["after"] == {"false_alarms": 0, "first_right": 0, "failed": 2, "nats": -np.inf}
+    assert len(told["moved"]) == 2
+    assert figures(truths, right, {})["after"] == told["after"]  # a process that was killed has told nothing
 
-        def send(self, told: gap_constants.Answers) -> None:
-            self.told = told
 
-    monkeypatch.setattr(gap_constants, "attributed", broken)
-    some, sent = [Lot("elbow", kind, 352612, 0) for kind in ("none", "single")], Sent()
-    gap_constants.answers(some, {}, sent)
-    planted = list(drawn(some[1]).label.effects)
-    assert planted and [one["truth"] for one in sent.told.values()] == [[], planted]
-    right = {name: {**one, "verdict": "no_gap", "first": (*one["truth"], "")[0]} for name, one in sent.told.items()}
-    told = figures(right, sent.told)
-    assert told["before"] == {"false_alarms": 0, "first_right": 1, "failed": 0}
-    assert told["after"] == {"false_alarms": 0, "first_right": 0, "failed": 2} and len(told["moved"]) == 2
-    assert figures(right, {})["after"] == told["after"]  # a process that was killed has told nothing
+def test_constants_are_others_in_a_process_of_its_own_only() -> None:
+    sure = next(one for one in constants(ROOMS) if one.label == "gap.levels.SURE")
+    assert with_others({sure: 1.5}, lambda: (levels.SURE, verdict.SURE)) == (1.5, 1.5)
+    assert levels.SURE == verdict.SURE == sure.value
+    assert with_others({}, lambda: os._exit(9)) is None
+
+
+def test_cases_are_drawn_before_anything_is_changed(tmp_path: Path) -> None:
+    asked = Namespace(systems=["elbow"], cases=2, kinds=["none", "single"], seed=352612, laboratories=["home"])
+    cases, truths = gap_constants.drawn_cases(asked, tmp_path)
+    assert list(cases) == list(truths) == ["elbow none 0 home", "elbow single 0 home"]
+    assert truths["elbow none 0 home"]["effects"] == [] and truths["elbow single 0 home"]["effects"]
+    assert all((folder / "case.toml").exists() for folder in cases.values())
+
+
+def test_parts_that_change_are_told_with_their_largest_change() -> None:
+    one = {"verdict": "no_gap", "gap": {"M": {"ci95": [0.1, 0.2]}}, "where": [1.0, 2.0], "seen": True}
+    two = {"verdict": "no_gap", "gap": {"M": {"ci95": [0.1, 0.4]}}, "where": [1.0], "seen": True}
+    assert changes(one, one) == {} and changes(one, two) == {"gap": 0.5, "where": 1.0}
+    assert changes(one, {"failed": "ValueError"}) == dict.fromkeys(["failed", *one], 1.0)
+
+
+def test_reductions_are_counted_where_an_effect_is_named() -> None:
+    truths = {name: {"reduction": {"M": 0.5}} for name in "abc"}
+    said = {
+        "a": {"effects": ["damping"], "gap": {"M": {"ci95": [0.4, 0.6]}}},
+        "b": {"effects": ["damping"], "gap": {"M": {"ci95": [0.6, 0.7]}}},
+        "c": {"effects": [], "gap": {"M": {"ci95": [0.4, 0.6]}}},
+    }
+    assert inside(truths, said) == (1, 2)
+    moved = row(truths, said, said | {"b": {"effects": ["damping"], "gap": {"M": {"ci95": [0.3, 0.7]}}}})
+    assert moved == {"moved": 1, "parts": {"gap": 0.5}, "inside": [2, 2]}
+    assert row(truths, said, None)["parts"] == {"failed": 1.0}
+
+
+@pytest.mark.slow
+def test_a_constant_of_the_interval_moves_the_gap_and_no_verdict(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = Namespace(systems=["elbow"], cases=1, kinds=["single"], seed=5, laboratories=["home"])
+    cases, truths = gap_constants.drawn_cases(asked, tmp_path)
+    ((name, folder),) = cases.items()
+
+    def planted(system: System) -> tuple[Candidate, ...]:
+        return tuple(one for one in candidates(system) if one.name in truths[name]["effects"])
+
+    monkeypatch.setattr(gap_told_constants, "candidates", planted)
+    form = next(one for one in constants(WHOLE) if one.label == "gap.reduction.error_reduction.FORM")
+    work = partial(told, {name: attributed(folder)})
+    before, same, wider = (with_others(changed, work) for changed in ({}, {}, {form: form.times(10.0)}))
+    assert changes(before[name], same[name]) == {} and set(changes(before[name], wider[name])) == {"gap"}
 
 
 def test_a_group_is_halved_down_to_what_moves_an_answer() -> None:
