@@ -5,7 +5,7 @@ With it an own model is a formula; the interface law stands behind it, and every
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,6 +14,7 @@ from jaxtyping import Float
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.implicit import ATTEMPTS, TOLERANCE, next_load, nothing_known, require_convergence, start_over
 from geocontact.chain.interface_law import MEMORY, interface_force
+from geocontact.chain.known_deflection import along, known_changes
 from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.links import Law, Loads, Values
 from geocontact.geometry.kernels.compile import kernel
@@ -50,22 +51,6 @@ def read_off(x: float, knots: Float[np.ndarray, "three n"]) -> tuple[float, floa
     bend, twist = 3.0 * rise - 2.0 * left - right, left + right - 2.0 * rise
     value = knots[1, i] + s * (left + s * (bend + s * twist))
     return value, (left + s * (2.0 * bend + 3.0 * s * twist)) / step
-
-
-@kernel
-def along(
-    time: Float[np.ndarray, " t"],
-    u: Float[np.ndarray, " t"],
-    rate: Float[np.ndarray, " t"],
-    law: Float[np.ndarray, " numbers"],
-) -> Float[np.ndarray, " t"]:
-    """Load of every sample of a deflection that is known beforehand."""
-    load = np.empty(u.size)
-    old, new = np.zeros(MEMORY), np.zeros(MEMORY)
-    for i in range(u.size):
-        load[i] = interface_force(u[i], rate[i], time[i] - time[i - 1] if i else 0.0, law, old, new)
-        old, new = new, old
-    return load
 
 
 @kernel
@@ -175,6 +160,12 @@ class SingleDeflection:
             require_convergence(unsolved, len(load), n[0])
         nothing = np.zeros((len(load), 1))
         return Loads(load[:, None], nothing, nothing)
+
+    def changes(
+        self, movement: DifferentiatedInputs, law: Law, values: Values, others: Sequence[Values]
+    ) -> tuple[Loads, list[Loads | None]] | None:
+        """Load along a movement, and how it changes towards other values (`chain.tangents`)."""
+        return known_changes(self, movement, law, values, others, by_name=True)
 
     def _seen(
         self, x: Float[np.ndarray, " t"], values: Values

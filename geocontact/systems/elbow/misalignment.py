@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +12,7 @@ from geocontact.axis_misalignment.deflection import ELBOW_GEOMETRY, deflect, mis
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.implicit import ATTEMPTS, TOLERANCE, next_load, nothing_known, require_convergence, start_over
 from geocontact.chain.interface_law import MEMORY, interface_force
+from geocontact.chain.known_deflection import known_changes
 from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.links import Law, Loads, Values
 from geocontact.geometry.kernels.compile import kernel
@@ -98,3 +99,9 @@ class ElbowMisalignment:
         column = force[:, None]
         nothing = np.zeros_like(column)
         return Loads(column, nothing, nothing)
+
+    def changes(
+        self, movement: DifferentiatedInputs, law: Law, values: Values, others: Sequence[Values]
+    ) -> tuple[Loads, list[Loads | None]] | None:
+        """Forces along a movement, and how they change towards other values (`chain.tangents`)."""
+        return known_changes(self, movement, law, values, others)

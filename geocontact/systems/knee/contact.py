@@ -6,16 +6,16 @@ a³/R [m²] is the deflection u and (4/3) E* [Pa] the stiffness, so that whateve
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.known_deflection import along, known_changes
 from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.links import Law, Loads, Values
-from geocontact.chain.single_deflection import along
 from geocontact.contact.area_hertz import disc_force
 
 AREAS = ("area_medial", "area_lateral")
@@ -77,3 +77,9 @@ class KneeContact:
         numbers = law.slots.numbers(values)
         normal = np.stack([along(movement.time, u[:, i].copy(), rate[:, i].copy(), numbers) for i in (0, 1)], axis=1)
         return Loads(normal, np.zeros_like(normal), np.zeros_like(normal))
+
+    def changes(
+        self, movement: DifferentiatedInputs, law: Law, values: Values, others: Sequence[Values]
+    ) -> tuple[Loads, list[Loads | None]] | None:
+        """Forces along a movement, and how they change towards other values (`chain.tangents`)."""
+        return known_changes(self, movement, law, values, others)

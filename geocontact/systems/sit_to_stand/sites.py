@@ -6,7 +6,7 @@ Each site has a spring, a dashpot and a memory of its own; sites do not feel eac
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,9 +14,10 @@ from jaxtyping import Float, Int
 
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.implicit import require_convergence
+from geocontact.chain.known_deflection import along, known_changes
 from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.links import Law, Loads, Values
-from geocontact.chain.single_deflection import along, in_series
+from geocontact.chain.single_deflection import in_series
 from geocontact.geometry.kernels.compile import kernel
 
 SITE_GEOMETRY = LawParameters(
@@ -131,6 +132,12 @@ class InterfaceSites:
         require_convergence(unsolved, normal.size, numbers[:, COMPLIANCE].max())
         nothing = np.zeros_like(normal)
         return Loads(normal, nothing, nothing)
+
+    def changes(
+        self, movement: DifferentiatedInputs, law: Law, values: Values, others: Sequence[Values]
+    ) -> tuple[Loads, list[Loads | None]] | None:
+        """Forces along a movement, and how they change towards other values (`chain.tangents`)."""
+        return known_changes(self, movement, law, values, others)
 
     def _numbers(self, values: Values) -> Float[np.ndarray, "s seven"]:
         return self.slots.numbers(values).reshape(len(self.sites), -1)
