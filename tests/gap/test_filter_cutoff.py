@@ -45,7 +45,7 @@ def test_rounding_is_not_taken_for_noise_of_a_high_corner(digits: int) -> None:
     assert filters_of(trials(6.0, 0.003, digits=digits), ("u",))["u"].corner == pytest.approx(6.0, rel=0.5)
 
 
-@pytest.mark.parametrize("noise", [0.003, 0.02])
+@pytest.mark.parametrize("noise", [0.003, 0.02, 0.08])
 def test_noise_that_nobody_filtered_is_not_taken_for_rounding(noise: float) -> None:
     made = trials(NYQUIST, noise)
     passed = filters_of(made, ("u",))["u"]

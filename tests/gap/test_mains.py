@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.gap.diagnosis import Diagnosis
-from geocontact.gap.case.mains import HUM, MAINS, WAVES, hum
+from geocontact.gap.case.mains import HUM, MAINS, columns, hum
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.selection.model_comparison import base_contender
@@ -21,12 +21,12 @@ LOUD = 0.9
 def test_waves_of_usual_size_and_of_any_phase() -> None:
     """Weights of unit variance make hum of HUM noise levels, whatever the phase that a recording begins at."""
     time, rng = 3.0 + 0.004 * np.arange(500), np.random.default_rng(0)
-    columns = hum(time, np.array([2.0, 0.1]))
-    assert columns.shape == (500, 2, 2 * WAVES)
+    waves, count = hum(time, np.array([2.0, 0.1])), columns(1)
+    assert waves.shape == (500, 2, 2 * count)
     for c, level in enumerate((2.0, 0.1)):
-        own = columns[:, c, c * WAVES : (c + 1) * WAVES]
-        assert not columns[:, c, np.delete(np.arange(2 * WAVES), np.arange(c * WAVES, (c + 1) * WAVES))].any()
-        made = own @ rng.standard_normal((WAVES, 2000))
+        own = waves[:, c, c * count : (c + 1) * count]
+        assert not waves[:, c, np.delete(np.arange(2 * count), np.arange(c * count, (c + 1) * count))].any()
+        made = own @ rng.standard_normal((count, 2000))
         assert np.sqrt((made**2).mean()) == pytest.approx(HUM * level * np.sqrt(len(MAINS)), rel=0.05)
         wave = np.sin(2.0 * np.pi * 60.0 * time + rng.uniform(0.0, 6.0))
         left = wave - own @ np.linalg.lstsq(own, wave, rcond=None)[0]
@@ -56,8 +56,8 @@ def humming() -> tuple[Diagnosis, float, float]:
     found = diagnose(case, system).diagnosis
     problem = problem_of(case, system)
     noise = base_contender(problem).judged.noise
-    columns = problem.placement[0][:, 0, -1 - WAVES : -1] * noise.varies[-1 - WAVES : -1]
-    return found, float(np.sqrt((columns**2).sum(axis=1).mean())), float(noise.levels.sensors[0])
+    waves = problem.placement[0][:, 0, -1 - columns(1) : -1] * noise.varies[-1 - columns(1) : -1]
+    return found, float(np.sqrt((waves**2).sum(axis=1).mean())), float(noise.levels.sensors[0])
 
 
 @pytest.mark.slow

@@ -13,12 +13,17 @@ from jaxtyping import Bool, Float
 
 MAINS = (50.0, 60.0)  # Hz
 HUM = 0.3  # root mean square, in noise levels of the channel, that hum of either frequency usually has
-WAVES = 2 * len(MAINS)  # columns of each channel
+WAVES = (np.cos, np.sin)  # of each frequency
 HUMMING = 2.0  # bins about such a frequency, or where sampling folds it to, that are hum
 
 
+def columns(channels: int) -> int:
+    """How many waves that many outputs have."""
+    return channels * len(MAINS) * len(WAVES)
+
+
 def hum(time: Float[np.ndarray, " t"], rough: Float[np.ndarray, " c"]) -> Float[np.ndarray, "t c k"]:
-    """What one usual standard deviation of each wave adds to the outputs, in their units: WAVES columns a channel.
+    """What one usual standard deviation of each wave adds to the outputs, in their units: channel after channel.
 
     Parameters
     ----------
@@ -28,9 +33,9 @@ def hum(time: Float[np.ndarray, " t"], rough: Float[np.ndarray, " c"]) -> Float[
         Noise level of each output, in its unit.
     """
     turns = 2.0 * np.pi * (time - time[0])[:, None] * np.array(MAINS)
-    waves = np.concatenate([np.cos(turns), np.sin(turns)], axis=1)
+    waves = np.concatenate([wave(turns) for wave in WAVES], axis=1)
     waves = waves - waves.mean(axis=0)  # sampled once or so in a period it is a zero of the output, which is known
-    found = np.zeros((len(time), len(rough), len(rough), WAVES))
+    found = np.zeros((len(time), len(rough), len(rough), columns(1)))
     for c, level in enumerate(rough):
         found[:, c, c] = HUM * level * waves
     return found.reshape(len(time), len(rough), -1)

@@ -30,7 +30,7 @@ from geocontact.identify.signals.low_pass import LowPass
 LOUDER = 2.0  # standard deviation of the logarithm of the power of an input's noise; one of that of a rest
 TAIL = 0.02  # cycles per sample, from which a movement's tail falls off
 FLATTEST, STEEPEST = np.log([0.7, 3.0])  # bounds of log q
-SLOWEST = np.log(1e-4)  # least log b
+SLOWEST, BROADEST = np.log([1e-4, 0.2])  # bounds of log b: what fills a spectrum up to its end is noise, no movement
 FALLS, STEEPS = (0.001, 0.004, 0.012, 0.03, 0.08), (0.9, 1.6)  # b, per sample, and q that a search starts from
 BROAD = ((0.08, 0.7), (0.2, 0.7))  # the same of movements that fill the spectrum
 NOTHING = -2.0 * float(np.log(np.finfo(float).eps))  # nats below the top at which there is none; a bound of exponents
@@ -190,7 +190,7 @@ def _likeliest(parts: Parts, with_tail: bool) -> Split:
     top = float(np.log(parts.power.max()))
     bottom, beyond = top - NOTHING, top + NOTHING
     low = np.array([top - 20.0, SLOWEST, FLATTEST, bottom, bottom, bottom])  # of a movement there is something
-    high = np.array([beyond, float(np.log(0.5)), STEEPEST, top + 2.0, top, beyond])
+    high = np.array([beyond, BROADEST, STEEPEST, top + 2.0, top, beyond])
     start = _starts(parts)
     places = len(start) // len(parts.part)
     which = np.repeat(np.arange(len(parts.part)), places)
