@@ -2,52 +2,54 @@
 
 from __future__ import annotations
 
-from website.constants import beside, effect, foot, said
+import pytest
 
-MOVED = {"moved": ["a", "b"], "after": {"false_alarms": 1, "first_right": 2, "failed": 1}}
+from website.constants import Effect, beside, effect, foot, table
+
+MOVED = {
+    "moved": ["a", "b"],
+    "after": {"false_alarms": 1, "first_right": 2, "failed": 1, "nats": -0.5},
+}
+BEFORE = {"false_alarms": 0, "first_right": 3, "failed": 0, "nats": -0.25}
 RUNS = [
-    {
-        "answers": 5,
-        "before": {"false_alarms": 0, "first_right": 3, "failed": 0},
-        "constants": {"SURE": {"value": 6.0, "times 2": MOVED}, "FEW": {"value": 20}},
-    },
-    {
-        "answers": 6,
-        "before": {"false_alarms": 1, "first_right": 4, "failed": 0},
-        "constants": {"SURE": {"value": 6.0, "times 2": "moves nothing"}},
-    },
+    {"answers": 5, "before": BEFORE, "constants": {"SURE": {"value": 6.0, "times 2": MOVED}, "FEW": {"value": 20}}},
+    {"answers": 6, "before": BEFORE, "constants": {"SURE": {"value": 6.0, "times 2": "moves nothing"}}},
 ]
 
 
 def test_runs_are_added_up() -> None:
     told = effect(RUNS, "SURE", 6.0, "times 2")
-    assert told == {"moved": 2, "of": 11, "false_alarms": 2, "first_right": 6, "failed": 1}
-    assert said(told) == "2 of 11, 2, 6, 1"
+    assert told == Effect(2, 11, (0, 6, 0), (1, 5, 1), None)
+    assert told.words() == "2 of 11, false alarms 0 → 1, first 6 → 5, failed 0 → 1"
+
+
+def test_nats_are_told_of_what_was_tried_by_itself() -> None:
+    told = effect(RUNS[:1], "SURE", 6.0, "times 2")
+    assert told is not None and told.nats == pytest.approx(-0.25)
+    assert told.words().endswith("failed 0 → 1, -0.25 nats")
 
 
 def test_what_a_run_did_not_try_is_not_called_harmless() -> None:
     assert effect(RUNS, "SURE", 6.0, "times 0.5") is None and effect(RUNS, "FEW", 20, "times 2") is None
     assert effect(RUNS, "SURE", 5.0, "times 2") is None and effect(RUNS, "NEW", 5.0, "times 2") is None
-    still = foot(
-        [("FEW", 20, [None, effect(RUNS, "SURE", 6.0, "times 2")]), ("ODD", 5.0, [{"moved": 0}, {"moved": 0}])]
-    )
-    assert still == ["## 1 that move no answer", "`ODD` (5).", "## Not tried with every factor", "`FEW`."]
-
-
-def test_failures_that_an_old_run_took_for_alarms_are_left_out() -> None:
-    old = {"moved": ["a", "b"], "after": {"false_alarms": 2, "first_right": 0}}
-    run = {
-        "answers": 2,
-        "before": {"false_alarms": 0, "first_right": 1},
-        "constants": {"C": {"value": 4, "times 2": old}},
-    }
-    assert effect([run], "C", 4, "times 2") is None
-    new = {"moved": ["a", "b"], "after": {"false_alarms": 0, "first_right": 0, "failed": 2}}
-    told = effect([run | {"constants": {"C": {"value": 4, "times 2": new}}}], "C", 4, "times 2")
-    assert told is not None and told["failed"] == 2
+    none = Effect(0, 4, (0, 1, 0), (0, 1, 0), None)
+    rows = [("FEW", 20, [None, none]), ("ODD", 5.0, [none, none])]
+    assert foot(rows, rows) == [
+        "## 1 that move no answer",
+        "In 4 cases: `ODD` (5).",
+        "## Not tried with every factor",
+        "`FEW` (halved).",
+    ]
+    assert table([("FEW", 20, [None, none])]).splitlines()[-1] == "| `FEW` | 20 | not tried | 0 of 4 |"
 
 
 def test_what_works_on_a_verdict_is_told_by_what_it_moves() -> None:
-    title, _, rows = beside(["gap.localise.gap_map.BINS", "gap.reduction.error_reduction.FORM"])
-    assert title.startswith("## 2 ") and rows.splitlines()[0].endswith("`gap.localise.gap_map.BINS`.")
-    assert beside([]) == []
+    row = {"value": 6, "times 0.5": {"moved": 2, "parts": {"map": 1.0, "where": 0.2}}, "times 2": None}
+    told = {"answers": 10, "seed": 1, "commit": "abc", "constants": {"BINS": row, "GRID": row}}
+    title, _, rows = beside(told, {"BINS": 6, "GRID": 101})
+    assert title == "## 2 that can move no verdict"
+    assert rows.splitlines()[2:] == [
+        "| `BINS` | 6 | 2 of 10, the map of the gap, where the gap lies | not tried |",
+        "| `GRID` | 101 | not tried | not tried |",
+    ]
+    assert beside(told, {}) == []
