@@ -48,6 +48,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--laboratories", nargs="+", default=[HOME], help="they take turns")
     parser.add_argument("--group", type=int, default=12, help="constants that are tried together")
     parser.add_argument("--only", nargs="*", default=[], help="constants whose label begins so")
+    parser.add_argument("--factors", nargs="+", type=float, default=[0.5, 2.0], help="that they are multiplied by")
     parser.add_argument("--minutes", type=float, default=float("inf"), help="after which no further trial is begun")
     parser.add_argument("--out", type=Path, default=HERE / "results" / "gap_constants.json")
     return parser.parse_args()
@@ -153,7 +154,7 @@ def main() -> int:
             print(f"{factor:g} x {', '.join(labels)}: {len(told['moved'])} of {len(truths)} moved", flush=True)
             return told
 
-        for factor in (0.5, 2.0):
+        for factor in o.factors:
             for at in range(0, len(named), o.group):
                 searched(named[at : at + o.group], factor, tried)
     return 0
