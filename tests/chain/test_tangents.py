@@ -103,3 +103,17 @@ def test_tangents_are_central_differences(name: str, one: Candidate | None) -> N
         known = np.nan_to_num((ends[0] - ends[1]) / (2.0 * by))
         off = np.abs(found[p.name] - known) / np.maximum(np.abs(known).max(axis=0), 1e-10 * size / steps[p.name])
         assert np.quantile(off, MOST[name], axis=0).max() < 1e-6, p.name
+
+
+@pytest.mark.parametrize("name", ["elbow", "sit_to_stand", "elastic_joint"])
+def test_a_spring_in_series_that_does_not_give_yet_is_left_to_differences(name: str) -> None:
+    """At no compliance loads are known, but not how they change with it."""
+    base, trials = EXAMPLES[name]
+    one = next(one for one in candidates(base) if one.name == "series_compliance")
+    system = one.apply(base)
+    compliance = one.parameters[0].name
+    assert compliance.endswith(".compliance")
+    values = system.start | {p.name: p.start for p in one.parameters} | {compliance: 0.0}
+    steps = {p.name: 1e-7 * (abs(values[p.name]) or p.upper - p.lower) for p in system.parameters}
+    found = tangents(system, trials[1], values, steps)
+    assert found and compliance not in found and {p.name for p in base.parameters} <= set(found)
