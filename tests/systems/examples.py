@@ -171,8 +171,10 @@ def example(name: str, refine: int = 1) -> tuple[System, tuple[Trial, ...]]:
         system = joint()
         told = enumerate(((1.3, -1.0), (2.9, 1.0)))
         trials = tuple(joint_trial(f"t{i}", speed, setting, 0.02 / refine) for i, (speed, setting) in told)
-    else:
+    elif name == "foot":
         system = foot()
         trials = tuple(foot_trial(f"t{i}", depth, 0.005 / refine) for i, depth in enumerate((0.006, 0.009)))
+    else:
+        raise ValueError(name)
     recorded = tuple(measured(system, trial) for trial in trials)
     return system.scaled(recorded), recorded
