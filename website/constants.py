@@ -21,6 +21,8 @@ FACTORS = {"times 0.5": "halved", "times 2": "doubled"}
 KINDS = {"false_alarms": "false alarms", "first_right": "first", "failed": "failed"}
 Run = dict[str, Any]
 
+DRAWN = ("seed", "systems", "kinds", "cases", "laboratories")
+"""What cases are drawn by: runs that agree in it have the same ones."""
 PARTS = {
     "map": "the map of the gap",
     "where": "where the gap lies",
@@ -83,15 +85,16 @@ def constants() -> str:
 
 def head(runs: Sequence[Run], count: int) -> list[str]:
     """What was done, and what is true before anything is changed; `count` constants move a verdict."""
-    cases, nothing = (sum(run[what] for run in runs) for what in ("answers", "nothing_missing"))
-    alarms, first, failed = (sum(run["before"][kind] for run in runs) for kind in KINDS)
+    whole = list({str([run[what] for what in DRAWN]): run for run in reversed(runs)}.values())
+    cases, nothing = (sum(run[what] for run in whole) for what in ("answers", "nothing_missing"))
+    alarms, first, failed = (sum(run["before"][kind] for run in whole) for kind in KINDS)
     calls = [
         f"`--seed {run['seed']} --systems {' '.join(run['systems'])} --cases {run['cases']}` at {run['commit']}"
         for run in runs
     ]
     unseen = 100.0 * (1.0 - 0.05 ** (1.0 / cases))
     what = (
-        f"{count} numbers with a name stand in the rooms that a verdict comes from. Each was halved, and doubled, and "
+        f"{count} numbers with a name stand in the rooms that a verdict comes from. They were halved, and doubled, and "
         "the same synthetic cases were diagnosed again (`python -m benchmarks.gap_constants`): "
         f"{cases} cases drawn at home, {nothing} of them without an effect. What each is and where it comes from: "
         f"[theory](../theory/gap_diagnosis.md#constants). Made by `python -m website.pages` from {'; '.join(calls)}."

@@ -96,7 +96,7 @@ def known_changes(
         towards(geometry.slots, values, others),
         towards(law.slots, values, others).reshape(-1, *numbers.shape),
     )
-    known = ~(turned[:, gives_way].any(axis=1) | dlaw[..., UNKNOWN].any(axis=(1, 2)))
+    known = ~np.logical_or(turned[:, gives_way].any(axis=1), dlaw[..., UNKNOWN].any(axis=(1, 2)))
     du, drate = np.zeros((2, *u.shape, len(others)))
     for k, other in enumerate(others):
         if known[k] and (by_name or turned[k].any()):
