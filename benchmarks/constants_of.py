@@ -14,7 +14,7 @@ from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import geocontact
 
@@ -86,17 +86,17 @@ def put(changed: Mapping[Constant, float | int]) -> None:
 
 
 def with_others(changed: Mapping[Constant, float | int], work: Callable[[], T]) -> T | None:
-    """What is worked out in a process of its own, whose constants end with it; None where it was killed.
+    """What is worked out in a process of its own, whose constants end with it; None where that ended before.
 
-    The process is forked where that can be: it has what the caller has.
+    The process is forked, so that it has what the caller has: Linux and macOS only.
     """
-    context = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
+    context = multiprocessing.get_context("fork")
     receive, send = context.Pipe(duplex=False)
     process = context.Process(target=_sent, args=(changed, work, send))
     process.start()
     send.close()
     try:
-        return receive.recv()
+        return cast("T", receive.recv())
     except EOFError:
         return None
     finally:

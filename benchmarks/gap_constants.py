@@ -23,7 +23,7 @@ from typing import Any
 
 from benchmarks.constants_of import Constant, constants, with_others
 from benchmarks.gap_verdicts import answer_of, written
-from benchmarks.machine import commit, machine
+from benchmarks.machine import as_json, commit, machine
 from geocontact.gap_benchmark.drawing import HOME, SYSTEMS, lots
 from geocontact.gap_benchmark.generalisation import log_probability
 
@@ -33,6 +33,8 @@ ROOMS = (
     "identify.intervals", "identify.noise", "identify.optimise", "identify.signals",
 )  # fmt: skip
 """What is left out only draws, tells or proposes: localise, reduction, identifiability, experiment."""
+DRAWN = ("seed", "systems", "kinds", "cases", "laboratories")
+"""Options that cases are drawn by: runs that agree in them have the same ones."""
 FAILED = "failed"
 """How the verdict begins of a diagnosis that ended without one."""
 Answers = dict[str, dict[str, Any]]
@@ -72,19 +74,24 @@ def figures(truths: Mapping[str, dict[str, Any]], before: Answers, after: Answer
     """Answers moved; false alarms, first ranked right, failed diagnoses and nats, before and after.
 
     A diagnosis that ended without an answer, or whose process was killed, has failed: that is neither a false alarm
-    nor a right answer. Nats are the mean logarithm of the probability that is stated for the truth.
+    nor a right answer. Nats are the mean logarithm of the probability that is stated for the truth, over the cases that
+    are answered before and after; None where there are none.
     """
     moved = [name for name in truths if _told(after.get(name)) != _told(before.get(name))]
 
-    def counted(said: Answers) -> dict[str, float]:
-        names = [name for name in truths if name in said and not said[name]["verdict"].startswith(FAILED)]
-        effects = {name: truths[name]["effects"] for name in names}
-        nats = [log_probability(truths[name], said[name]) for name in names]
+    def answered(said: Answers) -> list[str]:
+        return [name for name in truths if name in said and not said[name]["verdict"].startswith(FAILED)]
+
+    both = set(answered(before)) & set(answered(after))
+
+    def counted(said: Answers) -> dict[str, float | None]:
+        names = answered(said)
+        nats = [log_probability(truths[name], said[name]) for name in truths if name in both]
         return {
-            "false_alarms": sum(not effects[name] and said[name]["verdict"] != "no_gap" for name in names),
-            "first_right": sum(said[name]["first"] in effects[name] for name in names),
+            "false_alarms": sum(not truths[name]["effects"] and said[name]["verdict"] != "no_gap" for name in names),
+            "first_right": sum(said[name]["first"] in truths[name]["effects"] for name in names),
             "failed": len(truths) - len(names),
-            "nats": sum(nats) / len(nats) if nats else float("-inf"),
+            "nats": sum(nats) / len(nats) if nats else None,
         }
 
     return {"moved": moved, "before": counted(before), "after": counted(after)}
@@ -120,7 +127,7 @@ def main() -> int:
     o = arguments()
     what, began, log = commit(), time.monotonic(), o.out.with_suffix(".rows")
     named = [one for one in constants(ROOMS) if not o.only or one.label.startswith(tuple(o.only))]
-    asked = {"commit": what} | {name: vars(o)[name] for name in ("seed", "systems", "kinds", "cases", "laboratories")}
+    asked = {"commit": what} | {name: vars(o)[name] for name in DRAWN}
     rows = [json.loads(line) for line in log.read_text(encoding="utf-8").splitlines()] if log.exists() else []
     rows = [row for row in rows if row["asked"] == asked]
 
@@ -128,7 +135,7 @@ def main() -> int:
         rows.append({"asked": asked, **row})
         with log.open("a", encoding="utf-8") as file:
             file.write(json.dumps(rows[-1]) + "\n")
-        o.out.write_text(json.dumps(report(asked, rows, named), indent=1) + "\n", encoding="utf-8")
+        o.out.write_text(as_json(report(asked, rows, named)), encoding="utf-8")
         return rows[-1]
 
     with tempfile.TemporaryDirectory() as scratch:

@@ -11,7 +11,6 @@ compared like every part.
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 import tempfile
 import time
@@ -24,8 +23,8 @@ from typing import Any
 from threadpoolctl import threadpool_limits
 
 from benchmarks.constants_of import constants, with_others
-from benchmarks.gap_constants import ROOMS, drawn_cases
-from benchmarks.machine import commit, machine
+from benchmarks.gap_constants import DRAWN, FAILED, ROOMS, drawn_cases
+from benchmarks.machine import as_json, commit, machine
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import attribute
 from geocontact.gap.case.admission import admitted
@@ -37,7 +36,6 @@ from geocontact.systems.catalogue import system_of
 HERE = Path(__file__).resolve().parent
 ASIDE = ("seconds", "version", "case", "system")
 """Parts of a diagnosis that are of the run, not of the answer."""
-FAILED = "failed"
 Told = dict[str, dict[str, Any]]
 
 
@@ -96,7 +94,7 @@ def _change(a: Any, b: Any) -> float:
     numbers = all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in (a, b))
     if numbers and a != b:
         return min(1.0, abs(a - b) / max(abs(a), abs(b)))
-    return float(a != b)
+    return float(a != b and not (numbers and a != a and b != b))
 
 
 def inside(truths: Mapping[str, dict[str, Any]], found: Told) -> tuple[int, int]:
@@ -128,9 +126,7 @@ def main() -> int:
     judging = {one.label for one in constants(ROOMS)}
     named = [one for one in constants(("gap", "identify")) if one.label not in judging]
     named = [one for one in named if not o.only or one.label.startswith(tuple(o.only))]
-    asked = {"commit": commit()} | {
-        name: vars(o)[name] for name in ("seed", "systems", "kinds", "cases", "laboratories")
-    }
+    asked = {"commit": commit()} | {name: vars(o)[name] for name in DRAWN}
     with tempfile.TemporaryDirectory() as scratch, threadpool_limits(limits=1):
         folders, truths = drawn_cases(o, Path(scratch))
         cases = {name: attributed(folder) for name, folder in folders.items()}
@@ -148,7 +144,7 @@ def main() -> int:
                 print(f"{factor:g} x {one.label}: {found['moved']} of {len(cases)}, {found['parts']}", flush=True)
     result = {"what": __doc__.splitlines()[0], **asked, **machine(), "answers": len(cases)}
     result |= {"inside": list(inside(truths, before)), "constants": table}
-    o.out.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    o.out.write_text(as_json(result), encoding="utf-8")
     return 0
 
 

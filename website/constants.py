@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from benchmarks.constants_of import constants as found_in
-from benchmarks.gap_constants import ROOMS
+from benchmarks.gap_constants import DRAWN, ROOMS
 from website.stage import ROOT
 
 PAGE = "docs/reference/gap_constants.md"
@@ -21,8 +21,6 @@ FACTORS = {"times 0.5": "halved", "times 2": "doubled"}
 KINDS = {"false_alarms": "false alarms", "first_right": "first", "failed": "failed"}
 Run = dict[str, Any]
 
-DRAWN = ("seed", "systems", "kinds", "cases", "laboratories")
-"""What cases are drawn by: runs that agree in it have the same ones."""
 PARTS = {
     "map": "the map of the gap",
     "where": "where the gap lies",
@@ -85,31 +83,31 @@ def constants() -> str:
 
 def head(runs: Sequence[Run], count: int) -> list[str]:
     """What was done, and what is true before anything is changed; `count` constants move a verdict."""
-    whole = list({str([run[what] for what in DRAWN]): run for run in reversed(runs)}.values())
+    whole = {_cases(run): run for run in runs}.values()
     cases, nothing = (sum(run[what] for run in whole) for what in ("answers", "nothing_missing"))
-    alarms, first, failed = (sum(run["before"][kind] for run in whole) for kind in KINDS)
-    calls = [
-        f"`--seed {run['seed']} --systems {' '.join(run['systems'])} --cases {run['cases']}` at {run['commit']}"
-        for run in runs
-    ]
-    unseen = 100.0 * (1.0 - 0.05 ** (1.0 / cases))
     what = (
         f"{count} numbers with a name stand in the rooms that a verdict comes from. They were halved, and doubled, and "
         "the same synthetic cases were diagnosed again (`python -m benchmarks.gap_constants`): "
         f"{cases} cases drawn at home, {nothing} of them without an effect. What each is and where it comes from: "
-        f"[theory](../theory/gap_diagnosis.md#constants). Made by `python -m website.pages` from {'; '.join(calls)}."
+        "[theory](../theory/gap_diagnosis.md#constants)."
     )
-    before = (
-        f"With the constants as they are: {alarms} false alarms in {nothing} cases, the right effect first in {first} "
-        f"of {cases - nothing}, {failed} that failed. An answer is moved where its verdict or its first name is "
-        "another one; nats are the mean change of the logarithm of the probability that is stated for the truth. "
-        "Constants were tried in groups, and one by one where a group moved an answer: two that undo each "
-        "other would be missed, and nats are told only of what was tried by itself. Where a number ends the diagnosis "
-        "an answer counts as moved and as failed: neither as a false alarm nor as right. Not tried: tables of several "
-        f"values, numbers without a name. A constant that moves none of {cases} answers may still move {unseen:.0f} % "
-        "of all (95 %)."
+    how = (
+        "An answer is moved where its verdict or its first name is another one; nats are the mean change of the "
+        "logarithm of the probability that is stated for the truth. Constants were tried in groups, and one by one "
+        "where a group moved an answer: two that undo each other would be missed, and nats are told only of what was "
+        "tried by itself. Where a number ends the diagnosis an answer counts as moved and as failed: neither as a "
+        "false alarm nor as right. Logarithms (SLOWEST, BROADEST, FLATTEST, STEEPEST) are halved and doubled as such: "
+        "half of one is the root. Not tried: tables of several values, numbers without a name."
     )
-    return ["# Constants of the diagnosis, halved and doubled", what, before]
+    before = "Before anything is changed (made by `python -m website.pages` from these runs):"
+    lines = ["| run | commit | false alarms | right effect first | failed |", "|---|---|---|---|---|"]
+    for run in runs:
+        call = f"`--seed {run['seed']} --systems {' '.join(run['systems'])} --cases {run['cases']}`"
+        alarms, first, failed = (run["before"][kind] for kind in KINDS)
+        missing = run["answers"] - run["nothing_missing"]
+        told = f"{alarms} of {run['nothing_missing']} | {first} of {missing} | {failed} of {run['answers']}"
+        lines.append(f"| {call} | {run['commit']} | {told} |")
+    return ["# Constants of the diagnosis, halved and doubled", what, how, before, "\n".join(lines)]
 
 
 def table(rows: Sequence[tuple[str, float, list[Effect | None]]]) -> str:
@@ -132,7 +130,10 @@ def foot(
         if len(tried) == len(FACTORS):
             by_count.setdefault(min(tried), []).append(f"`{label}` ({value:.4g})")
     parts = [f"## {sum(map(len, by_count.values()))} that move no answer"]
-    parts += [f"In {count} cases: {', '.join(names)}." for count, names in sorted(by_count.items(), reverse=True)]
+    parts += [
+        f"In {count} cases (so up to {100.0 * (1.0 - 0.05 ** (1.0 / count)):.0f} % of all, 95 %): {', '.join(names)}."
+        for count, names in sorted(by_count.items(), reverse=True)
+    ]
     left = [
         f"`{label}` ({', '.join(word for word, one in zip(FACTORS.values(), effects, strict=True) if not one)})"
         for label, _, effects in rows
@@ -150,8 +151,10 @@ def beside(told: Run, labels: dict[str, float]) -> list[str]:
         f"not show, what to record next. {told['answers']} cases (`--seed {told['seed']}`, {told['commit']}) were "
         "attributed once, and what follows was worked out with each constant halved and doubled "
         "(`python -m benchmarks.gap_told_constants`). A verdict, its effects or their probabilities changed in "
-        f"{judged} of {len(trials)} trials: false alarms and right names stay where that is 0. In how many cases "
-        "another part changes, and which:"
+        f"{judged} of {len(trials)} trials: where it is 0, no false alarm and no right name changed. In how many "
+        "cases another part changes, which, and its largest change of a number (100 %: other words, or another sign). "
+        f"Of {told['inside'][1]} true reductions where an effect is named {told['inside'][0]} lie inside their "
+        f"intervals, {' to '.join(sorted({str(one['inside'][0]) for one in trials}))} with a constant changed:"
     )
     lines = ["| constant | value | halved | doubled |", "|---|---|---|---|"]
     for label, value in labels.items():
@@ -165,28 +168,40 @@ def beside(told: Run, labels: dict[str, float]) -> list[str]:
 def _parts(one: dict[str, Any] | None, of: int) -> str:
     if one is None:
         return "not tried"
-    return f"{one['moved']} of {of}" + "".join(f", {PARTS.get(part, part)}" for part in one["parts"])
+    return f"{one['moved']} of {of}" + "".join(
+        f", {PARTS.get(part, part)} by {100.0 * change:.3g} %" for part, change in one["parts"].items()
+    )
 
 
 def effect(runs: Sequence[Run], label: str, value: float, factor: str) -> Effect | None:
-    """What a constant does with a factor, over the runs that had it at this value and came to it; None without any."""
-    moved, of, nats, alone = 0, 0, 0.0, True
-    before, after = dict.fromkeys(KINDS, 0), dict.fromkeys(KINDS, 0)
-    for run in (run for run in runs if run["constants"].get(label, {}).get("value") == value):
-        told = run["constants"][label].get(factor)
-        if told is None:
-            continue
-        grouped = told == "moves nothing"
-        new = run["before"] if grouped else told["after"]
-        moved += 0 if grouped else len(told["moved"])
-        of += run["answers"]
-        alone = alone and not grouped
-        if alone:
-            nats += run["answers"] * (new["nats"] - run["before"]["nats"])
-        for kind in KINDS:
-            before[kind] += run["before"][kind]
-            after[kind] += new[kind]
-    if not of:
+    """What a constant does with a factor, over the runs that had it at this value and came to it; None without any.
+
+    Of runs on the same cases the last one that tried it counts.
+    """
+    tried = {
+        _cases(run): (run, run["constants"][label][factor])
+        for run in runs
+        if run["constants"].get(label, {}).get("value") == value and factor in run["constants"][label]
+    }
+    if not tried:
         return None
-    known = nats / of if alone and nats == nats and abs(nats) != float("inf") else None
-    return Effect(moved, of, tuple(before.values()), tuple(after.values()), known)
+    told = [(run, None if what == "moves nothing" else what) for run, what in tried.values()]
+    moved, of = sum(len(what["moved"]) for _, what in told if what), sum(run["answers"] for run, _ in told)
+    before, after = (
+        tuple(sum((what[when] if what else run["before"])[kind] for run, what in told) for kind in KINDS)
+        for when in ("before", "after")
+    )
+    nats = [_nats(run, what) for run, what in told]
+    known = None if None in nats else sum(one for one in nats if one is not None) / of
+    return Effect(moved, of, before, after, known)
+
+
+def _cases(run: Run) -> str:
+    return str([run.get(what) for what in DRAWN])
+
+
+def _nats(run: Run, what: Run | None) -> float | None:
+    """Change over all answers of a run; None where the constant was not tried by itself, or nothing was answered."""
+    if what is None or what["after"]["nats"] is None:
+        return None
+    return float(run["answers"] * (what["after"]["nats"] - what["before"]["nats"]))

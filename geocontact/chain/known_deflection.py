@@ -73,49 +73,43 @@ def known_changes(
     law: Law,
     values: Values,
     others: Sequence[Values],
-    *,
-    by_name: bool = False,
 ) -> tuple[Loads, list[Loads | None]] | None:
     """Loads along a movement, and how they change towards other values (`chain.tangents`).
 
-    None for others that add a spring in series or slip, and in the place of all where there is one.
-
-    Parameters
-    ----------
-    geometry
-        Its deflections have the interface law, one for all or each its own.
-    by_name
-        Whether its deflections read values by their names, not only numbers of its slots.
+    None for others that add a spring in series or slip, and in the place of all where there is one. Deflections of
+    `geometry` have the interface law, one for all or each its own.
     """
-    own, numbers = geometry.slots.numbers(values), law.slots.numbers(values).reshape(-1, SLOTS)
+    numbers, own = law.slots.numbers(values).reshape(-1, SLOTS), geometry.slots.numbers(values)
     gives_way = [place for place, name in enumerate(geometry.slots.neutral) if name.endswith(GIVES_WAY)]
     if own[gives_way].any() or numbers[:, UNKNOWN[0]].any():
         return None
     u, rate = geometry.deflection(movement, values)
-    turned, dlaw = (
-        towards(geometry.slots, values, others),
-        towards(law.slots, values, others).reshape(-1, *numbers.shape),
+    samples, count = u.shape
+    numbers = np.broadcast_to(numbers, (count, SLOTS))
+    dlaw = np.broadcast_to(
+        towards(law.slots, values, others).reshape(len(others), -1, SLOTS), (len(others), count, SLOTS)
     )
-    known = ~np.logical_or(turned[:, gives_way].any(axis=1), dlaw[..., UNKNOWN].any(axis=(1, 2)))
-    du, drate = np.zeros((2, *u.shape, len(others)))
+    yielding = towards(geometry.slots, values, others)[:, gives_way].any(axis=1)
+    known = ~np.logical_or(yielding, dlaw[..., UNKNOWN].any(axis=(1, 2)))
+    du, drate = np.zeros((2, len(others), samples, count))
     for k, other in enumerate(others):
-        if known[k] and (by_name or turned[k].any()):
+        if known[k]:
             further = geometry.deflection(movement, other)
-            du[..., k], drate[..., k] = further[0] - u, further[1] - rate
-    loads, slopes = np.empty_like(u), np.zeros((len(others), *u.shape))
-    for s in range(u.shape[1]):
-        at = min(s, len(numbers) - 1)
-        moving = known & (du[:, s].any(axis=0) | dlaw[:, at].any(axis=1))
+            du[k], drate[k] = further[0] - u, further[1] - rate
+    loads, slopes = np.empty_like(u), np.zeros((len(others), samples, count))
+    for c in range(count):
+        moving = known & (du[..., c].any(axis=1) | dlaw[:, c].any(axis=1))
         found = along_slopes(
             movement.time,
-            u[:, s].copy(),
-            rate[:, s].copy(),
-            numbers[at],
-            du[:, s, moving],
-            drate[:, s, moving],
-            dlaw[moving, at],
+            np.ascontiguousarray(u[:, c]),
+            np.ascontiguousarray(rate[:, c]),
+            numbers[c].copy(),
+            np.ascontiguousarray(du[moving, :, c].T),
+            np.ascontiguousarray(drate[moving, :, c].T),
+            np.ascontiguousarray(dlaw[moving, c]),
         )
-        loads[:, s], slopes[moving, :, s] = found[:, 0], found[:, 1:].T
+        loads[:, c], slopes[moving, :, c] = found[:, 0], found[:, 1:].T
     nothing = np.zeros_like(loads)
-    ways = [Loads(one, nothing, nothing) if there else None for one, there in zip(slopes, known, strict=True)]
-    return Loads(loads, nothing, nothing), ways
+    return Loads(loads, nothing, nothing), [
+        Loads(one, nothing, nothing) if there else None for one, there in zip(slopes, known, strict=True)
+    ]

@@ -165,7 +165,7 @@ class SingleDeflection:
         self, movement: DifferentiatedInputs, law: Law, values: Values, others: Sequence[Values]
     ) -> tuple[Loads, list[Loads | None]] | None:
         """Load along a movement, and how it changes towards other values (`chain.tangents`)."""
-        return known_changes(self, movement, law, values, others, by_name=True)
+        return known_changes(self, movement, law, values, others)
 
     def _seen(
         self, x: Float[np.ndarray, " t"], values: Values

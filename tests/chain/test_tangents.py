@@ -8,8 +8,12 @@ import pytest
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.interface_law import INTERFACE_LAW, MEMORY, interface_force
 from geocontact.chain.interface_slopes import UNKNOWN, interface_slopes
+from geocontact.chain.links import Law, Motion
+from geocontact.chain.single_deflection import SingleDeflection
 from geocontact.chain.tangents import tangents
+from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
+from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
 from tests.systems.examples import example
 
@@ -117,3 +121,18 @@ def test_a_spring_in_series_that_does_not_give_yet_is_left_to_differences(name: 
     steps = {p.name: 1e-7 * (abs(values[p.name]) or p.upper - p.lower) for p in system.parameters}
     found = tangents(system, trials[1], values, steps)
     assert found and compliance not in found and {p.name for p in base.parameters} <= set(found)
+
+
+def test_a_deflection_may_read_a_parameter_by_its_name() -> None:
+    """An own strut whose neutral angle is fitted: its formula reads it, no number of the geometry does."""
+    strut = SingleDeflection("angle", lambda angle, numbers: np.sin(angle - numbers["neutral"]))
+    law = Law(INTERFACE_LAW, load="N m", deflection="rad").having({"k": "k", "b": "b"})
+    time = 0.01 * np.arange(200)
+    trial = Trial("t1", Signals(time, np.sin(3.0 * time)[:, None], ("angle",), ("rad",)))
+    movement = Motion(("angle",)).seen(trial, {})
+    values = {"k": 60.0, "b": 2.0, "neutral": 0.1}
+    found = strut.changes(movement, law, values, [{**values, "neutral": 0.1 + 1e-7}])
+    assert found is not None and found[1][0] is not None
+    ends = [strut.loads(movement, law, {**values, "neutral": 0.1 + by}).normal for by in (1e-5, -1e-5)]
+    np.testing.assert_allclose(found[1][0].normal / 1e-7, (ends[0] - ends[1]) / 2e-5, rtol=1e-4, atol=1e-4)
+    np.testing.assert_array_equal(found[0].normal, strut.loads(movement, law, values).normal)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.gap.diagnosis import Diagnosis
-from geocontact.gap.case.mains import HUM, MAINS, columns, hum
+from geocontact.gap.case.mains import HUM, MAINS, hum, wave_count
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.selection.model_comparison import base_contender
@@ -21,7 +21,7 @@ LOUD = 0.9
 def test_waves_of_usual_size_and_of_any_phase() -> None:
     """Weights of unit variance make hum of HUM noise levels, whatever the phase that a recording begins at."""
     time, rng = 3.0 + 0.004 * np.arange(500), np.random.default_rng(0)
-    waves, count = hum(time, np.array([2.0, 0.1])), columns(1)
+    waves, count = hum(time, np.array([2.0, 0.1])), wave_count(1)
     assert waves.shape == (500, 2, 2 * count)
     for c, level in enumerate((2.0, 0.1)):
         own = waves[:, c, c * count : (c + 1) * count]
@@ -56,7 +56,7 @@ def humming() -> tuple[Diagnosis, float, float]:
     found = diagnose(case, system).diagnosis
     problem = problem_of(case, system)
     noise = base_contender(problem).judged.noise
-    waves = problem.placement[0][:, 0, -1 - columns(1) : -1] * noise.varies[-1 - columns(1) : -1]
+    waves = problem.placement[0][:, 0, -1 - wave_count(1) : -1] * noise.varies[-1 - wave_count(1) : -1]
     return found, float(np.sqrt((waves**2).sum(axis=1).mean())), float(noise.levels.sensors[0])
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from geocontact.chain.tangents import tangents
 from geocontact.data.errors import InputError
 from geocontact.data.gap.case import CaseMesh, GapCase
 from geocontact.effects.catalogue import candidates
@@ -50,6 +51,19 @@ def test_cells_add_up_to_the_sides_and_turn_with_the_patch() -> None:
     moved = CELLS.simulate(trial("t", TIME, forward), {"E_star": MODULUS})
     front, ahead = ((c[:, 1] + c[:, 2]) / c.sum(axis=1) for c in (cells, moved))
     assert (ahead > front).all(), "a component that stands further forward loads the front cells more"
+
+
+def test_derivatives_are_those_of_the_cells() -> None:
+    axis = next(one for one in candidates(CELLS) if one.name == "axis_migration")
+    system = axis.apply(CELLS)
+    values = {"E_star": MODULUS} | {p.name: 0.3 * p.upper for p in axis.parameters}
+    steps = {name: 1e-7 * abs(value) for name, value in values.items()}
+    found = tangents(system, TRIAL, values, steps)
+    assert set(found) == set(values)
+    for name, step in steps.items():
+        ends = [system.simulate(TRIAL, {**values, name: values[name] + 100.0 * side * step}) for side in (1.0, -1.0)]
+        known = (ends[0] - ends[1]) / (200.0 * step)
+        np.testing.assert_allclose(found[name], known, rtol=1e-5, atol=1e-5 * np.abs(known).max())
 
 
 def test_a_left_knee_is_the_mirror_image_of_a_right_one() -> None:

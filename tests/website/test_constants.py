@@ -6,14 +6,20 @@ import pytest
 
 from website.constants import Effect, beside, effect, foot, table
 
+BEFORE = {"false_alarms": 0, "first_right": 3, "failed": 0, "nats": -0.25}
 MOVED = {
     "moved": ["a", "b"],
+    "before": BEFORE,
     "after": {"false_alarms": 1, "first_right": 2, "failed": 1, "nats": -0.5},
 }
-BEFORE = {"false_alarms": 0, "first_right": 3, "failed": 0, "nats": -0.25}
 RUNS = [
-    {"answers": 5, "before": BEFORE, "constants": {"SURE": {"value": 6.0, "times 2": MOVED}, "FEW": {"value": 20}}},
-    {"answers": 6, "before": BEFORE, "constants": {"SURE": {"value": 6.0, "times 2": "moves nothing"}}},
+    {
+        "seed": 1,
+        "answers": 5,
+        "before": BEFORE,
+        "constants": {"SURE": {"value": 6.0, "times 2": MOVED}, "FEW": {"value": 20}},
+    },
+    {"seed": 2, "answers": 6, "before": BEFORE, "constants": {"SURE": {"value": 6.0, "times 2": "moves nothing"}}},
 ]
 
 
@@ -29,6 +35,20 @@ def test_nats_are_told_of_what_was_tried_by_itself() -> None:
     assert told.words().endswith("failed 0 → 1, -0.25 nats")
 
 
+def test_runs_on_the_same_cases_count_once() -> None:
+    again = {**RUNS[0], "constants": {"SURE": {"value": 6.0, "times 2": "moves nothing"}}}
+    told = effect([RUNS[0], again], "SURE", 6.0, "times 2")
+    assert told == Effect(0, 5, (0, 3, 0), (0, 3, 0), None)
+    untried = {**RUNS[0], "constants": {"SURE": {"value": 6.0}}}
+    assert effect([RUNS[0], untried], "SURE", 6.0, "times 2") == effect(RUNS[:1], "SURE", 6.0, "times 2")
+
+
+def test_nothing_answered_has_no_nats() -> None:
+    ended = {**MOVED, "after": {"false_alarms": 0, "first_right": 0, "failed": 5, "nats": None}}
+    told = effect([{**RUNS[0], "constants": {"CYCLES": {"value": 4, "times 2": ended}}}], "CYCLES", 4, "times 2")
+    assert told is not None and told.nats is None and told.after[2] == 5
+
+
 def test_what_a_run_did_not_try_is_not_called_harmless() -> None:
     assert effect(RUNS, "SURE", 6.0, "times 0.5") is None and effect(RUNS, "FEW", 20, "times 2") is None
     assert effect(RUNS, "SURE", 5.0, "times 2") is None and effect(RUNS, "NEW", 5.0, "times 2") is None
@@ -36,7 +56,7 @@ def test_what_a_run_did_not_try_is_not_called_harmless() -> None:
     rows = [("FEW", 20, [None, none]), ("ODD", 5.0, [none, none])]
     assert foot(rows, rows) == [
         "## 1 that move no answer",
-        "In 4 cases: `ODD` (5).",
+        "In 4 cases (so up to 53 % of all, 95 %): `ODD` (5).",
         "## Not tried with every factor",
         "`FEW` (halved).",
     ]
@@ -44,12 +64,13 @@ def test_what_a_run_did_not_try_is_not_called_harmless() -> None:
 
 
 def test_what_works_on_a_verdict_is_told_by_what_it_moves() -> None:
-    row = {"value": 6, "times 0.5": {"moved": 2, "parts": {"map": 1.0, "where": 0.2}}, "times 2": None}
-    told = {"answers": 10, "seed": 1, "commit": "abc", "constants": {"BINS": row, "GRID": row}}
-    title, _, rows = beside(told, {"BINS": 6, "GRID": 101})
+    row = {"value": 6, "times 0.5": {"moved": 2, "parts": {"map": 1.0, "where": 0.2}, "inside": [1, 4]}}
+    told = {"answers": 10, "seed": 1, "commit": "abc", "inside": [2, 4], "constants": {"BINS": row, "GRID": row}}
+    title, said, rows = beside(told, {"BINS": 6, "GRID": 101})
     assert title == "## 2 that can move no verdict"
+    assert "in 0 of 2 trials" in said and "4 true reductions" in said and "1 with a constant changed" in said
     assert rows.splitlines()[2:] == [
-        "| `BINS` | 6 | 2 of 10, the map of the gap, where the gap lies | not tried |",
+        "| `BINS` | 6 | 2 of 10, the map of the gap by 100 %, where the gap lies by 20 % | not tried |",
         "| `GRID` | 101 | not tried | not tried |",
     ]
     assert beside(told, {}) == []

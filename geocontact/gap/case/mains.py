@@ -17,7 +17,7 @@ WAVES = (np.cos, np.sin)  # of each frequency
 HUMMING = 2.0  # bins about such a frequency, or where sampling folds it to, that are hum
 
 
-def columns(channels: int) -> int:
+def wave_count(channels: int) -> int:
     """How many waves that many outputs have."""
     return channels * len(MAINS) * len(WAVES)
 
@@ -35,7 +35,7 @@ def hum(time: Float[np.ndarray, " t"], rough: Float[np.ndarray, " c"]) -> Float[
     turns = 2.0 * np.pi * (time - time[0])[:, None] * np.array(MAINS)
     waves = np.concatenate([wave(turns) for wave in WAVES], axis=1)
     waves = waves - waves.mean(axis=0)  # sampled once or so in a period it is a zero of the output, which is known
-    found = np.zeros((len(time), len(rough), len(rough), columns(1)))
+    found = np.zeros((len(time), len(rough), len(rough), wave_count(1)))
     for c, level in enumerate(rough):
         found[:, c, c] = HUM * level * waves
     return found.reshape(len(time), len(rough), -1)

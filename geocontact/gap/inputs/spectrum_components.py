@@ -30,9 +30,9 @@ from geocontact.identify.signals.low_pass import LowPass
 LOUDER = 2.0  # standard deviation of the logarithm of the power of an input's noise; one of that of a rest
 TAIL = 0.02  # cycles per sample, from which a movement's tail falls off
 FLATTEST, STEEPEST = np.log([0.7, 3.0])  # bounds of log q
-SLOWEST, BROADEST = np.log([1e-4, 0.2])  # bounds of log b: what fills a spectrum up to its end is noise, no movement
+SLOWEST, BROADEST = np.log([1e-4, 0.2])  # bounds of log b: what is as high at the end of a spectrum is noise
 FALLS, STEEPS = (0.001, 0.004, 0.012, 0.03, 0.08), (0.9, 1.6)  # b, per sample, and q that a search starts from
-BROAD = ((0.08, 0.7), (0.2, 0.7))  # the same of movements that fill the spectrum
+BROAD = ((0.08, 0.7), (float(np.exp(BROADEST)), 0.7))  # the same of broad movements
 NOTHING = -2.0 * float(np.log(np.finfo(float).eps))  # nats below the top at which there is none; a bound of exponents
 
 

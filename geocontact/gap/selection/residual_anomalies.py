@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.data.trial import Trial
-from geocontact.gap.case.mains import at_mains, columns
+from geocontact.gap.case.mains import at_mains, wave_count
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.case.usual_range import usual_range
@@ -104,7 +104,7 @@ def hum(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
 
 def without_hum(problem: Problem, judged: Judged) -> Judged:
     """A model judged as if hum were no part of the noise: what it leaves of hum is seen then."""
-    waves = columns(len(problem.floor))
+    waves = wave_count(len(problem.floor))
     varies = judged.noise.varies.copy()
     varies[len(varies) - 1 - waves : -1] = 0.0
     return replace(judged, noise=replace(judged.noise, varies=varies))

@@ -7,7 +7,7 @@ right.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -117,3 +117,11 @@ class PosedKnee:
         area, centre = self.patches(movement)
         found = self.contact.loads(self.by_areas(movement, area), law, values)
         return replace(found, arm=centre)
+
+    def changes(
+        self, movement: DifferentiatedInputs, law: Law, values: Values, others: Sequence[Values]
+    ) -> tuple[Loads, list[Loads | None]] | None:
+        """Forces along a movement, and how they change towards other values (`chain.tangents`)."""
+        area, centre = self.patches(movement)
+        found = self.contact.changes(self.by_areas(movement, area), law, values, others)
+        return None if found is None else (replace(found[0], arm=centre), found[1])
