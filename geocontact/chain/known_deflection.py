@@ -86,9 +86,8 @@ def known_changes(
     u, rate = geometry.deflection(movement, values)
     samples, count = u.shape
     numbers = np.broadcast_to(numbers, (count, SLOTS))
-    dlaw = np.broadcast_to(
-        towards(law.slots, values, others).reshape(len(others), -1, SLOTS), (len(others), count, SLOTS)
-    )
+    ways = towards(law.slots, values, others).reshape(len(others), len(law.slots.neutral) // SLOTS, SLOTS)
+    dlaw = np.broadcast_to(ways, (len(others), count, SLOTS))
     yielding = towards(geometry.slots, values, others)[:, gives_way].any(axis=1)
     known = ~np.logical_or(yielding, dlaw[..., UNKNOWN].any(axis=(1, 2)))
     du, drate = np.zeros((2, len(others), samples, count))

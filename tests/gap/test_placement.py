@@ -11,7 +11,7 @@ from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.gap.case.mains import WAVES
+from geocontact.gap.case.mains import wave_count
 from geocontact.gap.case.placement import ANGLE, GAIN, clock_offset, placement, put_on
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.selection.held_out_error import TrialWeight
@@ -40,7 +40,7 @@ def test_a_zero_of_its_own_costs_a_trial_next_to_nothing() -> None:
     columns = placement(system, trials, {"k": 60.0}, ["angle"], np.array([NOISE]))[0]
     predicted = system.simulate(trials[0], {"k": 60.0})
     largest = float(np.abs(trials[0].column("torque")).max())
-    assert columns.shape == (120, 1, 5 + WAVES)
+    assert columns.shape == (120, 1, 5 + wave_count(1))
     assert columns[..., 0] == pytest.approx(60.0 * ANGLE), "zero of the angle"
     assert columns[..., 1] == pytest.approx(0.5 * GAIN * largest, rel=0.02), "zero of the torque"
     assert columns[..., 2] == pytest.approx(GAIN * predicted), "gain of the torque"
