@@ -19,41 +19,84 @@ from typing import Any, TypeVar, cast
 import geocontact
 
 T = TypeVar("T")
+Value = Any
+"""A number, or a table: numbers in tuples, of tuples perhaps."""
 
 
 @dataclass(frozen=True)
 class Constant:
-    """A number with a name at the top of a module; `label` has the module without the package."""
+    """A number or a table with a name at the top of a module; `label` has the module without the package."""
 
     module: str
     name: str
-    value: float | int
+    value: Value
 
     @property
     def label(self) -> str:
         """As the table of the theory has it."""
         return f"{self.module.removeprefix('geocontact.')}.{self.name}"
 
-    def times(self, factor: float) -> float | int:
-        """So many times as large; a count stays a count, of one at the least."""
-        if isinstance(self.value, int):
-            return max(1, round(self.value * factor))
-        return self.value * factor
+    def times(self, factor: float) -> Value:
+        """So many times as large, every number of a table; a count stays a count, of one at the least, and 0 is 0."""
+        return _times(self.value, factor)
+
+
+def _times(value: Value, factor: float) -> Value:
+    if isinstance(value, tuple):
+        return tuple(_times(each, factor) for each in value)
+    if isinstance(value, int):
+        return (1 if value > 0 else -1) * max(1, round(abs(value) * factor)) if value else 0
+    return value * factor
 
 
 def constants(rooms: Sequence[str]) -> list[Constant]:
-    """All of these rooms, in the order of modules and lines; neither words nor tables of several values.
+    """Numbers of these rooms, in the order of modules and lines; neither words nor tables of several values.
 
     Of modules that a diagnosis imports: others are of other analyses.
     """
-    found = []
+    return [Constant(*each) for each, _ in _named(rooms) if _is_number(each[2])]
+
+
+def tables(rooms: Sequence[str]) -> list[Constant]:
+    """Tables of numbers of these rooms, in the same order, if numbers are written where they stand.
+
+    What is worked out of other constants is no choice of its own.
+    """
+
+    def whole(value: Value) -> bool:
+        return all(map(whole, value)) if isinstance(value, tuple) and value else _is_number(value)
+
+    def written(node: ast.expr) -> bool:
+        numbers = [each.value for each in ast.walk(node) if isinstance(each, ast.Constant)]
+        return _is_literal(node) or any(_is_number(each) and not _plain(each) for each in numbers)
+
+    found = [Constant(*each) for each, node in _named(rooms) if isinstance(each[2], tuple) and written(node)]
+    return [each for each in found if whole(each.value)]
+
+
+def numbers_in(value: Value) -> list[float | int]:
+    """Numbers of a constant, one after the other."""
+    return [number for each in value for number in numbers_in(each)] if isinstance(value, tuple) else [value]
+
+
+def _named(rooms: Sequence[str]) -> Iterator[tuple[tuple[str, str, Any], ast.expr]]:
+    """Module, name and value of whatever has a name in capitals, and what stands behind it."""
     for module in _modules(rooms):
-        tree = ast.parse(inspect.getsource(module))
-        for name in (name for node in tree.body for name in _names(node)):
-            value = getattr(module, name)
-            if isinstance(value, (int, float)) and not isinstance(value, bool):
-                found.append(Constant(module.__name__, name, value))
-    return found
+        for node in ast.parse(inspect.getsource(module)).body:
+            for name, right in _names(node):
+                yield (module.__name__, name, getattr(module, name)), right
+
+
+def _is_number(value: Value) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _is_literal(node: ast.expr) -> bool:
+    try:
+        ast.literal_eval(node)
+    except ValueError:
+        return False
+    return True
 
 
 def bare(rooms: Sequence[str]) -> list[tuple[str, float | int]]:
@@ -69,7 +112,7 @@ def bare(rooms: Sequence[str]) -> list[tuple[str, float | int]]:
     return found
 
 
-def put(changed: Mapping[Constant, float | int]) -> None:
+def put(changed: Mapping[Constant, Value]) -> None:
     """Put other numbers in place of these constants, in all modules that have been loaded, for this process.
 
     Functions read them when they are called; where one is the default of an argument, that is changed too. What was
@@ -85,7 +128,7 @@ def put(changed: Mapping[Constant, float | int]) -> None:
                 _put_defaults(module, here)
 
 
-def with_others(changed: Mapping[Constant, float | int], work: Callable[[], T]) -> T | None:
+def with_others(changed: Mapping[Constant, Value], work: Callable[[], T]) -> T | None:
     """What is worked out in a process of its own, whose constants end with it; None where that ended before.
 
     The process is forked, so that it has what the caller has: Linux and macOS only.
@@ -103,7 +146,7 @@ def with_others(changed: Mapping[Constant, float | int], work: Callable[[], T]) 
         process.join()
 
 
-def _sent(changed: Mapping[Constant, float | int], work: Callable[[], Any], send: Any) -> None:
+def _sent(changed: Mapping[Constant, Value], work: Callable[[], Any], send: Any) -> None:
     put(changed)
     send.send(work())
 
@@ -155,11 +198,18 @@ def _is_module(name: str) -> bool:
         return False
 
 
-def _names(node: ast.stmt) -> list[str]:
+def _names(node: ast.stmt) -> list[tuple[str, ast.expr]]:
+    """Names in capitals that a line gives, each with its part of what stands behind."""
     if not isinstance(node, ast.Assign):
         return []
-    targets = [part for target in node.targets for part in (target.elts if isinstance(target, ast.Tuple) else [target])]
-    return [each.id for each in targets if isinstance(each, ast.Name) and each.id.isupper()]
+    found: list[tuple[ast.expr, ast.expr]] = []
+    for target in node.targets:
+        if isinstance(target, ast.Tuple):
+            right = node.value.elts if isinstance(node.value, ast.Tuple) else [node.value] * len(target.elts)
+            found += zip(target.elts, right, strict=True)
+        else:
+            found.append((target, node.value))
+    return [(each.id, right) for each, right in found if isinstance(each, ast.Name) and each.id.isupper()]
 
 
 def _numbers(node: ast.FunctionDef | ast.Lambda) -> Iterator[float | int]:

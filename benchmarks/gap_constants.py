@@ -5,7 +5,7 @@ home, are attributed again. An answer is moved where the verdict or the first na
 in groups: where a group changes no answer, none of it does (two that undo each other would be missed, which is said);
 where it does, its halves are tried, down to single ones. Of these the table has the answers moved, false alarms,
 those first ranked right, diagnoses that failed and the mean logarithm of the probability of the truth, beside what
-they were. Cases are drawn before anything is changed. Numbers inside compiled kernels stay as they are. Every trial
+they were. Of a table of several values all are halved, or doubled. Cases are drawn before anything is changed. Numbers inside compiled kernels stay as they are. Every trial
 is added to a file beside the JSON as it is done, and the same call goes on where a run of the same commit ended.
 """
 
@@ -21,7 +21,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from benchmarks.constants_of import Constant, constants, with_others
+from benchmarks.constants_of import Constant, Value, constants, tables, with_others
 from benchmarks.gap_verdicts import answer_of, written
 from benchmarks.machine import as_json, commit, machine
 from geocontact.gap_benchmark.drawing import HOME, SYSTEMS, lots
@@ -54,6 +54,11 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--minutes", type=float, default=float("inf"), help="after which no further trial is begun")
     parser.add_argument("--out", type=Path, default=HERE / "results" / "gap_constants.json")
     return parser.parse_args()
+
+
+def choices(rooms: Sequence[str]) -> list[Constant]:
+    """Numbers of these rooms, then tables."""
+    return [*constants(rooms), *tables(rooms)]
 
 
 def answers(cases: Mapping[str, Path]) -> Answers:
@@ -126,7 +131,7 @@ def main() -> int:
     """Draw, halve, double, write."""
     o = arguments()
     what, began, log = commit(), time.monotonic(), o.out.with_suffix(".rows")
-    named = [one for one in constants(ROOMS) if not o.only or one.label.startswith(tuple(o.only))]
+    named = [one for one in choices(ROOMS) if not o.only or one.label.startswith(tuple(o.only))]
     asked = {"commit": what} | {name: vars(o)[name] for name in DRAWN}
     rows = [json.loads(line) for line in log.read_text(encoding="utf-8").splitlines()] if log.exists() else []
     rows = [row for row in rows if row["asked"] == asked]
@@ -141,7 +146,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as scratch:
         cases, truths = drawn_cases(o, Path(scratch))
 
-        def answered(changed: dict[Constant, float | int]) -> Answers:
+        def answered(changed: dict[Constant, Value]) -> Answers:
             return with_others(changed, partial(answers, cases)) or {}
 
         plain = next((row for row in rows if not row["constants"]), None)

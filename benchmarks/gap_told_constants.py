@@ -22,8 +22,8 @@ from typing import Any
 
 from threadpoolctl import threadpool_limits
 
-from benchmarks.constants_of import constants, with_others
-from benchmarks.gap_constants import DRAWN, FAILED, ROOMS, drawn_cases
+from benchmarks.constants_of import with_others
+from benchmarks.gap_constants import DRAWN, FAILED, ROOMS, choices, drawn_cases
 from benchmarks.machine import as_json, commit, machine
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import attribute
@@ -123,8 +123,8 @@ def row(truths: Mapping[str, dict[str, Any]], before: Told, after: Told | None) 
 def main() -> int:
     """Attribute once, halve, double, write."""
     o = arguments()
-    judging = {one.label for one in constants(ROOMS)}
-    named = [one for one in constants(("gap", "identify")) if one.label not in judging]
+    judging = {one.label for one in choices(ROOMS)}
+    named = [one for one in choices(("gap", "identify")) if one.label not in judging]
     named = [one for one in named if not o.only or one.label.startswith(tuple(o.only))]
     asked = {"commit": commit()} | {name: vars(o)[name] for name in DRAWN}
     with tempfile.TemporaryDirectory() as scratch, threadpool_limits(limits=1):

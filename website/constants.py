@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from benchmarks.constants_of import constants as found_in
-from benchmarks.gap_constants import DRAWN, ROOMS
+from benchmarks.constants_of import Value, bare, numbers_in
+from benchmarks.gap_constants import DRAWN, ROOMS, choices
 from website.stage import ROOT
 
 PAGE = "docs/reference/gap_constants.md"

@@ -196,9 +196,8 @@ def _answered(
     objections |= rules.outdone([c for c in gaining if c.label not in objections])
     variants = Counter(one.name for one in contest.entered)
     held = ranking(base, contenders, shares, variants, objections)
-    odd = tuple(each for each in residual_anomalies(clean, held.leader.judged) if each.nats > SURE)
+    odd = tuple(each for each in residual_anomalies(clean, held.leader.judged, base.judged) if each.nats > SURE)
     recorder = tuple(each for each in recorder_remarks(clean, held.leader.judged) if each.nats > SURE)
-    strange = float(sum(each.nats for each in odd if each.counts))
     best = held.best
     at("what is left over")
     rest = contest.rest if best.judged is leader else surrogate(clean, best.judged)
@@ -207,7 +206,7 @@ def _answered(
     possible = ranking(base, gaining, shares, variants, {c.label for c in gaining if rules.ruled_out(c)})
     little = {label for label, why in objections.items() if why == TOO_LITTLE}
     unnamed, known = _believed(rules, base, missing), most_of(possible, little)
-    said = with_refused(answer(held, unnamed, strange, left + strange, known), possible)
+    said = with_refused(answer(held, unnamed, max((each.part for each in odd), default=0.0), left, known), possible)
     remaining = {"none": missing, best.label: rest}
     if data_error is not None:
         said = with_mistake(said, data_error.candidate.name)

@@ -13,15 +13,15 @@ import numpy as np
 import pytest
 
 from benchmarks import gap_constants, gap_told_constants
-from benchmarks.constants_of import _numbers, bare, constants, in_use, put, with_others
-from benchmarks.gap_constants import ROOMS, figures, searched
+from benchmarks.constants_of import _numbers, bare, constants, in_use, put, tables, with_others
+from benchmarks.gap_constants import ROOMS, choices, figures, searched
 from benchmarks.gap_told_constants import attributed, changes, inside, row, told
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.effects.catalogue import candidates
 from geocontact.gap import levels, partial_answer
 from geocontact.gap.case import plain_fit, refit
-from geocontact.gap.selection import clipping, verdict
+from geocontact.gap.selection import clipping, surrogate, verdict
 from tests.house.test_gap_theory import ROWS
 
 WHOLE = ("gap", "identify")
@@ -32,7 +32,8 @@ def test_a_number_is_another_one_wherever_it_was_imported() -> None:
     sure = found["gap.levels.SURE"]
     assert sure.value == levels.SURE and "gap.selection.clipping.NEXT" in found
     assert found["identify.optimise.tolerances.BROKEN"].value == 0.25  # one of two that a line names
-    assert "gap.selection.surrogate.ALONG" not in found  # a table, no number
+    assert "gap.selection.surrogate.ALONG" not in found
+    assert "gap.selection.surrogate.ALONG" in {one.label for one in tables(ROOMS)}
     before, other = sure.value, clipping.NEXT
     try:
         put({sure: sure.times(2.0)})
@@ -164,14 +165,32 @@ def test_a_group_is_halved_down_to_what_moves_an_answer() -> None:
 def test_choices_do_not_become_more_again() -> None:
     """Of a verdict, and of all that a diagnosis imports of gap and identify."""
     assert len(constants(ROOMS)) <= 90
-    assert len(bare(ROOMS)) <= 12
+    assert len(bare(ROOMS)) <= 3
+    assert len(tables(ROOMS)) <= 18
     assert len(constants(WHOLE)) <= 126
-    assert len(bare(WHOLE)) <= 17
+    assert len(bare(WHOLE)) <= 6
+    assert len(tables(WHOLE)) <= 20
 
 
 def test_every_constant_of_a_diagnosis_has_a_row() -> None:
     rows = {f"{module}.{name}" for module, name, _ in ROWS}
-    assert {one.label for one in constants(WHOLE)} <= rows
+    assert {one.label for one in choices(WHOLE)} <= rows
+
+
+def test_tables_are_halved_number_by_number() -> None:
+    found = {one.label: one for one in tables(ROOMS)}
+    assert found["gap.selection.surrogate.SIZES"].times(2.0) == (0.6, 2.0, 6.0, 20.0, 60.0)
+    assert found["gap.inputs.spectrum_components.BROAD"].times(0.5) == ((0.04, 0.35), (0.1, 0.35))
+    assert found["gap.selection.model_discrepancy.POWERS"].times(0.5) == ((1, 0), (1, 0), (0, 1), (0, 1), (1, 1))
+    assert found["gap.selection.residual_anomalies.BESIDE"].times(0.5)[:3] == (-4, -4, -3)
+    sizes = found["gap.selection.surrogate.SIZES"]
+    assert with_others({sizes: sizes.times(2.0)}, lambda: surrogate.SIZES) == sizes.times(2.0) != surrogate.SIZES
+
+
+def test_what_is_worked_out_or_no_number_is_no_table() -> None:
+    """Ends of intervals come from CONFIDENCE; waves are functions."""
+    names = {one.name for one in tables(WHOLE)}
+    assert {"BROAD", "DEGREES", "BANDS"} <= names and not names & {"ENDS", "WAVES", "SLOWEST", "SURE"}
 
 
 def test_modules_that_no_diagnosis_imports_have_no_constants_of_it() -> None:

@@ -28,7 +28,12 @@ from geocontact.gap.selection.clipping import ClippedChannel, clipped_channels
 from geocontact.gap.selection.evidence import Judged, judged
 from geocontact.gap.selection.model_comparison import Contender, Ends, base_contender, pairs, singles
 from geocontact.gap.selection.model_discrepancy import discrepancy_basis
-from geocontact.gap.selection.residual_anomalies import lines, recorder_remarks, residual_anomalies
+from geocontact.gap.selection.residual_anomalies import (
+    lines,
+    recorder_remarks,
+    residual_anomalies,
+    share_of_band,
+)
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
 from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.systems.catalogue import system_of
@@ -167,15 +172,32 @@ def odd(change: Change | None, after: Change | None = None, duration: float = 24
             trial.signals.values[:, 1] = after(trial.name, trial.time, trial.signals.values[:, 1])
     problem = problem_of(case, system_of(case))
     base = base_contender(problem).judged
-    return {each.words: each.nats for check in (residual_anomalies, recorder_remarks) for each in check(problem, base)}
+    found = (*residual_anomalies(problem, base, base), *recorder_remarks(problem, base))
+    return {each.words: each.nats for each in found}
 
 
 def share_of_line(change: Change) -> float:
     """Part of the squared residual of the base model that the surest line makes up."""
+    return shares_of_line(change, 1.0)[0]
+
+
+def shares_of_line(change: Change, times: float) -> tuple[float, float]:
+    """The same, and where the base model leaves so many times what is judged."""
     case = elbow_case(seed=8, duration=24.0, change=change)
     problem = problem_of(case, system_of(case))
-    found = lines(problem, base_contender(problem).judged)
-    return max(found, key=lambda each: each.nats).share
+    judged = base_contender(problem).judged
+    base = replace(judged, model=replace(judged.model, residuals=[times * each for each in judged.model.residuals]))
+    one, other = (max(lines(problem, judged, first), key=lambda each: each.nats).share for first in (judged, base))
+    return one, other
+
+
+def share_of_wide_band(change: Change | None) -> float:
+    """Part of the squared residual of the base model within an eighth of Nyquist's frequency of 7 Hz."""
+    case = elbow_case(seed=8, duration=24.0, change=change)
+    problem = problem_of(case, system_of(case))
+    base = base_contender(problem).judged
+    step = problem.system.scale.step
+    return share_of_band(problem, base, base, 0, 7.0 * step, 1.0 / 16.0)
 
 
 def paired() -> tuple[list[tuple[str, ...]], list[float], list[float], list[dict[str, float]], list[int]]:

@@ -9,10 +9,10 @@ from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.gap.case.mains import at_mains
 from geocontact.gap.inputs.spectrum import switches
-from geocontact.gap.levels import LEFT_OVER
+from geocontact.gap.levels import SURE
 from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, moving
 from tests.elsewhere import Elsewhere
-from tests.gap.cases import Tremor, held, in_steps, knock, odd, rung, share_of_line
+from tests.gap.cases import Tremor, held, in_steps, knock, odd, rung, share_of_line, share_of_wide_band, shares_of_line
 
 
 def test_noise_is_not_odd(elsewhere: Elsewhere) -> None:
@@ -31,9 +31,22 @@ def test_a_line_makes_up_a_share_of_the_error(elsewhere: Elsewhere, size: float,
     assert low < elsewhere(share_of_line, Tremor(size, 7.0)) < high
 
 
-@pytest.mark.parametrize(("nats", "share", "counts"), [(5000.0, 0.9 * LEFT_OVER, False), (8.0, 1.1 * LEFT_OVER, True)])
-def test_what_makes_up_little_of_an_error_is_a_remark_however_sure(nats: float, share: float, counts: bool) -> None:
-    assert ResidualAnomaly("a line", "force", nats, share).counts == counts
+def test_what_makes_up_little_of_an_error_is_little_however_sure() -> None:
+    assert ResidualAnomaly("a line", "force", 5000.0, 0.01).part == pytest.approx(0.01)
+    half = ResidualAnomaly("a line", "force", SURE + float(np.log(2.0)), 0.8)
+    assert half.part == pytest.approx(0.4)
+    assert ResidualAnomaly("a line", "force", SURE - 1.0, 0.8).part == 0.0
+
+
+def test_of_the_base_models_error_what_an_effect_leaves_is_a_smaller_share(elsewhere: Elsewhere) -> None:
+    """Half of what is left where a tenth of the squared error is left."""
+    alone, beside = elsewhere(shares_of_line, Tremor(0.25, 7.0), 3.0)
+    assert beside == pytest.approx(alone / 9.0, rel=1e-6)
+
+
+def test_smooth_noise_in_the_band_of_an_oscillation_is_no_part_of_it(elsewhere: Elsewhere) -> None:
+    assert elsewhere(share_of_wide_band, None) < 0.05
+    assert elsewhere(share_of_wide_band, Tremor(0.25, 7.0)) > 0.3
 
 
 def test_a_slow_tremor_is_a_line_too(elsewhere: Elsewhere) -> None:

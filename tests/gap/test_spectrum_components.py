@@ -76,7 +76,7 @@ def test_no_other_start_finds_anything_likelier(expected: Float[np.ndarray, " f"
     top = float(np.log(seen.power.max()))
 
     def cost(x: Float[np.ndarray, " p"]) -> tuple[float, Float[np.ndarray, " p"]]:
-        value, slope, _ = parts.scored(x[None], np.zeros(1, dtype=int))
+        value, slope, _ = parts.scored(x[None], np.zeros(1, dtype=int), with_tail=len(x) > 5)
         return float(value[0]), slope[0]
 
     others = []
@@ -122,8 +122,8 @@ def test_many_values_are_pooled() -> None:
     assert int(np.argmin(answer.unlikely)) == 5
     assert answer.noise[5] == pytest.approx(1e-4, rel=0.05)
     truth = np.array([[np.log(10.0), np.log(0.5 * STEP), np.log(1.2), np.log(1e-8 / part), np.log(1e-12)]])
-    (exact,) = Whole.of(seen, FILTERS[5]).scored(truth, np.zeros(1, dtype=int))[0]
-    (pooled,) = parts.scored(truth, np.array([5]))[0]
+    (exact,) = Whole.of(seen, FILTERS[5]).scored(truth, np.zeros(1, dtype=int), with_tail=False)[0]
+    (pooled,) = parts.scored(truth, np.array([5]), with_tail=False)[0]
     assert pooled == pytest.approx(exact, abs=60.0), "of 40 000 values"
 
 
@@ -142,10 +142,14 @@ def test_gradients_are_those_of_the_values() -> None:
     parts = Parts.of(drawn(movement(0.5) + noise(FILTERS[4], 0.004) + 1e-9), FILTERS)
     x = np.array([[2.0, -0.5, 0.2, -11.0, -18.0, -4.0], [1.0, 0.3, 0.5, -9.0, -22.0, -8.0]])
     which = np.array([4, 9])
-    _, slope, curved = parts.scored(x, which)
+    _, slope, curved = parts.scored(x, which, with_tail=True)
+
+    def scored(at: Float[np.ndarray, "b p"]) -> Float[np.ndarray, " b"]:
+        return parts.scored(at, which, with_tail=True)[0]
+
     for k in range(6):
         off = 1e-6 * (np.arange(6) == k)
-        differs = (parts.scored(x + off, which)[0] - parts.scored(x - off, which)[0]) / 2e-6
+        differs = (scored(x + off) - scored(x - off)) / 2e-6
         assert slope[:, k] == pytest.approx(differs, rel=1e-5, abs=1e-5)
     assert (np.linalg.eigvalsh(curved) > -1e-9).all()
 
@@ -156,8 +160,12 @@ def test_curvatures_are_those_of_the_values_where_what_is_expected_is_met() -> N
     fall = (FREQUENCY / np.exp(-0.5)) ** np.exp(0.2)
     expected = np.exp(2.0 - fall) + np.exp(-11.0) * FILTERS[4].power(FREQUENCY) + np.exp(-18.0) + tail(np.exp(-4.0))
     met = replace(parts, power=expected[np.argsort(FREQUENCY, kind="stable")])
-    _, _, curved = met.scored(x, which)
+    _, _, curved = met.scored(x, which, with_tail=True)
+
+    def slopes(at: Float[np.ndarray, "one p"]) -> Float[np.ndarray, " p"]:
+        return met.scored(at, which, with_tail=True)[1][0]
+
     for k in range(6):
         off = 1e-5 * (np.arange(6) == k)
-        bent = (met.scored(x + off, which)[1] - met.scored(x - off, which)[1])[0] / 2e-5
+        bent = (slopes(x + off) - slopes(x - off)) / 2e-5
         assert curved[0, k] == pytest.approx(bent, rel=1e-4, abs=1e-4)

@@ -9,7 +9,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.problem import Noise
 from geocontact.gap.case.refit import Refit
-from geocontact.gap.levels import SLIGHT, SURE
+from geocontact.gap.levels import LEFT_OVER, SLIGHT, SURE
 from geocontact.gap.selection.evidence import Judged
 from geocontact.gap.selection.model_comparison import Contender
 from geocontact.gap.selection.verdict import (
@@ -50,11 +50,11 @@ def said(
     *contenders: Contender,
     variants: dict[str, int] | None = None,
     unnamed: float = 0.0,
-    strange: float = 0.0,
+    odd: float = 0.0,
     rest: float = 0.0,
 ):
     counts = {one.name: 1 for one in OFFERED.values()} | (variants or {})
-    return answer(ranking(contender(0.0), contenders, shares(*contenders), counts), unnamed, strange, rest)
+    return answer(ranking(contender(0.0), contenders, shares(*contenders), counts), unnamed, odd, rest)
 
 
 def test_a_gain_that_may_be_luck_is_no_gap() -> None:
@@ -141,7 +141,16 @@ def test_of_two_that_are_named_the_likelier_comes_first() -> None:
 def test_something_without_a_name_wins_where_it_gains_more() -> None:
     assert said(contender(20.0, "damping"), unnamed=90.0).verdict == "unknown"
     assert said(contender(90.0, "damping"), unnamed=20.0).effects == ("damping",)
-    assert said(strange=40.0).verdict == "unknown"
+
+
+def test_what_is_odd_weighs_by_its_share_of_the_error() -> None:
+    """Nothing at 0; as much as everything else at the share that may be left over; all where it is all."""
+    for named in ((), (contender(90.0, "damping"),)):
+        odds = [said(*named, odd=part).probabilities["unknown"] for part in (0.0, 0.01, LEFT_OVER, 0.7, 1.0)]
+        assert odds == sorted(odds) and odds[0] < 0.01 and 0.02 < odds[1] < 0.06
+        assert odds[2] == pytest.approx(0.5, abs=0.01) and odds[3] > 0.9 and odds[4] > 0.999
+    assert said(contender(90.0, "damping"), odd=0.1).effects == ("damping",)
+    assert said(odd=0.3).verdict == "unknown"
 
 
 def amplitude(label: str) -> Parameter:
@@ -225,7 +234,7 @@ def test_a_mistake_takes_what_speaks_for_nothing_else() -> None:
     beside = with_mistake(said(contender(90.0, "damping")), "unit_error")
     assert beside.effects == ("unit_error", "damping")
     assert beside.probabilities["unit_error"] == pytest.approx(beside.probabilities["damping"], abs=0.01)
-    stranger = with_mistake(said(strange=60.0), "unit_error")
+    stranger = with_mistake(said(odd=0.9), "unit_error")
     assert stranger.verdict == "unknown"
     for found in (nothing, beside, stranger):
         assert sum(found.probabilities.values()) == pytest.approx(1.0)
@@ -238,7 +247,7 @@ def test_who_has_no_evidence_is_not_weighed() -> None:
     assert said(*competitors).effects == ("damping",)
 
 
-@pytest.mark.parametrize("given", [{"rest": np.nan}, {"unnamed": np.nan}, {"strange": np.nan}])
+@pytest.mark.parametrize("given", [{"rest": np.nan}, {"unnamed": np.nan}, {"odd": np.nan}])
 def test_what_is_no_number_is_no_verdict(given: dict[str, float]) -> None:
     with pytest.raises(FloatingPointError, match="what is left unexplained is not a number"):
         said(contender(50.0, "damping"), **given)

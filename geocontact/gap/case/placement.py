@@ -22,7 +22,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.gap.case.mains import hum
 from geocontact.gap.case.numerical_error import error_of_rates
-from geocontact.gap.levels import DEVIATIONS
+from geocontact.gap.levels import DEVIATIONS, FLAT
 
 LENGTH = 0.006  # of the device's largest length: 1 mm of 17 cm
 ANGLE = 0.0087  # rad: half a degree
@@ -90,7 +90,7 @@ def clock_offset(time: Float[np.ndarray, " t"], told: Float[np.ndarray, "t c"]) 
     trials may show (DEVIATIONS of the usual one): most recorders have one clock. `told` is what is predicted, NaN where
     that has no value; 0 there and beside it.
     """
-    usual = float(np.median(np.diff(time))) / np.sqrt(12.0) / DEVIATIONS
+    usual = float(np.median(np.diff(time))) / FLAT / DEVIATIONS
     return np.asarray(np.nan_to_num(np.gradient(told, time, axis=0)) * usual)
 
 

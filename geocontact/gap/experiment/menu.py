@@ -15,14 +15,13 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs, recorded
-from geocontact.chain.links import Modifier
+from geocontact.chain.links import LAST, Modifier
 from geocontact.chain.system import System
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.gap.levels import FEWEST
 
 LOADS, ANGLE = ("N", "N m"), "rad"
-LAST = 1e6  # rank of what is done to the loads: after everything that loads the sensor
 FASTER = (4.0, 2.0)  # times as fast as before
 LEAST_FASTER = 1.25  # below which a movement does not count as faster
 FASTEST = 2.0  # Hz, up to which nine tenths of the power of a voluntary movement's rate may lie
@@ -81,7 +80,7 @@ def band(system: System, trial: Trial) -> tuple[str, float, float]:
     step = float(np.median(np.diff(trial.time)))
     even = np.arange(trial.time[0], trial.time[-1], step)
     rate = np.interp(even, trial.time, movement.rate[movement.row(most)])
-    long = 4 * len(rate)  # zeros behind it: frequencies in between
+    long = 2 * len(rate)  # zeros behind it: frequencies in between
     power = np.abs(np.fft.rfft(rate * np.hanning(len(rate)), long)) ** 2
     grown = np.cumsum(power) / max(float(power.sum()), 1e-300)
     frequency = np.fft.rfftfreq(long, step)

@@ -20,7 +20,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.gap.inputs.spectrum import Spectrum
-from geocontact.gap.levels import FEW, INPUT_NOISE, SURE
+from geocontact.gap.levels import FEWEST, INPUT_NOISE, SURE
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.identify.noise.noise_spectrum import FREQUENCIES
 from geocontact.identify.optimise.fisher_scoring import Batch, Scored, least
@@ -96,7 +96,7 @@ class Parts:
         usual = 2.0 * np.log(INPUT_NOISE * seen.half_range) - np.log(part)
         return cls(frequency * filters[0].step, power, count, passed, part, usual, 2.0 * float(np.log(seen.rounding)))
 
-    def scored(self, x: Batch, which: Int[np.ndarray, " b"]) -> Scored:
+    def scored(self, x: Batch, which: Int[np.ndarray, " b"], *, with_tail: bool) -> Scored:
         """-log likelihoods with their gradients, and curvatures to step by.
 
         Curvatures are half of what is expected, half of what the powers that are met would make of it: far off, where
@@ -105,11 +105,12 @@ class Parts:
         Parameters
         ----------
         x
-            Rows of log A, log b, log q, log N, log R and, if there is a tail, log B.
+            Rows of log A, log b, log q, log N, log R and, with a tail, log B.
         which
             Filter of each row.
         """
-        arrays = (np.log(self.frequency), self.power, self.count, self._tail, self.passed)
+        tail = self._tail if with_tail else self._tail[:0]
+        arrays = (np.log(self.frequency), self.power, self.count, tail, self.passed)
         value, gradient, curved = whittle(*arrays, x, which)
         off, over = (x[:, 3] - self.usual[which]) / LOUDER, np.maximum(x[:, 4] - self.rounding, 0.0)
         gradient[:, 3] += off / LOUDER
@@ -136,14 +137,14 @@ def whittle(
 ) -> Scored:
     """Whittle's -log likelihood of each row of parameters, its gradient, and the curvature that `Parts.scored` tells.
 
-    `logarithm` is that of the frequencies.
+    `logarithm` is that of the frequencies; `tail` is empty where there is none.
     """
     size = x.shape[1]
     value, gradient, curved = np.zeros(len(x)), np.zeros((len(x), size)), np.zeros((len(x), size, size))
     slope = np.empty(size)
     for row in range(len(x)):
         steep, noise, rest = exp(x[row, 2]), exp(x[row, 3]), exp(x[row, 4])
-        high = exp(x[row, 5]) if size > 5 else 0.0
+        high = exp(x[row, 5]) if tail.size else 0.0
         for f in range(power.size):
             ratio = logarithm[f] - x[row, 1]
             fall = exp(min(steep * ratio, NOTHING))
@@ -152,7 +153,7 @@ def whittle(
             slope[0], slope[1], slope[2] = movement, bend, -bend * ratio
             slope[3], slope[4] = noise * passed[which[row], f], rest
             total = movement + slope[3] + rest
-            if size > 5:
+            if tail.size:
                 slope[5] = high * tail[f]
                 total += slope[5]
             met = power[f] / total
@@ -189,14 +190,15 @@ def _likeliest(parts: Parts, with_tail: bool) -> Split:
     """Of all starts, for each filter."""
     top = float(np.log(parts.power.max()))
     bottom, beyond = top - NOTHING, top + NOTHING
-    low = np.array([top - 20.0, SLOWEST, FLATTEST, bottom, bottom, bottom])  # of a movement there is something
+    digits = 0.5 * NOTHING  # what is lower by that is lost beside it; of a movement there is more
+    low = np.array([top - digits, SLOWEST, FLATTEST, bottom, bottom, bottom])
     high = np.array([beyond, BROADEST, STEEPEST, top + 2.0, top, beyond])
     start = _starts(parts)
     places = len(start) // len(parts.part)
     which = np.repeat(np.arange(len(parts.part)), places)
     chosen = slice(None if with_tail else -1)
     low, high, start = low[chosen], high[chosen], start[:, chosen]
-    found = least(lambda x, rows: parts.scored(x, which[rows]), start, low, high)
+    found = least(lambda x, rows: parts.scored(x, which[rows], with_tail=with_tail), start, low, high)
     value, noise = (each.reshape(-1, places) for each in (found.value, found.at[:, 3]))
     k = np.arange(len(value)), value.argmin(axis=1)
     return Split(value[k], np.sqrt(np.exp(noise[k]) * parts.part))
@@ -204,18 +206,18 @@ def _likeliest(parts: Parts, with_tail: bool) -> Split:
 
 def _starts(parts: Parts) -> Batch:
     """Parameters to start from, tail and all: as many rows for each filter, one filter after the other."""
-    few = 0.05  # of all values
-    slow = np.argsort(parts.frequency)[: max(FEW, int(few * len(parts.frequency)))]
+    slow = np.argsort(parts.frequency)[:FEWEST]
     powers = np.log(parts.power)
-    top, (bottom, middle) = float(powers.max()), np.quantile(powers, [few, 0.3])
+    bottom, middle = np.quantile(powers, [1.0 / FEWEST, 0.5])
+    digits = 0.5 * NOTHING  # of a double: what is lower by that is not there
     heights = [
-        (b, q, float(np.median(powers[slow] + np.minimum((parts.frequency[slow] / b) ** q, 30.0))))
+        (b, q, float(np.median(powers[slow] + np.minimum((parts.frequency[slow] / b) ** q, digits))))
         for b, q in product(FALLS, STEEPS)
     ]
-    heights += [(b, q, float(np.median(powers)) + 1.0) for b, q in BROAD]
+    heights += [(b, q, float(middle) + 1.0) for b, q in BROAD]
     return np.array(
         [
-            [height, np.log(b), np.log(q), noise, bottom - 1.0, top - 6.0]
+            [height, np.log(b), np.log(q), noise, bottom - 1.0, middle]
             for usual, (b, q, height) in product(parts.usual, heights)
             for noise in (usual, middle)
         ]

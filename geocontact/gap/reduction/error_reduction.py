@@ -27,6 +27,7 @@ from geocontact.gap.selection.evidence import Judged
 from geocontact.identify.intervals.quantile_intervals import ENDS
 
 FORM = 0.04  # relative standard deviation of g² for the form of the effect
+LONE = 0.3  # the same between trials, where one alone was held out
 HEARD, UNHEARD = (
     2.0,
     0.05,
@@ -153,5 +154,5 @@ def _gone(problem: Problem, errors: RawInputErrors, c: int) -> tuple[float, floa
         return 0.0, 0.0
     slope, more = np.mean(slopes, axis=0), float(np.mean(alike))
     gone = float(np.mean(squares)) + more
-    scatter = float(np.var(squares, ddof=1)) / len(squares) if len(squares) > 1 else (0.3 * gone) ** 2
+    scatter = float(np.var(squares, ddof=1)) / len(squares) if len(squares) > 1 else (LONE * gone) ** 2
     return gone, float(np.sqrt(slope @ errors.known @ slope + scatter + (FORM * gone) ** 2 + more**2))

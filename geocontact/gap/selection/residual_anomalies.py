@@ -15,21 +15,21 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.data.trial import Trial
-from geocontact.gap.case.mains import at_mains, wave_count
+from geocontact.gap.case.mains import HUMMING, at_mains, wave_count
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.case.usual_range import usual_range
 from geocontact.gap.inputs.quantisation import resolution
 from geocontact.gap.inputs.spectrum import switches
-from geocontact.gap.levels import FLAT, LEFT_OVER, SLIGHT, SURE
+from geocontact.gap.levels import FLAT, SLIGHT, SURE
 from geocontact.gap.selection.evidence import Judged, without_discrepancy
 from geocontact.identify.noise.typical_noise import typical_noise
 
 WINDOWS = (4, 8, 16, 32, 64)  # samples
 BESIDE = (-8, -7, -6, -5, -4, -3, 3, 4, 5, 6, 7, 8)  # bins that a line is compared with
 OTHERS = 4  # stretches that one is compared with, at the least
-PACKETS = (16, 24, 32)  # samples that an oscillation is looked for in
 CYCLES = 4  # periods in a window, or in a trial, from which something counts as an oscillation
+PACKETS = (4, 6, 8)  # samples per period, of the slowest oscillation that a window of CYCLES periods shows
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class ResidualAnomaly:
     nats
         How sure it is.
     share
-        Of the squared residual of its channel that it makes up; 0 of what is of the recorder.
+        Of the squared error of its channel that it makes up, that of the base model; 0 of what is of the recorder.
     """
 
     words: str
@@ -52,14 +52,17 @@ class ResidualAnomaly:
     share: float = 0.0
 
     @property
-    def counts(self) -> bool:
-        """Whether it is more than a remark: a narrow line of a thousandth of the error may be as sure as anything."""
-        return self.share > LEFT_OVER
+    def part(self) -> float:
+        """The share as far as it is sure, nothing of it at SURE nats and all of it well beyond.
+
+        A narrow line of a thousandth of the error may be as sure as anything, and is a thousandth.
+        """
+        return float(self.share * -np.expm1(min(SURE - self.nats, 0.0)))
 
 
-def residual_anomalies(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
-    """Oscillations, the surest first."""
-    return sorted([*lines(problem, judged), *ringing(problem, judged)], key=lambda each: -each.nats)
+def residual_anomalies(problem: Problem, judged: Judged, base: Judged) -> list[ResidualAnomaly]:
+    """Oscillations that a model leaves, the surest first; shares are of the error of `base`."""
+    return sorted([*lines(problem, judged, base), *ringing(problem, judged, base)], key=lambda each: -each.nats)
 
 
 def recorder_remarks(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
@@ -84,13 +87,13 @@ def innovations(problem: Problem, judged: Judged) -> list[list[Float[np.ndarray,
     return out
 
 
-def lines(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
+def lines(problem: Problem, judged: Judged, base: Judged) -> list[ResidualAnomaly]:
     """A narrow line in the spectrum: power at one frequency against that of its neighbours, trials taken together.
 
     At frequencies of the movement a model misses something, and nothing is odd. What only goes on and off has all
     frequencies, and is no movement. Hum of the mains is of the recorder.
     """
-    return _lines(problem, judged, "a line", mains=False)
+    return _lines(problem, judged, base, "a line", mains=False)
 
 
 def hum(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
@@ -98,7 +101,7 @@ def hum(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
 
     A line that is something else falls there by chance only: they are a few bins of hundreds.
     """
-    found = _lines(problem, without_hum(problem, judged), "hum of the mains", mains=True)
+    found = _lines(problem, without_hum(problem, judged), judged, "hum of the mains", mains=True)
     return [replace(one, share=0.0) for one in found]
 
 
@@ -110,7 +113,7 @@ def without_hum(problem: Problem, judged: Judged) -> Judged:
     return replace(judged, noise=replace(judged.noise, varies=varies))
 
 
-def _lines(problem: Problem, judged: Judged, what: str, *, mains: bool) -> list[ResidualAnomaly]:
+def _lines(problem: Problem, judged: Judged, base: Judged, what: str, *, mains: bool) -> list[ResidualAnomaly]:
     """Lines at the mains' frequencies, or everywhere else."""
     from scipy.stats import f, gamma
 
@@ -136,7 +139,7 @@ def _lines(problem: Problem, judged: Judged, what: str, *, mains: bool) -> list[
             doubt += np.interp(grid, np.arange(len(power)) / len(x), np.where(ruled_out, 0.0, nats))
         peak = int(np.argmax(doubt))
         nats = -float(gamma.logsf(doubt[peak], len(series))) - float(np.log(len(grid)))
-        share = share_of_band(problem, judged, c, float(grid[peak]), 0.0)
+        share = share_of_band(problem, judged, base, c, float(grid[peak]), 0.0)
         found.append(ResidualAnomaly(f"{what} at {grid[peak] / step:.3g} Hz", name, max(nats, 0.0), share))
     return found
 
@@ -166,7 +169,7 @@ def _around(power: Float[np.ndarray, " f"]) -> tuple[Float[np.ndarray, " f"], Fl
     return (power[np.where(there, at, 0)] * there).sum(axis=1) / count, count
 
 
-def ringing(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
+def ringing(problem: Problem, judged: Judged, base: Judged) -> list[ResidualAnomaly]:
     """An oscillation that comes at the same phase of every trial and dies away: power there against that elsewhere.
 
     Of one frequency, beyond what all frequencies gain there.
@@ -177,7 +180,7 @@ def ringing(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
     rows = innovations(problem, judged)
     for c, name in enumerate(problem.system.outputs):
         best, at_best, narrow = 0.0, 0.0, 0.0
-        for width in PACKETS:
+        for width in (CYCLES * samples for samples in PACKETS if samples > 2):  # of two is Nyquist's frequency
             spectra = [_packets(trial[c], width) for trial in rows if len(trial[c]) >= OTHERS * width]
             if not spectra:
                 continue
@@ -194,25 +197,29 @@ def ringing(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
             if nats[frame, at] > best:
                 best, at_best, narrow = float(nats[frame, at]), (at + CYCLES) / width, 1.0 / width
         words = f"ringing at {at_best / problem.system.scale.step:.3g} Hz at the same phase of every trial"
-        found.append(ResidualAnomaly(words, name, best, share_of_band(problem, judged, c, at_best, narrow)))
+        found.append(ResidualAnomaly(words, name, best, share_of_band(problem, judged, base, c, at_best, narrow)))
     return found
 
 
-def share_of_band(problem: Problem, judged: Judged, c: int, centre: float, half: float) -> float:
-    """Part of the squared residual of a channel, all trials together, within `half` of a frequency [cycles per sample].
+def share_of_band(problem: Problem, judged: Judged, base: Judged, c: int, centre: float, half: float) -> float:
+    """Part of a channel's squared error that is within `half` of a frequency [cycles per sample], all trials together.
 
-    Of the residual as it is, its mean with it; with `half` 0 within a trial's resolution.
+    What is within is what a model leaves, beyond as much as bins as far again to either side have; the error is that of
+    `base`, its mean with it, or what the model leaves where that is more. With `half` 0 within as much as a line is
+    wide.
     """
-    inside = whole = 0.0
-    for residual, present in zip(judged.model.residuals, problem.recorded.present, strict=True):
-        x = residual[present[:, c], c]
+    inside = whole = before = 0.0
+    both = zip(judged.model.residuals, base.model.residuals, problem.recorded.present, strict=True)
+    for residual, first, present in both:
+        x, y = residual[present[:, c], c], first[present[:, c], c]
         if len(x) < WINDOWS[-1]:
             continue
         power = 2.0 * np.abs(np.fft.rfft(x)) ** 2 / len(x)
-        near = np.abs(np.arange(len(power)) / len(x) - centre) <= max(half, 1.5 / len(x))
-        near[0] = False
-        inside, whole = inside + float(power[near].sum()), whole + float(x @ x)
-    return inside / whole if whole > 0.0 else 0.0
+        off, wide = np.abs(np.arange(1, len(power)) / len(x) - centre), max(half, HUMMING / len(x))
+        near, beside = power[1:][off <= wide], power[1:][(off > wide) & (off <= 2.0 * wide)]
+        inside += float(near.sum()) - len(near) * (float(beside.mean()) if len(beside) else 0.0)
+        whole, before = whole + float(x @ x), before + float(y @ y)
+    return max(inside, 0.0) / max(whole, before) if whole > 0.0 else 0.0
 
 
 def _packets(values: Float[np.ndarray, " n"], width: int) -> Float[np.ndarray, "m f"]:

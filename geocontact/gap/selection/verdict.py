@@ -109,7 +109,7 @@ def ranking(
     return Ranking(base, living, gains)
 
 
-def answer(held: Ranking, unnamed: float, strange: float, rest: float, little: float = 0.0) -> Answer:
+def answer(held: Ranking, unnamed: float, odd: float, rest: float, little: float = 0.0) -> Answer:
     """The verdict; FloatingPointError where what is given is not a number.
 
     Parameters
@@ -118,18 +118,19 @@ def answer(held: Ranking, unnamed: float, strange: float, rest: float, little: f
         Who is weighed.
     unnamed
         What a surrogate for anything unknown gains over the base [nats].
-    strange
-        How sure it is that something odd makes up much of the error that the leader leaves [nats].
+    odd
+        Part of the squared error that is something odd for sure, 0 … 1. The odds of that part, over those of what may
+        be left over (LEFT_OVER), are those of something unknown over everything else.
     rest
-        What the surrogate gains on top of the best contender, with what is odd [nats]. What is there beside an effect
-        is there without it as well: no more of it is believed than what it gains over the base.
+        What the surrogate gains on top of the best contender [nats]. What is there beside an effect is there without
+        it as well: no more of it is believed than what it gains over the base.
     little
         What a known effect gains that is too small to be named [nats]. What it explains is nothing unknown.
     """
     base, living, gains = held.base, held.living, held.gains
     unnamed = unnamed - little
-    rest = min(rest, max(unnamed, 0.0) + strange)
-    unnamed = (1.0 - WORTH_NAMING) * max(unnamed - 0.5 * SURE, 0.0) + strange
+    rest = min(rest, max(unnamed, 0.0))
+    unnamed = (1.0 - WORTH_NAMING) * max(unnamed - 0.5 * SURE, 0.0)
     named = max([*gains.values(), 0.0])
     most = max(named, unnamed)
     tolerance = 1.0 + SLIGHT * most
@@ -141,6 +142,7 @@ def answer(held: Ranking, unnamed: float, strange: float, rest: float, little: f
     doubt = 1.0 / (1.0 + np.exp(-excess / (1.0 + 0.5 * SLIGHT * most + 0.1 * abs(rest))))
     doubted = sum(weights.values()) * doubt / max(1.0 - doubt, 1e-9)
     weights[("unknown",)] = weights.get(("unknown",), 0.0) + np.exp((unnamed - most) / tolerance) + doubted
+    weights[("unknown",)] += sum(weights.values()) * _odds(odd) / _odds(LEFT_OVER)
     total = sum(weights.values())
     if not np.isfinite(total):
         raise FloatingPointError("probabilities cannot be told: what is left unexplained is not a number")
@@ -149,6 +151,10 @@ def answer(held: Ranking, unnamed: float, strange: float, rest: float, little: f
         for name in names:
             shared[name] = shared.get(name, 0.0) + weight / total / len(names)
     return _said(base, living, gains, {names: w / total for names, w in weights.items()}, shared)
+
+
+def _odds(part: float) -> float:
+    return part / max(1.0 - part, 1e-9)
 
 
 def most_of(held: Ranking, little: Collection[str]) -> float:
