@@ -5,8 +5,9 @@ home, are attributed again. An answer is moved where the verdict or the first na
 in groups: where a group changes no answer, none of it does (two that undo each other would be missed, which is said);
 where it does, its halves are tried, down to single ones. Of these the table has the answers moved, false alarms,
 those first ranked right, diagnoses that failed and the mean logarithm of the probability of the truth, beside what
-they were. Of a table of several values all are halved, or doubled. Cases are drawn before anything is changed. Numbers inside compiled kernels stay as they are. Every trial
-is added to a file beside the JSON as it is done, and the same call goes on where a run of the same commit ended.
+they were. Of a table all values are changed. Cases are drawn before that. Numbers inside compiled kernels stay as they
+are. Every trial is added to a file beside the JSON as it is done, and the same call goes on where a run of the same
+commit ended.
 """
 
 from __future__ import annotations

@@ -10,8 +10,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from benchmarks.constants_of import Value, bare, numbers_in
+from benchmarks.constants_of import Value, numbers_in
 from benchmarks.gap_constants import DRAWN, ROOMS, choices
+from benchmarks.machine import as_json
 from website.stage import ROOT
 
 PAGE = "docs/reference/gap_constants.md"
@@ -70,25 +71,32 @@ def constants() -> str:
     """The whole page; the runs' cases are added up."""
     runs = [json.loads(file.read_text(encoding="utf-8")) for file in sorted(ROOT.glob(RESULTS))]
     told = json.loads((ROOT / TOLD).read_text(encoding="utf-8"))
-    judging = {one.label: one.value for one in found_in(ROOMS)}
+    judging = {one.label: one.value for one in choices(ROOMS)}
     rows = [
         (label, value, [effect(runs, label, value, factor) for factor in FACTORS]) for label, value in judging.items()
     ]
     moving = [row for row in rows if any(one and one.moved for one in row[2])]
     moving.sort(key=lambda row: -sum(one.moved / one.of for one in row[2] if one))
     still = [row for row in rows if row not in moving]
-    aside = {one.label: one.value for one in found_in(("gap", "identify")) if one.label not in judging}
-    return "\n\n".join([*head(runs, len(judging)), table(moving), *foot(rows, still), *beside(told, aside)]) + "\n"
+    aside = {one.label: one.value for one in choices(("gap", "identify")) if one.label not in judging}
+    numbers = sum(not isinstance(value, tuple) for value in judging.values())
+    return (
+        "\n\n".join(
+            [*head(runs, numbers, len(judging) - numbers), table(moving), *foot(rows, still), *beside(told, aside)]
+        )
+        + "\n"
+    )
 
 
-def head(runs: Sequence[Run], count: int) -> list[str]:
-    """What was done, and what is true before anything is changed; `count` constants move a verdict."""
+def head(runs: Sequence[Run], numbers: int, tables: int) -> list[str]:
+    """What was done, and what is true before anything is changed; so many numbers and tables can move a verdict."""
     whole = {_cases(run): run for run in runs}.values()
     cases, nothing = (sum(run[what] for run in whole) for what in ("answers", "nothing_missing"))
     what = (
-        f"{count} numbers with a name stand in the rooms that a verdict comes from. They were halved, and doubled, and "
-        "the same synthetic cases were diagnosed again (`python -m benchmarks.gap_constants`): "
-        f"{cases} cases drawn at home, {nothing} of them without an effect. What each is and where it comes from: "
+        f"{numbers} numbers with a name and {tables} tables of several values stand in the rooms that a verdict comes "
+        "from. They were halved, and doubled, of a table all values, counts to one at the least, and the same "
+        f"synthetic cases were diagnosed again (`python -m benchmarks.gap_constants`): {cases} cases drawn at home, "
+        f"{nothing} of them without an effect. What each is and where it comes from: "
         "[theory](../theory/gap_diagnosis.md#constants)."
     )
     how = (
@@ -97,7 +105,7 @@ def head(runs: Sequence[Run], count: int) -> list[str]:
         "where a group moved an answer: two that undo each other would be missed, and nats are told only of what was "
         "tried by itself. Where a number ends the diagnosis an answer counts as moved and as failed: neither as a "
         "false alarm nor as right. Logarithms (SLOWEST, BROADEST, FLATTEST, STEEPEST) are halved and doubled as such: "
-        "half of one is the root. Not tried: tables of several values, numbers without a name."
+        "half of one is the root. Numbers without a name stand in formulas only."
     )
     before = "Before anything is changed (made by `python -m website.pages` from these runs):"
     lines = ["| run | commit | false alarms | right effect first | failed |", "|---|---|---|---|---|"]
@@ -110,25 +118,37 @@ def head(runs: Sequence[Run], count: int) -> list[str]:
     return ["# Constants of the diagnosis, halved and doubled", what, how, before, "\n".join(lines)]
 
 
-def table(rows: Sequence[tuple[str, float, list[Effect | None]]]) -> str:
+def shown(value: Value) -> str:
+    """A number, or those of a table."""
+    return ", ".join(f"{each:.4g}" for each in numbers_in(value))
+
+
+def same(value: Value, stored: Value) -> bool:
+    """Whether a file of results has this value."""
+    return bool(json.loads(as_json(value)) == stored)
+
+
+def table(rows: Sequence[tuple[str, Value, list[Effect | None]]]) -> str:
     """Constants that move an answer: how many, and what becomes of false alarms and right names."""
     lines = ["| constant | value | " + " | ".join(FACTORS.values()) + " |", "|---|---|---|---|"]
     for label, value, effects in rows:
         lines.append(
-            f"| `{label}` | {value:.4g} | " + " | ".join(one.words() if one else "not tried" for one in effects) + " |"
+            f"| `{label}` | {shown(value)} | "
+            + " | ".join(one.words() if one else "not tried" for one in effects)
+            + " |"
         )
     return "\n".join(lines)
 
 
 def foot(
-    rows: Sequence[tuple[str, float, list[Effect | None]]], still: Sequence[tuple[str, float, list[Effect | None]]]
+    rows: Sequence[tuple[str, Value, list[Effect | None]]], still: Sequence[tuple[str, Value, list[Effect | None]]]
 ) -> list[str]:
     """Constants that move none, by the cases that they were tried on, and what was not tried with a factor."""
     by_count: dict[int, list[str]] = {}
     for label, value, effects in still:
         tried = [one.of for one in effects if one]
         if len(tried) == len(FACTORS):
-            by_count.setdefault(min(tried), []).append(f"`{label}` ({value:.4g})")
+            by_count.setdefault(min(tried), []).append(f"`{label}` ({shown(value)})")
     parts = [f"## {sum(map(len, by_count.values()))} that move no answer"]
     parts += [
         f"In {count} cases (so up to {100.0 * (1.0 - 0.05 ** (1.0 / count)):.0f} % of all, 95 %): {', '.join(names)}."
@@ -142,7 +162,7 @@ def foot(
     return parts + (["## Not tried with every factor", ", ".join(left) + "."] if left else [])
 
 
-def beside(told: Run, labels: dict[str, float]) -> list[str]:
+def beside(told: Run, labels: dict[str, Value]) -> list[str]:
     """Constants of rooms that work on a verdict that is there, by what they move."""
     trials = [row[factor] for row in told["constants"].values() for factor in FACTORS if row.get(factor)]
     judged = sum(any(part in VERDICT for part in one["parts"]) for one in trials)
@@ -159,9 +179,9 @@ def beside(told: Run, labels: dict[str, float]) -> list[str]:
     lines = ["| constant | value | halved | doubled |", "|---|---|---|---|"]
     for label, value in labels.items():
         row = told["constants"].get(label, {})
-        known = row.get("value") == value
+        known = same(value, row.get("value"))
         cells = [_parts(row.get(factor) if known else None, told["answers"]) for factor in FACTORS]
-        lines.append(f"| `{label}` | {value:.4g} | {' | '.join(cells)} |")
+        lines.append(f"| `{label}` | {shown(value)} | {' | '.join(cells)} |")
     return [f"## {len(labels)} that can move no verdict", why, "\n".join(lines)] if labels else []
 
 
@@ -173,7 +193,7 @@ def _parts(one: dict[str, Any] | None, of: int) -> str:
     )
 
 
-def effect(runs: Sequence[Run], label: str, value: float, factor: str) -> Effect | None:
+def effect(runs: Sequence[Run], label: str, value: Value, factor: str) -> Effect | None:
     """What a constant does with a factor, over the runs that had it at this value and came to it; None without any.
 
     Of runs on the same cases the last one that tried it counts.
@@ -181,7 +201,7 @@ def effect(runs: Sequence[Run], label: str, value: float, factor: str) -> Effect
     tried = {
         _cases(run): (run, run["constants"][label][factor])
         for run in runs
-        if run["constants"].get(label, {}).get("value") == value and factor in run["constants"][label]
+        if same(value, run["constants"].get(label, {}).get("value")) and factor in run["constants"][label]
     }
     if not tried:
         return None

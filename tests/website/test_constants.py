@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from website.constants import Effect, beside, effect, foot, table
+from website.constants import Effect, beside, effect, foot, same, shown, table
 
 BEFORE = {"false_alarms": 0, "first_right": 3, "failed": 0, "nats": -0.25}
 MOVED = {
@@ -61,6 +61,15 @@ def test_what_a_run_did_not_try_is_not_called_harmless() -> None:
         "`FEW` (halved).",
     ]
     assert table([("FEW", 20, [None, none])]).splitlines()[-1] == "| `FEW` | 20 | not tried | 0 of 4 |"
+
+
+def test_a_table_is_known_by_all_its_values() -> None:
+    pairs = ((0.08, 0.7), (0.2, 0.7))
+    run = {**RUNS[0], "constants": {"BROAD": {"value": [[0.08, 0.7], [0.2, 0.7]], "times 2": MOVED}}}
+    told = effect([run], "BROAD", pairs, "times 2")
+    assert told is not None and effect([run], "BROAD", ((0.08, 0.7), (0.3, 0.7)), "times 2") is None
+    assert table([("BROAD", pairs, [None, told])]).splitlines()[-1].startswith("| `BROAD` | 0.08, 0.7, 0.2, 0.7 | not")
+    assert shown((0.0, 5.0, float("inf"))) == "0, 5, inf" and same((0.0, float("inf")), [0.0, None])
 
 
 def test_what_works_on_a_verdict_is_told_by_what_it_moves() -> None:

@@ -49,6 +49,8 @@ class Surrogate:
         What it predicts of the residual of every trial, in the channels' units.
     by_calibration
         The same with weights from the calibration trials alone.
+    lonely
+        Whether weights are a trial's own, so that no trial tells anything of another.
     """
 
     family: str
@@ -57,6 +59,7 @@ class Surrogate:
     price: float
     predicted: tuple[Float[np.ndarray, "_ c"], ...]
     by_calibration: tuple[Float[np.ndarray, "_ c"], ...]
+    lonely: bool = False
 
     @property
     def nats(self) -> float:
@@ -71,7 +74,10 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
     noise and under lower noise, and noise levels are estimated anew from what the latter's choice leaves over.
     """
     spread = prior_spread(judged.model.system, judged.model.values)
-    made = [*families(problem), *lonely(problem, judged)]
+    changing = changing_parameters(problem, judged)
+    shared = [*families(problem), ("parameters that change at one moment of every trial", changing)]
+    own = [*disturbances(problem), ("parameters that change during a trial", _apart(changing))]
+    made = [(*one, lonely) for some, lonely in ((shared, False), (own, True)) for one in some]
     price = float(np.log(len(made) * (2 + RENEWED)))
 
     def under(one: Judged) -> Surrogate:
@@ -80,7 +86,7 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
         known, residual = unbent(one.model.whitened_jacobian * spread), unbent(one.model.whitened[:, None])[:, 0]
         nothing = tuple(np.zeros_like(each) for each in one.model.residuals)
         best = Surrogate("", 0.0, 0.0, 0.0, nothing, nothing)
-        for name, features in made:
+        for name, features, lonely in made:
             white = unbent(np.concatenate([w(part) for w, part in zip(whitenings, features, strict=True)]))
             found = chosen(residual, white, known, one.fitted_rows, price)
             if found.gain - found.price > best.nats:
@@ -91,7 +97,7 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
                     )
                     for told in (found.by_all, found.by_calibration)
                 )
-                best = Surrogate(name, found.gain, found.calibration, found.price, predicted, by_calibration)
+                best = Surrogate(name, found.gain, found.calibration, found.price, predicted, by_calibration, lonely)
         return best
 
     low_noise = judged_as(problem, judged.model, problem.with_lower_noise(judged.noise), judged.discrepancy_basis)
@@ -217,19 +223,23 @@ def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ 
     yield "time within the trial", [_per_channel(bumps, scale) for bumps in _line(phase, THROUGH)]
 
 
-def lonely(problem: Problem, judged: Judged) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
-    """Families whose weights are a trial's own: a disturbance in it, parameters that change during it."""
+def disturbances(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
+    """Bumps over a trial whose weights are its own: what happens in one trial and not in another."""
     trials = problem.calibration.trials + problem.evaluation.trials
     phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
     bumps = [_per_channel(each, problem.floor_of_noise) for each in _line(phase, ALONE)]
     yield "stretches of single trials", _apart(bumps)
+
+
+def changing_parameters(problem: Problem, judged: Judged) -> list[Float[np.ndarray, "_ c m"]]:
+    """What base parameters do that are others from some moment of a trial on."""
+    trials = problem.calibration.trials + problem.evaluation.trials
     count, edges = problem.fitted, np.arange(1, STRETCHES) / STRETCHES
-    changing = [
+    phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
+    return [
         np.concatenate([j[..., :count] * problem.usual[:count] * (p > edge)[:, None, None] for edge in edges], axis=-1)
         for j, p in zip(judged.model.jacobian, phase, strict=True)
     ]
-    yield "parameters that change during a trial", _apart(changing)
-    yield "parameters that change at one moment of every trial", changing
 
 
 def _apart(features: list[Float[np.ndarray, "_ c m"]]) -> list[Float[np.ndarray, "_ c k"]]:
