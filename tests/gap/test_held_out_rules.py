@@ -13,7 +13,7 @@ from geocontact.gap.case.placement import GAIN
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import evaluated, floor_of
 from geocontact.gap.case.refit import refit
-from geocontact.gap.levels import DEVIATIONS, SLIGHT
+from geocontact.gap.levels import DEVIATIONS, SLIGHT, SURE
 from geocontact.gap.selection.held_out_error import TrialWeight, taken_away
 from geocontact.gap.selection.held_out_rules import (
     ONLY_NOISE,
@@ -220,6 +220,21 @@ def test_without_a_gap_nothing_is_called_unknown(rules: HeldOutRules) -> None:
         change = tuple(size * wave for wave in waves)
         found = Surrogate("time within the trial", 900.0, 500.0, 5.0, change, change)
         assert rules.unnamed(found, [n + m for n, m in zip(noise, change, strict=True)]) is counts
+
+
+@pytest.mark.slow
+def test_what_is_of_each_trial_alone_is_asked_of_held_out_trials_themselves(rules: HeldOutRules) -> None:
+    """Weights of the calibration trials tell nothing of them: what they gain counts, if it is worth naming."""
+    floor = rules.problem.floor
+    noise = [floor * RNG.standard_normal(part.shape) for part in rules.base.model.residuals]
+    waves = [floor * np.sin(0.05 * np.arange(len(part)) + k)[:, None] for k, part in enumerate(noise)]
+    nothing = tuple(np.zeros_like(each) for each in noise)
+    for size, gain, lonely, counts in ((2.0, 900.0, True, True), (2.0, 900.0, False, False), (0.3, 900.0, True, False)):
+        change = tuple(size * wave for wave in waves)
+        found = Surrogate("stretches of single trials", gain, 500.0, 5.0, change, nothing, lonely)
+        before = [n + m for n, m in zip(noise, change, strict=True)]
+        assert rules.unnamed(found, before) is counts
+        assert not rules.unnamed(replace(found, gain=500.0 + 0.5 * SURE), before)
 
 
 @pytest.mark.slow
