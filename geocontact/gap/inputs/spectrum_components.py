@@ -20,11 +20,11 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.gap.inputs.spectrum import Spectrum
-from geocontact.gap.levels import FEWEST, INPUT_NOISE, SURE
+from geocontact.gap.levels import FEWEST, INPUT_NOISE, LEADING, SURE
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.identify.noise.noise_spectrum import FREQUENCIES
 from geocontact.identify.optimise.fisher_scoring import Batch, Scored, least
-from geocontact.identify.optimise.tolerances import CLOSE
+from geocontact.identify.optimise.tolerances import CLOSE, LIMIT
 from geocontact.identify.signals.low_pass import LowPass
 
 LOUDER = 2.0  # standard deviation of the logarithm of the power of an input's noise; one of that of a rest
@@ -187,25 +187,37 @@ def _pooled(seen: Spectrum) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, 
 
 
 def _likeliest(parts: Parts, with_tail: bool) -> Split:
-    """Of all starts, for each filter."""
+    """For each filter the best of all starts, those that fall behind given up, and of where its neighbours ended."""
     top = float(np.log(parts.power.max()))
     bottom, beyond = top - NOTHING, top + NOTHING
     digits = 0.5 * NOTHING  # what is lower by that is lost beside it; of a movement there is more
     low = np.array([top - digits, SLOWEST, FLATTEST, bottom, bottom, bottom])
     high = np.array([beyond, BROADEST, STEEPEST, top + 2.0, top, beyond])
-    start = _starts(parts)
-    places = len(start) // len(parts.part)
-    which = np.repeat(np.arange(len(parts.part)), places)
     chosen = slice(None if with_tail else -1)
-    low, high, start = low[chosen], high[chosen], start[:, chosen]
-    found = least(lambda x, rows: parts.scored(x, which[rows], with_tail=with_tail), start, low, high)
-    value, noise = (each.reshape(-1, places) for each in (found.value, found.at[:, 3]))
-    k = np.arange(len(value)), value.argmin(axis=1)
-    return Split(value[k], np.sqrt(np.exp(noise[k]) * parts.part))
+    low, high, k = low[chosen], high[chosen], np.arange(len(parts.part))
+
+    def ended(
+        start: Float[np.ndarray, "k s p"], rounds: int = LIMIT
+    ) -> tuple[Float[np.ndarray, "k s"], Float[np.ndarray, "k s p"]]:
+        which = np.repeat(k, start.shape[1])
+        rows = np.concatenate(start)
+        found = least(lambda x, of: parts.scored(x, which[of], with_tail=with_tail), rows, low, high, rounds)
+        return found.value.reshape(start.shape[:2]), found.at.reshape(start.shape)
+
+    value, at = ended(_starts(parts)[..., chosen], LIMIT // 10)
+    ahead = np.argsort(value, axis=1)[:, :LEADING]
+    value, at = ended(at[k[:, None], ahead])
+    own, place = value.min(axis=1), at[k, value.argmin(axis=1)]
+    beside = np.stack([place[np.maximum(k - 1, 0)], place[np.minimum(k + 1, k[-1])]], axis=1)
+    value, at = (
+        np.concatenate(both, axis=1) for both in zip((own[:, None], place[:, None]), ended(beside), strict=True)
+    )
+    best = value.argmin(axis=1)
+    return Split(value[k, best], np.sqrt(np.exp(at[k, best, 3]) * parts.part))
 
 
-def _starts(parts: Parts) -> Batch:
-    """Parameters to start from, tail and all: as many rows for each filter, one filter after the other."""
+def _starts(parts: Parts) -> Float[np.ndarray, "k s p"]:
+    """Parameters to start from, tail and all, for each filter."""
     slow = np.argsort(parts.frequency)[:FEWEST]
     powers = np.log(parts.power)
     bottom, middle = np.quantile(powers, [1.0 / FEWEST, 0.5])
@@ -217,8 +229,11 @@ def _starts(parts: Parts) -> Batch:
     heights += [(b, q, float(middle) + 1.0) for b, q in BROAD]
     return np.array(
         [
-            [height, np.log(b), np.log(q), noise, bottom - 1.0, middle]
-            for usual, (b, q, height) in product(parts.usual, heights)
-            for noise in (usual, middle)
+            [
+                [height, np.log(b), np.log(q), noise, bottom - 1.0, middle]
+                for b, q, height in heights
+                for noise in (usual, middle)
+            ]
+            for usual in parts.usual
         ]
     )
