@@ -94,7 +94,7 @@ def head(runs: Sequence[Run], numbers: int, tables: int) -> list[str]:
     cases, nothing = (sum(run[what] for run in whole) for what in ("answers", "nothing_missing"))
     what = (
         f"{numbers} numbers with a name and {tables} tables of several values stand in the rooms that a verdict comes "
-        "from. They were halved, and doubled, of a table all values, counts to one at the least, and the same "
+        "from. Each was halved, and doubled (of a table all values; a count to one at the least), and the same "
         f"synthetic cases were diagnosed again (`python -m benchmarks.gap_constants`): {cases} cases drawn at home, "
         f"{nothing} of them without an effect. What each is and where it comes from: "
         "[theory](../theory/gap_diagnosis.md#constants)."
