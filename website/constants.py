@@ -201,7 +201,7 @@ def effect(runs: Sequence[Run], label: str, value: Value, factor: str) -> Effect
     tried = {
         _cases(run): (run, run["constants"][label][factor])
         for run in runs
-        if same(value, run["constants"].get(label, {}).get("value")) and factor in run["constants"][label]
+        if factor in run["constants"].get(label, {}) and same(value, run["constants"][label]["value"])
     }
     if not tried:
         return None

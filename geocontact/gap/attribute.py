@@ -57,7 +57,7 @@ class Attribution:
     remaining
         What the surrogate for anything unknown finds on the base ("none") and on the best contender, by label.
     odd
-        Oscillations in the residual of the leader, those that make up little of it among them.
+        Oscillations in the residual of the leader, each with its share of the base model's error.
     recorder
         What the recordings show of their recorder.
     objections

@@ -182,7 +182,7 @@ def _remarks(found: Attribution, unexplained: bool, errors: RawInputErrors) -> t
     """What is odd, in words; `unexplained` where nothing known explains a part of an unknown gap."""
     said = found.answer
     return (
-        *(f"{each.words} in {each.channel}" for each in (*found.odd, *found.recorder)),
+        *(each.told for each in (*found.odd, *found.recorder)),
         *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
         *(f"{each.words} in {channel}" for channel, each in found.heavy.items()),
         *coarse_rates(found.problem),

@@ -38,8 +38,16 @@ def test_what_makes_up_little_of_an_error_is_little_however_sure() -> None:
     assert ResidualAnomaly("a line", "force", SURE - 1.0, 0.8).part == 0.0
 
 
+def test_a_share_is_told_of_what_has_one() -> None:
+    assert (
+        ResidualAnomaly("a line at 7 Hz", "force", 9.0, 0.234).told
+        == "a line at 7 Hz in force, 23 % of its squared error"
+    )
+    assert ResidualAnomaly("a burst", "force", 9.0).told == "a burst in force"
+
+
 def test_of_the_base_models_error_what_an_effect_leaves_is_a_smaller_share(elsewhere: Elsewhere) -> None:
-    """Half of what is left where a tenth of the squared error is left."""
+    """A ninth, where the base model leaves three times as much in every sample."""
     alone, beside = elsewhere(shares_of_line, Tremor(0.25, 7.0), 3.0)
     assert beside == pytest.approx(alone / 9.0, rel=1e-6)
 

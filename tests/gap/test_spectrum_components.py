@@ -10,7 +10,7 @@ from jaxtyping import Float
 from scipy.optimize import minimize
 
 from geocontact.gap.inputs.spectrum import Spectrum
-from geocontact.gap.inputs.spectrum_components import TAIL, Parts, split
+from geocontact.gap.inputs.spectrum_components import BROADEST, FLATTEST, SLOWEST, STEEPEST, TAIL, Parts, split
 from geocontact.gap.levels import SURE
 from geocontact.identify.signals.low_pass import LowPass
 
@@ -69,7 +69,7 @@ def spread(height: float) -> Float[np.ndarray, " f"]:
     ],
 )
 def test_no_other_start_finds_anything_likelier(expected: Float[np.ndarray, " f"]) -> None:
-    """Fifty random ones, each taken downhill by scipy."""
+    """Fifty random ones, half of them with a tail, each taken downhill by scipy."""
     seen, through = drawn(expected), FILTERS[4]
     parts = Parts.of(seen, [through])
     rng = np.random.default_rng(1)
@@ -81,10 +81,10 @@ def test_no_other_start_finds_anything_likelier(expected: Float[np.ndarray, " f"
 
     others = []
     for count, price in ((5, 0.0), (6, 0.5 * SURE)):
-        low = np.array([top - 20.0, np.log(0.02), np.log(0.7), top - 60.0, top - 80.0, top - 60.0])[:count]
-        high = np.array([top + 40.0, np.log(20.0), np.log(3.0), top + 2.0, top, top + 20.0])[:count]
+        low = np.array([top - 20.0, SLOWEST, FLATTEST, top - 60.0, top - 80.0, top - 60.0])[:count]
+        high = np.array([top + 40.0, BROADEST, STEEPEST, top + 2.0, top, top + 20.0])[:count]
         for _ in range(25):
-            start = rng.uniform(np.maximum(low, [top - 5, -2, -0.3, top - 25, top - 30, top - 10][:count]), high)
+            start = rng.uniform(np.maximum(low, [top - 5, -8, -0.3, top - 25, top - 30, top - 10][:count]), high)
             best = minimize(cost, start, jac=True, method="L-BFGS-B", bounds=list(zip(low, high, strict=True)))
             others.append(float(best.fun) + price)
     assert split(seen, [through]).unlikely[0] <= min(others) + 1e-3

@@ -52,6 +52,12 @@ class ResidualAnomaly:
     share: float = 0.0
 
     @property
+    def told(self) -> str:
+        """What it is, where, and its share if it has one."""
+        share = f", {100.0 * self.share:.2g} % of its squared error" if self.share > 0.0 else ""
+        return f"{self.words} in {self.channel}{share}"
+
+    @property
     def part(self) -> float:
         """The share as far as it is sure, nothing of it at SURE nats and all of it well beyond.
 
@@ -202,11 +208,11 @@ def ringing(problem: Problem, judged: Judged, base: Judged) -> list[ResidualAnom
 
 
 def share_of_band(problem: Problem, judged: Judged, base: Judged, c: int, centre: float, half: float) -> float:
-    """Part of a channel's squared error that is within `half` of a frequency [cycles per sample], all trials together.
+    """Part of a channel's squared error that is within `half` of a frequency [cycles per sample], 0 … 1.
 
-    What is within is what a model leaves, beyond as much as bins as far again to either side have; the error is that of
-    `base`, its mean with it, or what the model leaves where that is more. With `half` 0 within as much as a line is
-    wide.
+    Of all trials together that are long enough to show a line. What is within is what a model leaves, beyond as much as
+    bins as far again to either side have; the error is that of `base`, its mean with it, or what the model leaves where
+    that is more. With `half` 0 within the bins that hold 87 % of a line or more, wherever it lies between them.
     """
     inside = whole = before = 0.0
     both = zip(judged.model.residuals, base.model.residuals, problem.recorded.present, strict=True)
@@ -214,12 +220,12 @@ def share_of_band(problem: Problem, judged: Judged, base: Judged, c: int, centre
         x, y = residual[present[:, c], c], first[present[:, c], c]
         if len(x) < WINDOWS[-1]:
             continue
-        power = 2.0 * np.abs(np.fft.rfft(x)) ** 2 / len(x)
-        off, wide = np.abs(np.arange(1, len(power)) / len(x) - centre), max(half, HUMMING / len(x))
-        near, beside = power[1:][off <= wide], power[1:][(off > wide) & (off <= 2.0 * wide)]
+        power = 2.0 * np.abs(np.fft.rfft(x))[1 : (len(x) + 1) // 2] ** 2 / len(x)  # neither mean nor Nyquist's
+        off, wide = np.abs(np.arange(1, len(power) + 1) / len(x) - centre), max(half, HUMMING / len(x))
+        near, beside = power[off <= wide], power[(off > wide) & (off <= 2.0 * wide)]
         inside += float(near.sum()) - len(near) * (float(beside.mean()) if len(beside) else 0.0)
         whole, before = whole + float(x @ x), before + float(y @ y)
-    return max(inside, 0.0) / max(whole, before) if whole > 0.0 else 0.0
+    return min(max(inside, 0.0) / max(whole, before), 1.0) if whole > 0.0 else 0.0
 
 
 def _packets(values: Float[np.ndarray, " n"], width: int) -> Float[np.ndarray, "m f"]:

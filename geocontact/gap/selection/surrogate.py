@@ -49,8 +49,9 @@ class Surrogate:
         What it predicts of the residual of every trial, in the channels' units.
     by_calibration
         The same with weights from the calibration trials alone.
-    lonely
-        Whether weights are a trial's own, so that no trial tells anything of another.
+    apart
+        Of a family whose weights are a trial's own, so that no trial tells anything of another: what each held-out
+        trial gains by itself [nats]. Empty for others.
     """
 
     family: str
@@ -59,7 +60,7 @@ class Surrogate:
     price: float
     predicted: tuple[Float[np.ndarray, "_ c"], ...]
     by_calibration: tuple[Float[np.ndarray, "_ c"], ...]
-    lonely: bool = False
+    apart: tuple[float, ...] = ()
 
     @property
     def nats(self) -> float:
@@ -77,7 +78,7 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
     changing = changing_parameters(problem, judged)
     shared = [*families(problem), ("parameters that change at one moment of every trial", changing)]
     own = [*disturbances(problem), ("parameters that change during a trial", _apart(changing))]
-    made = [(*one, lonely) for some, lonely in ((shared, False), (own, True)) for one in some]
+    made = [(*one, apart) for some, apart in ((shared, False), (own, True)) for one in some]
     price = float(np.log(len(made) * (2 + RENEWED)))
 
     def under(one: Judged) -> Surrogate:
@@ -86,7 +87,9 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
         known, residual = unbent(one.model.whitened_jacobian * spread), unbent(one.model.whitened[:, None])[:, 0]
         nothing = tuple(np.zeros_like(each) for each in one.model.residuals)
         best = Surrogate("", 0.0, 0.0, 0.0, nothing, nothing)
-        for name, features, lonely in made:
+        ends = np.cumsum([len(each.directions) for each in whitenings])[:-1]
+        held_out = len(problem.calibration.trials)
+        for name, features, apart in made:
             white = unbent(np.concatenate([w(part) for w, part in zip(whitenings, features, strict=True)]))
             found = chosen(residual, white, known, one.fitted_rows, price)
             if found.gain - found.price > best.nats:
@@ -97,7 +100,9 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
                     )
                     for told in (found.by_all, found.by_calibration)
                 )
-                best = Surrogate(name, found.gain, found.calibration, found.price, predicted, by_calibration, lonely)
+                trials = [np.split(each, ends)[held_out:] for each in (residual, white[:, found.columns], known)]
+                alone = tuple(gain_of_trial(*each, found.spread) for each in zip(*trials, strict=True)) if apart else ()
+                best = Surrogate(name, found.gain, found.calibration, found.price, predicted, by_calibration, alone)
         return best
 
     low_noise = judged_as(problem, judged.model, problem.with_lower_noise(judged.noise), judged.discrepancy_basis)
@@ -145,9 +150,13 @@ class FittedWeights:
 
 @dataclass(frozen=True)
 class Choice:
-    """Columns of a family that are worth their price, their weights by all trials or few, and what they gain."""
+    """Columns of a family that are worth their price, their weights by all trials or few, and what they gain.
+
+    `spread` are the standard deviations that the weights have beforehand.
+    """
 
     columns: list[int]
+    spread: Float[np.ndarray, " k"]
     by_all: FittedWeights
     by_calibration: FittedWeights
     gain: float
@@ -168,12 +177,11 @@ def chosen(
     `rows` is how many of the rows are of calibration trials.
     """
     none = FittedWeights(np.zeros(0), np.zeros(known.shape[1]))
-    nothing = Choice([], none, none, 0.0, 0.0, price)
+    nothing = Choice([], np.zeros(0), none, none, 0.0, 0.0, price)
     if not columns.shape[1]:
         return nothing
-    basis, _ = np.linalg.qr(np.concatenate([known, CLOSE * np.eye(known.shape[1])]))
-    basis = basis[: len(known)]
-    left, free = residual - basis @ (basis.T @ residual), columns - basis @ (basis.T @ columns)
+    free_of_known = _free_of(known)
+    left, free = free_of_known(residual[:, None])[:, 0], free_of_known(columns)
     each = float(np.log(columns.shape[1] * len(SIZES)))
     taken: list[int] = []
     directions, spread = np.zeros((0, len(left))), np.zeros(0)
@@ -203,7 +211,26 @@ def chosen(
         apart = np.concatenate([residual[by] - columns[by][:, taken] @ weights, np.zeros(known.shape[1])])
         return FittedWeights(weights, np.linalg.lstsq(np.concatenate([known[by], ridge]), apart, rcond=None)[0])
 
-    return Choice(taken, told(slice(None)), told(slice(rows)), gain, part, price + each * len(taken))
+    return Choice(taken, spread, told(slice(None)), told(slice(rows)), gain, part, price + each * len(taken))
+
+
+def gain_of_trial(
+    residual: Float[np.ndarray, " n"],
+    columns: Float[np.ndarray, "n k"],
+    known: Float[np.ndarray, "n p"],
+    spread: Float[np.ndarray, " k"],
+) -> float:
+    """What columns gain in one trial by itself [nats], whatever its own fitted parameters can make up for aside."""
+    free = _free_of(known)
+    left = free(residual[:, None])[:, 0]
+    return log_evidence(left, free(columns), spread) + 0.5 * float(left @ left)
+
+
+def _free_of(known: Float[np.ndarray, "n p"]) -> Callable[[Float[np.ndarray, "n k"]], Float[np.ndarray, "n k"]]:
+    """Takes what these columns explain out of others."""
+    basis, _ = np.linalg.qr(np.concatenate([known, CLOSE * np.eye(known.shape[1])]))
+    basis = basis[: len(known)]
+    return lambda values: values - basis @ (basis.T @ values)
 
 
 def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:

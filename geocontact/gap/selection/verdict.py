@@ -119,8 +119,8 @@ def answer(held: Ranking, unnamed: float, odd: float, rest: float, little: float
     unnamed
         What a surrogate for anything unknown gains over the base [nats].
     odd
-        Part of the squared error that is something odd for sure, 0 … 1. The odds of that part, over those of what may
-        be left over (LEFT_OVER), are those of something unknown over everything else.
+        Part of the squared error that is something odd for sure, 0 … 1. Its odds, over those of the part that may be
+        left over (LEFT_OVER), are the weight that something unknown is given besides, over all other weights together.
     rest
         What the surrogate gains on top of the best contender [nats]. What is there beside an effect is there without
         it as well: no more of it is believed than what it gains over the base.
