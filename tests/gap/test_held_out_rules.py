@@ -13,7 +13,7 @@ from geocontact.gap.case.placement import GAIN
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import evaluated, floor_of
 from geocontact.gap.case.refit import refit
-from geocontact.gap.levels import DEVIATIONS, SLIGHT, SURE
+from geocontact.gap.levels import DEVIATIONS, SLIGHT
 from geocontact.gap.selection.held_out_error import TrialWeight, taken_away
 from geocontact.gap.selection.held_out_rules import (
     ONLY_NOISE,
@@ -220,26 +220,6 @@ def test_without_a_gap_nothing_is_called_unknown(rules: HeldOutRules) -> None:
         change = tuple(size * wave for wave in waves)
         found = Surrogate("time within the trial", 900.0, 500.0, 5.0, change, change)
         assert rules.unnamed(found, [n + m for n, m in zip(noise, change, strict=True)]) is counts
-
-
-@pytest.mark.slow
-def test_what_is_of_each_trial_alone_is_asked_of_held_out_trials_themselves(rules: HeldOutRules) -> None:
-    """Weights of the calibration trials tell nothing of them; no verdict hangs on one of them."""
-    floor = rules.problem.floor
-    noise = [floor * RNG.standard_normal(part.shape) for part in rules.base.model.residuals]
-    waves = [floor * np.sin(0.05 * np.arange(len(part)) + k)[:, None] for k, part in enumerate(noise)]
-    nothing = tuple(np.zeros_like(each) for each in noise)
-    for size, apart, counts in (
-        (2.0, (4.0 * SURE, 4.0 * SURE), True),
-        (2.0, (), False),
-        (0.3, (4.0 * SURE, 4.0 * SURE), False),
-        (2.0, (900.0, 0.5 * SURE), False),
-        (2.0, (900.0,), False),
-    ):
-        change = tuple(size * wave for wave in waves)
-        found = Surrogate("stretches of single trials", 900.0, 500.0, 5.0, change, nothing, apart)
-        before = [n + m for n, m in zip(noise, change, strict=True)]
-        assert rules.unnamed(found, before) is counts
 
 
 @pytest.mark.slow

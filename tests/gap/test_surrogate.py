@@ -10,7 +10,7 @@ import pytest
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.selection.evidence import judged
 from geocontact.gap.selection.model_comparison import base_contender
-from geocontact.gap.selection.surrogate import chosen, gain_of_trial, surrogate
+from geocontact.gap.selection.surrogate import chosen, surrogate
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Bump, elbow_case, stairs, stood_in
@@ -40,18 +40,6 @@ def test_fitted_parameters_make_room() -> None:
     known, column = rng.standard_normal((300, 2)), rng.standard_normal((300, 1))
     found = chosen(2.0 * column[:, 0] + 3.0 * known[:, 1], column, known, 200, 1.0)
     assert found.by_all.shift == pytest.approx([0.0, 3.0], abs=0.05)
-
-
-def test_a_trial_by_itself_does_not_gain_by_what_other_trials_bent() -> None:
-    """An offset that disturbed trials pulled away is made up for; a bump of the trial's own is not."""
-    rng = np.random.default_rng(6)
-    time = np.linspace(0.0, 1.0, 200)
-    bumps = np.exp(-0.5 * ((time[:, None] - np.linspace(0.2, 0.8, 4)) / 0.05) ** 2)
-    known, spread = 100.0 * np.ones((200, 1)), np.full(4, 3.0)
-    noise = rng.standard_normal((30, 200))
-    quiet = [gain_of_trial(each + 2.0, bumps, known, spread) for each in noise]
-    assert max(quiet) < 3.0 and np.mean(quiet) < 0.0
-    assert min(gain_of_trial(each + 2.0 + 4.0 * bumps[:, 1], bumps, known, spread) for each in noise) > 20.0
 
 
 def test_what_fitted_parameters_explain_is_not_paid_for() -> None:

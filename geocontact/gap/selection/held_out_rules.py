@@ -231,15 +231,9 @@ class HeldOutRules:
     def unnamed(self, found: Surrogate, before: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
         """Whether something without a name predicts held-out trials better, as the calibration trials tell it.
 
-        Where it is of each trial alone no trial tells anything of another: then the held-out ones must show it
-        themselves, by more than luck may without the one that gains most. `before` are the residuals that the surrogate
-        was fitted to, all trials.
+        `before` are the residuals that the surrogate was fitted to, all trials.
         """
         count = len(self.problem.calibration.trials)
-        if found.apart:
-            after = [b - m for b, m in zip(before[count:], found.predicted[count:], strict=True)]
-            sure = sum(found.apart) - max(found.apart) > SURE
-            return sure and taken_away(before[count:], after) >= WORTH_NAMING
         change = found.by_calibration[count:]
         pairs = zip(self.weights[count:], before[count:], change, strict=True)
         both = [(weight(b), weight(m)) for weight, b, m in pairs]

@@ -49,9 +49,6 @@ class Surrogate:
         What it predicts of the residual of every trial, in the channels' units.
     by_calibration
         The same with weights from the calibration trials alone.
-    apart
-        Of a family whose weights are a trial's own, so that no trial tells anything of another: what each held-out
-        trial gains by itself [nats]. Empty for others.
     """
 
     family: str
@@ -60,7 +57,6 @@ class Surrogate:
     price: float
     predicted: tuple[Float[np.ndarray, "_ c"], ...]
     by_calibration: tuple[Float[np.ndarray, "_ c"], ...]
-    apart: tuple[float, ...] = ()
 
     @property
     def nats(self) -> float:
@@ -75,10 +71,7 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
     noise and under lower noise, and noise levels are estimated anew from what the latter's choice leaves over.
     """
     spread = prior_spread(judged.model.system, judged.model.values)
-    changing = changing_parameters(problem, judged)
-    shared = [*families(problem), ("parameters that change at one moment of every trial", changing)]
-    own = [*disturbances(problem), ("parameters that change during a trial", _apart(changing))]
-    made = [(*one, apart) for some, apart in ((shared, False), (own, True)) for one in some]
+    made = [*families(problem), *lonely(problem, judged)]
     price = float(np.log(len(made) * (2 + RENEWED)))
 
     def under(one: Judged) -> Surrogate:
@@ -87,9 +80,7 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
         known, residual = unbent(one.model.whitened_jacobian * spread), unbent(one.model.whitened[:, None])[:, 0]
         nothing = tuple(np.zeros_like(each) for each in one.model.residuals)
         best = Surrogate("", 0.0, 0.0, 0.0, nothing, nothing)
-        ends = np.cumsum([len(each.directions) for each in whitenings])[:-1]
-        held_out = len(problem.calibration.trials)
-        for name, features, apart in made:
+        for name, features in made:
             white = unbent(np.concatenate([w(part) for w, part in zip(whitenings, features, strict=True)]))
             found = chosen(residual, white, known, one.fitted_rows, price)
             if found.gain - found.price > best.nats:
@@ -100,9 +91,7 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
                     )
                     for told in (found.by_all, found.by_calibration)
                 )
-                trials = [np.split(each, ends)[held_out:] for each in (residual, white[:, found.columns], known)]
-                alone = tuple(gain_of_trial(*each, found.spread) for each in zip(*trials, strict=True)) if apart else ()
-                best = Surrogate(name, found.gain, found.calibration, found.price, predicted, by_calibration, alone)
+                best = Surrogate(name, found.gain, found.calibration, found.price, predicted, by_calibration)
         return best
 
     low_noise = judged_as(problem, judged.model, problem.with_lower_noise(judged.noise), judged.discrepancy_basis)
@@ -150,13 +139,9 @@ class FittedWeights:
 
 @dataclass(frozen=True)
 class Choice:
-    """Columns of a family that are worth their price, their weights by all trials or few, and what they gain.
-
-    `spread` are the standard deviations that the weights have beforehand.
-    """
+    """Columns of a family that are worth their price, their weights by all trials or few, and what they gain."""
 
     columns: list[int]
-    spread: Float[np.ndarray, " k"]
     by_all: FittedWeights
     by_calibration: FittedWeights
     gain: float
@@ -177,11 +162,12 @@ def chosen(
     `rows` is how many of the rows are of calibration trials.
     """
     none = FittedWeights(np.zeros(0), np.zeros(known.shape[1]))
-    nothing = Choice([], np.zeros(0), none, none, 0.0, 0.0, price)
+    nothing = Choice([], none, none, 0.0, 0.0, price)
     if not columns.shape[1]:
         return nothing
-    free_of_known = _free_of(known)
-    left, free = free_of_known(residual[:, None])[:, 0], free_of_known(columns)
+    basis, _ = np.linalg.qr(np.concatenate([known, CLOSE * np.eye(known.shape[1])]))
+    basis = basis[: len(known)]
+    left, free = residual - basis @ (basis.T @ residual), columns - basis @ (basis.T @ columns)
     each = float(np.log(columns.shape[1] * len(SIZES)))
     taken: list[int] = []
     directions, spread = np.zeros((0, len(left))), np.zeros(0)
@@ -211,26 +197,7 @@ def chosen(
         apart = np.concatenate([residual[by] - columns[by][:, taken] @ weights, np.zeros(known.shape[1])])
         return FittedWeights(weights, np.linalg.lstsq(np.concatenate([known[by], ridge]), apart, rcond=None)[0])
 
-    return Choice(taken, spread, told(slice(None)), told(slice(rows)), gain, part, price + each * len(taken))
-
-
-def gain_of_trial(
-    residual: Float[np.ndarray, " n"],
-    columns: Float[np.ndarray, "n k"],
-    known: Float[np.ndarray, "n p"],
-    spread: Float[np.ndarray, " k"],
-) -> float:
-    """What columns gain in one trial by itself [nats], whatever its own fitted parameters can make up for aside."""
-    free = _free_of(known)
-    left = free(residual[:, None])[:, 0]
-    return log_evidence(left, free(columns), spread) + 0.5 * float(left @ left)
-
-
-def _free_of(known: Float[np.ndarray, "n p"]) -> Callable[[Float[np.ndarray, "n k"]], Float[np.ndarray, "n k"]]:
-    """Takes what these columns explain out of others."""
-    basis, _ = np.linalg.qr(np.concatenate([known, CLOSE * np.eye(known.shape[1])]))
-    basis = basis[: len(known)]
-    return lambda values: values - basis @ (basis.T @ values)
+    return Choice(taken, told(slice(None)), told(slice(rows)), gain, part, price + each * len(taken))
 
 
 def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
@@ -250,23 +217,19 @@ def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ 
     yield "time within the trial", [_per_channel(bumps, scale) for bumps in _line(phase, THROUGH)]
 
 
-def disturbances(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
-    """Bumps over a trial whose weights are its own: what happens in one trial and not in another."""
+def lonely(problem: Problem, judged: Judged) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
+    """Families whose weights are a trial's own: a disturbance in it, parameters that change during it."""
     trials = problem.calibration.trials + problem.evaluation.trials
     phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
     bumps = [_per_channel(each, problem.floor_of_noise) for each in _line(phase, ALONE)]
     yield "stretches of single trials", _apart(bumps)
-
-
-def changing_parameters(problem: Problem, judged: Judged) -> list[Float[np.ndarray, "_ c m"]]:
-    """What base parameters do that are others from some moment of a trial on."""
-    trials = problem.calibration.trials + problem.evaluation.trials
     count, edges = problem.fitted, np.arange(1, STRETCHES) / STRETCHES
-    phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
-    return [
+    changing = [
         np.concatenate([j[..., :count] * problem.usual[:count] * (p > edge)[:, None, None] for edge in edges], axis=-1)
         for j, p in zip(judged.model.jacobian, phase, strict=True)
     ]
+    yield "parameters that change during a trial", _apart(changing)
+    yield "parameters that change at one moment of every trial", changing
 
 
 def _apart(features: list[Float[np.ndarray, "_ c m"]]) -> list[Float[np.ndarray, "_ c k"]]:
