@@ -32,6 +32,7 @@ from geocontact.gap.selection.residual_anomalies import (
     lines,
     recorder_remarks,
     residual_anomalies,
+    ringing,
     share_of_band,
 )
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
@@ -174,6 +175,15 @@ def odd(change: Change | None, after: Change | None = None, duration: float = 24
     base = base_contender(problem).judged
     found = (*residual_anomalies(problem, base, base), *recorder_remarks(problem, base))
     return {each.words: each.nats for each in found}
+
+
+def ringing_by_windows(cycles: int) -> float:
+    """Nats of the surest ringing in windows of so many periods at the least, where all trials ring."""
+    case = elbow_case(seed=8, duration=24.0, change=rung)
+    problem = problem_of(case, system_of(case))
+    base = base_contender(problem).judged
+    with patch("geocontact.gap.selection.residual_anomalies.CYCLES", cycles):
+        return max(each.nats for each in ringing(problem, base, base))
 
 
 def share_of_line(change: Change) -> float:

@@ -12,7 +12,18 @@ from geocontact.gap.inputs.spectrum import switches
 from geocontact.gap.levels import SURE
 from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, moving
 from tests.elsewhere import Elsewhere
-from tests.gap.cases import Tremor, held, in_steps, knock, odd, rung, share_of_line, share_of_wide_band, shares_of_line
+from tests.gap.cases import (
+    Tremor,
+    held,
+    in_steps,
+    knock,
+    odd,
+    ringing_by_windows,
+    rung,
+    share_of_line,
+    share_of_wide_band,
+    shares_of_line,
+)
 
 
 def test_noise_is_not_odd(elsewhere: Elsewhere) -> None:
@@ -88,6 +99,11 @@ def test_ringing_at_the_same_phase_of_every_trial(elsewhere: Elsewhere) -> None:
     words, nats = max((each for each in seen.items() if "ringing" in each[0]), key=lambda each: each[1])
     assert nats > 15.0
     assert float(words.split()[2]) == pytest.approx(8.0, abs=1.6)
+
+
+@pytest.mark.parametrize("cycles", [2, 8])
+def test_windows_follow_from_the_periods_that_they_must_hold(elsewhere: Elsewhere, cycles: int) -> None:
+    assert elsewhere(ringing_by_windows, cycles) > SURE
 
 
 def test_hum_of_the_mains_is_of_the_recorder_where_sampling_folds_it_to(elsewhere: Elsewhere) -> None:

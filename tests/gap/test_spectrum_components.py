@@ -90,6 +90,15 @@ def test_no_other_start_finds_anything_likelier(expected: Float[np.ndarray, " f"
     assert split(seen, [through]).unlikely[0] <= min(others) + 1e-3
 
 
+@pytest.mark.parametrize("slow", [0.5, 0.1])
+def test_what_falls_behind_would_have_come_to_nothing_better(slow: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every filter is as likely as with all searches gone on to the end."""
+    seen = drawn(movement(slow) + tail(10.0) + noise(FILTERS[4], 1e-4) + 1e-12)
+    told = split(seen, FILTERS).unlikely
+    monkeypatch.setattr("geocontact.gap.inputs.spectrum_components.LEADING", 99)
+    assert told == pytest.approx(split(seen, FILTERS).unlikely, abs=0.1)
+
+
 def test_few_values_that_a_quick_movement_explains() -> None:
     """White on the whole, with one quiet value: under a filter only a movement as quick as may be explains it."""
     power = np.array([1.69e-5, 2.14e-7, 2.47e-6, 7.45e-6, 1.36e-6, 1.89e-6, 1.33e-7, 6.1e-6])
