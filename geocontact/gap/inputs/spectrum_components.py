@@ -20,7 +20,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.gap.inputs.spectrum import Spectrum
-from geocontact.gap.levels import FEWEST, INPUT_NOISE, LEADING, SURE
+from geocontact.gap.levels import FEW, FEWEST, INPUT_NOISE, LEADING, SURE
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.identify.noise.noise_spectrum import FREQUENCIES
 from geocontact.identify.optimise.fisher_scoring import Batch, Scored, least
@@ -204,7 +204,7 @@ def _likeliest(parts: Parts, with_tail: bool) -> Split:
         found = least(lambda x, of: parts.scored(x, which[of], with_tail=with_tail), rows, low, high, rounds)
         return found.value.reshape(start.shape[:2]), found.at.reshape(start.shape)
 
-    value, at = ended(_starts(parts)[..., chosen], LIMIT // 10)
+    value, at = ended(_starts(parts)[..., chosen], LIMIT // FEW)
     ahead = np.argsort(value, axis=1)[:, :LEADING]
     value, at = ended(at[k[:, None], ahead])
     own, place = value.min(axis=1), at[k, value.argmin(axis=1)]
