@@ -69,7 +69,8 @@ class Effect:
 
 def constants() -> str:
     """The whole page; the runs' cases are added up."""
-    runs = [json.loads(file.read_text(encoding="utf-8")) for file in sorted(ROOT.glob(RESULTS))]
+    runs = [json.loads(file.read_text(encoding="utf-8")) for file in ROOT.glob(RESULTS)]
+    runs.sort(key=lambda run: str(run["date"]))
     told = json.loads((ROOT / TOLD).read_text(encoding="utf-8"))
     judging = {one.label: one.value for one in choices(ROOMS)}
     rows = [
