@@ -75,12 +75,17 @@ def _machine() -> dict[str, Any]:
     return {"machine": platform.machine(), "processor": platform.processor(), "cores": os.cpu_count()}
 
 
-def _constants(module: ModuleType) -> dict[str, int | float]:
-    return {name: v for name, v in vars(module).items() if name.isupper() and isinstance(v, int | float)}
+def _constants(module: ModuleType) -> dict[str, Any]:
+    return {name: v for name, v in vars(module).items() if name.isupper() and _is_numbers(v)}
 
 
-def constants_of_all(package: ModuleType) -> dict[str, int | float]:
-    """Of every module of a package, by "module.NAME" as in docs/theory/gap_diagnosis.md."""
+def _is_numbers(value: Any) -> bool:
+    table = isinstance(value, tuple) and bool(value) and all(map(_is_numbers, value))
+    return table or isinstance(value, int | float)
+
+
+def constants_of_all(package: ModuleType) -> dict[str, Any]:
+    """Numbers and tables of every module of a package, by "module.NAME" as in docs/theory/gap_diagnosis.md."""
     home = f"{package.__name__}."
     modules = [name for _, name, is_package in walk_packages(package.__path__, home) if not is_package]
     return {
