@@ -9,7 +9,7 @@ import pytest
 
 from geocontact.data.gap.cell import Cell
 from geocontact.gap.localise.frequency_map import PHASES, _placed, energies
-from geocontact.gap.localise.gap_map import BLOCKS, Window, _least, load_outputs, shortest, systematic
+from geocontact.gap.localise.gap_map import BLOCKS, Window, _least, in_order, load_outputs, shortest, systematic
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Bump, Drift, Swing, Unmeasured, elbow_case, located
@@ -134,6 +134,13 @@ def test_no_gap_is_stated_where_nothing_was_measured(elsewhere: Elsewhere) -> No
     """The push is at its height when the recording ends."""
     _, seen = elsewhere(located, Bump(7.5, 8.5, 0.5), Unmeasured(8.0))
     assert seen[0].phase[0] > 0.4 and seen[0].phase[1] < 0.55
+
+
+def test_where_nothing_is_named_a_channel_that_surely_has_a_gap_comes_first() -> None:
+    """A tremor of a quiet channel, a squared residual of a loud one that noise may have made."""
+    loud, quiet = Window("shank", (0.3, 0.7), 0.7, 0.87), Window("thigh", (0.4, 0.7), 0.04, 0.01)
+    assert in_order([loud, quiet], named=False) == (quiet, loud) == in_order([quiet, loud], named=False)
+    assert in_order([quiet, loud], named=True) == (loud, quiet)
 
 
 def test_p_values_of_two_families_are_doubled() -> None:

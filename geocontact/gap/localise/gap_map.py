@@ -10,6 +10,7 @@ it the parts add up to the whole. Intervals of the shares are from blocks drawn 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +26,7 @@ from geocontact.gap.data_errors.gross import DataError
 from geocontact.gap.levels import DRAWS, PHASES
 from geocontact.gap.localise.frequency_map import FEW_DRAWS, frequency_map
 from geocontact.gap.selection.evidence import Judged
-from geocontact.identify.intervals.quantile_intervals import ENDS
+from geocontact.identify.intervals.quantile_intervals import CONFIDENCE, ENDS
 
 LOADS = ("N", "N m")
 BINS = 6
@@ -59,7 +60,7 @@ def windows(
     data_error: DataError | None,
     cells: tuple[Cell, ...],
 ) -> tuple[Window, ...]:
-    """Channels with a gap, the one with most of it first, on the held-out trials.
+    """Channels with a gap on the held-out trials, `in_order`.
 
     `problem` is the case as it came, `clean` the one with the mistake `data_error` undone. `base`, and `after` where
     something was named, were fitted to the latter.
@@ -85,7 +86,15 @@ def windows(
         for c, name in enumerate(problem.system.outputs)
         if parts[c] > 0.0
     ]
-    return tuple(sorted(found, key=lambda window: -window.share))
+    return in_order(found, named=after is not None)
+
+
+def in_order(found: Sequence[Window], *, named: bool) -> tuple[Window, ...]:
+    """Windows with most of the gap first; where nothing is named those that surely have one before those that may not.
+
+    A squared residual may exceed the noise by chance. Sure is what has a p-value of 1 - `CONFIDENCE` at the most.
+    """
+    return tuple(sorted(found, key=lambda one: (not named and one.p_value > 1.0 - CONFIDENCE, -one.share)))
 
 
 def missed(problem: Problem, after: Judged | None, data_error: DataError | None) -> list[Float[np.ndarray, "_ c"]]:
