@@ -107,7 +107,9 @@ def standing_phase(
     terms, at = {}, 0
     for name in tracks:
         symbol, size = channels[name]
-        off = (symbol - values[at : at + width[name], :]) / size
+        off = (symbol - values[at : at + width[name], :]) / SX(
+            size
+        )  # an array (2,) under a (2, 1) symbol would give (2, 2)
         terms[name] = share * sumsqr(recorded * off if name == "strap" and recorded.numel() else off)
         at += width[name]
     seen = vertcat(values, recorded, share)
