@@ -7,18 +7,28 @@ import importlib.metadata
 import json
 import os
 import platform
+import shutil
 import subprocess
 from collections.abc import Set as AbstractSet
 from pathlib import Path
 from typing import Any
 
 HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent
 
 
-def commit() -> str:
-    """What is checked out."""
-    asked = ["git", "rev-parse", "--short", "HEAD"]
-    return subprocess.run(asked, capture_output=True, text=True, cwd=HERE, check=True).stdout.strip()
+def commit(root: Path = ROOT) -> str:
+    """Commit that a folder has checked out; "unknown" where it is no checkout of its own, or git is not there."""
+    top, head = git(root, "rev-parse", "--show-toplevel"), git(root, "rev-parse", "--short", "HEAD")
+    return head if head and top and Path(top).resolve() == root.resolve() else "unknown"
+
+
+def git(folder: Path, *words: str) -> str:
+    """Answer of git in a folder; empty where git or the repository is missing."""
+    program = shutil.which("git")
+    if program is None:
+        return ""
+    return subprocess.run([program, *words], capture_output=True, text=True, cwd=folder, check=False).stdout.strip()
 
 
 def write_results(name: str, asked: dict[str, Any], figures: Any, packages: AbstractSet[str] = frozenset()) -> Path:

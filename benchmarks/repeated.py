@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -33,7 +32,7 @@ def main() -> None:
 
     from benchmarks.engines.all import all_engines
     from benchmarks.engines.ours import OURS
-    from benchmarks.machine import machine, versions
+    from benchmarks.machine import commit, machine, versions
     from benchmarks.pairs import THRESHOLD, knee
     from geocontact.geometry.contact_area.repeated import RepeatedArea
 
@@ -59,9 +58,7 @@ def main() -> None:
             seconds.append((time.process_time() - start) * len(pair.rotation) / done)
         median = {name: float(np.median(values)) for name, values in rows.items()}
         record = {
-            "commit": subprocess.run(
-                ["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=False
-            ).stdout.strip(),
+            "commit": commit(),
             "machine": machine(),
             "versions": versions({e.package for e in engines}),
             "pair": {"moving_faces": len(pair.moving.faces), "fixed_faces": len(pair.fixed.faces), "poses": len(exact)},

@@ -15,6 +15,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from benchmarks.machine import git
 from benchmarks.same_outputs.inputs import make
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -78,8 +79,7 @@ class Place:
         found = self.python("-c", "import geocontact; print(geocontact.__file__)").stdout.strip()
         if self.checkout not in Path(found).resolve().parents:
             sys.exit(f"geocontact would be imported from {found}, not from {self.checkout}")
-        git = ["git", "-C", str(self.checkout), "describe", "--always", "--dirty", "--abbrev=7"]
-        commit = subprocess.run(git, capture_output=True, encoding="utf-8", check=False).stdout.strip()
+        commit = git(self.checkout, "describe", "--always", "--dirty", "--abbrev=7")
         return {"commit": commit or "unknown", "folder": str(self.folder), "checkout": str(self.checkout)}
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import re
+import tomllib
 from collections.abc import Iterable, Iterator
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
@@ -152,3 +154,15 @@ def test_patterns_fit_paths_as_their_system_compares_them() -> None:
     ):
         assert bool(expression_of(pattern, PureWindowsPath).fullmatch(path)) is windows
         assert bool(expression_of(pattern, PurePosixPath).fullmatch(path)) is others
+
+
+def test_oldest_python_is_the_same_wherever_it_is_promised() -> None:
+    """What pip, the Makefile, README and docs say; `.ci/run` tests under it where the system has it."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    oldest = project["requires-python"].removeprefix(">=")
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    asked = set(re.findall(r"sys\.version_info < \(([\d, ]+)\)", makefile))
+    assert {name.replace(", ", ".") for name in asked} == {oldest}
+    for file in ("Makefile", "README.md", "docs/index.md"):
+        assert f"Python {oldest} or newer" in (ROOT / file).read_text(encoding="utf-8"), file
+    assert "python3.11" in (ROOT / ".ci" / "run").read_text(encoding="utf-8")
