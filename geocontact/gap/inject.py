@@ -14,6 +14,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
@@ -44,11 +45,15 @@ class Injected:
     size
         Root mean square of the gap that no base parameter reproduces, calibration trials, each channel in units of its
         floor; NaN for a mistake in the data.
+    nats
+        Evidence for it that all trials can hold at the most: half the sum of squares of the same gap, each channel in
+        units of its noise alone, trials that are held out as large as the others; NaN for a mistake in the data.
     """
 
     case: GapCase
     values: Mapping[str, float]
     size: float
+    nats: float
 
 
 def inject(
@@ -75,7 +80,9 @@ def inject(
     """
     if one.somewhere is not None:
         some = frozenset(t.name for t in (*case.calibration, *case.evaluation)) if trials is None else trials
-        return Injected(_changed(case, lambda trial: mistaken(trial, one) if trial.name in some else trial), {}, np.nan)
+        return Injected(
+            _changed(case, lambda trial: mistaken(trial, one) if trial.name in some else trial), {}, np.nan, np.nan
+        )
     system = problem.system
     changed = one.apply(system)
     given = {p.name: p.start for p in one.parameters} | dict(values)
@@ -83,13 +90,18 @@ def inject(
     if amplitude.name not in values:
         given[amplitude.name] = _amplitude(problem, changed, one, given, size)
     case = _changed(case, lambda trial: _with(trial, system, changed, problem.plain.values, given))
-    return Injected(case, given, visible(problem, changed, given))
+    samples = sum(int(there.sum()) for there in problem.recorded.present)
+    nats = 0.5 * samples * visible(problem, changed, given, problem.recorded.rough) ** 2
+    return Injected(case, given, visible(problem, changed, given, problem.floor), nats)
 
 
-def visible(problem: Problem, changed: System, values: Mapping[str, float]) -> float:
-    """`Injected.size` of the base model changed so, to first order in what base parameters can reproduce."""
+def visible(problem: Problem, changed: System, values: Mapping[str, float], scale: Float[np.ndarray, " c"]) -> float:
+    """`Injected.size` of the base model changed so, to first order in what base parameters can reproduce.
+
+    `scale` is what each channel is divided by, in its unit.
+    """
     measured, base = problem.calibration, problem.plain.values
-    whiten = [Plain(there, problem.floor) for there in measured.present]
+    whiten = [Plain(there, scale) for there in measured.present]
     before = measured.residuals(problem.system, base)
     after = measured.residuals(changed, {**base, **values})
     moved = np.concatenate([w((a - b)[..., None])[:, 0] for w, a, b in zip(whiten, after, before, strict=True)])
@@ -118,7 +130,7 @@ def _amplitude(problem: Problem, changed: System, one: Candidate, values: Mappin
         reach = 1e3 * (p.start - rest)
 
     def reached(share: float) -> bool:
-        return visible(problem, changed, {**values, p.name: rest + share * reach}) >= size
+        return visible(problem, changed, {**values, p.name: rest + share * reach}, problem.floor) >= size
 
     low = 0.0
     for share in 2.0 ** np.arange(-DOUBLINGS, 1.0):  # a clipped signal is flat again in the end: sizes rise and fall

@@ -113,7 +113,10 @@ def diagnosed_elbow() -> DiagnoseResult:
 def known() -> Iterator[mock.Mock]:
     """A diagnosis is given those findings instead of making them again."""
     findings = diagnosed_elbow().findings
-    with mock.patch("geocontact.analyses.gap.diagnose.run.diagnose", return_value=findings) as instead:
+    with (
+        mock.patch("geocontact.analyses.gap.inject.run.diagnose", return_value=findings),
+        mock.patch("geocontact.analyses.gap.diagnose.run.diagnose", return_value=findings) as instead,
+    ):
         yield instead
 
 

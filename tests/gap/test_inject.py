@@ -26,7 +26,7 @@ def sizes(label: str, wanted: float) -> tuple[float, float, dict[str, float]]:
     case, problem = made_ready()
     one = chosen(candidates(problem.system), label)
     made = inject(case, problem, one, {}, wanted)
-    return made.size, visible(problem, one.apply(problem.system), made.values), dict(made.values)
+    return made.size, visible(problem, one.apply(problem.system), made.values, problem.floor), dict(made.values)
 
 
 def changes(label: str, values: dict[str, float]) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:

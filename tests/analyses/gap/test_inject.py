@@ -5,11 +5,18 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.gap.inject.words import imitated
+from geocontact.analyses.gap.inject.judged import imitated, judged
+from geocontact.analyses.gap.inject.words import sentences
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.diagnosis import Diagnosis, Estimate
+from geocontact.effects.catalogue import candidates
+from geocontact.gap.inject import Injected
+from geocontact.systems.elastic_joint.model import JOINT
 from tests.cli.calls import call, done
 from tests.cli.gap_cases import damped_elbow, known
 from tests.unchecked import unchecked
@@ -51,6 +58,60 @@ def test_a_gap_that_is_there_is_not_called_imitated_because_another_variant_is()
     sizes = {0.4: False, 1e-4: True, float("nan"): True}
     assert {size: imitated("sensor_gain", size, ("sensor_gain",)) for size in sizes} == sizes
     assert not imitated("damping", 1e-4, ("sensor_gain",))
+
+
+def answered(value: float, sd: float, *effects: str) -> Diagnosis:
+    """A diagnosis that names these effects, with a damping and its 95 % interval."""
+    found = Estimate(value, (value - 1.96 * sd, value + 1.96 * sd), "N s/m", True)
+    return Diagnosis("case", "elbow", "explained", effects, {}, (), (), (), {}, {"damping.b": found}, 0.0, "")
+
+
+NOTHING = Diagnosis("case", "elbow", "no_gap", (), {}, (), (), (), {}, {}, 0.0, "")
+
+
+@pytest.mark.parametrize(
+    ("nats", "before", "after", "status", "change", "holds"),
+    [
+        (900.0, NOTHING, answered(41.0, 2.0, "damping"), "found", 41.0, True),
+        (900.0, NOTHING, answered(67.6, 5.0, "damping"), "found", 67.6, False),
+        (900.0, answered(28.0, 3.0, "damping"), answered(68.0, 4.0, "damping"), "found", 40.0, True),
+        (900.0, answered(28.0, 3.0, "damping"), answered(29.0, 4.0, "damping"), "there_before", 1.0, False),
+        (1e-9, answered(28.0, 3.0, "damping"), answered(28.0, 3.0, "damping"), "too_small", None, None),
+        (900.0, answered(28.0, 3.0, "damping"), NOTHING, "not_found", None, None),
+        (900.0, NOTHING, answered(1.0, 1.0, "dry_friction"), "not_found", None, None),
+    ],
+)
+def test_an_effect_is_judged_by_the_change_against_the_case_before(
+    nats: float, before: Diagnosis, after: Diagnosis, status: str, change: float | None, holds: bool | None
+) -> None:
+    """40.9 N s/m are injected; the interval of the change is that of two independent estimates, by hand."""
+    joint = JOINT.build((gc.Parameter("k", "N m/rad", 30.0, 5.0, 80.0),), {}, {})
+    damping = next(one for one in candidates(joint) if one.name == "damping")
+    made = Injected(GapCase("case", "elbow", (), (), ()), {"damping.b": 40.9, "damping.exponent": 1.0}, 2.0, nats)
+    found = judged(damping, made, before, after)
+    assert (found.status, found.holds) == (status, holds)
+    assert found.before == (before is not NOTHING)
+    if change is None:
+        assert found.change is None and found.change_ci95 is None
+        return
+    sds = [each.parameters["damping.b"].ci95 for each in (before, after) if each.parameters]
+    half = float(np.hypot(*[0.5 * (high - low) for low, high in [*sds, (0.0, 0.0)][:2]]))
+    assert found.change == pytest.approx(change)
+    assert found.change_ci95 == pytest.approx((change - half, change + half))
+    (said,) = list(sentences(damping, made, after, found))[1:]
+    assert ("which excludes the 40.9 injected" in said) == (holds is False)
+    assert said.startswith("found: damping" if status == "found" else "not found: damping was missing before")
+
+
+@pytest.mark.slow
+def test_what_the_case_lacked_before_is_not_found_for_having_been_injected(tmp_path: Path) -> None:
+    """1e-6 N s/m make 2e-8 of the noise floor in trials that lack a damping of 25 N s/m anyway."""
+    case = damped_elbow(tmp_path / "elbow", damping=25.0)
+    with unchecked():
+        result = gc.inject(case, effect="damping", value={"damping.b": 1e-6}, bare=True)
+    assert result.judgement.status == "too_small" and result.judgement.before
+    assert "not found: all trials together hold" in repr(result)
+    assert "damping is missing from the base model without it, too" in repr(result)
 
 
 @pytest.mark.slow

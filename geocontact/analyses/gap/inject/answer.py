@@ -4,24 +4,26 @@ from __future__ import annotations
 
 import math
 
-from geocontact.analyses.gap.inject.words import imitated
+from geocontact.analyses.gap.inject.judged import Judgement, imitated
 from geocontact.chain.candidate import Candidate
 from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.gap.inject import Injected
 
 
-def answer(one: Candidate, made: Injected, d: Diagnosis) -> dict[str, object]:
+def answer(one: Candidate, made: Injected, d: Diagnosis, found: Judgement) -> dict[str, object]:
     """planted.json, SI units."""
     return {
         "effect": one.name,
         "variant": one.variant,
         "parameters": {p.name: {"value": made.values[p.name], "unit": p.unit} for p in one.parameters},
         "gap_over_floor": made.size,
+        "evidence_at_most_nats": made.nats,
         "verdict": d.verdict,
         "effects": list(d.effects),
         "named": one.name in d.effects,
         "among_possible": one.name in d.ambiguity,
         "absorbed": imitated(one.name, made.size, d.absorbed),
+        **found.as_dict(),
     }
 
 

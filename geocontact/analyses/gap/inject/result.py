@@ -11,6 +11,7 @@ import pandas as pd
 
 from geocontact.analyses.gap.diagnose.result import DiagnoseResult
 from geocontact.analyses.gap.inject.answer import answer, parameter_rows
+from geocontact.analyses.gap.inject.judged import Judgement
 from geocontact.analyses.gap.inject.options import InjectOptions
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.result import Result
@@ -38,6 +39,8 @@ class InjectResult(Result):
         The case that has it, values of its parameters (SI), and the gap that it makes.
     diagnosed
         The diagnosis of that case.
+    judgement
+        Whether the effect was found, against the diagnosis of the case without it.
     scratch
         Where the case lies until it is written.
     """
@@ -46,6 +49,7 @@ class InjectResult(Result):
     effect: Candidate
     planted: Injected
     diagnosed: DiagnoseResult
+    judgement: Judgement
     scratch: Scratch
 
     @property
@@ -68,7 +72,7 @@ class InjectResult(Result):
         shutil.copytree(self.scratch.folder / CASE, folder / CASE)
         (folder / DIAGNOSIS).mkdir()
         self.diagnosed.put(folder / DIAGNOSIS)
-        write_json(folder / "planted.json", answer(self.effect, self.planted, self.diagnosis))
+        write_json(folder / "planted.json", answer(self.effect, self.planted, self.diagnosis, self.judgement))
 
     def write_page(self, file: Path) -> None:
         """That of the diagnosis."""

@@ -12,28 +12,38 @@ from geocontact.analyses.gap.diagnose.result import DiagnoseResult
 from geocontact.analyses.gap.diagnose.run import run as run_diagnosis
 from geocontact.analyses.gap.inject.answer import answer
 from geocontact.analyses.gap.inject.effect import planted
+from geocontact.analyses.gap.inject.judged import judged
 from geocontact.analyses.gap.inject.options import InjectOptions
 from geocontact.analyses.gap.inject.result import CASE, DIAGNOSIS, InjectResult
 from geocontact.analyses.gap.inject.words import sentences
 from geocontact.analyses.results_folder import Scratch
 from geocontact.analyses.run_record import Record
+from geocontact.gap.diagnose import diagnose
 from geocontact.io.cases.gap_case_writer import write_trials
 
 LEAST = 0.5  # of the size that was asked for, from which a bound of the amplitude deserves a word
 
 
 def run(given: CaseWithModel, o: InjectOptions, record: Record) -> InjectResult:
-    """The case with the effect in it, and its diagnosis as from a folder, to the digits printed there."""
+    """The case with the effect in it, and its diagnosis as from a folder, to the digits printed there.
+
+    The case without it is diagnosed first: what it lacks anyway is not found because of what was injected.
+    """
     one, made = planted(given, o)
+    with record.listener.stages("the case without it") as at:
+        before = diagnose(given.case, given.system, at=at).diagnosis
     scratch = Scratch()
     shutil.copytree(given.folder, scratch.folder / CASE)
     write_trials(made.case, scratch.folder / CASE)
     if given.case.cells:
         record.warn("cells of mats are left as they were: they do not show the effect")
     found = _diagnosed(scratch.folder / CASE, o, record)
-    result = InjectResult(record=record, options=o, effect=one, planted=made, diagnosed=found, scratch=scratch)
-    record.results["planted"] = answer(one, made, found.diagnosis)
-    for sentence in sentences(one, made, found.diagnosis):
+    judgement = judged(one, made, before, found.diagnosis)
+    result = InjectResult(
+        record=record, options=o, effect=one, planted=made, diagnosed=found, judgement=judgement, scratch=scratch
+    )
+    record.results["planted"] = answer(one, made, found.diagnosis, judgement)
+    for sentence in sentences(one, made, found.diagnosis, judgement):
         record.say(sentence)
     if made.size < LEAST * o.size and not (one.parameters and one.parameters[0].name in o.value):
         record.warn("the amplitude is as large as its bounds admit; base parameters imitate the rest")
