@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import Problem
+from geocontact.gap.case.rough_noise import with_rounding
 from geocontact.gap.data_errors.correction import corrected
 from geocontact.gap.data_errors.gross import DataError, data_error_of, recognised
 from geocontact.gap.data_errors.hidden import hidden_mistakes, undone
@@ -22,6 +24,7 @@ from geocontact.gap.selection.held_out_rules import TOO_LITTLE, HeldOutRules
 from geocontact.gap.selection.lapses import with_lapses
 from geocontact.gap.selection.model_comparison import Contender, Ends, base_contender, pairs, settled_in, singles
 from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, recorder_remarks, residual_anomalies
+from geocontact.gap.selection.stated_noise import Misfit, misfits, with_misfit
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
 from geocontact.gap.selection.tails import Tails, tails
 from geocontact.gap.selection.verdict import Answer, answer, borne_out, most_of, ranking, with_mistake, with_refused
@@ -30,6 +33,7 @@ from geocontact.identify.noise.student import StudentNoise
 CLIPPED = "saturation"  # what a flat top speaks for
 
 Offer = Callable[[System], Sequence[Candidate]]
+Fits = Callable[[Judged, Judged], tuple[Misfit, ...]]
 Listener = Callable[[str], None]
 """Is called with what is being done, as each stage of a diagnosis begins."""
 
@@ -68,6 +72,8 @@ class Attribution:
         The verdict.
     heavy
         Channels whose noise has heavy tails, in which samples and stretches have weights.
+    misfits
+        What the model that an answer would rest on misses, against the noise that the case states.
     """
 
     problem: Problem
@@ -82,6 +88,7 @@ class Attribution:
     flat: tuple[ClippedChannel, ...]
     answer: Answer
     heavy: Mapping[str, StudentNoise] = field(default_factory=dict)
+    misfits: tuple[Misfit, ...] = ()
 
 
 def attribute(case: GapCase, system: System, offer: Offer, at: Listener = nobody) -> Attribution:
@@ -111,7 +118,7 @@ def _attributed(
 
     Where what nobody accounts for has heavy tails, it is held again with their weights.
     """
-    ends = Ends()
+    ends, even = Ends(), clean
     held = _contest(clean, data_error, Tails.none(clean), ends, offer, case, at)
     heavy = tails(clean, held.leader.judged, held.rest.predicted)
     if heavy.channels:
@@ -119,7 +126,8 @@ def _attributed(
         weighed = replace(heavy.weighed(clean), noise=held.base.judged.noise)
         problem, clean = weighed if clean is problem else problem, weighed
         held = _contest(clean, data_error, heavy, ends, offer, case, at)
-    return replace(_answered(problem, data_error, clean, held, at), heavy=heavy.channels)
+    fits = partial(misfits, even, with_rounding(case))
+    return replace(_answered(problem, data_error, clean, held, at, fits), heavy=heavy.channels)
 
 
 @dataclass(frozen=True)
@@ -183,9 +191,12 @@ def _contest(
 
 
 def _answered(
-    problem: Problem, data_error: DataError | None, clean: Problem, contest: Contest, at: Listener
+    problem: Problem, data_error: DataError | None, clean: Problem, contest: Contest, at: Listener, fits: Fits
 ) -> Attribution:
-    """The verdict on a contest: what may be named, and what is left over."""
+    """The verdict on a contest: what may be named, and what is left over.
+
+    `fits` tells what a model misses against the stated noise, beside the base model.
+    """
     base, contenders, leader = contest.base, contest.contenders, contest.leader.judged
     shares = {c.label: calibration_share(clean, changes(clean, base, c)) for c in contenders}
     at("whether held-out trials are predicted better")
@@ -207,12 +218,25 @@ def _answered(
     little = {label for label, why in objections.items() if why == TOO_LITTLE}
     unnamed, known = _believed(rules, base, missing), most_of(possible, little)
     said = with_refused(answer(held, unnamed, max((each.part for each in odd), default=0.0), left, known), possible)
+    missed = fits(said.chosen.judged, base.judged)
+    said = with_misfit(said, fits(base.judged, base.judged), missed, base)
     remaining = {"none": missing, best.label: rest}
     if data_error is not None:
         said = with_mistake(said, data_error.candidate.name)
     said = with_lapses(said, (one.name for one in contest.entered))
     return Attribution(
-        problem, data_error, clean, base, contenders, remaining, odd, recorder, objections, contest.flat, said
+        problem,
+        data_error,
+        clean,
+        base,
+        contenders,
+        remaining,
+        odd,
+        recorder,
+        objections,
+        contest.flat,
+        said,
+        misfits=missed,
     )
 
 

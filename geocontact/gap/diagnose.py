@@ -35,6 +35,7 @@ from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors, raw_input_errors
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import Contender, base_contender
+from geocontact.gap.selection.stated_noise import loudest
 from geocontact.identify.intervals.quantile_intervals import ENDS
 
 TOLD = 0.5  # of the prior's spread that the fit's may be, for a parameter that the trials tell
@@ -185,11 +186,20 @@ def _remarks(found: Attribution, unexplained: bool, errors: RawInputErrors) -> t
         *(each.told for each in (*found.odd, *found.recorder)),
         *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
         *(f"{each.words} in {channel}" for channel, each in found.heavy.items()),
+        *misfit_words(found),
         *coarse_rates(found.problem),
         *objection(found),
         *(nearest(found) if said.verdict == "unknown" and unexplained else ()),
         *(on_bounds(said.chosen, found.base, errors.fitted, errors.values) if said.effects else ()),
     )
+
+
+def misfit_words(found: Attribution) -> tuple[str, ...]:
+    """What is missed beyond the stated noise, where that is why nothing is named."""
+    if found.answer.verdict != "unknown":
+        return ()
+    most = f"up to {loudest():.1f} times is put down to noise"
+    return tuple(f"{one.words}: {most}" for one in found.misfits if one.sure)
 
 
 def behind(found: Attribution) -> dict[str, float]:
