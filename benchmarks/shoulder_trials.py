@@ -25,7 +25,7 @@ from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
 from geocontact.shoulder_exoskeleton.device import Wearer
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import arm_motions
 from geocontact.shoulder_exoskeleton.lucy import lucy
-from geocontact.shoulder_exoskeleton.simulate import mirrored_arm
+from geocontact.shoulder_exoskeleton.recorded_arm import mirrored_arm
 from geocontact.shoulder_exoskeleton.support.phases import SCREW
 from geocontact.shoulder_exoskeleton.synthetic.design import (
     CONDITIONS,

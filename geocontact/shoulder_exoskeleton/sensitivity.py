@@ -69,7 +69,7 @@ def influences(
 
     `factor` is that of `simulate_arm`; it stays as it is.
     """
-    usual = simulate_arm(motion, device, wearer, level, factor=factor, cuff=cuff)
+    usual = simulate_arm(motion, device, wearer, level, factor=factor, cuff=cuff, most_lost=1.0)
     for name, number in device.numbers.items():
         if name in IDLE[cuff]:
             continue
@@ -105,7 +105,9 @@ def _changed(
 ) -> tuple[float, ...]:
     motion, level, cuff = usual.motion, usual.level, usual.cuff
     try:
-        other = simulate_arm(motion, device, usual.wearer, level, factor=factor, machine_code=compiled, cuff=cuff)
+        other = simulate_arm(
+            motion, device, usual.wearer, level, factor=factor, machine_code=compiled, cuff=cuff, most_lost=1.0
+        )
     except ArithmeticError:
         return (np.inf,) * 4
     pairs = ((usual.elevation, other.elevation), (usual.supporting, other.supporting), (usual.shear, other.shear))

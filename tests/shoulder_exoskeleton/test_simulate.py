@@ -12,12 +12,13 @@ from geocontact.dynamics.compiled import compiler
 from geocontact.shoulder_exoskeleton.arm_model import arm_model
 from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers, slices
 from geocontact.shoulder_exoskeleton.armrest import armrest_force
-from geocontact.shoulder_exoskeleton.device import Wearer
 from geocontact.shoulder_exoskeleton.lucy import lucy
-from geocontact.shoulder_exoskeleton.simulate import TOLERANCE, ArmSimulation, arm_inputs, at_rest, simulate_arm
-from tests.shoulder_exoskeleton.arms import GRAVITY, lifted
+from geocontact.shoulder_exoskeleton.recorded_arm import arm_inputs
+from geocontact.shoulder_exoskeleton.simulate import TOLERANCE, ArmSimulation, simulate_arm
+from geocontact.shoulder_exoskeleton.start import at_rest
+from tests.shoulder_exoskeleton.arms import FITTING, GRAVITY, lifted
 
-LUCY, WEARER = lucy(), Wearer()
+LUCY, WEARER = lucy(), FITTING
 
 
 @pytest.fixture(scope="module")
@@ -141,7 +142,10 @@ def test_an_arm_that_is_pressed_into_the_cuff_pushes_the_device_down() -> None:
 def test_a_mat_under_the_arm_sees_the_lower_half_of_a_strap() -> None:
     """Without a strap all that raises the arm; with one its own pressure, and half of what changes."""
     free = LUCY.having(mu_s=0.0, mu_k=0.0, b=0.0)
-    loose, strapped = (simulate_arm(lifted(), free.having(strap=strap), WEARER, 0.5) for strap in (0.0, 0.05))
+    # without friction nothing keeps the sphere in the cuff
+    loose, strapped = (
+        simulate_arm(lifted(), free.having(strap=strap), WEARER, 0.5, most_lost=1.0) for strap in (0.0, 0.05)
+    )
     lifts = loose.supporting > 5.0
     np.testing.assert_allclose(armrest_force(loose)[lifts], loose.supporting[lifts], rtol=0.1)
     wanted = 4.0 / np.pi * LUCY["k"] * 0.05 + 0.5 * strapped.supporting
@@ -159,12 +163,15 @@ def test_the_support_follows_its_factor_with_the_lag() -> None:
     np.testing.assert_allclose(found.cylinder[~late], LUCY.peak_force, atol=1e-3)
 
 
-def test_a_held_arm_stays_where_it_rests() -> None:
-    motion = lifted()
-    still = replace(motion, interface=np.broadcast_to(motion.interface[0], motion.interface.shape).copy())
-    found = simulate_arm(still, LUCY, WEARER, 0.5)
-    assert np.ptp(found.angles, axis=0).max() < 1e-4
-    assert found.slip[-1] < 1e-5
+@pytest.mark.parametrize(("low", "moves", "slides"), [(0.08, 1e-4, 1e-5), (0.2, 1e-3, 1e-4)])
+def test_a_held_arm_stays_where_it_rests(low: float, moves: float, slides: float) -> None:
+    """Hanging, in an equilibrium without friction; raised by 7 degrees, where friction creeps after that: 0.03 degrees
+    and 0.05 mm in 6 s."""
+    motion = lifted(low=low)
+    still = {name: np.repeat(getattr(motion, name)[:1], len(motion.time), axis=0) for name in ("interface", "shoulder")}
+    found = simulate_arm(replace(motion, **still), LUCY, WEARER, 0.5)
+    assert np.ptp(found.angles, axis=0).max() < moves
+    assert found.slip[-1] < slides
 
 
 def test_what_holds_the_third_joint_is_friction_stops_and_damping() -> None:
@@ -178,9 +185,10 @@ def test_what_holds_the_third_joint_is_friction_stops_and_damping() -> None:
     assert np.abs(moved - q).max() > 0.2
 
 
-def test_no_rest_is_told() -> None:
+def test_an_arm_that_is_not_in_the_device_is_told() -> None:
+    """2 m above the shoulder; it was 'at the start … from the cuff's middle' where only the start was judged."""
     motion = lifted()
-    with pytest.raises(ArithmeticError, match=r"at the start the arm is \d+ mm from the cuff's middle"):
+    with pytest.raises(ArithmeticError, match=r"the sphere is far out of the cuff for 100% of the time"):
         simulate_arm(replace(motion, interface=motion.interface + np.array([0.0, 0.0, 2.0])), LUCY, WEARER, 0.0)
 
 

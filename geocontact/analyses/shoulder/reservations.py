@@ -6,19 +6,43 @@ import numpy as np
 
 from geocontact.analyses.run_record import Record
 from geocontact.shoulder_exoskeleton.device import JOINTS
-from geocontact.shoulder_exoskeleton.simulate import FARTHEST, ArmSimulation
+from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
+
+
+def out_of_cuff_words(*shares: float) -> str:
+    """What a sentence says besides where the sphere is out of the cuff for a while; else nothing.
+
+    Parameters
+    ----------
+    shares
+        Of the time, of each simulation that the sentence is about.
+    """
+    out = [share for share in shares if share > 0.0]
+    if not out:
+        return ""
+    where = "" if len(shares) == 1 else f"in {len(out)} of {len(shares)} simulations, "
+    return f"; the sphere is out of the cuff {where}for {'up to ' if where else ''}{_share(max(out))} of the time"
+
+
+def out_of_cuff_clause(*found: ArmSimulation) -> str:
+    """The same of simulations."""
+    return out_of_cuff_words(*(float(each.out_of_cuff.mean()) for each in found))
+
+
+def _share(value: float) -> str:
+    """In per cent, never 0."""
+    return f"{value:.0%}" if value >= 5e-3 else f"{value:.2%}"
 
 
 def warn_of(found: ArmSimulation, record: Record, trial: str = "") -> None:
-    """Warn where the sphere is out of the cuff, far away from it, or a joint is at a stop."""
+    """Warn where the sphere is out of the cuff, or a joint is at a stop."""
     which, time = f"{trial}{': ' if trial else ''}{found.motion.side} arm", found.motion.time
     out = found.out_of_cuff
     if out.any():
         far = np.abs(found.told["place"][:, 0])
-        lost = "; the device has lost the arm there" if far.max() > FARTHEST else ""
         record.warn(
-            f"{which}: the sphere is out of the cuff for {out.mean():.0%} of the time, first at "
-            f"{time[out][0]:.2f} s, up to {1e3 * far.max():.0f} mm from its middle{lost}"
+            f"{which}: the sphere is out of the cuff for {_share(float(out.mean()))} of the time, first at "
+            f"{time[out][0]:.2f} s, up to {1e3 * far.max():.0f} mm from its middle"
         )
     for joint, at in zip(JOINTS, found.at_stop.T, strict=True):
         if at.any():

@@ -86,3 +86,13 @@ def test_files_and_page(tmp_path: Path) -> None:
     folder = gc.shoulder.compare(simulated(tmp_path), file).write(tmp_path / "result")
     assert {"comparison.csv", "comparison.png", "report.html"} <= {each.name for each in folder.iterdir()}
     assert "Errors by channel and phase" in (folder / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_sphere_out_of_the_cuff_is_told_in_every_sentence(tmp_path: Path) -> None:
+    file = simulated(tmp_path)
+    table = pd.read_csv(file)
+    table["out of the cuff"] = (TIME < 1.2).astype(int)
+    table.to_csv(file, index=False)
+    found = gc.shoulder.compare(file, recorded(tmp_path, **{"elevation [deg]": np.degrees(raised(TIME))}))
+    assert len(found.sentences) == 2
+    assert all(line.endswith("deg; the sphere is out of the cuff for 20% of the time") for line in found.sentences)

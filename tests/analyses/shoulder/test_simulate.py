@@ -31,7 +31,9 @@ def simulated(**options: object) -> ShoulderSimulateResult:
     """The shipped trial, without its warnings."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        return gc.shoulder.simulate(TRIAL / "markers.trc", tool=TRIAL / "tool.csv", upright=(0.0, 0.5), **options)
+        return gc.shoulder.simulate(
+            TRIAL / "markers.trc", tool=TRIAL / "tool.csv", **({"upright": (0.0, 0.5)} | options)
+        )
 
 
 @pytest.fixture(scope="module")
@@ -93,9 +95,65 @@ def test_a_short_cuff_lets_the_sphere_out(tmp_path: Path) -> None:
     assert any(
         re.search(r"right arm: the sphere is out of the cuff for \d+% .* up to \d+ mm", w) for w in short.warnings
     )
+    assert short.sentences[0].endswith("; the sphere is out of the cuff for 94% of the time")
+    assert short.sentences[0] in repr(short)
+    short.write_page(tmp_path / "report.html")
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "the sphere is out of the cuff for 94% of the time." in page and "Out of the cuff, right" in page
     assert short.table()["out of the cuff"].sum() > 100
     whole = simulated(side="right")
     np.testing.assert_array_equal(short.arms[0].simulation.angles, whole.arms[0].simulation.angles)
+    assert "out of the cuff" not in whole.sentences[0]
+
+
+@pytest.mark.parametrize("first", [0.5, 2.0, 4.0])
+def test_a_trial_that_begins_with_the_arm_up_is_the_rest_of_the_whole_one(
+    found: ShoulderSimulateResult, first: float
+) -> None:
+    """The whole trial is the right one: 23 degrees and 245 N off where the start was the nearest equilibrium.
+
+    At the first frames friction remembers the whole way only, and the sphere's speed finds the device at rest; from
+    0.3 s on single moments are off by 1.2 degrees and 4.4 N (0.6 degrees on average over the screw-in), lowered again
+    by 0.01 degrees and 0.04 N.
+    """
+    cut = simulated(time=(first, 8.2), upright=None)
+    whole = simulated(upright=None)
+    for one, all_of_it in zip(cut.arms, whole.arms, strict=True):
+        s, w = one.simulation, all_of_it.simulation
+        time, count = s.motion.time, len(s.motion.time)
+        angle = np.degrees(np.abs(s.elevation - w.elevation[-count:]))
+        force = np.abs(s.supporting - w.supporting[-count:])
+        later, lowered = time > first + 0.3, time > 7.5
+        assert angle[later].max() < 1.5 and force[later].max() < 5.0
+        assert np.mean(angle[one.phase == 2]) < 0.8
+        assert angle[lowered].max() < 0.05 and force[lowered].max() < 0.1
+        assert not s.out_of_cuff.any()
+
+
+WRONG = {
+    "exchanged": (
+        {"humerus_rup": "humerus_rdn", "humerus_rdn": "humerus_rup"},
+        "",
+        "humerus_rup and humerus_rdn exchanged",
+    ),
+    "inches": ({}, "upper_arm = { value = 118, unit = 'mm' }", "118 mm are set, 2.. mm would put the cuff"),
+    "short": ({}, "upper_arm = { value = 180, unit = 'mm' }", "180 mm are set, 29. mm would put the cuff"),
+}
+
+
+@pytest.mark.parametrize("which", WRONG)
+def test_an_arm_that_is_not_in_its_cuff_is_refused_with_the_time_and_the_likely_cause(
+    which: str, tmp_path: Path
+) -> None:
+    """All exit 0 with result lines before; the arm was recorded with 296 mm, which is what is proposed."""
+    renamed, person, cause = WRONG[which]
+    (tmp_path / "p.toml").write_text(person, encoding="utf-8")
+    told = {"markers_map": ",".join(f"{a}={b}" for a, b in renamed.items())} if renamed else {}
+    with pytest.raises(
+        gc.InputError, match=r"far out of the cuff for \d+% of the time, between 0\.00 and 8\.20 s"
+    ) as caught:
+        simulated(side="right", **(told | ({"person": tmp_path / "p.toml"} if person else {})))
+    assert re.search(cause, str(caught.value))
 
 
 def test_half_the_level_is_half_the_cylinders_force() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import warnings
 from pathlib import Path
@@ -105,6 +106,16 @@ def test_errors_are_those_that_were_made(found: StudyResult) -> None:
     summary = found.table("summary").set_index(["channel", "part"])
     assert summary.loc[("elevation", "all"), "arms"] == 2 and summary.loc[("force", "all"), "arms"] == 1
     assert summary.loc[("elevation", "all"), "mae"] == pytest.approx(3.0, abs=1e-6)
+
+
+def test_arms_out_of_the_cuff_are_told_in_every_sentence(found: StudyResult) -> None:
+    """Without support P2's arm slides out of the cuff, by a few millimetres; it stays in where the cylinder carries the device."""
+    out = [case.within.simulation.out_of_cuff.mean() for case in found.cases]
+    assert out[:2] == [0.0, 0.0] and 0.05 < out[2] < 0.3
+    assert len(found.sentences) > 3
+    wanted = r"; the sphere is out of the cuff in [12] of [46] simulations, for up to \d\d% of the time$"
+    for line in found.sentences:
+        assert re.search(wanted, line), line
 
 
 def test_same_motion_makes_no_difference_between_groups(found: StudyResult) -> None:

@@ -16,29 +16,37 @@ from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
 SIMULATED = {ELEVATION: "elevation [rad]", FORCE: "supporting [N]"}
 """Columns of the simulated arm that the recorded channels are compared with."""
+OUT = "out of the cuff"
 
 
 @dataclass(frozen=True, eq=False)
 class ArmAndRecording:
-    """A simulated arm with its phases in words, and the recording."""
+    """A simulated arm with its phases in words, and the recording.
+
+    Parameters
+    ----------
+    out_of_cuff
+        Share of the simulated time for which the sphere is out of the cuff.
+    """
 
     simulated: Channels
     phase: tuple[str, ...]
+    out_of_cuff: float
     recorded: Channels
 
 
 def read(o: ShoulderCompareOptions, record: Record) -> ArmAndRecording:
     """Both files."""
-    simulated, phase = _simulated(o.simulated)
+    simulated, phase, out = _simulated(o.simulated)
     record.add_input("simulated", o.simulated, frames=len(phase))
     recorded = recorded_channels(o.recorded, o.map, o.angles, o.unit, o.delay)
     record.add_input("recorded", o.recorded, samples=len(recorded.time))
-    return ArmAndRecording(simulated, phase, recorded)
+    return ArmAndRecording(simulated, phase, out, recorded)
 
 
-def _simulated(path: Path) -> tuple[Channels, tuple[str, ...]]:
+def _simulated(path: Path) -> tuple[Channels, tuple[str, ...], float]:
     needed = ("time [s]", "phase", *SIMULATED.values())
-    table = read_side_table(path, needed)
+    table = read_side_table(path, (*needed, OUT))
     missing = [name for name in needed if name not in table]
     if missing:
         remedy = "give right.csv or left.csv of shoulder simulate"
@@ -48,4 +56,5 @@ def _simulated(path: Path) -> tuple[Channels, tuple[str, ...]]:
     if odd:
         raise InputError(path, "phase", f"{odd[0]!r} is no phase", f"phases are {', '.join(PHASES)}")
     values = {channel: np.asarray(table[name], float) for channel, name in SIMULATED.items()}
-    return Channels(np.asarray(table["time [s]"], float), values), phase
+    out = float(np.mean([str(each) != "0" for each in table[OUT]])) if OUT in table else 0.0
+    return Channels(np.asarray(table["time [s]"], float), values), phase, out

@@ -13,6 +13,7 @@ from geocontact.analyses.shoulder.compare.read import ArmAndRecording
 from geocontact.analyses.shoulder.compare.result import ComparedChannel, ShoulderCompareResult
 from geocontact.analyses.shoulder.phase_errors import ALL, WORK, phase_errors
 from geocontact.analyses.shoulder.recorded_channels import ELEVATION
+from geocontact.analyses.shoulder.reservations import out_of_cuff_words
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import Agreement
 from geocontact.identify.signals.even_times import at_times, even_times
@@ -36,16 +37,16 @@ def run(both: ArmAndRecording, o: ShoulderCompareOptions, record: Record) -> Sho
         model = both.simulated.values[channel]
         errors = phase_errors(model, measured, step, phase, inside)
         found.append(ComparedChannel(channel, time, model, np.where(inside, measured, np.nan), errors))
-        _say(found[-1], errors, record)
+        _say(found[-1], errors, out_of_cuff_words(both.out_of_cuff), record)
     record.results["comparison"] = plain(
         {each.channel: {name: vars(error) for name, error in each.errors.items()} for each in found}
     )
     return ShoulderCompareResult(record=record, options=o, channels=tuple(found))
 
 
-def _say(one: ComparedChannel, errors: Mapping[str, Agreement], record: Record) -> None:
+def _say(one: ComparedChannel, errors: Mapping[str, Agreement], reserved: str, record: Record) -> None:
     unit, factor = ("deg", np.degrees(1.0)) if one.channel == ELEVATION else ("N", 1.0)
     for name in (ALL, WORK):
         if name in errors:
             a = errors[name]
-            record.say(f"{one.channel}, {name}: MAE {factor * a.mae:.3g}, RMSD {factor * a.rmsd:.3g} {unit}")
+            record.say(f"{one.channel}, {name}: MAE {factor * a.mae:.3g}, RMSD {factor * a.rmsd:.3g} {unit}{reserved}")

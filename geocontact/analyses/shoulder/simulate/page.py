@@ -164,7 +164,10 @@ def _phases(each: SimulatedArm, shown: Int[np.ndarray, " k"]) -> list[Row]:
 
 def _facts(each: SimulatedArm) -> list[tuple[str, str]]:
     s = each.simulation
-    return [
+    facts = [
         (f"Largest supporting force, {each.side}", f"{s.supporting.max():.1f} N"),
         (f"Elevation up to, {each.side}", f"{np.degrees(s.elevation.max()):.0f}°"),
     ]
+    if s.out_of_cuff.any():
+        facts.append((f"Out of the cuff, {each.side}", f"{s.out_of_cuff.mean():.1%} of the time"))
+    return facts

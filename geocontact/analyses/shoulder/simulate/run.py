@@ -6,13 +6,14 @@ import numpy as np
 
 from geocontact.analyses.json_file import plain
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.shoulder.reservations import warn_of
+from geocontact.analyses.shoulder.reservations import out_of_cuff_clause, warn_of
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.simulate.read import Worn
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
 from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
 from geocontact.data.errors import InputError
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
+from geocontact.shoulder_exoskeleton.in_cuff import OutOfCuffError
 from geocontact.shoulder_exoskeleton.sensitivity import influences
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 from geocontact.shoulder_exoskeleton.support.controlled_arm import controlled_arm
@@ -55,6 +56,8 @@ def _simulated(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions, record: R
         else:
             led = controlled_arm(arm, worn.device, worn.wearer, o.level, control, o.cuff)
             found, detected, factor = led.simulation, led.phase, led.factor
+    except OutOfCuffError as error:
+        raise InputError(o.markers, "", f"{arm.side} arm: {error.what}", error.cause) from error
     except ArithmeticError as error:
         remedy = "check `person`, `device`, and the unit and names of the markers"
         raise InputError(o.markers, "", f"{arm.side} arm: {error}", remedy) from error
@@ -68,11 +71,12 @@ def _simulated(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions, record: R
     record.say(
         f"{arm.side} arm: elevation up to {told['elevation_max_deg']:.1f} deg (shoulder "
         f"{told['shoulder_max_deg']:.1f}), supporting force {told['supporting_min_N']:.1f} … "
-        f"{told['supporting_max_N']:.1f} N, slip {told['slip_mm']:.0f} mm"
+        f"{told['supporting_max_N']:.1f} N, slip {told['slip_mm']:.0f} mm{out_of_cuff_clause(found)}"
     )
     if control is not None and detected is not None:
         shares = ", ".join(f"{name} {share:.2f}" for name, share in zip(PHASES, control.factors, strict=True))
-        record.say(f"{arm.side} arm: support by phase: {shares}; {np.count_nonzero(np.diff(detected))} changes")
+        changes = f"{np.count_nonzero(np.diff(detected))} changes"
+        record.say(f"{arm.side} arm: support by phase: {shares}; {changes}{out_of_cuff_clause(found)}")
     return one
 
 

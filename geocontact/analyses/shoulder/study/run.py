@@ -8,7 +8,7 @@ from geocontact.analyses.json_file import plain
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.phase_errors import phase_errors
 from geocontact.analyses.shoulder.recorded_channels import ELEVATION, FORCE, Channels
-from geocontact.analyses.shoulder.reservations import warn_of
+from geocontact.analyses.shoulder.reservations import out_of_cuff_clause, warn_of
 from geocontact.analyses.shoulder.simulate.read import Worn
 from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
 from geocontact.analyses.shoulder.study.case import COPIED, StudyCase
@@ -20,6 +20,7 @@ from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import Agreement
 from geocontact.identify.signals.even_times import at_times, even_times
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
+from geocontact.shoulder_exoskeleton.in_cuff import OutOfCuffError
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 from geocontact.shoulder_exoskeleton.work_phases import PHASES, work_phases
 
@@ -35,11 +36,14 @@ def run(trials: tuple[StudyTrialInputs, ...], o: StudyOptions, record: Record) -
     invented = sum(number.source == "invented" for number in device.numbers.values())
     record.warn(f"{device.name}: {invented} of {len(device.numbers)} numbers are invented")
     result = StudyResult(record=record, options=o, cases=tuple(cases), device=device)
+    within = [case.within.simulation for case in cases]
+    without = [case.without.simulation for case in cases if case.without is not None]
+    out, out_of_both = out_of_cuff_clause(*within), out_of_cuff_clause(*within, *without)
     for row in summary_table(result.cases).to_dict("records"):
         if row["part"] in ("all", "work"):
             record.say(
                 f"{row['channel']}, {row['part']}: MAE {row['mae']:.3g}, RMSD {row['rmsd']:.3g} {row['unit']} "
-                f"over {row['arms']} arms in their trials"
+                f"over {row['arms']} arms in their trials{out}"
             )
     for row in difference_table(result.cases).to_dict("records"):
         if row["trial"] == "mean":
@@ -47,7 +51,7 @@ def run(trials: tuple[StudyTrialInputs, ...], o: StudyOptions, record: Record) -
                 f"screw-in, motion in the device against without it, mean size over the arms: "
                 f"exoskeleton {row['exoskeleton [deg]']:.3g} deg, shoulder {row['shoulder [deg]']:.3g} deg, "
                 f"force {row['force [N]']:.3g} N; shoulder less exoskeleton "
-                f"{row['shoulder less exoskeleton [deg]']:.3g} deg"
+                f"{row['shoulder less exoskeleton [deg]']:.3g} deg{out_of_both}"
             )
     record.results["study"] = plain(
         {c.name: {ch: {part: vars(a) for part, a in e.items()} for ch, e in c.errors.items()} for c in cases}
@@ -72,6 +76,10 @@ def _simulated(each: StudyTrialInputs, worn: Worn, arm: ArmMotion, o: StudyOptio
     try:
         found = simulate_arm(arm, worn.device, worn.wearer, each.level)
         return SimulatedArm(found, work_phases(arm.elevation, worn.tool))
+    except OutOfCuffError as error:
+        raise InputError(
+            o.study, f"[[trials]] {each.trial.name}", f"{arm.side} arm: {error.what}", error.cause
+        ) from error
     except (ArithmeticError, ValueError) as error:
         remedy = "look at it alone with shoulder simulate"
         what = f"{arm.side} arm: {error}"
