@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 STATIONS, AROUND = 3, 8
 """Places along the cuff (Gauss and Legendre's) and around it; see `quadrature`."""
+NOWHERE = 1e-12
+"""m or Pa; an arm that is off by less is off towards no side."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +78,7 @@ class CuffLoad:
     along
         Centre of the pressures along the cuff from its middle [m].
     peak
-        Largest pressure of a place [Pa].
+        Largest pressure anywhere on the wall [Pa].
     share
         Of the wall that is pressed on [-].
     stored
@@ -119,46 +121,115 @@ def cuff_load(arm: ArmLine, cuff: Moving, axes: SX, middle: SX, law: CuffLaw) ->
     """
     from casadi import SX, cross, dot, vertcat
 
-    offset, along = axes.T @ (arm.place - middle), axes.T @ arm.direction
-    spin = cross(arm.direction, arm.turning)
+    wall = _wall(arm, cuff, axes, middle, law)
     sums = {name: SX(3, 1) for name in ("normal", "friction", "moment")}
-    pressing, first, peak, share, stored, lost = (SX(0) for _ in range(6))
+    pressing, first, share, stored, lost = (SX(0) for _ in range(5))
+    peak = _largest(wall)
     for x, weight in zip(*quadrature(STATIONS), strict=True):
         station = 0.5 * law.length * x
-        way = (station - offset[0]) / along[0]
-        y, z = offset[1] + way * along[1], offset[2] + way * along[2]
         area = np.pi * law.radius / AROUND * law.length * weight
-        core = middle + axes @ vertcat(station, y, z)
         for angle in 2.0 * np.pi * np.arange(AROUND) / AROUND:
             out = axes @ vertcat(0.0, np.cos(angle), np.sin(angle))
-            slope = (along[1] * np.cos(angle) + along[2] * np.sin(angle)) / along[0]
-            facing = out - slope * axes[:, 0]
+            at = _pressed(wall, station, np.cos(angle), np.sin(angle))
             place = middle + axes[:, 0] * station + law.radius * out
-            closing = dot(_between(arm, spin, cuff, core), facing)
-            depth = law.interference + y * np.cos(angle) + z * np.sin(angle)
-            layers = (law.pad_thickness, law.pad_modulus, law.tissue_thickness, law.tissue_modulus)
-            elastic = linear_pair_pressure(depth, *layers)
-            damped = normal_force(depth, closing, 0.0, 1.0, law.damping, law.delta_full)
-            pressure = elastic + damped
-            velocity = _between(arm, spin, cuff, place)
+            velocity = _between(arm, wall.spin, cuff, place)
             sliding = velocity - dot(velocity, out) * out
             speed = np.sqrt(dot(sliding, sliding) + STILL * STILL)
-            drag = friction_coefficient(speed, law.v_th, law.mu_s, law.mu_k) * pressure / speed
-            normal, friction = -pressure * area * facing, -drag * area * sliding
+            drag = friction_coefficient(speed, law.v_th, law.mu_s, law.mu_k) * at.pressure / speed
+            normal, friction = -at.pressure * area * at.facing, -drag * area * sliding
             sums["normal"] += normal
             sums["friction"] += friction
-            sums["moment"] += cross(core, normal) + cross(place, friction)
-            pressing += pressure * area
-            first += pressure * area * station
-            peak = np.maximum(peak, pressure)
-            share += (depth > 0.0) * weight / (2.0 * AROUND)
-            stored += 0.5 * elastic * np.maximum(depth, 0.0) * area
-            lost += (damped * closing + drag * dot(sliding, sliding)) * area
+            sums["moment"] += cross(at.core, normal) + cross(place, friction)
+            pressing += at.pressure * area
+            first += at.pressure * area * station
+            peak = np.maximum(peak, at.pressure)
+            share += (at.depth > 0.0) * weight / (2.0 * AROUND)
+            stored += 0.5 * at.elastic * np.maximum(at.depth, 0.0) * area
+            lost += ((at.pressure - at.elastic) * at.closing + drag * dot(sliding, sliding)) * area
     force = sums["normal"] + sums["friction"]
     centre = first / (pressing + 1e-9)
     return CuffLoad(
         force, sums["moment"], sums["normal"], sums["friction"], pressing, centre, peak, share, stored, lost
     )
+
+
+@dataclass(frozen=True)
+class _Wall:
+    """What every place of the wall needs: the arm's line in the cuff's axes, from its middle, and how it turns."""
+
+    arm: ArmLine
+    cuff: Moving
+    axes: SX
+    middle: SX
+    law: CuffLaw
+    offset: SX
+    along: SX
+    spin: SX
+
+
+@dataclass(frozen=True)
+class _Place:
+    """Of a place of the wall: the arm's line beside it, direction of its pressure, depth, its rate, pressures."""
+
+    core: SX
+    facing: SX
+    depth: SX
+    closing: SX
+    elastic: SX
+    pressure: SX
+
+
+def _wall(arm: ArmLine, cuff: Moving, axes: SX, middle: SX, law: CuffLaw) -> _Wall:
+    from casadi import cross
+
+    offset, along = axes.T @ (arm.place - middle), axes.T @ arm.direction
+    return _Wall(arm, cuff, axes, middle, law, offset, along, cross(arm.direction, arm.turning))
+
+
+def _beside(wall: _Wall, station: SX) -> tuple[SX, SX]:
+    """Medial and raising place of the arm's line where it passes a station [m]."""
+    way = (station - wall.offset[0]) / wall.along[0]
+    return wall.offset[1] + way * wall.along[1], wall.offset[2] + way * wall.along[2]
+
+
+def _pressed(wall: _Wall, station: SX, cosine: SX, sine: SX) -> _Place:
+    """The law at a station and an angle of the wall."""
+    from casadi import dot, vertcat
+
+    law, along = wall.law, wall.along
+    y, z = _beside(wall, station)
+    core = wall.middle + wall.axes @ vertcat(station, y, z)
+    slope = (along[1] * cosine + along[2] * sine) / along[0]
+    facing = wall.axes @ vertcat(-slope, cosine, sine)
+    closing = dot(_between(wall.arm, wall.spin, wall.cuff, core), facing)
+    depth = law.interference + y * cosine + z * sine
+    elastic = _layers(law, depth)
+    damped = normal_force(depth, closing, 0.0, 1.0, law.damping, law.delta_full)
+    return _Place(core, facing, depth, closing, elastic, elastic + damped)
+
+
+def _layers(law: CuffLaw, depth: SX) -> SX:
+    return linear_pair_pressure(depth, law.pad_thickness, law.pad_modulus, law.tissue_thickness, law.tissue_modulus)
+
+
+def _largest(wall: _Wall) -> SX:
+    """Largest pressure of the whole wall [Pa], which the places of the sums miss by a sixth.
+
+    Depth and its rate are sinusoids around the wall whose vectors change linearly along it, so their largest sum is at
+    an end: where the depth is largest, or where depth and damping add up to the most while both act fully.
+    """
+    from casadi import SX
+
+    law, peak = wall.law, SX(0)
+    stiff = _layers(law, SX(1.0))
+    for end in (-0.5, 0.5):
+        station = end * law.length
+        y, z = _beside(wall, station)
+        medial, raising = (_pressed(wall, station, *way).closing for way in ((SX(1), SX(0)), (SX(0), SX(1))))
+        for a, b in ((y, z), (stiff * y + law.damping * medial, stiff * z + law.damping * raising)):
+            size = np.sqrt(a * a + b * b + NOWHERE * NOWHERE)
+            peak = np.maximum(peak, _pressed(wall, station, (a + NOWHERE) / size, b / size).pressure)
+    return peak
 
 
 def _between(arm: ArmLine, spin: SX, cuff: Moving, place: SX) -> SX:

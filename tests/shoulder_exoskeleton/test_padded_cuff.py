@@ -98,6 +98,45 @@ def test_few_places_are_enough(monkeypatch: pytest.MonkeyPatch) -> None:
     assert abs(coarse["share"][0] - fine["share"][0]) < 0.1
 
 
+def over_the_wall(place: np.ndarray, direction: np.ndarray, speed: np.ndarray, damping: float) -> tuple[float, float]:
+    """Largest pressure [Pa] and sum of pressures times areas [N] of the documented law on 80 x 360 places, in numpy.
+
+    Depth: interference + y cos + z sin, y and z where the arm's line passes the station; layers share the pressure;
+    damping while the depth grows, from `delta_full` on fully. The cuff stands still, the arm does not turn.
+    """
+    n = NUMBERS
+    x = n["length"] * ((np.arange(80) + 0.5) / 80 - 0.5)
+    angle = 2.0 * np.pi * (np.arange(360) + 0.5) / 360
+    y, z = (place[k] + (x - place[0]) * direction[k] / direction[0] for k in (1, 2))
+    depth = n["interference"] + np.outer(y, np.cos(angle)) + np.outer(z, np.sin(angle))
+    slopes = [direction[k] / direction[0] for k in (1, 2)]
+    across = [speed[k] - slopes[k - 1] * speed[0] for k in (1, 2)]
+    closing = across[0] * np.cos(angle) + across[1] * np.sin(angle)
+    u = np.clip(depth / n["delta_full"], 0.0, 1.0)
+    damped = damping * np.maximum(closing, 0.0) * u * u * (3.0 - 2.0 * u)
+    layers = n["pad_thickness"] / n["pad_modulus"] + n["tissue_thickness"] / n["tissue_modulus"]
+    pressure = np.maximum(depth, 0.0) / layers + damped
+    area = n["radius"] * 2.0 * np.pi / 360 * n["length"] / 80
+    return float(pressure.max()), float(pressure.sum() * area)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_peak_is_that_of_the_whole_wall(seed: int) -> None:
+    """Within 3 % of the largest of 28 800 places, at rest and while it is pressed on; 24 places miss 6 to 12 % here."""
+    rng = np.random.default_rng(seed)
+    place = rng.uniform(-1.0, 1.0, 3) * [0.05, 6e-3, 6e-3]
+    direction = np.array([1.0, *rng.uniform(-0.08, 0.08, 2)])
+    speed = rng.uniform(-0.1, 0.1, 3) * (seed % 2)
+    found = load(tuple(place), tuple(direction), tuple(speed), damping=5e3)
+    peak, pressing = over_the_wall(place, direction, speed, 5e3)
+    assert found["peak"] == pytest.approx(peak, rel=0.03)
+    assert found["pressing"] == pytest.approx(pressing, rel=0.06)
+
+
+def test_the_peak_of_an_even_pressure_is_that_pressure() -> None:
+    assert load((0.0, 0.0, 0.0))["peak"] == pytest.approx(STIFF * NUMBERS["interference"], rel=1e-9)
+
+
 def test_a_closed_cuff_around_the_sphere_presses_like_the_point() -> None:
     """Where the sphere is in the cuff's middle; a point goes along with the sphere, a cuff holds where it is."""
     k = np.pi * 0.05 * 0.12 * STIFF
