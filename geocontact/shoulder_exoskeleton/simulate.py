@@ -36,6 +36,8 @@ class ArmSimulation:
         Of `JOINTS` [rad, rad/s]: elevation from hanging down; passive joints positive across the chest, for both sides.
     cylinder
         Force of the cylinder [N].
+    recorded
+        Inputs of the equations, which are those of a right arm (`recorded_arm.arm_inputs`).
     told
         Forces and places, see `arm_model.Told`; in the device's frame, the left arm's medial to the right.
     steps, refused
@@ -50,6 +52,7 @@ class ArmSimulation:
     angles: Float[np.ndarray, "t 3"]
     rates: Float[np.ndarray, "t 3"]
     cylinder: Float[np.ndarray, " t"]
+    recorded: Float[np.ndarray, "t w"]
     told: Told
     steps: int
     refused: int
@@ -132,16 +135,16 @@ def simulate_arm(
     found = model.stepper.simulate(
         start, motion.time, inputs=inputs, parameters=p, tolerance=tolerance, first=FIRST, steps=steps
     )
-    told = _told(model, found.q, found.u, found.z, inputs.at(motion.time), p)
+    recorded = inputs.at(motion.time)
+    told = _told(model, found.q, found.u, found.z, recorded, p)
     if motion.side == "left":
         told["force"] = told["force"] * MIRROR
         told["moment"] = -told["moment"] * MIRROR
         told["joints"] = told["joints"] * np.tile(MIRROR, 4)
     hinge = told["joints"].reshape(-1, 4, 3)[:, JOINTS.index("elevation")]
     require_in_cuff(motion, device, wearer, told["place"][:, 0], hinge, most_lost)
-    return ArmSimulation(
-        motion, device, wearer, level, cuff, found.q, found.u, found.z[:, 0], told, found.steps, found.refused
-    )
+    state = found.q, found.u, found.z[:, 0]
+    return ArmSimulation(motion, device, wearer, level, cuff, *state, recorded, told, found.steps, found.refused)
 
 
 def _told(

@@ -23,6 +23,7 @@ from geocontact.shoulder_exoskeleton.device import QUANTITIES
 from tests import opensim_oracle
 from tests.cli.calls import MESHES
 from tests.elsewhere import Elsewhere
+from tests.shoulder_exoskeleton.device_by_hand import weight_and_inertia_by_hand
 
 TRIAL = MESHES / "overhead_P1T1S100"
 
@@ -192,8 +193,8 @@ HELD = """<FreeJoint name="{name}_base"><socket_parent_frame>in</socket_parent_f
 
 
 def still_arms(folder: Path, time: np.ndarray) -> tuple[Path, Path]:
-    """A model of two limbs without mass that are held at the ground's origin, and coordinates that say so."""
-    names = ("humerus_r", "humerus_l")
+    """A model of trunk and limbs without mass, held at the ground's origin, and coordinates that say so."""
+    names = ("humerus_r", "humerus_l", "torso")
     own = {name: [f"{name}_{k}" for k in ("rx", "ry", "rz", "tx", "ty", "tz")] for name in names}
     bodies = "".join(LIMB.format(name=name) for name in names)
     joints = "".join(
@@ -209,7 +210,7 @@ def still_arms(folder: Path, time: np.ndarray) -> tuple[Path, Path]:
     columns = [c for n in names for c in own[n]]
     units = ["m" if c[-2] == "t" else "deg" for c in columns]
     head = ",".join(["time [s]", *(f"{c} [{u}]" for c, u in zip(columns, units, strict=True))])
-    rows = "\n".join(",".join([f"{t:.6f}", *["0"] * 12]) for t in time)
+    rows = "\n".join(",".join([f"{t:.6f}", *["0"] * 18]) for t in time)
     motion.write_text(f"{head}\n{rows}\n", encoding="utf-8")
     return model, motion
 
@@ -217,12 +218,19 @@ def still_arms(folder: Path, time: np.ndarray) -> tuple[Path, Path]:
 def test_inverse_dynamics_reads_the_forces_as_external_loads(
     folder: Path, found: ShoulderSimulateResult, tmp_path: Path
 ) -> None:
-    """What holds limbs without mass at the origin is the opposite of each cuff's force and of its moment there."""
+    """What holds limbs without mass at the origin is the opposite of each cuff's force and of its moment there.
+
+    All loads together are the device's weight while it rests: twice 1.3 kg, in the laboratory's frame.
+    """
     data, loads = read_external_loads(folder / "interface_forces.xml")
     assert data == folder / "interface_forces.mot"
     assert [(each.plate, each.body, each.torque) for each in loads] == [
-        ("cuff_right_force", "humerus_r", False),
-        ("cuff_left_force", "humerus_l", False),
+        ("cuff_right_force", "humerus_r", True),
+        ("trunk_right_force", "torso", True),
+        ("device_right_force", "torso", True),
+        ("cuff_left_force", "humerus_l", True),
+        ("trunk_left_force", "torso", True),
+        ("device_left_force", "torso", True),
     ]
     model, motion = still_arms(tmp_path, found.arms[0].simulation.motion.time)
     with warnings.catch_warnings():
@@ -238,6 +246,41 @@ def test_inverse_dynamics_reads_the_forces_as_external_loads(
         turned = np.column_stack([values[f"{name}_r{axis}_moment"] for axis in "xyz"])
         np.testing.assert_allclose(held, -force, atol=1e-6)
         np.testing.assert_allclose(turned, -wrench.moment, atol=1e-6)
+    everywhere = [
+        np.column_stack([values[f"{name}_t{axis}_force"] for axis in "xyz"])
+        for name in ("humerus_r", "humerus_l", "torso")
+    ]
+    resting = found.arms[0].simulation.motion.time < 0.3
+    weight = -np.sum(everywhere, axis=0)[resting]
+    np.testing.assert_allclose(weight, np.tile([0.0, -2.6 * 9.80665, 0.0], (len(weight), 1)), atol=0.1)
+
+
+def test_all_external_loads_add_up_to_weight_and_inertia_of_the_device(
+    folder: Path, found: ShoulderSimulateResult
+) -> None:
+    """Both arms, in the laboratory: force and moment about its origin, against momenta counted by hand at 100 Hz.
+
+    Without the trunk's part the sum was the cuffs' forces, up to 70 N upwards where it is 25 N downwards.
+    """
+    table = read_table(folder / "interface_forces.mot")
+    force, moment = np.zeros((2, len(table.time), 3))
+    for stem in ("cuff", "trunk", "device"):
+        for side in ("right", "left"):
+            kinds = (f"{stem}_{side}_force_v", f"{stem}_{side}_force_p", f"{stem}_{side}_torque_")
+            f, p, t = (np.column_stack([table.column(f"{kind}{axis}") for axis in "xyz"]) for kind in kinds)
+            force, moment = force + f, moment + t + np.cross(p, f)
+    wanted, turned = np.zeros((2, len(table.time), 3))
+    for arm in found.arms:
+        s = arm.simulation
+        f, about = (np.einsum("tij,ti->tj", found.frame.rotation, each) for each in weight_and_inertia_by_hand(s))
+        base = np.array([-0.168 if s.motion.side == "right" else 0.168, 0.0, 0.0])
+        p = found.frame.origin + np.einsum("tij,i->tj", found.frame.rotation, base)
+        wanted, turned = wanted + f, turned + about + np.cross(p, f)
+    off, off_moment = np.abs(force - wanted), np.abs(moment - turned)
+    assert np.median(off) < 0.02 and np.percentile(off, 95) < 0.5
+    assert np.median(off_moment) < 0.02 and np.percentile(off_moment, 95) < 0.5
+    cuffs = np.sum([table.column(f"cuff_{side}_force_vy") for side in ("right", "left")], axis=0)
+    assert cuffs.max() > 60.0 and np.median(force[:, 1]) == pytest.approx(-2.6 * 9.80665, abs=0.1)
 
 
 @pytest.mark.slow
@@ -249,7 +292,7 @@ def test_opensim_reads_what_is_exported(folder: Path, found: ShoulderSimulateRes
     assert time == pytest.approx(s.motion.time[400], abs=1e-6)
     assert np.radians(value) == pytest.approx(s.elevation[400], abs=1e-6)
     told = opensim(opensim_oracle.external_loads, folder / "interface_forces.xml")
-    assert sorted(body for _, body, _ in told) == ["humerus_l", "humerus_r"]
+    assert sorted(body for _, body, _ in told) == ["humerus_l", "humerus_r", *["torso"] * 4]
     table = read_table(folder / "interface_forces.mot")
     for _, _, identifier in told:
         assert any(name.startswith(identifier) for name in table.channels)
@@ -302,8 +345,8 @@ def test_a_padded_cuff_tells_couple_and_pressures(monkeypatch: pytest.MonkeyPatc
     mirrored = np.einsum("ti,ti->t", told["in_cuff"], told["couple"])
     np.testing.assert_allclose(np.einsum("ti,ti->t", told["force"], told["moment"]), -mirrored, atol=1e-9)
     write_external_loads(tmp_path, [result.arms[0].simulation], result.frame)
-    (load,) = read_external_loads(tmp_path / "interface_forces.xml")[1]
-    assert load.torque and load.body == "humerus_l"
+    load, *on_trunk = read_external_loads(tmp_path / "interface_forces.xml")[1]
+    assert load.torque and load.body == "humerus_l" and [each.body for each in on_trunk] == ["torso", "torso"]
     forces = read_table(tmp_path / "interface_forces.mot")
     torque = np.column_stack([forces.column(f"cuff_left_torque_{axis}") for axis in "xyz"])
     np.testing.assert_allclose(torque, np.einsum("tij,ti->tj", result.frame.rotation, told["moment"]), atol=1e-6)

@@ -109,7 +109,7 @@ def test_errors_are_those_that_were_made(found: StudyResult) -> None:
 
 
 def test_arms_out_of_the_cuff_are_told_in_every_sentence(found: StudyResult) -> None:
-    """Without support P2's arm slides out of the cuff by millimetres; where the cylinder carries the device it stays in."""
+    """Without support P2's arm slides out by millimetres; where the cylinder carries the device it stays in."""
     out = [case.within.simulation.out_of_cuff.mean() for case in found.cases]
     assert out[:2] == [0.0, 0.0] and 0.05 < out[2] < 0.3
     assert len(found.sentences) > 3

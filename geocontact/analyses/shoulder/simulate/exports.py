@@ -9,12 +9,13 @@ import numpy as np
 
 from geocontact.io.opensim.external_loads_writer import write_external_loads as write_loads_file
 from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.shoulder_exoskeleton.carried_device import weight_and_inertia
 from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
 from geocontact.view.surfaces.line_series import LineSeries, write_line_series
 
-HUMERUS = {"right": "humerus_r", "left": "humerus_l"}
+HUMERUS, TRUNK = {"right": "humerus_r", "left": "humerus_l"}, "torso"
 """Bodies of OpenSim's models that the forces act on."""
 LOADS = "interface_forces"
 
@@ -28,28 +29,33 @@ def write_angles(folder: Path, arms: Sequence[ArmSimulation]) -> None:
 
 
 def write_external_loads(folder: Path, arms: Sequence[ArmSimulation], frame: DeviceFrame) -> None:
-    """interface_forces.mot and .xml: forces of the cuffs on the human arms, in the laboratory's frame.
+    """interface_forces.mot and .xml: all that the device does to arms and trunk, in the laboratory's frame.
 
-    They act at the sphere's centre, on the upper arm's axis; a cuff that holds by its surface turns the arm as well.
+    Forces of the cuffs act on the human arms at the sphere's centre, on the upper arm's axis; a cuff that holds by its
+    surface turns the arm as well. The trunk gets the opposite of both, and at each arm's first passive joint the
+    device's weight and inertia with their moment.
     """
-    surface = arms[0].cuff == "surface"
     names: list[str] = []
     columns, loads = [], {}
     for arm in arms:
         side = arm.motion.side
-        force = np.einsum("tij,ti->tj", frame.rotation, arm.told["force"])
-        place = frame.origin + np.einsum("tij,ti->tj", frame.rotation, arm.motion.interface)
-        stem = f"cuff_{side}_force"
-        names += [f"{stem}_{kind}{axis}" for kind in "vp" for axis in "xyz"]
-        columns += [force, place]
-        if surface:
-            names += [f"cuff_{side}_torque_{axis}" for axis in "xyz"]
-            columns.append(np.einsum("tij,ti->tj", frame.rotation, arm.told["moment"]))
-        loads[stem] = HUMERUS[side]
-    title = "Forces of a shoulder exoskeleton on the upper arms"
+        force, place, moment = arm.told["force"], arm.motion.interface, arm.told["moment"]
+        carried, turned = weight_and_inertia(arm)
+        for what, body, wrench in (
+            ("cuff", HUMERUS[side], (force, place, moment)),
+            ("trunk", TRUNK, (-force, place, -moment)),
+            ("device", TRUNK, (carried, arm.told["joints"][:, :3], turned)),
+        ):
+            acting, at, turning = (np.einsum("tij,ti->tj", frame.rotation, each) for each in wrench)
+            stem = f"{what}_{side}_force"
+            names += [f"{stem}_{kind}{axis}" for kind in "vp" for axis in "xyz"]
+            names += [f"{what}_{side}_torque_{axis}" for axis in "xyz"]
+            columns += [acting, frame.origin + at, turning]
+            loads[stem] = body
+    title = "Forces of a shoulder exoskeleton on the upper arms and on the trunk"
     time, values = arms[0].motion.time, np.hstack(columns)
     write_storage(folder / f"{LOADS}.mot", time, names, values, title=title, degrees=False)
-    write_loads_file(folder / f"{LOADS}.xml", f"{LOADS}.mot", loads, torques=surface)
+    write_loads_file(folder / f"{LOADS}.xml", f"{LOADS}.mot", loads, torques=True)
 
 
 def write_lines(folder: Path, arms: Sequence[ArmSimulation]) -> None:
