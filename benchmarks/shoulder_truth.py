@@ -29,8 +29,6 @@ SETTLING = 0.3
 """N m s/rad; damping of the joints while the arm comes to rest before a trial."""
 SLOW = 0.02
 """rad/s below which the seal's friction is viscous."""
-THIN = 0.02
-"""m; radius of gyration of the arm link about its own line, as in the model."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +106,7 @@ class Truth:
         spread += cylinder * (d["cylinder_centre"] + centre) ** 2
         inertias = [
             *(m / 12.0 * (v @ v * np.eye(3) - np.outer(v, v)) for m, v in zip(self.masses, self.links, strict=False)),
-            np.diag([spread, spread, arm * THIN**2]),
+            np.diag([spread, spread, arm * d["arm_twist_gyration"] ** 2]),
         ]
         self.inertias = np.array(inertias)
         self.mu = np.array([d["mu_s"], d["mu_k"]])

@@ -196,9 +196,22 @@ class Declared:
             return _as(self.kind, value)
         if isinstance(value, str) and Path in get_args(self.kind):
             return Path(value)
+        if get_origin(self.kind) is tuple and set(get_args(self.kind)) == {float}:
+            self._require_numbers(value)
         if self.choices and value not in self.choices:
             raise InputError("", f"`{self.name}`", f"{value!r} is not a choice", f"one of {', '.join(self.choices)}")
         return value
+
+    def _require_numbers(self, value: Any) -> None:
+        """InputError unless there are as many numbers as are asked for: in Python nothing parses a text."""
+        count = len(get_args(self.kind))
+        try:
+            right = not isinstance(value, str) and len([float(each) for each in value]) == count
+        except (TypeError, ValueError):
+            right = False
+        if not right:
+            remedy = f"give {count} numbers" + (f": {self.typed.python}" if self.typed and self.typed.python else "")
+            raise InputError("", f"`{self.name}`", f"{value!r} is not {count} numbers", remedy)
 
     def _alone(self, value: Any) -> bool:
         """Whether a value is one of several; a pair is one where pairs are asked for."""

@@ -31,8 +31,6 @@ SIZES: dict[str, int] = {
     "padded": 9,
 }
 """Groups of numbers, and how many each has."""
-THIN = 0.02
-"""m; radius of gyration of the arm link about its own line, invented: it hardly counts."""
 PADDED = (
     "cuff_radius",
     "cuff_length",
@@ -103,8 +101,8 @@ def _arm(d: Device) -> Rigid:
     parts = [(d["arm_mass"], -d["arm_centre"]), (d["cylinder_mass"], -d["cylinder_centre"])]
     mass = sum(each for each, _ in parts)
     centre = np.array([0.0, 0.0, sum(m * z for m, z in parts) / mass if mass > 0.0 else 0.0])
-    gyration, up = d["arm_gyration"], np.array([0.0, 0.0, 1.0])
-    own = d["arm_mass"] * (gyration**2 * _across(up) + THIN**2 * np.outer(up, up))
+    gyration, twist, up = d["arm_gyration"], d["arm_twist_gyration"], np.array([0.0, 0.0, 1.0])
+    own = d["arm_mass"] * (gyration**2 * _across(up) + twist**2 * np.outer(up, up))
     return mass, centre, own + sum(m * _across(np.array([0.0, 0.0, z]) - centre) for m, z in parts)
 
 

@@ -85,6 +85,7 @@ QUANTITIES: Mapping[str, DeviceQuantity] = {
     "arm_mass": _as_is("kg", 0.0, 10.0, "mass of the arm link with its cuff, without cylinder"),
     "arm_centre": _length("mass centre of the arm link below the active axis", 0.0),
     "arm_gyration": _length("radius of gyration of the arm link about its mass centre", 0.0),
+    "arm_twist_gyration": _length("radius of gyration of the arm link about its own line", 0.0),
     "cylinder_mass": _as_is("kg", 0.0, 10.0, "mass of the cylinder, carried by the arm link"),
     "cylinder_centre": _length("mass centre of the cylinder below the active axis", 0.0),
     "bore": _length("bore of the cylinder", 1e-3, 0.2),

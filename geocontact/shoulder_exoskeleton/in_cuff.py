@@ -86,7 +86,7 @@ def _cause(
     low, high = float(along.min()), float(along.max())
     fits = wearer.upper_arm + 0.5 * (low + high) / device["armrest_share"]
     if not SHORTEST <= fits <= LONGEST:
-        return "are unit and names of the markers right, and the lengths of `person`? no upper arm would fit them"
+        return "are unit and names of the markers right, `person`, and `device`? no upper arm would fit them"
     if high - low > device["cuff_length"]:
         slides, long = 1e3 * (high - low), 1e3 * device["cuff_length"]
         return f"is `cuff_length` right? the sphere slides over {slides:.0f} mm, the cuff is {long:.0f} mm long"

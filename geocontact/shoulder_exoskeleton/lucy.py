@@ -31,6 +31,7 @@ OTHERS: tuple[tuple[str, float, Source, str], ...] = (
     ("arm_mass", 0.60, "invented", ""),
     ("arm_centre", 0.11, "invented", ""),
     ("arm_gyration", 0.08, "invented", ""),
+    ("arm_twist_gyration", 0.02, "invented", "it hardly counts"),
     ("cylinder_mass", 0.20, "invented", "the usual mass of a cylinder of this bore and stroke"),
     ("cylinder_centre", 0.06, "invented", ""),
     ("bore", 0.025, "derived", "60 % of 482 N at 6 bar: 294.5 N is 61 %"),

@@ -22,6 +22,7 @@ from geocontact.analyses.options import (
     Options,
     Requires,
     Spelled,
+    TimeSpan,
     Typed,
     declared,
 )
@@ -50,6 +51,8 @@ class Example(Options):
         Which.
     course
         A file, or coefficients.
+    span
+        From when to when.
     """
 
     files: tuple[Path, ...]
@@ -59,6 +62,7 @@ class Example(Options):
     radius: Annotated[Millimetres | None, Spelled("radius-mm", "radius_mm"), Requires("depth")] = None
     kind: Literal["a", "b"] = "a"
     other: Annotated[str | None, Excludes("radius"), Needs("depth", "give 4mm")] = None
+    span: TimeSpan | None = None
     course: Annotated[Path | Mapping[str, tuple[float, ...]] | None, Typed("m", "misalignment.drift:typed", "")] = None
 
     def refuse_impossible(self) -> None:
@@ -95,6 +99,10 @@ def test_values_are_coerced() -> None:
         ({"other": ("x", "y")}, '`other`: is 2 values where one text is asked for; write "x,y"'),
         ({"other": "x"}, "`depth`: is missing with `other`; give 4mm"),
         ({"depth": 0.0}, "`depth`: 0 m is none; give more"),
+        ({"span": "0:0.2"}, "`span`: '0:0.2' is not 2 numbers; give 2 numbers: (0.4, 1.6)"),
+        ({"span": (0.1, 0.2, 0.3)}, "`span`: (0.1, 0.2, 0.3) is not 2 numbers; give 2 numbers: (0.4, 1.6)"),
+        ({"span": 0.2}, "`span`: 0.2 is not 2 numbers; give 2 numbers: (0.4, 1.6)"),
+        ({"span": (0.1, "x")}, "`span`: (0.1, 'x') is not 2 numbers; give 2 numbers: (0.4, 1.6)"),
     ],
 )
 def test_what_has_no_effect_is_refused(given: dict, said: str) -> None:

@@ -32,6 +32,10 @@ DEVICES = {
     "text": (BORE + 'value = "wide", unit = "mm" }', "'wide' is not a finite number"),
     "no toml": ("bore: 32", "is not TOML"),
     "other key": ("nmae = 'x'", "`nmae`: is not known here"),
+    "more kinetic friction": (
+        '[numbers]\nmu_k = { value = 1.2, unit = "1" }',
+        "[numbers] mu_k: kinetic friction 1.2 is larger than the static one, 1",
+    ),
     "unknown base": ("based_on = 'lucie'", "'lucie' is not built in"),
     "no room": (
         '[numbers]\nelevation_lower = { value = 160, unit = "deg" }',
@@ -52,6 +56,7 @@ def test_a_device_that_cannot_be(tmp_path: Path, name: str) -> None:
 
 OPTIONS = {
     "level": (("--level", "120%"), "--level: 120 % is not 0 to 100 %"),
+    "less than nothing": (("--level", "-20%"), "--level: -20 % is not 0 to 100 %"),
     "per cent": (("--level", "50"), "'50' may be meant in per cent; write 50% or 0.5"),
     "device": (("--device", "lucie"), "'lucie' is neither a file nor a built-in device"),
     "lone current": (("--tool-current", "2"), "--tool-current: has no effect without --tool"),
@@ -80,16 +85,22 @@ def test_a_tool_that_cannot_be(tmp_path: Path, text: str, words: str) -> None:
     refused(tmp_path, words, "--tool", written(tmp_path / "tool.csv", text))
 
 
-def test_no_rest_at_the_start(tmp_path: Path) -> None:
-    """Shoulders half a metre behind: the cuff is not where the arm is."""
+def test_no_cuff_where_the_arm_is(tmp_path: Path) -> None:
+    """Shoulders half a metre behind; the start alone was judged once ("mm from the cuff's middle")."""
     text = '[numbers]\nlink_1_y = { value = 450, unit = "mm" }\n'
-    refused(tmp_path, "right arm: at the start", "--device", written(tmp_path / "device.toml", text))
+    refused(
+        tmp_path,
+        "right arm: the sphere is far out of the cuff for 100% of the time",
+        "--device",
+        written(tmp_path / "device.toml", text),
+    )
 
 
 @pytest.mark.parametrize(
     ("text", "words"),
     [
         ("arm = 3", "none of upper_arm, shoulder_width, torso"),
+        ("upper_arm = 300", 'upper_arm: is not a value with its unit; write upper_arm = { value = 300, unit = "mm" }'),
         ('upper_arm = { value = 3, unit = "m" }', "3000 mm is no length of a person; that is 100 to 1000 mm"),
     ],
 )

@@ -24,6 +24,7 @@ def test_the_cylinder_matters_and_its_lag_at_a_constant_level_does_not() -> None
     assert max(one.elevation for one in tilted) > np.radians(0.3), "axes matter"
     assert found["bore"].supporting > 2.0 and found["bore"].step == pytest.approx(0.0025)
     assert found["lag"].supporting == 0.0
+    assert found["arm_twist_gyration"].step == pytest.approx(2e-3) and found["arm_twist_gyration"].elevation > 0.0
     assert found["link_1_z"].elevation == pytest.approx(found["link_2_z"].elevation, abs=np.radians(0.05))
     assert found["link_2_z"].elevation > np.radians(0.5)
     assert all(one.most >= one.supporting for one in found.values())

@@ -86,5 +86,8 @@ def _require_sound(file: Path, device: Device) -> None:
             device.axis(joint)
         except ValueError as error:
             raise InputError(file, f"[numbers] axis_{joint}_x", str(error), "give its direction") from error
+    if device["mu_k"] > device["mu_s"]:
+        what = f"kinetic friction {device['mu_k']:g} is larger than the static one, {device['mu_s']:g}"
+        raise InputError(file, "[numbers] mu_k", what, "exchange them, or give mu_s as well")
     if device["arm_mass"] + device["cylinder_mass"] <= 0.0:
         raise InputError(file, "[numbers] arm_mass", "the arm link has no mass", "give it some")

@@ -15,7 +15,6 @@ from geocontact.io.text.units import si_unit
 
 LARGEST = 100_000
 """Bytes of a description."""
-ENTRY = '{ value = 32, unit = "mm", source = "invented", note = "why" }'
 KEYS = ("value", "unit", "source", "note")
 
 
@@ -53,7 +52,7 @@ def read_device_file(path: Path, units: Mapping[str, str], sources: tuple[str, .
             raise InputError(path, f"`{key}`", "is not known here", "write name, based_on and [numbers]")
     numbers = content.get("numbers", {})
     if not isinstance(numbers, dict):
-        raise InputError(path, "[numbers]", "is no table", f"write bore = {ENTRY}")
+        raise InputError(path, "[numbers]", "is no table", f"write bore = {_entry('m', sourced=True)}")
     found = {}
     for name, told in numbers.items():
         if name not in units:
@@ -71,7 +70,7 @@ def read_person_file(path: Path, names: tuple[str, ...]) -> dict[str, float]:
         if name in content:
             found[name] = stated_number(path, name, content[name], "m", ()).value
     if not found:
-        raise InputError(path, "", f"none of {', '.join(names)}", 'write upper_arm = { value = 300, unit = "mm" }')
+        raise InputError(path, "", f"none of {', '.join(names)}", f"write upper_arm = {_entry('m', sourced=False)}")
     return found
 
 
@@ -79,14 +78,21 @@ def _perhaps(near: Mapping[str, str], units: Mapping[str, str]) -> str:
     return f"perhaps {next(iter(near.values()))}" if near else f"numbers are {', '.join(units)}"
 
 
+def _entry(si: str, *, sourced: bool) -> str:
+    """An example of a number with its unit, as the file may have it."""
+    value, unit = (32 if sourced else 300, "mm") if si == "m" else (1, si)
+    source = ', source = "invented", note = "why"' if sourced else ""
+    return f'{{ value = {value}, unit = "{unit}"{source} }}'
+
+
 def stated_number(path: Path, name: str, told: Any, si: str, sources: tuple[str, ...]) -> StatedNumber:
     """A number with its unit, `{ value = 32, unit = "mm" }`, in SI; with `sources` also where it is from."""
-    place = f"[numbers] {name}" if sources else name
+    place, entry = f"[numbers] {name}" if sources else name, _entry(si, sourced=bool(sources))
     if not isinstance(told, dict) or not {"value", "unit"} <= set(told) <= set(KEYS):
-        raise InputError(path, place, "is not a value with its unit", f"write {name} = {ENTRY}")
+        raise InputError(path, place, "is not a value with its unit", f"write {name} = {entry}")
     unit, value = str(told["unit"]), told["value"]
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        raise InputError(path, place, f"{value!r} is not a finite number", f"write {name} = {ENTRY}")
+        raise InputError(path, place, f"{value!r} is not a finite number", f"write {name} = {entry}")
     known = (si, 1.0) if unit == si else si_unit(unit)
     if known is None or known[0] not in (si, "-" if si == "1" else si):
         raise InputError(path, place, f"{unit!r} is not a unit of it", f"its SI unit is {si}")

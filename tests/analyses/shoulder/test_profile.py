@@ -43,6 +43,13 @@ def test_one_factor_for_all_phases_is_a_level(tmp_path: Path, factor: float, lev
     np.testing.assert_allclose(states(led), states(simulated(level=level, side="right")), rtol=0.0, atol=1e-12)
 
 
+def test_one_arm_needs_the_factors_of_its_own_hand_only(tmp_path: Path) -> None:
+    own = profile(tmp_path, f"{HEAD}\nmine,T1,dominant,0.6,1.0,0.3\n")
+    assert simulated(profile=own, side="right", time=(0.0, 4.0)).arms[0].factor is not None
+    with pytest.raises(InputError, match="no factors of the other hand for T1"):
+        simulated(profile=own)
+
+
 def test_the_cylinder_follows_the_phases_of_the_device_s_own_arm(tmp_path: Path) -> None:
     """p' = (factor - p) / lag, exactly, with the phases that the result's own elevation gives."""
     found = simulated(profile=profile(tmp_path, f"{HEAD}\n{ROWS}"), dominant="left", level=0.8)

@@ -13,13 +13,16 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.shoulder.simulate.exports import write_external_loads
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
+from geocontact.data.sourced_number import Number
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics import compiled as code
 from geocontact.io.mocap.markers import read_markers
 from geocontact.io.opensim.external_loads import read_external_loads
 from geocontact.io.text.tables import read_table
 from geocontact.shoulder_exoskeleton import arm_model
-from geocontact.shoulder_exoskeleton.device import QUANTITIES
+from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers
+from geocontact.shoulder_exoskeleton.device import QUANTITIES, Device
+from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 from tests import opensim_oracle
 from tests.cli.calls import MESHES
 from tests.elsewhere import Elsewhere
@@ -81,6 +84,32 @@ def test_the_table_holds_what_the_reference_lists(found: ShoulderSimulateResult)
     assert set(numbers["number"]) == set(QUANTITIES) and set(numbers["source"]) == {"paper", "derived", "invented"}
     shown = numbers.set_index("number")
     assert shown.loc["bore", "value"] == pytest.approx(25.0) and shown.loc["supply", "unit"] == "bar"
+
+
+def test_the_numbers_of_the_table_alone_make_the_same_curves(tmp_path: Path) -> None:
+    """A device of what `numbers.csv` holds and of nothing else; a number that is missing would be a KeyError.
+
+    One has a file with other numbers. The radius of gyration of 20 mm about the arm's line was in no table once.
+    """
+    (tmp_path / "own.toml").write_text(
+        'name = "own"\nbased_on = "lucy_new_cylinder"\n[numbers]\nk = { value = 2000, unit = "N/m" }\n'
+        'arm_twist_gyration = { value = 40, unit = "mm" }\n',
+        encoding="utf-8",
+    )
+    found = simulated(side="right", time=(0.0, 3.5), device=str(tmp_path / "own.toml"))
+    table = pd.read_csv(found.write(tmp_path / "out") / "numbers.csv", comment="#").set_index("number")
+    assert table.loc["arm_twist_gyration", "value"] == 40.0
+    read = Device(
+        "read back",
+        {name: Number(row["value"] / QUANTITIES[name].written[1], row["source"]) for name, row in table.iterrows()},
+    )
+    s = found.arms[0].simulation
+    again = adjusted_numbers(read, s.wearer, s.level)
+    np.testing.assert_allclose(again, adjusted_numbers(s.device, s.wearer, s.level), rtol=1e-12, atol=1e-15)
+    np.testing.assert_allclose(simulate_arm(s.motion, read, s.wearer, s.level).angles, s.angles, atol=1e-9)
+    held = {name: number for name, number in read.numbers.items() if name != "arm_twist_gyration"}
+    with pytest.raises(KeyError):
+        adjusted_numbers(Device("without one", held), s.wearer, s.level)
 
 
 def test_what_is_to_be_doubted_is_told(found: ShoulderSimulateResult) -> None:

@@ -14,6 +14,7 @@ from geocontact.analyses.shoulder.support_profiles import read_profiles
 from geocontact.analyses.shoulder.tool import current_at
 from geocontact.data.errors import InputError
 from geocontact.shoulder_exoskeleton.arm_motion import Side
+from geocontact.shoulder_exoskeleton.from_markers.arm_motions import SIDES
 from geocontact.shoulder_exoskeleton.support.controlled_arm import Controller
 from geocontact.shoulder_exoskeleton.support.outcome import Factors
 from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds
@@ -37,7 +38,7 @@ def controllers(
     record.results["profile"] = {"name": name, "task": task}
     current = current_at(o.tool, time)
     found: dict[Side, Controller] = {}
-    for side in ("right", "left"):
+    for side in SIDES if o.side == "both" else (o.side,):
         hand: Hand = "dominant" if side == (o.dominant or "right") else "other"
         keys = [FactorKey(task, hand, phase) for phase in PHASES]
         if not any(key in factors for key in keys):

@@ -6,7 +6,7 @@
 right arm: elevation up to 113.9 deg (shoulder 120.9), supporting force 6.7 … 56.5 N, slip 179 mm
 warning: no `person`: the device is adjusted to an upper arm of 300 mm and shoulders 400 mm wide (invented)
 warning: T10 is taken to lie straight below Lucy_MC: no span of upright stance was named
-warning: lucy: 53 of 62 numbers are invented, see numbers.csv
+warning: lucy: 54 of 63 numbers are invented, see numbers.csv
 warning: right arm: passive_1 is at a stop for 66% of the time, first at 0.00 s
 """
 

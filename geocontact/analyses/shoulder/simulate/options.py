@@ -13,7 +13,7 @@ from geocontact.data.ranges import CUTOFF, GAP
 from geocontact.data.units import Unit
 
 CURRENT = Plausible("the current of a tool", Unit("A", "A", 1.0), (0.0, 1000.0), (0.0, 100.0))
-Level = Annotated[float, Typed("-", "shoulder.level:level", "0.5"), Spelled(default="100%")]
+Level = Annotated[float, Typed("-", "shoulder.level:level", "0.5"), Spelled(default="100%", dashed=True)]
 
 
 @dataclass(frozen=True)
