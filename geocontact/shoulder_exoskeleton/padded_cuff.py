@@ -119,7 +119,7 @@ def cuff_load(arm: ArmLine, cuff: Moving, axes: SX, middle: SX, law: CuffLaw) ->
     axes, middle
         Distal, medial and raising axes of the cuff in columns, and its middle, in the ground's frame.
     """
-    from casadi import SX, cross, dot, vertcat
+    from casadi import SX, cross, dot, fmax, vertcat
 
     wall = _wall(arm, cuff, axes, middle, law)
     sums = {name: SX(3, 1) for name in ("normal", "friction", "moment")}
@@ -142,7 +142,7 @@ def cuff_load(arm: ArmLine, cuff: Moving, axes: SX, middle: SX, law: CuffLaw) ->
             sums["moment"] += cross(at.core, normal) + cross(place, friction)
             pressing += at.pressure * area
             first += at.pressure * area * station
-            peak = np.maximum(peak, at.pressure)
+            peak = fmax(peak, at.pressure)
             share += (at.depth > 0.0) * weight / (2.0 * AROUND)
             stored += 0.5 * at.elastic * np.maximum(at.depth, 0.0) * area
             lost += ((at.pressure - at.elastic) * at.closing + drag * dot(sliding, sliding)) * area
@@ -194,7 +194,7 @@ def _beside(wall: _Wall, station: SX) -> tuple[SX, SX]:
 
 def _pressed(wall: _Wall, station: SX, cosine: SX, sine: SX) -> _Place:
     """The law at a station and an angle of the wall."""
-    from casadi import dot, vertcat
+    from casadi import SX, dot, vertcat
 
     law, along = wall.law, wall.along
     y, z = _beside(wall, station)
@@ -204,7 +204,7 @@ def _pressed(wall: _Wall, station: SX, cosine: SX, sine: SX) -> _Place:
     closing = dot(_between(wall.arm, wall.spin, wall.cuff, core), facing)
     depth = law.interference + y * cosine + z * sine
     elastic = _layers(law, depth)
-    damped = normal_force(depth, closing, 0.0, 1.0, law.damping, law.delta_full)
+    damped = normal_force(depth, closing, SX(0.0), SX(1.0), law.damping, law.delta_full)
     return _Place(core, facing, depth, closing, elastic, elastic + damped)
 
 
@@ -218,7 +218,7 @@ def _largest(wall: _Wall) -> SX:
     Depth and its rate are sinusoids around the wall whose vectors change linearly along it, so their largest sum is at
     an end: where the depth is largest, or where depth and damping add up to the most while both act fully.
     """
-    from casadi import SX
+    from casadi import SX, fmax
 
     law, peak = wall.law, SX(0)
     stiff = _layers(law, SX(1.0))
@@ -228,7 +228,7 @@ def _largest(wall: _Wall) -> SX:
         medial, raising = (_pressed(wall, station, *way).closing for way in ((SX(1), SX(0)), (SX(0), SX(1))))
         for a, b in ((y, z), (stiff * y + law.damping * medial, stiff * z + law.damping * raising)):
             size = np.sqrt(a * a + b * b + NOWHERE * NOWHERE)
-            peak = np.maximum(peak, _pressed(wall, station, (a + NOWHERE) / size, b / size).pressure)
+            peak = fmax(peak, _pressed(wall, station, (a + NOWHERE) / size, b / size).pressure)
     return peak
 
 
