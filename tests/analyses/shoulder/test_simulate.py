@@ -18,6 +18,7 @@ from geocontact.data.wrench import Wrench
 from geocontact.dynamics import compiled as code
 from geocontact.io.mocap.markers import read_markers
 from geocontact.io.opensim.external_loads import read_external_loads
+from geocontact.io.text.results import write_table
 from geocontact.io.text.tables import read_table
 from geocontact.shoulder_exoskeleton import arm_model
 from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers
@@ -97,7 +98,8 @@ def test_the_numbers_of_the_table_alone_make_the_same_curves(tmp_path: Path) -> 
         encoding="utf-8",
     )
     found = simulated(side="right", time=(0.0, 3.5), device=str(tmp_path / "own.toml"))
-    table = pd.read_csv(found.write(tmp_path / "out") / "numbers.csv", comment="#").set_index("number")
+    write_table(found.table("numbers"), tmp_path, "numbers")
+    table = pd.read_csv(tmp_path / "numbers.csv", comment="#").set_index("number")
     assert table.loc["arm_twist_gyration", "value"] == 40.0
     read = Device(
         "read back",
