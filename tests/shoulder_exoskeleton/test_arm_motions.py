@@ -230,3 +230,34 @@ def test_a_stance_outside_the_recording_is_refused(trial: OverheadTrial) -> None
         InputError, match="no frame with all reference markers from 20 to 21 s; the recording is from 0"
     ):
         arm_motions(trial.markers, MarkerSettings(upright=(20.0, 21.0)))
+
+
+def exchanged_from(markers: MarkerTrajectories, one: str, other: str, first: int) -> MarkerTrajectories:
+    """Two names that change places from a frame on."""
+    positions = markers.positions.copy()
+    pair = [markers.names.index(one), markers.names.index(other)]
+    positions[first:, pair] = positions[first:, pair[::-1]]
+    return replace(markers, positions=positions)
+
+
+def test_markers_that_jump_are_refused_with_the_time(trial: OverheadTrial) -> None:
+    """A spike of 150 mm in three frames; two markers of one arm that exchange their names halfway. Both were silent."""
+    spiked = trial.markers.of(("humerus_rdn",))[:, 0].copy()
+    spiked[300:303, 2] += 0.15
+    at = rf"the lower marker of the right upper arm jumps by 15\d mm at {trial.markers.time[300]:.2f} s \(15 m/s\)"
+    with pytest.raises(InputError, match=at):
+        arm_motions(moved(trial.markers, "humerus_rdn", spiked), SETTINGS)
+    half = exchanged_from(trial.markers, "humerus_rup", "humerus_rdn", 400)
+    with pytest.raises(
+        InputError, match=rf"jumps by 167 mm at {trial.markers.time[400]:.2f} s .* exchanged their names"
+    ):
+        arm_motions(half, SETTINGS)
+
+
+def test_an_arm_that_grows_in_a_gap_is_refused(trial: OverheadTrial) -> None:
+    """Right and left lower markers exchanged while both are out of sight for 0.19 s: the speed does not show it."""
+    half = exchanged_from(trial.markers, "humerus_rdn", "humerus_ldn", 400)
+    hidden = half.positions.copy()
+    hidden[390:409, [half.names.index(f"humerus_{side}dn") for side in "rl"]] = np.nan
+    with pytest.raises(InputError, match=r"upper arm are \d{3} mm apart at 4\.09 s, 167 mm in the median"):
+        arm_motions(replace(half, positions=hidden), SETTINGS)

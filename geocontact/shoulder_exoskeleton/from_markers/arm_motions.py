@@ -14,7 +14,12 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
-from geocontact.shoulder_exoskeleton.from_markers.arm_points import ArmPoints, arm_points, require_arm_length
+from geocontact.shoulder_exoskeleton.from_markers.arm_points import (
+    ArmPoints,
+    arm_points,
+    require_arm_length,
+    require_steady,
+)
 from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFrame, device_frame, upright_pitch
 from geocontact.shoulder_exoskeleton.from_markers.gaps import require_short_gaps, seen_span
 from geocontact.shoulder_exoskeleton.from_markers.marker_names import LOWER, MIDDLE, UPPER
@@ -88,6 +93,7 @@ def arm_motions(markers: MarkerTrajectories, settings: MarkerSettings | None = N
         raise InputError(markers.source, "", f"no markers of an upper arm: {pairs}", MAP)
     for side, found in there.items():
         require_arm_length(markers.source, side, found)
+        require_steady(markers.source, side, markers.time, found)
     reference = reference_markers(markers, settings.attachment)
     placed = (reference.origin, reference.left, reference.below)
     pitch, assumed = _pitch(markers, placed, settings)

@@ -15,6 +15,10 @@ from geocontact.shoulder_exoskeleton.from_markers.reference import MAP
 
 SHORTEST, LONGEST = 0.05, 0.6
 """Distance of the two points of an upper arm [m] that is believed; the longest upper arms have about 0.45 m."""
+FASTEST = 10.0
+"""m/s; no marker of an upper arm is faster, not even in throwing."""
+UNLIKE = 0.5
+"""Share of their median distance by which both may be nearer or farther: a shoulder's marker slides in lifting."""
 
 
 @dataclass(frozen=True)
@@ -68,3 +72,26 @@ def require_arm_length(source: str, side: Side, points: ArmPoints) -> None:
     if not SHORTEST <= apart <= LONGEST:
         what = f"the markers of the {side} upper arm are {apart:.3g} m apart, not {SHORTEST:g} to {LONGEST:g} m"
         raise InputError(source, "", what, "is the unit in the file right? are the markers named right?")
+
+
+def require_steady(source: str, side: Side, time: Float[np.ndarray, " t"], points: ArmPoints) -> None:
+    """InputError where a point jumps from one frame to the next that shows it, or both are unlike their distance.
+
+    Such frames are no motion: a marker was taken for another one, or markers have exchanged their names.
+    """
+    for which, place in (("upper", points.shoulder), ("lower", points.interface)):
+        seen = np.flatnonzero(np.isfinite(place).all(axis=1))
+        way = np.linalg.norm(np.diff(place[seen], axis=0), axis=1)
+        speed = way / np.diff(time[seen])
+        if len(speed) and speed.max() > FASTEST:
+            k = int(np.argmax(speed > FASTEST))
+            jump = f"{1e3 * way[k]:.0f} mm at {time[seen[k + 1]]:.2f} s ({speed[k]:.0f} m/s)"
+            what = f"the {which} marker of the {side} upper arm jumps by {jump}"
+            raise InputError(source, "", what, "take those frames out; have two markers exchanged their names?")
+    apart = np.linalg.norm(points.interface - points.shoulder, axis=1)
+    usual = float(np.nanmedian(apart))
+    unlike = np.flatnonzero(np.abs(apart - usual) > UNLIKE * usual)
+    if len(unlike):
+        first = f"{1e3 * apart[unlike[0]]:.0f} mm apart at {time[unlike[0]]:.2f} s"
+        what = f"the markers of the {side} upper arm are {first}, {1e3 * usual:.0f} mm in the median"
+        raise InputError(source, "", what, "take those frames out; have two markers exchanged their names?")
