@@ -16,7 +16,7 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.io.mocap.c3d_plates import Arrays, read_apart
 from geocontact.io.mocap.subject import without_subject
-from geocontact.io.text.units import LENGTH
+from geocontact.io.text.units import LENGTH, length_unit
 
 
 def read_c3d_markers(path: str | PathLike[str]) -> MarkerTrajectories:
@@ -27,7 +27,7 @@ def read_c3d_markers(path: str | PathLike[str]) -> MarkerTrajectories:
     """
     file = fspath(path)
     arrays = read_apart(path, __name__)
-    unit, rate = str(arrays["unit"]), float(arrays["rate"])
+    unit, rate = _unit(file, str(arrays["unit"])), float(arrays["rate"])
     positions = np.asarray(arrays["positions"], float)
     if positions.shape[1] != len(arrays["names"]):
         what = f"{len(arrays['names'])} labels for {positions.shape[1]} points"
@@ -37,13 +37,22 @@ def read_c3d_markers(path: str | PathLike[str]) -> MarkerTrajectories:
     positions = positions[:, kept]
     if not names or not len(positions):
         raise InputError(file, "", "holds no markers", "give a file with recorded points")
-    if unit not in LENGTH:
-        raise InputError(file, "POINT:UNITS", f"is '{unit[:20]}'", f"expected one of {', '.join(LENGTH)}")
     if not (np.isfinite(rate) and rate > 0.0):
         raise InputError(file, "POINT:RATE", f"is {rate:g} Hz", "is the file complete?")
     lost = np.any(~np.isfinite(positions), axis=2)
     time = float(arrays["start"]) + np.arange(len(positions)) / rate
     return MarkerTrajectories(time, np.where(lost[..., None], np.nan, LENGTH[unit] * positions), names, file)
+
+
+def _unit(file: str, written: str) -> str:
+    """Unit of places; an empty one is taken as mm, which the format's own programs write, and this is said."""
+    if not written:
+        warnings.warn(InputWarning(f"{file}: POINT:UNITS is empty; its markers are taken to be in mm"), stacklevel=4)
+        return "mm"
+    unit = length_unit(written)
+    if unit is None:
+        raise InputError(file, "POINT:UNITS", f"is '{written[:20]}'", f"expected one of {', '.join(LENGTH)}")
+    return unit
 
 
 def _named(file: str, labels: list[str], positions: Float[np.ndarray, "t m 3"]) -> tuple[tuple[str, ...], list[int]]:
@@ -74,14 +83,14 @@ def markers_of(path: str) -> Arrays:
     rate = float(head["frame_rate"])
     lists = [told[key]["value"] for key in ("LABELS", *(f"LABELS{k}" for k in range(2, 99))) if key in told]
     labels = [str(name).strip() for each in lists for name in each][: positions.shape[1]]
-    units = told.get("UNITS", {"value": ["mm"]})["value"]
+    units = told.get("UNITS", {"value": []})["value"]
     return {
         "frames": np.array(len(positions)),
         "rate": np.array(rate),
         "start": np.array(float(head["first_frame"]) / max(rate, 1e-9)),
         "positions": np.where((residuals < 0.0)[..., None], np.nan, positions),
         "names": np.array(labels),
-        "unit": np.array(str(units[0]).strip() if len(units) else "mm"),
+        "unit": np.array(str(units[0]).strip() if len(units) else ""),
     }
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.io.text.tables import read_table
-from geocontact.io.text.units import LENGTH
+from geocontact.io.text.units import LENGTH, length_unit
 
 AXES = ("x", "y", "z")
 
@@ -44,8 +44,9 @@ def _metres(file: str, column: str, channels: tuple[str, ...], units: tuple[str,
     if count != 1:
         what = f"no column '{column}'" if count == 0 else f"column '{column}' occurs {count} times"
         raise InputError(file, "", what, "every marker needs x, y and z once")
-    unit = units[channels.index(column)]
-    if unit not in LENGTH:
+    written = units[channels.index(column)]
+    unit = length_unit(written)
+    if unit is None:
         known = ", ".join(LENGTH)
-        raise InputError(file, f"column '{column}'", f"unit is '{unit}'", f"write one of {known} in square brackets")
+        raise InputError(file, f"column '{column}'", f"unit is '{written}'", f"write one of {known} in square brackets")
     return LENGTH[unit]

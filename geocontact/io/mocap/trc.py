@@ -21,7 +21,7 @@ from geocontact.io.mocap.subject import without_subject
 from geocontact.io.text.encoding import decoded
 from geocontact.io.text.file_preflight import read_bytes
 from geocontact.io.text.table_rows import read_rows
-from geocontact.io.text.units import LENGTH
+from geocontact.io.text.units import LENGTH, length_unit
 
 _HEAD = 5
 _ROUNDED = 0.51e-3
@@ -37,7 +37,7 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
     lines = decoded(read_bytes(path), path).splitlines()
     if len(lines) <= _HEAD or not lines[0].startswith("PathFileType"):
         raise InputError(file, "line 1", "does not begin with 'PathFileType'", "is it a complete .trc file?")
-    declared = dict(zip(lines[1].split(), lines[2].split(), strict=False))
+    declared = _declared(lines[1], lines[2])
     names = tuple(without_subject([word.strip() for word in lines[3].split("\t")[2:] if word.strip()]))
     if differs := _other_count(declared, "NumMarkers", len(names), "markers are named in line 4"):
         raise InputError(file, "line 3", differs, "is the file complete?")
@@ -45,8 +45,8 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
     if twice:
         raise InputError(file, "line 4", f"marker '{twice[0]}' is there {names.count(twice[0])} times", "rename one")
     written = declared.get("Units", "")
-    unit = written.lower()
-    if unit not in LENGTH:
+    unit = length_unit(written)
+    if unit is None:
         raise InputError(file, "line 3", f"unit is '{written[:20]}'", f"expected one of {', '.join(LENGTH)}")
     columns = ("frame", "time", *(f"{name} {axis}" for name in names for axis in "xyz"))
     values, places = read_rows(iter(lines[_HEAD:]), _HEAD + 1, columns, file, _split)
@@ -62,6 +62,14 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
         raise InputError(file, f"line {places[endless[0]]}", "a place is infinite", "leave missing cells empty")
     positions = LENGTH[unit] * values[:, 2:].reshape(len(values), len(names), 3)
     return MarkerTrajectories(_unrounded(time, values[:, 0], declared), _seen(file, positions), names, file)
+
+
+def _declared(keys: str, values: str) -> dict[str, str]:
+    """Values of line 3 by the keys of line 2: between tabs, where a cell may be empty, or between blanks."""
+    names, cells = ([cell.strip() for cell in line.rstrip().split("\t")] for line in (keys, values))
+    if len(names) == 1 or len(cells) == 1:
+        names, cells = keys.split(), values.split()
+    return dict(zip(names, cells, strict=False))
 
 
 def _unrounded(

@@ -19,7 +19,7 @@ from geocontact.io.text.file_preflight import read_bytes
 from geocontact.io.text.plain_table import open_plain
 from geocontact.io.text.spreadsheet import is_sheet
 from geocontact.io.text.toml_text import toml_of
-from geocontact.io.text.units import LENGTH, split_header
+from geocontact.io.text.units import LENGTH, length_unit, split_header
 
 LARGEST_TABLE = 16_000_000
 """Bytes; some hundred thousand spheres."""
@@ -161,11 +161,16 @@ class _Cells:
 
     def lengths(self, name: str) -> Float[np.ndarray, " n"]:
         """Numbers of a column in m."""
-        unit = self.unit(name)
-        if unit not in LENGTH:
-            what = f"column '{name}' is in '{unit}'" if unit else f"column '{name}' has no unit"
+        return self.numbers(name) * LENGTH[self.length_unit(name)]
+
+    def length_unit(self, name: str) -> str:
+        """Key of `LENGTH` that a column is in."""
+        written = self.unit(name)
+        unit = length_unit(written)
+        if unit is None:
+            what = f"column '{name}' is in '{written}'" if written else f"column '{name}' has no unit"
             raise InputError(self.file, "", what, f"write e.g. `{name} [m]` (one of {', '.join(LENGTH)})")
-        return self.numbers(name) * LENGTH[unit]
+        return unit
 
     def zones(self) -> tuple[str, ...]:
         """Names of the column `zone`, which later name columns of results."""
@@ -237,7 +242,7 @@ def _require_plausible(cells: _Cells, radius: Float[np.ndarray, " n"]) -> None:
     if not odd.any():
         return
     line, text = cells.column("radius")[int(np.argmax(odd))]
-    unit, metres = cells.unit("radius"), float(radius[odd][0])
+    unit, metres = cells.length_unit("radius"), float(radius[odd][0])
     likelier = [each for each in ("mm", "cm", "m") if smallest <= metres / LENGTH[unit] * LENGTH[each] <= largest]
     what = f"radius is {text[:40]} {unit}, under a foot it is {smallest * 1e3:g} mm to {largest:g} m"
     remedy = f"write radius [{likelier[0]}] if it is in {likelier[0]}" if likelier else "correct it"

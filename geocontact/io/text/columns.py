@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.text.tables import TextTable, listed
-from geocontact.io.text.units import ANGLE, LENGTH
+from geocontact.io.text.units import ANGLE, LENGTH, length_unit
 
 LARGEST_RADIANS = 2.0 * pi
 """An angle beyond a full turn is taken for degrees."""
@@ -112,9 +112,10 @@ def mapped(
 def _metres(table: TextTable, name: str) -> float:
     if table.opensim:
         return 1.0
-    unit = _csv_unit(table, name)
-    if unit not in LENGTH:
-        what = f"column '{name}' is in '{unit}'" if unit else f"column '{name}' has no unit"
+    written = _csv_unit(table, name)
+    unit = length_unit(written)
+    if unit is None:
+        what = f"column '{name}' is in '{written}'" if written else f"column '{name}' has no unit"
         raise InputError(table.file, "", what, f"write e.g. `{name} [mm]` (one of {', '.join(LENGTH)})")
     return LENGTH[unit]
 

@@ -9,6 +9,22 @@ from math import pi
 LENGTH: dict[str, float] = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254, "um": 1e-6}
 """Metres per unit of length."""
 
+_IN_WORDS: dict[str, str] = {
+    "meters": "m",
+    "metres": "m",
+    "centimeters": "cm",
+    "centimetres": "cm",
+    "millimeters": "mm",
+    "millimetres": "mm",
+    "inches": "in",
+    "micrometers": "um",
+    "micrometres": "um",
+    "microns": "um",
+}
+
+_SHORTEST = 4
+"""Letters that a word for a unit may be cut to: the parameter UNITS of a .c3d file often holds four (`mete`)."""
+
 ANGLE: dict[str, float] = {"rad": 1.0, "deg": pi / 180.0}
 """Radians per unit of angle."""
 
@@ -66,6 +82,10 @@ _KNOWN = {unit: (si, factor) for si, units in DIMENSIONS.items() for unit, facto
 _PRODUCT = re.compile(r"\s*[·⋅*.]\s*|\s+")
 _POWER = re.compile(r"(?<=[a-zA-Z])\^?([23])\b")
 
+_LENGTH_WORDS = {name: name for name in LENGTH} | {
+    word[:letters]: name for word, name in _IN_WORDS.items() for letters in range(_SHORTEST, len(word) + 1)
+}
+
 _HEADER = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*")
 
 
@@ -73,9 +93,20 @@ def si_unit(unit: str) -> tuple[str, float] | None:
     """SI unit of the same dimension, and how many of it one `unit` is; None for a unit that is not known.
 
     Spellings count as one: `N m`, `Nm`, `N*m`, `N·m`; `m^2`, `m2`, `m²`; `deg`, `°`; `um`, `µm`. Upper and lower case
-    do not: `mN` is not `MN`.
+    do not, `mN` is not `MN`; but for units of length, which may stand in words too (`length_unit`).
     """
-    return _KNOWN.get(unit) or _SPELLINGS.get(_plain(unit))
+    known = _KNOWN.get(unit) or _SPELLINGS.get(_plain(unit))
+    length = length_unit(unit) if known is None else None
+    return known if length is None else ("m", LENGTH[length])
+
+
+def length_unit(word: str) -> str | None:
+    """Key of `LENGTH` that a file means by a word, in any case; None for what is no unit of length.
+
+    Abbreviated (`mm`, `MM`, `mm.`), in words of either spelling (`millimeter`, `Millimetres`), or such a word cut short
+    to four letters or more (`mill`). Empty is none: a unit is never guessed.
+    """
+    return _LENGTH_WORDS.get(_plain(word.strip().rstrip(".")).lower())
 
 
 def _plain(unit: str) -> str:
