@@ -14,6 +14,8 @@ from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.mesh import AXES, Mesh
 from geocontact.geometry.patch_names import Values
+from geocontact.geometry.pieces.closed_pieces import closed_pieces
+from geocontact.geometry.pieces.union import UnitedSurface, united
 from geocontact.geometry.placement import placed
 from geocontact.geometry.regions import faces_where
 from geocontact.geometry.surface import Surface
@@ -36,13 +38,37 @@ def read_body(record: Record, role: str, path: Path, unit: str, placement: str |
     return surface
 
 
+def read_body_and_outer(
+    record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool
+) -> tuple[Surface, UnitedSurface | None]:
+    """The same, and its outer surface where closed surfaces of the file lie inside or across others, not warned of."""
+    surface = _read_surface(record, role, path, unit, placement, assume_closed)
+    _warn_of_sides(record, role, surface)
+    return surface, united(surface)
+
+
 def read_surface(
     record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool = False
 ) -> Surface:
-    """Surface in its body frame; says which anatomical axes its file names.
+    """Surface in its body frame; says which anatomical axes its file names, warns of closed surfaces inside others.
 
     `placement` is a text file with a 4x4 matrix (translation in the mesh unit), or `model.osim:body[:mesh]`.
     """
+    surface = _read_surface(record, role, path, unit, placement, assume_closed)
+    warn_of_inner_surfaces(record, surface)
+    return surface
+
+
+def warn_of_inner_surfaces(record: Record, surface: Surface) -> None:
+    """A reservation where a mesh holds closed surfaces that lie inside or across others."""
+    found = united(surface)
+    if found is not None:
+        record.warn(f"{found.reservation}; delete in the file what is none")
+
+
+def _read_surface(
+    record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool
+) -> Surface:
     mesh = read_mesh(path, unit)
     if placement is not None:
         mesh = _placed(record, role, mesh, placement, unit)
@@ -60,6 +86,7 @@ def read_surface(
         closed=topology.closed,
         open_edges=topology.open_edges,
         irregular_edges=topology.irregular_edges,
+        closed_surfaces=closed_pieces(surface).count,
         area_mm2=round(float(surface.face_area.sum()) * 1e6, 4),
         median_edge_mm=_median_edge(surface),
         **({"space": mesh.space} if mesh.space else {}),

@@ -144,7 +144,7 @@ def test_balls_against_the_closed_form_at_second_order():
     right, errors, edges = 2 * 2 * np.pi * 20 * 12, [], []
     for rings in (12, 24):
         vertices, faces = simple_shapes.sphere(20.0, rings)
-        found = united(surface(joined((vertices, faces), (vertices + [16.0, 0.3, 0.2], faces))))
+        found = united(surface(joined((vertices, faces), (vertices + np.array([16.0, 0.3, 0.2]), faces))))
         errors.append(abs(found.inner_area / MM2 / right - 1.0))
         edges.append(1.0 / rings)
     order = np.log(errors[0] / errors[1]) / np.log(edges[0] / edges[1])

@@ -10,7 +10,8 @@ from geocontact.data.errors import InputError
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
 
-OVERLAP = 1e-3  # m; more than fluoroscopy and optical tracking err by across a joint
+OVERLAP = 1e-3  # m; as much as fluoroscopy and optical tracking err by across a joint
+DIGITS = 6  # of a depth in m that count: further ones are rounding, which differs with the place in the frame
 NEAR = 20e-3  # m; bodies that never come this close are a mistake in the input
 PLACES = "where each mesh sits in its body (`place_moving`, `place_fixed`)"
 
@@ -57,7 +58,7 @@ def warn_of_lift_off(record: Record, e: AreaEvolution, motion: Motion, name: str
 def warn_of_overlap(record: Record, e: AreaEvolution, motion: Motion, name: str) -> None:
     """A reservation where one body is farther inside the other than measured poses of rigid bodies bring it."""
     depth = -float(e.min_distance.min())
-    if depth > OVERLAP:
+    if round(depth, DIGITS) >= OVERLAP:
         record.warn(
             f"{_of(name)}the bodies overlap, by {depth * 1e3:.2f} mm at most, in {_nearest(e, motion)}; "
             f"rigid ones do not: check {PLACES}, the order of rotations, "

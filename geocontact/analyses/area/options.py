@@ -128,6 +128,9 @@ class AreaOptions(Options):
         Largest distance that counts, or several: 0.1,0.5,1,4. 0 counts what is inside the other body.
     assume_closed
         Treat a surface as closed although its edges do not show it.
+    outer
+        Count the outer surface alone where a file holds closed surfaces that lie inside or across others, such as a
+        marrow cavity or parts exported together: moving, fixed or both.
     rule
         How area is counted; the crude rules are for comparing with papers.
     bounds
@@ -241,6 +244,7 @@ class AreaOptions(Options):
     place_fixed: str | None = None
     adduction: Turn | None = None
     assume_closed: Literal["moving", "fixed", "both"] | None = None
+    outer: Literal["moving", "fixed", "both"] | None = None
     split: str | None = None
     medial: Annotated[Medial | None, Requires("split")] = None
     region: Expression | None = None

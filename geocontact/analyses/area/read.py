@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Literal
 
 import numpy as np
 
@@ -12,13 +14,15 @@ from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.pose_error.along import pose_error_of
 from geocontact.analyses.area.reference_areas import Reference, read_reference
 from geocontact.analyses.area.refusals import refuse_plane_beside, refuse_zero_without_inside
-from geocontact.analyses.bodies import chosen_faces, read_body, refuse_two_spaces
+from geocontact.analyses.bodies import chosen_faces, read_body_and_outer, refuse_two_spaces
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sides import MedialSide, medial_side, refuse_other_axes
+from geocontact.data.evolution import MM2
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import Refinement
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.pose_error import PoseError
+from geocontact.geometry.pieces.union import UnitedSurface
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 from geocontact.view.surfaces.vtp_series import require_pyvista
@@ -49,6 +53,8 @@ class Bodies:
         Measured areas to compare with; None without.
     error
         By which poses may be off; None without.
+    inner
+        Outer surfaces of bodies whose file holds closed surfaces inside or across others, where these count.
     """
 
     moving: Surface
@@ -57,6 +63,7 @@ class Bodies:
     motions: tuple[tuple[str, Motion], ...]
     reference: Reference | None
     error: PoseError | None = None
+    inner: Mapping[Literal["moving", "fixed"], UnitedSurface] = field(default_factory=dict)
 
     @property
     def title(self) -> str:
@@ -80,8 +87,8 @@ def read(o: AreaOptions, record: Record) -> Bodies:
     if o.markers is not None:
         record.add_input("`markers`", o.markers)
     closed = {body: o.assume_closed in (body, "both") for body in ("moving", "fixed")}
-    moving = read_body(record, "moving", o.moving, o.unit, o.place_moving, closed["moving"])
-    fixed = read_body(record, "fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
+    moving, outer_moving = read_body_and_outer(record, "moving", o.moving, o.unit, o.place_moving, closed["moving"])
+    fixed, outer_fixed = read_body_and_outer(record, "fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
     refuse_two_spaces(moving, fixed)
     refuse_zero_without_inside(o.threshold, moving, fixed)
     if split is not None:
@@ -90,7 +97,36 @@ def read(o: AreaOptions, record: Record) -> Bodies:
     if o.split is not None and split is not None:
         refuse_plane_beside(o.split, split[0], fixed, settings.fixed_faces, o.unit)
         record.say(f"medial is {split[1].words} of {fixed.name}")
-    return Bodies(moving, fixed, settings, tuple(motions_given(record, o, moving)), reference, error)
+    bodies = Bodies(moving, fixed, settings, tuple(motions_given(record, o, moving)), reference, error)
+    return _outer(record, o, bodies, {"moving": outer_moving, "fixed": outer_fixed})
+
+
+def _outer(
+    record: Record, o: AreaOptions, bodies: Bodies, found: Mapping[Literal["moving", "fixed"], UnitedSurface | None]
+) -> Bodies:
+    """The bodies with their outer surfaces where these are asked for, and known where they are not."""
+    if o.outer is not None and not any(found[body] for body in found if o.outer in (body, "both")):
+        record.warn(f"`outer` {o.outer} leaves nothing out: no closed surface lies inside or across another one")
+    inner = {}
+    for body, united in found.items():
+        if united is None:
+            continue
+        if o.outer not in (body, "both"):
+            inner[body] = united
+            continue
+        record.say(
+            f"{united.surface.name} holds {united.words}: its outer surface counts, "
+            f"{united.inner_area * MM2:.1f} mm^2 inside are left out"
+        )
+        marked = bodies.settings.moving_faces if body == "moving" else bodies.settings.fixed_faces
+        faces = None if marked is None else marked[united.face]
+        if body == "moving":
+            settings = replace(bodies.settings, moving_faces=faces)
+            bodies = replace(bodies, moving=united.surface, settings=settings)
+        else:
+            settings = replace(bodies.settings, fixed_faces=faces)
+            bodies = replace(bodies, fixed=united.surface, settings=settings)
+    return replace(bodies, inner=inner)
 
 
 def _settings(

@@ -12,6 +12,7 @@ from geocontact.analyses.area.apart import (
     warn_of_no_contact,
     warn_of_overlap,
 )
+from geocontact.analyses.area.closed_surfaces import say_inner_area
 from geocontact.analyses.area.congruence.along import congruence_evolution
 from geocontact.analyses.area.motion_result import MotionResult
 from geocontact.analyses.area.options import AreaOptions
@@ -46,6 +47,7 @@ def _over(
     before = len(record.warnings)
     evolution, maps = _evaluated(record, bodies, o, name, motion)
     pressure = pressure_evolution(record, bodies, o, name, motion, maps.frames) if o.pressure else None
+    say_inner_area(record, bodies, o, name, motion, evolution)
     comparison = None if bodies.reference is None else _compared(record, evolution, bodies.reference)
     uncertainty = _uncertain(record, bodies, o, name, motion, evolution)
     alike = None if o.congruence is None else congruence_evolution(record, bodies, o.congruence, name, motion)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from geocontact.analyses.bodies import warn_of_inner_surfaces
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.run_record import Record
@@ -40,6 +41,7 @@ def _mesh(record: Record, path: Path, unit: str) -> Ground:
     record.add_input(
         "ground", path, sha256=mesh.sha256, unit=unit, faces=len(mesh.faces), closed=surface.topology.closed
     )
+    warn_of_inner_surfaces(record, surface)
     if surface.inside_out:
         record.warn(f"{surface.name}: faces point inwards; taken the other way round")
     if surface.closed:

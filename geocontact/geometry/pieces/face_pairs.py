@@ -32,8 +32,8 @@ def face_pairs(first: Corners, second: Corners, near: float) -> Pairs:
         middle = 0.5 * (low + high)
         axis = int(np.argmax(np.ptp(middle, axis=0)))
         order = np.argsort(middle[:, axis], kind="stable")
-        for half in np.array_split(sets[longer][order], 2):
-            waiting.append((sets[0], half) if longer else (half, sets[1]))
+        halves = np.array_split(sets[longer][order], 2)
+        waiting += [(sets[0], half) if longer else (half, sets[1]) for half in halves]
     pairs = np.concatenate(found) if found else np.zeros((0, 2), np.int64)
     return np.asarray(pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))])
 

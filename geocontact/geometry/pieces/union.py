@@ -61,6 +61,13 @@ class UnitedSurface:
         parts += [f"{self.across} that overlap"] * bool(self.across)
         return f"{self.count} closed surfaces, {' and '.join(parts)}"
 
+    @property
+    def reservation(self) -> str:
+        """What to say where all of it counts."""
+        whole = self.inner_area + float(self.surface.face_area.sum())
+        inside = f"{self.inner_area * 1e6:.1f} of its {whole * 1e6:.1f} mm^2 lie inside another one"
+        return f"{self.surface.name} holds {self.words}: {inside} and count as surface all the same"
+
 
 def united(surface: Surface) -> UnitedSurface | None:
     """Outer surface of a mesh; None where no closed surface lies inside or across another one.

@@ -14,6 +14,7 @@ Table `regression` (cell, medial [-], lateral [-]) in the place of the published
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping
 from functools import partial
 
@@ -26,9 +27,11 @@ from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor
 from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
 from geocontact.data.cell_regression import CellRegression
+from geocontact.data.errors import InputWarning
 from geocontact.data.gap.case import CaseMesh
 from geocontact.data.parameter import Parameter
 from geocontact.geometry.contact_area.sided_areas import SidedAreas
+from geocontact.geometry.pieces.union import united
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.regions import faces_where
 from geocontact.geometry.surface import Surface
@@ -86,9 +89,18 @@ def geometry_of(meshes: Mapping[str, CaseMesh], threshold: float, side: float) -
     if meshes["moving"].region:
         raise ValueError("knee chain: faces of the moving mesh are not counted; give the region to [mesh.fixed]")
     moving, fixed = (Surface.of(meshes[name].mesh) for name in MESHES)
+    _warn_of_inner_surfaces(moving)
+    _warn_of_inner_surfaces(fixed)
     pair = SidedAreas(moving, fixed, threshold, Plane.across("z"), counted(meshes["fixed"], fixed))
     x = fixed.vertices[fixed.faces.ravel(), 0]
     return PosedKnee.of(pair, side, (float(x.min()), float(x.max())))
+
+
+def _warn_of_inner_surfaces(surface: Surface) -> None:
+    """A reservation where closed surfaces of one file lie inside or across others: their area counts as contact."""
+    found = united(surface)
+    if found is not None:
+        warnings.warn(InputWarning(found.reservation), stacklevel=4)
 
 
 def build(

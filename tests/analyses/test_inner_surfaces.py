@@ -1,0 +1,75 @@
+"""Every job that reads a mesh says that closed surfaces of it lie inside others: nothing else shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from geocontact.analyses.bodies import read_body, read_surface
+from geocontact.analyses.cop.ground import ground_of
+from geocontact.analyses.cop.options import CopOptions
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputWarning
+from geocontact.data.gap.case import CaseMesh
+from geocontact.io.mesh.meshes import read_mesh
+from geocontact.systems.knee.full_chain import geometry_of
+from tests.cli.calls import stl, written
+from tests.geometry.bodies import cube, joined
+
+SAID = "bone.stl holds 2 closed surfaces, one inside the other: 1536.0 of its 3936.0 mm^2 lie inside another one"
+
+
+def bone(folder: Path, *, marrow: bool = True) -> Path:
+    """A block of 20 mm with a cavity of 16 mm, 6 · 20² and 6 · 16² mm²; without it, one block."""
+    block, hole = cube((0, 0, 0), 10), cube((0, 0, 0), 8)
+    vertices, faces = joined(block, hole) if marrow else block
+    return written(folder / "bone.stl", stl(vertices[faces]))
+
+
+def surface(record: Record, file: Path) -> None:
+    """`fit` and `mat`."""
+    read_surface(record, "mesh", file, "mm", None)
+
+
+def body(record: Record, file: Path) -> None:
+    """`knee settle`."""
+    read_body(record, "fixed", file, "mm", None, False)
+
+
+def ground(record: Record, file: Path) -> None:
+    """`cop`, whose grounds are larger."""
+    ground_of(record, CopOptions(Path("spheres.csv"), motion=Path("m.csv"), ground=str(file), unit="cm"))
+
+
+@pytest.mark.parametrize("read", [surface, body])
+def test_a_job_warns_of_a_cavity(read: Callable[[Record, Path], None], tmp_path: Path) -> None:
+    record = Record("job", {})
+    read(record, bone(tmp_path))
+    (line,) = record.warnings
+    assert line == f"{SAID} and count as surface all the same; delete in the file what is none"
+    assert record.inputs[0]["closed_surfaces"] == 2
+
+
+def test_a_ground_with_a_cavity_is_warned_of(tmp_path: Path) -> None:
+    record = Record("cop", {})
+    ground(record, bone(tmp_path))
+    (line,) = record.warnings
+    assert line.startswith("bone.stl holds 2 closed surfaces, one inside the other: 153600.0 of its 393600.0 mm^2")
+
+
+@pytest.mark.parametrize("read", [surface, body, ground])
+def test_one_block_is_not_warned_of(read: Callable[[Record, Path], None], tmp_path: Path) -> None:
+    record = Record("job", {})
+    read(record, bone(tmp_path, marrow=False))
+    assert record.warnings == []
+
+
+def test_the_knee_chain_warns_of_a_cavity(tmp_path: Path) -> None:
+    mesh = CaseMesh(read_mesh(bone(tmp_path), "mm"), "", 1e-3)
+    with pytest.warns(InputWarning, match="bone.stl holds 2 closed surfaces, one inside the other") as said:
+        knee = geometry_of({"moving": mesh, "fixed": mesh}, 4e-3, 1.0)
+    assert len(said) == 2
+    assert np.isfinite(knee.middle).all()
