@@ -98,3 +98,52 @@ def test_times_rounded_to_milliseconds_are_even_again(tmp_path: Path) -> None:
     np.testing.assert_allclose(read_trc(written(tmp_path, text)).time, (30 + np.arange(7)) / 60, atol=1e-12)
     late = text.replace("0.533", "0.531")
     assert read_trc(written(tmp_path, late)).time[2] == 0.531
+
+
+TRUE = np.arange(1.0, 19.0).reshape(3, 2, 3)
+"""mm, frame by frame of two named markers."""
+
+
+def with_unnamed(counted: int, *, between: bool = False, seen: bool = True) -> str:
+    """Two named markers and two without a name behind them, or between: every row has cells of all four."""
+    names = ["Heel", "", "", "Toe"] if between else ["Heel", "Toe", "", ""]
+    rows = []
+    for k, (heel, toe) in enumerate(TRUE):
+        others = [[900.0 + k] * 3 if seen else [""] * 3] * 2
+        places = [heel, *others, toe] if between else [heel, toe, *others]
+        rows.append("\t".join([f"{k + 1}", f"{k / 100:.2f}", *(str(x) for place in places for x in place)]))
+    head = HEAD.replace("\t3\t2\tmm", f"\t3\t{counted}\tmm").replace(
+        "Heel\t\t\tR.Toe Tip", "\t\t\t".join(names).rstrip()
+    )
+    return head + "\n".join(rows) + "\n"
+
+
+@pytest.mark.parametrize("counted", [2, 4])
+@pytest.mark.parametrize("between", [False, True])
+def test_markers_without_a_name_are_passed_over(counted: int, between: bool, tmp_path: Path) -> None:
+    """As Cortex writes them, counted in line 3 or not; those between the named ones shift no column."""
+    with pytest.warns(InputWarning, match="2 markers without a name are passed over") as said:
+        seen = read_trc(written(tmp_path, with_unnamed(counted, between=between)))
+    assert len(said) == 1
+    assert seen.names == ("Heel", "Toe")
+    np.testing.assert_allclose(seen.positions, TRUE * 1e-3)
+
+
+def test_unnamed_markers_that_were_never_seen_may_be_counted(tmp_path: Path) -> None:
+    seen = read_trc(written(tmp_path, with_unnamed(4, seen=False)))
+    np.testing.assert_allclose(seen.positions, TRUE * 1e-3)
+
+
+def test_a_count_above_all_that_is_there_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="line 3: NumMarkers is '7' but 2 markers are named"):
+        read_trc(written(tmp_path, with_unnamed(7)))
+
+
+def test_blanks_for_tabs_are_named_as_such(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="line 4: has blanks between its columns, not tabs; export it with tabs"):
+        read_trc(written(tmp_path, GOOD.replace("\t", " ")))
+
+
+def test_a_file_without_any_name_is_refused_as_such(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="line 4: names no marker; name the markers where it was recorded"):
+        read_trc(written(tmp_path, GOOD.replace("Heel\t\t\tR.Toe Tip", "")))

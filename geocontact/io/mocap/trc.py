@@ -2,7 +2,8 @@
 
 Line 3 tells rate, counts and unit, line 4 the markers' names, line 5 the columns; then frame, time and x y z of each
 marker between tabs. An empty cell is a marker that was not seen; so is one at exactly 0 0 0, which some exports write.
-What stands before a colon in a name is the subject and is left out.
+What stands before a colon in a name is the subject and is left out. Markers without a name, whose cells Cortex writes
+between the named ones or behind them, are passed over; line 3 may count them or not.
 Times are often rounded to milliseconds, which would ruin accelerations; where frames and rate bear the times out to the
 rounding, they count.
 """
@@ -38,9 +39,10 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
     if len(lines) <= _HEAD or not lines[0].startswith("PathFileType"):
         raise InputError(file, "line 1", "does not begin with 'PathFileType'", "is it a complete .trc file?")
     declared = _declared(lines[1], lines[2])
-    names = tuple(without_subject([word.strip() for word in lines[3].split("\t")[2:] if word.strip()]))
-    if differs := _other_count(declared, "NumMarkers", len(names), "markers are named in line 4"):
-        raise InputError(file, "line 3", differs, "is the file complete?")
+    names, slots = _named(lines[3], file)
+    width = 2 + 3 * (max(slots) + 1)
+    behind, cells = _behind(lines[_HEAD:], width, file)
+    _require_count(declared, len(names), max(slots) + 1 + behind, (cells - 2) // 3, file)
     twice = [name for name in names if names.count(name) > 1]
     if twice:
         raise InputError(file, "line 4", f"marker '{twice[0]}' is there {names.count(twice[0])} times", "rename one")
@@ -48,8 +50,16 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
     unit = length_unit(written)
     if unit is None:
         raise InputError(file, "line 3", f"unit is '{written[:20]}'", f"expected one of {', '.join(LENGTH)}")
-    columns = ("frame", "time", *(f"{name} {axis}" for name in names for axis in "xyz"))
+    of_slot = dict(zip(slots, names, strict=True))
+    columns = (
+        "frame",
+        "time",
+        *(f"{of_slot.get(k, f'unnamed {k + 1}')} {axis}" for k in range(max(slots) + 1) for axis in "xyz"),
+    )
     values, places = read_rows(iter(lines[_HEAD:]), _HEAD + 1, columns, file, _split)
+    if unnamed := max(slots) + 1 + behind - len(names):
+        what = "1 marker without a name is" if unnamed == 1 else f"{unnamed} markers without a name are"
+        warnings.warn(InputWarning(f"{file}: {what} passed over"), stacklevel=2)
     if differs := _other_count(declared, "NumFrames", len(values), "frames follow"):
         warnings.warn(InputWarning(f"{file} line 3: {differs}; all are read"), stacklevel=2)
     time = values[:, 1]
@@ -60,7 +70,7 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
     endless = np.flatnonzero(np.isinf(values[:, 2:]).any(axis=1))
     if len(endless):
         raise InputError(file, f"line {places[endless[0]]}", "a place is infinite", "leave missing cells empty")
-    positions = LENGTH[unit] * values[:, 2:].reshape(len(values), len(names), 3)
+    positions = LENGTH[unit] * values[:, 2:].reshape(len(values), -1, 3)[:, slots]
     return MarkerTrajectories(_unrounded(time, values[:, 0], declared), _seen(file, positions), names, file)
 
 
@@ -86,13 +96,49 @@ def _unrounded(
 
 
 def _split(line: str, _separator: None, most: int) -> list[str]:
-    """Cells of a line; those that are missing at its end are empty, tabs beyond the last are no cells."""
+    """Cells of a line; those that are missing at its end are empty, those of markers behind the last are left out."""
     if not line.strip():
         return []
-    cells = line.rstrip("\r\n").split("\t")
-    while len(cells) > most and not cells[-1].strip():
-        cells.pop()
+    cells = line.rstrip("\r\n").split("\t")[:most]
     return cells + [""] * (most - len(cells))
+
+
+def _named(line: str, file: str) -> tuple[tuple[str, ...], list[int]]:
+    """Names of line 4, and which marker of a row each is: every third cell has a name, or none."""
+    words = [word.strip() for word in line.split("\t")[2:]]
+    at = [k for k, word in enumerate(words) if word]
+    if not at and "\t" not in line and len(line.split()) > 2:
+        what = "has blanks between its columns, not tabs"
+        raise InputError(file, "line 4", what, "export it with tabs: a marker that was not seen is an empty cell")
+    if not at:
+        raise InputError(file, "line 4", "names no marker", "name the markers where it was recorded")
+    names = tuple(without_subject([words[k] for k in at]))
+    return names, [k // 3 for k in at] if all(k % 3 == 0 for k in at) else list(range(len(at)))
+
+
+def _behind(rows: list[str], width: int, file: str) -> tuple[int, int]:
+    """Whole markers behind the named ones in the longest row, and cells of that row with empty ones counted."""
+    behind = longest = 0
+    for number, line in enumerate(rows, _HEAD + 1):
+        cells = line.rstrip("\r\n").split("\t")
+        longest = max(longest, len(cells))
+        while len(cells) > width and not cells[-1].strip():
+            cells.pop()
+        beyond = len(cells) - width
+        if beyond > 0 and beyond % 3:
+            what = f"more cells where {width} columns are named, and the {beyond} behind these are no whole markers"
+            raise InputError(file, f"line {number}", what, "rows must be as long as the header")
+        behind = max(behind, beyond // 3)
+    return behind, longest
+
+
+def _require_count(declared: dict[str, str], named: int, present: int, cells: int, file: str) -> None:
+    """NumMarkers counts the named markers, or with those without a name, seen or not, whose cells are there."""
+    said = declared.get("NumMarkers", "")
+    if said.isdigit() and int(said) in {named, present, *range(present, cells + 1)}:
+        return
+    if differs := _other_count(declared, "NumMarkers", named, "markers are named in line 4"):
+        raise InputError(file, "line 3", differs, "is the file complete?")
 
 
 def _other_count(declared: dict[str, str], key: str, count: int, what: str) -> str:
