@@ -1,6 +1,6 @@
-"""A plain grid: one row per frame, the time first and then one column per cell; pliance exports are brought to it.
+"""A plain grid: one row per frame, the time first and then one column per cell.
 
-novel gives no description of pliance files, so their cells are placed by a layout file. Columns are `time [s]` (or
+A layout file places the cells. Columns are `time [s]` (or
 [ms]; without it the layout has `rate_Hz`) and one for each cell, whose name ends with the cell's id, `1`, `cell_17`, or
 is its row and column from 0, `r0c0`. Their unit is in brackets, `17 [kPa]`, or in the layout. Lines before the header
 that begin with `#` are skipped.

@@ -1,9 +1,10 @@
-"""pedar .asc (novel): two insoles of up to 99 sensors, one row per frame.
+"""pedar .asc (novel): two insoles of up to 99 sensors, one row per frame; pliance .asc: one mat.
 
 Lines in the order of the export: file name and date, type of sensor, total time and scanning rate, `pressure values
 in kPa`, the sensors of each insole under `mask definition`, then a row `time[secs] 1 2 ... 99 1 2 ... 99` and the
 frames. A mask leaves sensors out of the lists and of the columns, so that columns are found by the lists, never by
-their number. Where a sensor lies in an insole no file says: a layout places the sensors.
+their number. Where a sensor lies in an insole no file says: a layout places the sensors. The .asc of one mat (pliance)
+has no such lists, and numbers after `time[secs]` or none: its sensors follow the layout's order, or its `sensors.mat`.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ import re
 import warnings
 from array import array
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.pressure_frames import PressureFrames
@@ -35,13 +36,18 @@ _LABELS = re.compile(r"time\s*\[\s*secs?\s*\]", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class PedarHeader:
-    """What stands above the frames; `sides` has each insole's sensors in the order of the columns, from 1."""
+    """What stands above the frames.
+
+    `sides` has each insole's sensors in the order of the columns, from 1; it is empty for one mat, whose `labels` are
+    the numbers after time[secs], where there are any.
+    """
 
     line: int
     unit: float | None
     rate: float | None
     total: float | None
     sides: dict[str, tuple[int, ...]]
+    labels: tuple[int, ...] = ()
 
 
 def is_pedar(text: MatText) -> bool:
@@ -50,11 +56,15 @@ def is_pedar(text: MatText) -> bool:
 
 
 def read_pedar(text: MatText, layout: MatLayout | None) -> tuple[PressureFrames, ...]:
-    """One mat per insole, named "left" and "right"."""
+    """One mat per insole, named "left" and "right", or one named "mat"."""
     rows = text.lines()
     header = _header(rows, text.file)
-    _require_places(header, layout, text.file)
     notation = notation_of(("\t", *(row for row in text.head[header.line :] if row)), layout, text.file)
+    if not header.sides:
+        first = next((row for row in text.head[header.line :] if row), "")
+        header = replace(header, sides={"mat": _one_mat(header, len(notation.cells(first)) - 1, layout, text.file)})
+    else:
+        _require_places(header, layout, text.file)
     width = 1 + sum(map(len, header.sides.values()))
     time: array[float] = array("d")
     lines: list[int] = []
@@ -90,7 +100,9 @@ def _header(rows: Iterator[tuple[int, str]], file: str) -> PedarHeader:
     listed: dict[str, tuple[int, ...]] = {}
     for number, line in rows:
         if _LABELS.match(line):
-            return PedarHeader(number, unit, rate, total, _sides(line, listed, file, f"line {number}"))
+            place = f"line {number}"
+            labels = _labels(line, file, place)
+            return PedarHeader(number, unit, rate, total, _sides(labels, listed, file, place), labels)
         if found := _UNIT.match(line):
             unit = pressure_unit(found["unit"])
             if unit is None:
@@ -113,19 +125,25 @@ def _number(text: str) -> float | None:
     return value if SMALLEST <= value <= LARGEST else None
 
 
-def _sides(line: str, listed: dict[str, tuple[int, ...]], file: str, place: str) -> dict[str, tuple[int, ...]]:
-    """Sensors of each insole in the order of the columns, which the labels have to confirm."""
+def _labels(line: str, file: str, place: str) -> tuple[int, ...]:
+    """Numbers after time[secs]."""
     words = line.split("\t")[1:] if "\t" in line else line.split()[1:]
     words = [word.strip() for word in words if word.strip()]
     if not all(re.fullmatch(r"\d{1,3}", word) for word in words):
         what = "columns are not named by numbers of sensors (means over masks?)"
         raise InputError(file, place, what, "export the pressure of every sensor")
-    labels = [int(word) for word in words]
+    return tuple(int(word) for word in words)
+
+
+def _sides(
+    labels: tuple[int, ...], listed: dict[str, tuple[int, ...]], file: str, place: str
+) -> dict[str, tuple[int, ...]]:
+    """Sensors of each insole in the order of the columns, which the labels have to confirm; none of one mat."""
     sides = {side: ids for side, ids in listed.items() if ids}
-    if not sides:
+    if not sides and len(set(labels)) < len(labels):
         what = "no line `left insole: 1,2,...` above the columns says whose sensors they are"
         raise InputError(file, place, what, "export the file with its mask definition")
-    if labels != [number for ids in sides.values() for number in ids]:
+    if sides and labels != tuple(number for ids in sides.values() for number in ids):
         counts = " and ".join(f"{len(ids)} {side}" for side, ids in sides.items())
         what = f"columns of {len(labels)} sensors do not follow the mask definition ({counts})"
         raise InputError(file, place, what, "export the file again")
@@ -134,6 +152,24 @@ def _sides(line: str, listed: dict[str, tuple[int, ...]], file: str, place: str)
             what = f"sensors of the {side} insole are not numbers from 1 to {SENSORS}, each once"
             raise InputError(file, place, what, "export the file again")
     return sides
+
+
+def _one_mat(header: PedarHeader, count: int, layout: MatLayout | None, file: str) -> tuple[int, ...]:
+    """Sensors of a single mat in the order of its `count` columns, from 1; the layout says how they lie."""
+    place = f"line {header.line}"
+    if header.labels and len(header.labels) != count:
+        what = f"{count} values below it where {len(header.labels)} sensors are named"
+        raise InputError(file, place, what, "export the file again")
+    if layout is None or layout.rows is None or layout.columns is None:
+        what = f"is the .asc of one mat (pliance) with {count} sensors: how they lie is not in it"
+        remedy = "give a layout file with rows, columns and pitch_mm; of two insoles export the mask definition as well"
+        raise InputError(file, "", what, remedy)
+    known = len(layout.sensors.get("mat", ())) or layout.rows * layout.columns
+    numbers = header.labels or tuple(range(1, count + 1))
+    if len(numbers) > known or (not header.labels and count != known) or not 1 <= min(numbers) <= max(numbers) <= known:
+        what = f"{count} sensors, numbered to {max(numbers, default=0)}, where the layout has {known}"
+        raise InputError(file, place, what, "correct rows and columns in the layout")
+    return numbers
 
 
 def _require_places(header: PedarHeader, layout: MatLayout | None, file: str) -> None:

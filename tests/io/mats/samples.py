@@ -45,6 +45,18 @@ left = [[1, 0], [1, 1], [1, 2], [0, 0], [0, 2]]
 right = [[1, 2], [1, 1], [1, 0], [0, 2], [0, 0]]
 """
 
+PLIANCE = """\
+\tfile name: test.asc\tdate/time 29.01.13 11.30
+sensor type: S2073_11-ROUND-200KPa
+total time [secs]: 0.040\ttime per frame [secs]: 0.020\tscanning rate [Hz]:  50
+pressure values in kPa
+
+electrical:
+time[secs]
+0.000\t1.0\t2.0\t3.0\t4.0\t5.0\t6.0
+0.020\t0.0\t10.0\t0.0\t0.0\t0.0\t0.5
+"""
+
 TEKSCAN = """\
 DATA_TYPE MOVIE
 VERSION Tekscan Pressure Measurement System 7.00-22

@@ -15,6 +15,7 @@ from tests.io.mats.samples import (
     GRID_LAYOUT,
     PEDAR,
     PEDAR_LAYOUT,
+    PLIANCE,
     TEKSCAN,
     XSENSOR,
     layout,
@@ -40,6 +41,25 @@ def test_grid(tmp_path: Path) -> None:
     np.testing.assert_allclose(mat.cell_area, 2e-4, rtol=1e-12)
     assert mat.saturation == math.inf
     assert mat.force == pytest.approx([10.5e3 * 2e-4, 210e3 * 2e-4], rel=1e-12)
+
+
+@pytest.mark.parametrize("labels", ["", "\t1\t2\t3\t4\t5\t6"])
+def test_the_asc_of_one_mat_follows_the_order_of_the_layout(labels: str, tmp_path: Path) -> None:
+    file = write(tmp_path, PLIANCE.replace("time[secs]", f"time[secs]{labels}"), "pliance.asc")
+    (mat,) = read_mat(file, layout(tmp_path, GRID_LAYOUT + "serpentine = true\n"))
+    assert mat.name == "mat"
+    np.testing.assert_allclose(mat.time, [0.0, 0.02])
+    np.testing.assert_allclose(mat.pressure[0], [[1e3, 2e3, 3e3], [6e3, 5e3, 4e3]], rtol=1e-15)
+    np.testing.assert_allclose(mat.pressure[1], [[0, 10e3, 0], [0.5e3, 0, 0]], rtol=1e-15)
+
+
+def test_numbers_of_one_mat_leave_sensors_out(tmp_path: Path) -> None:
+    text = PLIANCE.replace("time[secs]", "time[secs]\t1\t2\t3\t4\t5\t7")
+    grid = GRID_LAYOUT.replace("columns = 3", "columns = 4")
+    places = "[sensors]\nmat = [[0, 0], [0, 1], [0, 2], [1, 0], [1, 1], [0, 3], [1, 2]]\n"
+    with pytest.warns(InputWarning, match="1 of 7 cells of 'mat' are not in the file"):
+        (mat,) = read_mat(write(tmp_path, text, "p.asc"), layout(tmp_path, grid + places))
+    np.testing.assert_allclose(mat.pressure[0], [[1e3, 2e3, 3e3, GAP], [4e3, 5e3, 6e3, GAP]], rtol=1e-15)
 
 
 def test_pedar_has_two_insoles_of_masked_sensors(tmp_path: Path) -> None:

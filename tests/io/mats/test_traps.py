@@ -13,7 +13,7 @@ import pytest
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.mats import text as mat_text
 from geocontact.io.mats.catalogue import READERS, read_mat
-from tests.io.mats.samples import GRID, GRID_LAYOUT, PEDAR, PEDAR_LAYOUT, TEKSCAN, XSENSOR, layout, write
+from tests.io.mats.samples import GRID, GRID_LAYOUT, PEDAR, PEDAR_LAYOUT, PLIANCE, TEKSCAN, XSENSOR, layout, write
 
 SAMPLES = {
     "grid": (GRID, GRID_LAYOUT),
@@ -216,6 +216,15 @@ def test_a_layout_is_asked_for_where_the_file_does_not_place_its_cells(tmp_path:
     assert refusal(tmp_path, GRID).endswith("give a layout file with rows, columns and pitch_mm")
     assert "sensors.left = [[row, column], ...]" in refusal(tmp_path, PEDAR)
     assert refusal(tmp_path, PEDAR, "rows = 2\ncolumns = 3").startswith("where the sensors of the left insole lie")
+
+
+def test_the_asc_of_one_mat_asks_for_its_layout(tmp_path: Path) -> None:
+    said = refusal(tmp_path, PLIANCE)
+    assert said.startswith("is the .asc of one mat (pliance) with 6 sensors: how they lie is not in it; give a layout")
+    assert refusal(tmp_path, PLIANCE, GRID_LAYOUT.replace("rows = 2", "rows = 3")).startswith(
+        "line 7: 6 sensors, numbered to 6, where the layout has 9; correct rows and columns"
+    )
+    assert refusal(tmp_path, PLIANCE.replace("\t0.5", ""), GRID_LAYOUT).startswith("line 9: 5 values where the header")
 
 
 def test_layout_and_file_may_not_disagree(tmp_path: Path) -> None:
