@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from geocontact.io.opensim.osim import bodies_at_rest
 from tests.cli.calls import MESHES, ROOT, call, done, poses, written
 from tests.cli.test_cop import HEAD, LAW, cop, plate_file, sole
 
@@ -215,6 +216,22 @@ def test_joint_of_a_model_as_motion(tmp_path: Path) -> None:
     """The sample knee's joint puts its child far above y = 0: refused in one line, by way of the reader of models."""
     result = cop(tmp_path, "--osim", MESHES / "knee.osim", "--joint", "none", motion=MESHES / "gait.mot")
     assert (result.code, len(result.complaints)) == (2, 1) and "none" in result.err
+
+
+def test_a_joint_between_two_moving_bodies_is_refused_by_its_parent(tmp_path: Path) -> None:
+    """A foot in its shank, not over the ground: no depth tells it, the model does."""
+    result = cop(tmp_path, "--osim", MESHES / "leg.osim", "--joint", "ankle_r", motion=MESHES / "gait.mot")
+    assert (result.code, len(result.complaints), result.folder.exists()) == (2, 1, False)
+    said = "--joint: 'ankle_r' gives foot_r in tibia_r, which is not the ground; give poses of foot_r in the ground"
+    assert said in result.err
+
+
+def test_bodies_welded_to_the_ground_are_the_ground(tmp_path: Path) -> None:
+    text = (MESHES / "leg.osim").read_text(encoding="utf-8")
+    assert bodies_at_rest(MESHES / "leg.osim") == {"ground"}
+    welded = text.replace('FreeJoint name="base"', 'WeldJoint name="base"').replace("</FreeJoint>", "</WeldJoint>")
+    welded = welded.replace('BallJoint name="hip_r"', 'WeldJoint name="hip_r"').replace("</BallJoint>", "</WeldJoint>")
+    assert bodies_at_rest(written(tmp_path / "platform.osim", welded)) == {"ground", "pelvis", "femur_r"}
 
 
 def test_forces_on_the_plate_are_refused(tmp_path: Path) -> None:

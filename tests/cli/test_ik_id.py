@@ -97,6 +97,41 @@ def test_weights_and_holds_of_opensim_s_setup(tmp_path: Path) -> None:
     np.testing.assert_allclose(read_table(result.folder / "ik.mot").column("ankle"), -3.0, atol=0.05)
 
 
+SET_UP = (
+    '<OpenSimDocument><InverseKinematicsTool><IKTaskSet file="sub/tasks.xml"/></InverseKinematicsTool>'
+    "</OpenSimDocument>"
+)
+
+
+def test_tasks_that_a_set_up_names_by_their_file(tmp_path: Path) -> None:
+    """From the set-up's folder, as OpenSim reads it; both files stand in run.json."""
+    (tmp_path / "sub").mkdir()
+    tasks = "".join(
+        f'<IKMarkerTask name="{b}{k}"><weight>2</weight></IKMarkerTask>' for b in legs.BODIES for k in range(4)
+    )
+    held = '<IKCoordinateTask name="ankle"><value_type>manual_value</value_type><value>0.1</value><weight>1e9</weight>'
+    text = f"<OpenSimDocument><IKTaskSet>{tasks}{held}</IKCoordinateTask></IKTaskSet></OpenSimDocument>"
+    (tmp_path / "sub" / "tasks.xml").write_text(text, encoding="utf-8")
+    (tmp_path / "setup.xml").write_text(SET_UP, encoding="utf-8")
+    result = done(ik(tmp_path, trc(tmp_path), "--tasks", tmp_path / "setup.xml"))
+    np.testing.assert_allclose(read_table(result.folder / "ik.mot").column("ankle"), np.degrees(0.1), atol=1e-5)
+    files = {Path(each["file"]).name for each in result.record()["inputs"]}
+    assert {"setup.xml", "tasks.xml"} <= files
+
+
+def test_tasks_whose_file_is_not_there_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "setup.xml").write_text(SET_UP, encoding="utf-8")
+    result = ik(tmp_path, trc(tmp_path), "--tasks", tmp_path / "setup.xml")
+    assert (result.code, len(result.complaints)) == (2, 1)
+    assert "setup.xml <IKTaskSet file=…>: names 'sub/tasks.xml', which is not there; put that file there" in result.err
+
+
+def test_tasks_that_name_themselves_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "setup.xml").write_text(SET_UP.replace("sub/tasks", "setup"), encoding="utf-8")
+    result = ik(tmp_path, trc(tmp_path), "--tasks", tmp_path / "setup.xml")
+    assert result.code == 2 and "<IKTaskSet file=…>: leads back to 'setup.xml'" in result.err
+
+
 def test_knee_angles_of_a_pin_are_its_own(tmp_path: Path) -> None:
     """The pin turns about z, to the right; flexion of Grood and Suntay is the other way round."""
     _, model, time, values = legs.planted(tmp_path)

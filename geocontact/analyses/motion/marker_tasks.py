@@ -16,7 +16,7 @@ from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import FEWEST
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of
-from geocontact.io.opensim.marker_weights import read_marker_weights
+from geocontact.io.opensim.marker_weights import read_marker_weights, tasks_file
 from geocontact.io.text.tables import listed, read_table
 
 HELD = 1e3  # weight of a coordinate that is held, against 1 of a marker: a radian as dear as 30 m of a marker
@@ -44,6 +44,8 @@ def marker_tasks(
     else:
         tasks = read_marker_weights(file)
         record.add_input("`tasks`", file, markers=len(tasks.markers), coordinates=len(tasks.coordinates))
+        if (named := tasks_file(file)) != file:
+            record.add_input("tasks that it names", named)
     known = {c.name: c for c in model.coordinates}
     markers = {**tasks.markers, **_named(weight, "`weight`", {m.name for m in model.markers}, "R.Heel=10")}
     if min(markers.values(), default=0.0) < 0.0:

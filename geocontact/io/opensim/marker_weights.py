@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from os import PathLike, fspath
+from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from geocontact.data.errors import InputError
@@ -16,10 +17,10 @@ def read_marker_weights(path: str | PathLike[str]) -> MarkerTasks:
     """Markers and coordinates with their weights; a task without a weight, or that does not apply, counts nothing.
 
     A coordinate is wanted at the model's default, at the task's own value, or near a recording that the tool's set-up
-    names elsewhere.
+    names elsewhere. Where the set is named by its file (`<IKTaskSet file="tasks.xml"/>`), that file is read.
     """
-    file = fspath(path)
-    root = read_document(path)
+    file = fspath(tasks_file(path))
+    root = read_document(file)
     markers = {e.get("name", ""): _weight(file, e) for e in root.iter("IKMarkerTask")}
     weighed = [(e, _weight(file, e)) for e in root.iter("IKCoordinateTask")]
     held = [(e, weight, text_of(e, "value_type", "default_value")) for e, weight in weighed if weight > 0.0]
@@ -28,6 +29,26 @@ def read_marker_weights(path: str | PathLike[str]) -> MarkerTasks:
     if not markers and not weighed:
         raise InputError(file, "", "holds no IKMarkerTask", "give OpenSim's setup of inverse kinematics")
     return MarkerTasks(markers, coordinates, followed)
+
+
+def tasks_file(path: str | PathLike[str]) -> Path:
+    """The file that holds the tasks: the one given, or the one that its task set names, from the folder it is in."""
+    file = Path(fspath(path))
+    passed = {file.resolve()}
+    while named := next(
+        (e.get("file", "").strip() for e in read_document(file).iter("IKTaskSet") if e.get("file")), ""
+    ):
+        further = file.parent / named.replace("\\", "/")
+        if not further.is_file():
+            what = f"names '{named[:80]}', which is not there"
+            raise InputError(file, "<IKTaskSet file=…>", what, "put that file there, or give it instead of this one")
+        if further.resolve() in passed:
+            raise InputError(
+                file, "<IKTaskSet file=…>", f"leads back to '{named[:80]}'", "give the file with the tasks"
+            )
+        passed.add(further.resolve())
+        file = further
+    return file
 
 
 def _weight(file: str, task: Element) -> float:

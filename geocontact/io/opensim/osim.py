@@ -24,6 +24,8 @@ from geocontact.io.text.tables import listed
 
 __all__ = ["Coordinate", "JointModel", "TransformAxis", "joints_of", "mesh_placement", "mesh_placements", "read_joint"]
 
+GROUND = "ground"
+
 _AXES = ("rotation1", "rotation2", "rotation3", "translation1", "translation2", "translation3")
 _X, _Y, _Z = np.eye(3)
 _SIMPLE: dict[str, tuple[tuple[int, Float[np.ndarray, " 3"]], ...]] = {
@@ -52,6 +54,20 @@ def read_joint(path: str | PathLike[str], joint_name: str) -> JointModel:
 def joint_names(path: str | PathLike[str]) -> tuple[str, ...]:
     """Names of the joints of an .osim file, in its order."""
     return tuple(element.get("name", "") for element, _ in _joint_elements(read_model(path)))
+
+
+def bodies_at_rest(path: str | PathLike[str]) -> frozenset[str]:
+    """The ground of an .osim file and the bodies that are welded to it, one to another."""
+    file = fspath(path)
+    model = read_model(path)
+    frames = Frames(file, model)
+    welds = [_joint(file, model, frames, e, owner) for e, owner in _joint_elements(model) if e.tag == "WeldJoint"]
+    found = {GROUND}
+    for _ in welds:
+        found |= {
+            body for joint in welds for body in (joint.parent, joint.child) if found & {joint.parent, joint.child}
+        }
+    return frozenset(found)
 
 
 def joints_of(file: str, model: Element, frames: Frames) -> tuple[JointModel, ...]:
