@@ -234,7 +234,7 @@ BAD_TRIALS = {
     "semicolons, commas and points": (TRIAL, TRIAL.replace(",", ";").replace("11.5", "11,5"), " line 3: '11,5' has a"),
     "tabs": (TRIAL, TRIAL.replace(",", "\t"), " line 1: columns are separated by tabs; save it with commas"),
     "decimal commas": (BODY, BODY.replace(".", ","), " line 2: 8 cells where 4 columns are named (decimal c"),
-    "decimal comma later": ("11.5,", "11,5,", " line 3: more cells where 4 columns are named; rows must be as long"),
+    "decimal comma later": ("11.5,", "11,5,", " line 3: more cells where 4 columns are named (decimal commas?); write"),
     "decimal comma in quotes": ("11.5", '"11,5"', ' line 3: decimal comma in "11,5"; write decimal points'),
     "thousands": ("11.5", '"1,150"', ' line 3: decimal comma in "1,150"; write decimal points'),
     "short row": ("11.5,", "11.5", " line 3: 3 cells where 4 columns are named; rows must be as long as the header"),

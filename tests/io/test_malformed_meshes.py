@@ -133,7 +133,7 @@ MALFORMED = {
     "two vertices.stl": (b"solid a\n" + FACET.replace(b"vertex 50 0 0\n", b"") + b"endsolid\n", "face 0"),
     "two numbers.stl": (b"solid a\n" + FACET + FACET.replace(b"50 0 0", b"50 0") + b"endsolid\n", "face 1"),
     "word.stl": (b"solid a\n" + FACET + FACET.replace(b"50 0 0", b"5O 0 0") + b"endsolid\n", "face 1: '5o' is not a"),
-    "decimal comma.stl": (b"solid a\n" + FACET.replace(b"50", b"50,0") + b"endsolid\n", "'50,0' is not a number"),
+    "decimal comma.stl": (b"solid a\n" + FACET.replace(b"50", b"50,0") + b"endsolid\n", "'50,0' has a decimal comma"),
     "underscore.stl": (b"solid a\n" + FACET.replace(b"50", b"5_0") + b"endsolid\n", "'5_0' is not a number"),
     "nan ascii.stl": (b"solid a\n" + FACET + FACET.replace(b"50", b"nan") + b"endsolid\n", "face 1"),
     "inf ascii.stl": (b"solid a\n" + FACET.replace(b"50", b"1e999") + b"endsolid\n", "not finite"),

@@ -20,7 +20,15 @@ from geocontact.data.errors import InputError
 from geocontact.io.mesh import limits
 from geocontact.io.mesh.polygons import triangles
 from geocontact.io.text.file_preflight import not_a
-from geocontact.io.text.text_lines import BYTE_ORDER_MARK, as_integers, lines, require_numbers, shown, warn_open_end
+from geocontact.io.text.text_lines import (
+    BYTE_ORDER_MARK,
+    as_integers,
+    lines,
+    remedy,
+    require_numbers,
+    shown,
+    warn_open_end,
+)
 
 _PASSED_OVER = frozenset(
     b"vt vn vp l p g o s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj cstype deg "
@@ -66,9 +74,10 @@ def _plain(data: bytes, file: str) -> tuple[bytearray, int, Int[np.ndarray, "m 3
             elif keyword not in _PASSED_OVER:
                 raise ValueError(f"{shown(keyword)} is no OBJ keyword")
         except ValueError as error:
-            if number == 1:
+            meant = remedy(error, _AGAIN)
+            if number == 1 and meant == _AGAIN:
                 raise not_a("an OBJ file", data, file) from error
-            raise InputError(file, f"line {number}", str(error), _AGAIN) from error
+            raise InputError(file, f"line {number}", str(error), meant) from error
     limits.require_count(count, limits.MAX_VERTICES, "vertices", file)
     faces = triangles(as_integers(corners), as_integers(sizes), count, file)
     warn_open_end(data, file)

@@ -11,7 +11,7 @@ import numpy as np
 from geocontact.data.errors import InputError
 from geocontact.io.mesh.ply_preflight import Element, PlyHeader, Property, plain_header
 from geocontact.io.mesh.polygons import triangles
-from geocontact.io.text.text_lines import as_integers, integer, lines, require_numbers, warn_open_end
+from geocontact.io.text.text_lines import as_integers, integer, lines, remedy, require_numbers, warn_open_end
 
 _AGAIN = "the file is cut off or damaged, export or download it again"
 _AXES = ("x", "y", "z")
@@ -36,7 +36,8 @@ def plain_ascii(data: bytes, header: PlyHeader, index_list: str, file: str) -> b
             else:
                 count = sum(1 for _ in some)
         except _RowError as error:
-            raise InputError(file, f"line {error.line}", f"{element.name}: {error}", _AGAIN) from error.__cause__
+            what, meant = f"{element.name}: {error}", remedy(error, _AGAIN)
+            raise InputError(file, f"line {error.line}", what, meant) from error.__cause__
         if count < element.rows:
             what = f"the header declares {element.rows} rows of {element.name}, the file has {count}"
             raise InputError(file, "", what, _AGAIN)

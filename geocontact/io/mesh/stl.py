@@ -18,7 +18,7 @@ from jaxtyping import Float, Int
 from geocontact.data.errors import InputError
 from geocontact.io.mesh import limits
 from geocontact.io.text.file_preflight import UNKNOWN, looks_like, not_a
-from geocontact.io.text.text_lines import BLOCK, BYTE_ORDER_MARK, is_number, require_numbers, shown
+from geocontact.io.text.text_lines import BLOCK, BYTE_ORDER_MARK, is_number, remedy, require_numbers, shown
 
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 """One facet of a binary STL file, 50 bytes."""
@@ -149,7 +149,7 @@ def _require_column(words: list[bytes], face: int, file: str) -> None:
         require_numbers(words)
     except ValueError as error:
         place = f"face {face + next(i for i, word in enumerate(words) if not is_number(word))}"
-        raise InputError(file, place, str(error), _AGAIN) from None
+        raise InputError(file, place, str(error), remedy(error, _AGAIN)) from None
 
 
 def _one_keyword_a_line(words: list[bytes]) -> bytes:

@@ -18,6 +18,7 @@ from geocontact.io.mesh import limits
 from geocontact.io.mesh.polygons import triangles
 from geocontact.io.mesh.vtp_arrays import require_integers, require_values
 from geocontact.io.mesh.vtp_preflight import Document, Piece, plain_document, read_document
+from geocontact.io.text.text_lines import remedy
 
 _Checked = TypeVar("_Checked")
 _AGAIN = "the file is damaged, save it again"
@@ -78,7 +79,7 @@ def _checked(
     try:
         return element, check(element, count, document)
     except (ValueError, zlib.error) as error:
-        raise InputError(file, place, f"cannot be read: {error}", _AGAIN) from error
+        raise InputError(file, place, f"cannot be read: {error}", remedy(error, _AGAIN)) from error
 
 
 def _find(piece: Element, group: str, name: str | None) -> Element | None:

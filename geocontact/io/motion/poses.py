@@ -124,7 +124,10 @@ def read_pose(path: str | PathLike[str], unit: str = "m") -> RigidTransform:
     except ValueError:
         matrix = np.zeros(0)
     if matrix.shape != (4, 4) or not np.all(np.abs(matrix) <= LARGEST_MEANT):
-        raise InputError(file, "", "not a 4x4 matrix of finite numbers", "give 4 rows of 4 numbers")
+        between_blanks = any("," in line and len(line.split()) == 4 for line in text.splitlines())
+        commas, points = (" (decimal commas?)", ", with decimal points") if between_blanks else ("", "")
+        what = f"not a 4x4 matrix of finite numbers{commas}"
+        raise InputError(file, "", what, f"give 4 rows of 4 numbers{points}")
     turn = rotations(matrix[None], file, [""], EXACT)[0]
     return RigidTransform.from_components(matrix[:3, 3] * LENGTH[unit], turn)
 

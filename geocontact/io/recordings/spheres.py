@@ -18,6 +18,7 @@ from geocontact.io.text.column_names import spelled_as
 from geocontact.io.text.file_preflight import read_bytes
 from geocontact.io.text.plain_table import open_plain
 from geocontact.io.text.spreadsheet import is_sheet
+from geocontact.io.text.table_rows import unequal
 from geocontact.io.text.toml_text import toml_of
 from geocontact.io.text.units import LENGTH, length_unit, split_header
 
@@ -204,8 +205,7 @@ def _cells(text: str, file: str) -> _Cells:
             continue
         cells = [cell.strip() for cell in line.split(",")]
         if rows and len(cells) != len(rows[0][1]):
-            what = f"{len(cells)} cells where {len(rows[0][1])} columns are named"
-            raise InputError(file, f"line {number}", what, "rows must be as long as the header")
+            raise unequal(len(cells), line, len(rows[0][1]), file, number)
         rows.append((number, cells))
     if len(rows) < 2:
         raise InputError(file, "", "holds no spheres", "write px [m], py [m], pz [m], radius [m], zone and a row each")

@@ -29,8 +29,7 @@ def read_rows(
         if not cells:
             continue
         if len(cells) != len(names):
-            what = f"{'more' if len(cells) > len(names) else len(cells)} cells where {len(names)} columns are named"
-            raise InputError(file, f"line {number}", what, "rows must be as long as the header")
+            raise unequal(len(cells), line, len(names), file, number)
         plain = plain and "_" not in line and line.isascii()
         rows.append(cells)
         lines.append(number)
@@ -42,6 +41,15 @@ def read_rows(
     if rows:
         blocks.append(_numbers(rows, lines[-len(rows) :], names, file, plain))
     return np.concatenate(blocks), np.array(lines, dtype=np.int64)
+
+
+def unequal(cells: int, line: str, named: int, file: str, number: int) -> InputError:
+    """For a row that is not as long as its header; a longer one between commas may have decimal commas."""
+    what = f"{'more' if cells > named else cells} cells where {named} columns are named"
+    if cells > named and line.count(",") >= named and "\t" not in line:
+        remedy = "write decimal points, and rows as long as the header"
+        return InputError(file, f"line {number}", f"{what} (decimal commas?)", remedy)
+    return InputError(file, f"line {number}", what, "rows must be as long as the header")
 
 
 def _numbers(

@@ -18,6 +18,8 @@ BLOCK = 1 << 21
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
 _BLANK = re.compile(rb"\s")
+_WITH_COMMA = re.compile(rb"[-+]?[0-9]*,[0-9]+([eE][-+]?[0-9]+)?")
+_COMMA = "has a decimal comma"
 
 
 def lines(data: bytes, start: int = 0) -> Iterator[bytes]:
@@ -47,7 +49,13 @@ def require_numbers(words: list[bytes]) -> None:
     except ValueError:
         plain = False
     if not plain:
-        raise ValueError(f"{shown(next(word for word in words if not is_number(word)))} is not a number")
+        word = next(word for word in words if not is_number(word))
+        raise ValueError(f"{shown(word)} {_COMMA if _WITH_COMMA.fullmatch(word) else 'is not a number'}")
+
+
+def remedy(error: Exception, usual: str) -> str:
+    """What to do about numbers that `require_numbers` refused; the usual remedy unless they have decimal commas."""
+    return "export it with decimal points" if _COMMA in str(error) else usual
 
 
 def integer(word: bytes) -> int:
