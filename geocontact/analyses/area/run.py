@@ -92,15 +92,24 @@ def _uncertain(
         lower, upper = found.interval(k) * MM2
         odd = sum(found.verdict(frame, k) != "yes" for frame in range(len(motion)))
         peak = np.quantile(found.drawn(k).max(axis=0), ENDS) * MM2
+        known = found.deviation(k) * MM2
+        worst = int(np.argmax(known[0]))
         summary[f"at_{threshold * 1e3:g}_mm"] = {
             "draws": len(bodies.error.draws),
             "widest_interval_mm2": round(float((upper - lower).max()), 3),
             "largest_area_ci95_mm2": [round(float(end), 3) for end in peak],
+            "largest_sd_mm2": round(float(known[0, worst]), 3),
+            "largest_sd_ci95_mm2": [round(float(end), 3) for end in known[1:, worst]],
             "frames_where_first_order_disagrees": odd,
         }
         record.say(
             f"error of the pose: largest area within {threshold * 1e3:g} mm is {peak[0]:.1f} … {peak[1]:.1f} mm^2 "
             f"(95 %); first order agrees with the draws in {len(motion) - odd} of {len(motion)} frames"
+        )
+        record.say(
+            f"largest standard deviation of the area {known[0, worst]:.3g} mm^2, in frame {worst + 1} of "
+            f"{len(motion)}: {len(bodies.error.draws)} draws know it to "
+            f"{known[1, worst]:.3g} … {known[2, worst]:.3g} mm^2 (95 %)"
         )
         if odd:
             record.warn(
