@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from geocontact.data.errors import InputError
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.io.mocap import c3d_markers
+from geocontact.io.mocap.c3d_markers import read_c3d_markers
 from geocontact.io.mocap.marker_map import marker_map_typed, read_marker_map
 from geocontact.io.mocap.subject import without_subject
 from geocontact.io.text.near_names import near_names
@@ -52,3 +55,33 @@ def test_a_map_that_is_none_is_refused(tmp_path: Path) -> None:
 def test_subjects_are_left_out_where_names_stay_different() -> None:
     assert without_subject(["S1:a", "S1:b", "c"]) == ["a", "b", "c"]
     assert without_subject(["S1:a", "S2:a"]) == ["S1:a", "S2:a"]
+
+
+PLACES = np.arange(24.0).reshape(2, 4, 3) + 1.0
+"""Of four markers in two frames [mm]."""
+
+
+@pytest.mark.parametrize("labels", [["A", "B", "", ""], ["", "A", "", "B"], ["A", "B"]])
+def test_markers_of_a_c3d_file_without_a_label_are_passed_over(
+    labels: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Blank labels, and fewer of them than points: one warning, and no name moves to another marker's places."""
+    read = {"frames": 2, "rate": 100.0, "start": 0.0, "positions": PLACES, "names": np.array(labels), "unit": "mm"}
+    monkeypatch.setattr(c3d_markers, "read_apart", lambda *_, **__: read)
+    with pytest.warns(InputWarning, match="2 markers without a name are passed over") as said:
+        seen = read_c3d_markers("a.c3d")
+    assert len(said) == 1 and seen.names == ("A", "B")
+    at = [labels.index("A"), labels.index("B")]
+    np.testing.assert_allclose(seen.positions, 1e-3 * PLACES[:, at])
+
+
+def test_a_c3d_file_with_blank_labels_is_read(tmp_path: Path) -> None:
+    ezc3d = pytest.importorskip("ezc3d")
+    content = ezc3d.c3d()
+    point = content["parameters"]["POINT"]
+    point["LABELS"]["value"], point["RATE"]["value"], point["UNITS"]["value"] = ["A", "", "", "B"], [100.0], ["mm"]
+    content["data"]["points"] = np.concatenate([np.moveaxis(PLACES, (0, 1, 2), (2, 1, 0)), np.ones((1, 4, 2))])
+    content.write(str(tmp_path / "a.c3d"))
+    with pytest.warns(InputWarning, match="2 markers without a name are passed over"):
+        seen = read_c3d_markers(tmp_path / "a.c3d")
+    np.testing.assert_allclose(seen.positions, 1e-3 * PLACES[:, [0, 3]], rtol=1e-6)

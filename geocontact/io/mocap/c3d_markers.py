@@ -23,15 +23,13 @@ def read_c3d_markers(path: str | PathLike[str]) -> MarkerTrajectories:
     """Markers in metres in the laboratory's axes.
 
     What stands before a colon in a label is the subject; it is left out where that leaves no two names alike. Of
-    markers with one label the one that is seen in most frames is taken, with a warning.
+    markers with one label the one that is seen in most frames is taken, with a warning. Markers without a label, or
+    behind the last one, are passed over with one warning.
     """
     file = fspath(path)
     arrays = read_apart(path, __name__)
     unit, rate = _unit(file, str(arrays["unit"])), float(arrays["rate"])
     positions = np.asarray(arrays["positions"], float)
-    if positions.shape[1] != len(arrays["names"]):
-        what = f"{len(arrays['names'])} labels for {positions.shape[1]} points"
-        raise InputError(file, "POINT:LABELS", what, "is the file complete?")
     positions = np.where(np.all(positions == 0.0, axis=2, keepdims=True), np.nan, positions)
     names, kept = _named(file, [str(name) for name in arrays["names"]], positions)
     positions = positions[:, kept]
@@ -57,10 +55,14 @@ def _unit(file: str, written: str) -> str:
 
 def _named(file: str, labels: list[str], positions: Float[np.ndarray, "t m 3"]) -> tuple[tuple[str, ...], list[int]]:
     """Names without the subject where they stay different, and which points have them."""
-    names = without_subject(labels)
+    there = [k for k, label in enumerate(labels) if label]
+    if unnamed := positions.shape[1] - len(there):
+        what = "1 marker without a name is" if unnamed == 1 else f"{unnamed} markers without a name are"
+        warnings.warn(InputWarning(f"{file}: {what} passed over"), stacklevel=4)
+    names = without_subject([labels[k] for k in there])
     counts = np.isfinite(positions).all(axis=2).sum(axis=0)
     kept: dict[str, int] = {}
-    for k, name in enumerate(names):
+    for k, name in zip(there, names, strict=True):
         before = kept.setdefault(name, k)
         if before == k:
             continue
