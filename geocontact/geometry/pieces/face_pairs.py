@@ -8,8 +8,8 @@ from jaxtyping import Float, Int
 TOGETHER = 200_000
 """Pairs of boxes that are compared at once."""
 
-Corners = Float[np.ndarray, "m 3 3"]
-Pairs = Int[np.ndarray, "k 2"]
+Corners = Float[np.ndarray, "_ 3 3"]
+Pairs = Int[np.ndarray, "_ 2"]
 
 
 def face_pairs(first: Corners, second: Corners, near: float) -> Pairs:
@@ -38,8 +38,8 @@ def face_pairs(first: Corners, second: Corners, near: float) -> Pairs:
     return np.asarray(pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))])
 
 
-Boxes = list[tuple[Float[np.ndarray, "m 3"], Float[np.ndarray, "m 3"]]]
-Sets = tuple[Int[np.ndarray, " a"], Int[np.ndarray, " b"]]
+Boxes = list[tuple[Float[np.ndarray, "_ 3"], Float[np.ndarray, "_ 3"]]]
+Sets = tuple[Int[np.ndarray, " _"], Int[np.ndarray, " _"]]
 
 
 def _within(sets: Sets, boxes: Boxes) -> Sets:
