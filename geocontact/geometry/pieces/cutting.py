@@ -19,7 +19,7 @@ Point = Float[np.ndarray, " 3"]
 
 
 @dataclass(frozen=True, eq=False)
-class Cut:
+class FaceCut:
     """A plane, and the straight part of it that cuts: where another face meets the plane of the one that is cut."""
 
     point: Point
@@ -27,7 +27,9 @@ class Cut:
     ends: Float[np.ndarray, "2 3"]
 
 
-def cuts(face: Float[np.ndarray, "3 3"], normal: Point, other: Float[np.ndarray, "3 3"], near: float) -> Iterator[Cut]:
+def cuts(
+    face: Float[np.ndarray, "3 3"], normal: Point, other: Float[np.ndarray, "3 3"], near: float
+) -> Iterator[FaceCut]:
     """Where a triangle cuts the plane of a face: along one line, or along its edges where it lies in that plane."""
     across = unit_normals(other[None])[0]
     if not across.any() or not normal.any():
@@ -39,14 +41,14 @@ def cuts(face: Float[np.ndarray, "3 3"], normal: Point, other: Float[np.ndarray,
             beside = np.cross(normal, other[b] - other[a])
             length = float(np.linalg.norm(beside))
             if length > 0.0:
-                yield Cut(other[a], beside / length, other[[a, b]])
+                yield FaceCut(other[a], beside / length, other[[a, b]])
         return
     ends = [other[k] for k in range(3) if height[k] == 0.0]
     for a, b in ((0, 1), (1, 2), (2, 0)):
         if height[a] * height[b] < 0.0:
             ends.append(other[a] + height[a] / (height[a] - height[b]) * (other[b] - other[a]))
     if len(ends) == 2:
-        yield Cut(other[0], across, np.array(ends))
+        yield FaceCut(other[0], across, np.array(ends))
 
 
 class CutFaces:
@@ -71,8 +73,8 @@ class CutFaces:
         """Corners: those given, then those that cuts have made [m]."""
         return np.array(self._points)
 
-    def cut(self, number: int, cut: Cut) -> None:
-        """Cut a face where it is crossed."""
+    def cut(self, number: int, cut: FaceCut) -> None:
+        """FaceCut a face where it is crossed."""
         out = []
         for polygon in self._polygons[number]:
             out.extend(self._parts(self._whole(polygon), cut))
@@ -96,7 +98,7 @@ class CutFaces:
         middle = self._halves.get((min(a, b), max(a, b)))
         return [] if middle is None else [*self._between(a, middle), middle, *self._between(middle, b)]
 
-    def _parts(self, polygon: list[int], cut: Cut) -> list[list[int]]:
+    def _parts(self, polygon: list[int], cut: FaceCut) -> list[list[int]]:
         place = np.array([self._points[k] for k in polygon])
         height = (place - cut.point) @ cut.normal
         height[np.abs(height) <= self._near] = 0.0
@@ -138,7 +140,7 @@ class CutFaces:
 
 
 def cut_along(faces: CutFaces, corners: Corners, others: Corners, pairs: Pairs, near: float) -> None:
-    """Cut faces by all that cross them; `pairs` are indices in `corners`, which are theirs, and in `others`."""
+    """FaceCut faces by all that cross them; `pairs` are indices in `corners`, which are theirs, and in `others`."""
     normal = unit_normals(corners)
     for number, other in pairs:
         for cut in cuts(corners[number], normal[number], others[other], near):
