@@ -74,7 +74,7 @@ class CutFaces:
         return np.array(self._points)
 
     def cut(self, number: int, cut: FaceCut) -> None:
-        """FaceCut a face where it is crossed."""
+        """Cut a face where it is crossed."""
         out = []
         for polygon in self._polygons[number]:
             out.extend(self._parts(self._whole(polygon), cut))
@@ -140,7 +140,7 @@ class CutFaces:
 
 
 def cut_along(faces: CutFaces, corners: Corners, others: Corners, pairs: Pairs, near: float) -> None:
-    """FaceCut faces by all that cross them; `pairs` are indices in `corners`, which are theirs, and in `others`."""
+    """Cut faces by all that cross them; `pairs` are indices in `corners`, which are theirs, and in `others`."""
     normal = unit_normals(corners)
     for number, other in pairs:
         for cut in cuts(corners[number], normal[number], others[other], near):
