@@ -19,7 +19,7 @@ STRIKE = ("foot strike", "heel strike", "foot contact", "initial contact")
 
 def read_c3d_strikes(path: str | PathLike[str]) -> dict[str, Float[np.ndarray, " k"]]:
     """Times of heel strikes [s] by side, "right" and "left"; empty where the file marks none."""
-    arrays = read_apart(path, __name__)
+    arrays = read_apart(path, __name__, analogs=False)
     found: dict[str, list[float]] = {}
     for side, label, time in zip(arrays["contexts"], arrays["labels"], arrays["times"], strict=True):
         if str(side).lower() in ("right", "left") and str(label).lower() in STRIKE:

@@ -27,7 +27,7 @@ def read_c3d_markers(path: str | PathLike[str]) -> MarkerTrajectories:
     behind the last one, are passed over with one warning.
     """
     file = fspath(path)
-    arrays = read_apart(path, __name__)
+    arrays = read_apart(path, __name__, analogs=False)
     unit, rate = _unit(file, str(arrays["unit"])), float(arrays["rate"])
     positions = np.asarray(arrays["positions"], float)
     positions = np.where(np.all(positions == 0.0, axis=2, keepdims=True), np.nan, positions)

@@ -9,22 +9,23 @@ import io
 import os
 import subprocess
 import sys
+import tempfile
+from collections.abc import Mapping
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Literal
+from typing import Any
 
 import numpy as np
 
 from geocontact.data.errors import InputError
 from geocontact.data.magnitude import too_large
 from geocontact.data.plausible import TOO_LARGE
+from geocontact.io.mocap.c3d_parameters import MIPS, processor, with_whole_counts
+from geocontact.io.mocap.clipped import clipped_runs
 from geocontact.io.text.file_preflight import read_bytes
 
 PATIENCE = 8.0, 2e-7
 """Seconds for a file on an idle machine: to start, and per byte; several times what whole files take."""
-
-MIPS = 86
-"""Processor type in the parameter section whose integers have the high byte first."""
 
 LARGEST = 500_000_000
 """Bytes; ten plates at 2 kHz with a hundred markers for an hour."""
@@ -32,24 +33,47 @@ LARGEST = 500_000_000
 Arrays = dict[str, np.ndarray]
 
 
+NOT_DIGESTED = ("not supported", "is not an INT", "is not a FLOAT", "is not a STRING")
+"""What ezc3d says of files that are sound, but of a kind that it does not read."""
+
+ALONE = "force plates: "
+"""Beginning of what is said where only the plates of a file are at fault."""
+
+
 def read_c3d_plates(path: str | PathLike[str]) -> Arrays:
     """Arrays of all plates of a file.
 
-    `frames`, `rate` [Hz] and `start` [s]; for plate k = 0, 1 …: `force_k`, `moment_k`, `corners_k` in the file's units,
-    and those in `units_k` (force, position, moment). `labels` of the analog channels.
+    `frames`, `rate` [Hz] and `start` [s]; `unit` of points, `labels` of the analog channels, `zero` as
+    FORCE_PLATFORM:ZERO has it, and `polynomial`, whether FPCOPPOLY is there. For plate k = 0, 1 …: `force_k`,
+    `moment_k` about the middle of the surface, `corners_k`, `origin_k` and `type_k`, as the file has them; `names_k`
+    and `units_k` of its channels, and `clipped_k` (channel, first sample, length) of runs at the end of the converter.
     """
     return read_apart(path, __name__)
 
 
-def read_apart(path: str | PathLike[str], module: str) -> Arrays:
-    """Arrays that `python -m module FILE` writes of a .c3d file, `frames` among them, in another process."""
+def read_apart(path: str | PathLike[str], module: str, analogs: bool = True) -> Arrays:
+    """Arrays that `python -m module FILE` writes of a .c3d file, `frames` among them, in another process.
+
+    `analogs` says whether analog channels are among them.
+    """
     file = fspath(path)
     data = read_bytes(path)
     if len(data) < 512 or data[1] != 0x50:
         raise InputError(file, "", "is not a .c3d file although its name says so", "export or download it again")
     if len(data) > LARGEST:
         raise InputError(file, "", f"{len(data) / 1e6:.0f} MB is more than the {LARGEST / 1e6:.0f} MB limit", "cut it")
-    arrays = _run(file, module, (PATIENCE[0] + PATIENCE[1] * len(data)) * _waiting())
+    if processor(data) == MIPS:
+        what = "is in the byte order of MIPS (SGI) computers, which ezc3d does not read; the file itself may be sound"
+        raise InputError(file, "", what, "save it for PC (Intel) with the program that made it, or with Mokka")
+    patience = (PATIENCE[0] + PATIENCE[1] * len(data)) * _waiting()
+    digestible = with_whole_counts(data, file, analogs)
+    if digestible is None:
+        arrays = _run(file, module, file, patience)
+    else:
+        with tempfile.TemporaryDirectory() as folder:
+            copy = Path(folder) / "copy.c3d"
+            copy.write_bytes(digestible)
+            arrays = _run(file, module, str(copy), patience)
     declared, found = _frames_declared(data), int(arrays["frames"])
     if found < declared:  # ezc3d passes over what is missing without a word
         raise InputError(file, "", f"holds {found} of the {declared} frames it declares", "is it complete?")
@@ -59,11 +83,11 @@ def read_apart(path: str | PathLike[str], module: str) -> Arrays:
     return arrays
 
 
-def _run(file: str, module: str, patience: float) -> Arrays:
-    """The module in another process, which finds the modules that this one finds."""
+def _run(file: str, module: str, copy: str, patience: float) -> Arrays:
+    """The module in another process, which finds the modules that this one finds, on a file or a copy of it."""
     here = str(Path(__file__).resolve().parents[2])
     paths = os.pathsep.join(dict.fromkeys([*(path for path in sys.path if path), here]))
-    command = [sys.executable, "-P", "-W", "ignore", "-m", module, str(Path(file).absolute())]
+    command = [sys.executable, "-P", "-W", "ignore", "-m", module, str(Path(copy).absolute())]
     try:
         child = subprocess.run(
             command, env={**os.environ, "PYTHONPATH": paths}, capture_output=True, timeout=patience, check=False
@@ -76,7 +100,13 @@ def _run(file: str, module: str, patience: float) -> Arrays:
     said = child.stderr.decode(errors="replace").strip().splitlines()
     if said and said[-1].startswith("ModuleNotFoundError"):
         raise InputError(file, "", "reading .c3d needs ezc3d", "pip install 'geocontact[mocap]'")
-    why = said[-1][:160] if said and child.returncode > 0 else "ezc3d stopped"
+    why = said[-1].partition(": ")[2][:160] or said[-1][:160] if said and child.returncode > 0 else "ezc3d stopped"
+    if why.startswith(ALONE):
+        what = f"its force plates cannot be worked out ({why.removeprefix(ALONE)})"
+        raise InputError(file, "", what, "the rest of the file is read: correct its parameters FORCE_PLATFORM")
+    if any(each in why for each in NOT_DIGESTED):
+        what = f"is of a kind that ezc3d does not read ({why}); the file itself may be sound"
+        raise InputError(file, "", what, "save it anew with the program that made it, or with Mokka")
     raise InputError(file, "", f"cannot be read ({why})", "is the file damaged?")
 
 
@@ -92,27 +122,69 @@ def plates_of(path: str) -> Arrays:
     """The same, in this process."""
     import ezc3d  # type: ignore[import-untyped]
 
-    content = ezc3d.c3d(path, extract_forceplat_data=True)
-    points, analogs = content["header"]["points"], content["header"]["analogs"]
+    try:
+        content = ezc3d.c3d(path, extract_forceplat_data=True)
+    except Exception as error:
+        ezc3d.c3d(path)  # where this fails too, it is not for the plates
+        raise ValueError(f"{ALONE}{error}") from error
+    told, points, analogs = content["parameters"], content["header"]["points"], content["header"]["analogs"]
+    platform = told.get("FORCE_PLATFORM", {})
     arrays: Arrays = {
         "frames": np.array(content["data"]["points"].shape[2]),
         "rate": np.array(float(analogs["frame_rate"])),
         "start": np.array(float(points["first_frame"]) / max(float(points["frame_rate"]), 1e-9)),
-        "labels": np.array([str(label).strip() for label in content["parameters"]["ANALOG"]["LABELS"]["value"]]),
+        "labels": _texts(told["ANALOG"], "LABELS"),
+        "unit": np.array(next(iter(_texts(told["POINT"], "UNITS")), "")),
+        "zero": _numbers(platform, "ZERO").astype(np.int64),
+        "polynomial": np.array(bool(np.any(_numbers(platform, "FPCOPPOLY")))),
     }
     for k, plate in enumerate(content["data"].get("platform", [])):
-        units = [str(plate[key]) for key in ("unit_force", "unit_position", "unit_moment")]
-        arrays |= {f"{key}_{k}": np.asarray(plate[key], float).T for key in ("force", "moment", "corners")}
-        arrays[f"units_{k}"] = np.array(units)
+        arrays |= {f"{key}_{k}": np.asarray(plate[key], float).T for key in ("force", "moment", "corners", "origin")}
+        arrays |= {f"{key}_{k}": value for key, value in _channels_of(content, k).items()}
     return arrays
+
+
+def _channels_of(content: Any, k: int) -> Arrays:
+    """Type of a plate, names and units of its channels, and runs of these at the end of the converter."""
+    told, values = content["parameters"], content["data"]["analogs"][0]
+    analog, platform = told["ANALOG"], told["FORCE_PLATFORM"]
+    channels = np.asarray(platform["CHANNEL"]["value"], int)
+    own = channels[:, k] if channels.ndim == 2 else channels
+    used = own[(own >= 1) & (own <= len(values))] - 1
+    scale, offset = (
+        _padded(_numbers(analog, key), len(values), default) for key, default in (("SCALE", 1.0), ("OFFSET", 0.0))
+    )
+    scale *= float(next(iter(_numbers(analog, "GEN_SCALE")), 1.0))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        counts = (values[used] / scale[used, None] + offset[used, None]).T
+    names, units = (_padded(_texts(analog, key), len(values), "") for key in ("LABELS", "UNITS"))
+    return {
+        "type": np.array(int(_numbers(platform, "TYPE")[k])),
+        "names": names[used],
+        "units": units[used],
+        "clipped": clipped_runs(counts, offset[used], int(next(iter(_numbers(analog, "BITS")), 0))),
+    }
+
+
+def _numbers(group: Mapping[str, Any], name: str) -> np.ndarray:
+    """A parameter's numbers in a row; none where it is not there."""
+    return np.asarray(group.get(name, {"value": []})["value"], float).ravel()
+
+
+def _texts(group: Mapping[str, Any], name: str) -> np.ndarray:
+    """A parameter's texts, with those of NAME2, NAME3 … behind them."""
+    keys = [name, *(f"{name}{k}" for k in range(2, 99))]
+    return np.array([str(text).strip() for key in keys if key in group for text in group[key]["value"]], dtype=str)
+
+
+def _padded(values: np.ndarray, count: int, default: float | str) -> np.ndarray:
+    """As many values as channels."""
+    return np.concatenate([values[:count], np.full(max(count - len(values), 0), default)])
 
 
 def _frames_declared(data: bytes) -> int:
     """Frames by the header's first and last frame; 0 where it cannot tell (16 bits, wrapped in long files)."""
-    parameters = (data[0] - 1) * 512
-    processor = data[parameters + 3] if 0 <= parameters < len(data) - 3 else 0
-    order: Literal["big", "little"] = "big" if processor == MIPS else "little"
-    first, last = (int.from_bytes(data[at : at + 2], order) for at in (6, 8))
+    first, last = (int.from_bytes(data[at : at + 2], "little") for at in (6, 8))
     return last - first + 1 if first <= last < 0xFFFF else 0
 
 

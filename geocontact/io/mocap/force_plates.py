@@ -14,15 +14,20 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.wrench import Wrench
 from geocontact.io.mocap.c3d_plates import Arrays, read_c3d_plates
+from geocontact.io.mocap.c3d_units import MOMENTS_LAST, PlateUnits, plate_units
+from geocontact.io.mocap.on_plate import FAR, OUTSIDE, lengths_outside
+from geocontact.io.mocap.plate_zero import zero_samples
 from geocontact.io.text.tables import TextTable, listed, read_table
-from geocontact.io.text.units import LENGTH
 
 OPENSIM_FRAME = "ground of the .mot (OpenSim, y up)"
 LABORATORY_FRAME = "laboratory of the .c3d"
 LOADED = 20.0
 """Load [N] from which a sample tells in which direction a plate is loaded."""
 
-_NEWTON = {"N": 1.0, "kN": 1e3, "lbf": 4.4482216152605}
+RETURNS = 10.0
+"""Load [N] below which a plate has returned to nothing."""
+
+_WITH_CENTRE = 1  # type of plate whose channels hold the centre of pressure: no offset of it can be taken off
 _FORCE = re.compile(r"(?P<head>.*)force(?P<tail>.*)vx", re.IGNORECASE)
 
 
@@ -40,6 +45,8 @@ class ForcePlate:
         Force on the foot [N] with its moment [N m], in the file's frame; NaN where the file has nothing.
     point, normal
         A point of the plate's surface [m] and its unit normal, out of the floor.
+    corners
+        Of its surface [m], one after another around it; None where the file does not have them.
     """
 
     name: str
@@ -47,6 +54,7 @@ class ForcePlate:
     wrench: Wrench
     point: Float[np.ndarray, " 3"]
     normal: Float[np.ndarray, " 3"]
+    corners: Float[np.ndarray, "4 3"] | None = None
 
     def centre_of_pressure(self, gate: float = LOADED) -> Float[np.ndarray, "t 3"]:
         """Centre of pressure on the plate's surface [m]; NaN where the normal force is below `gate` [N]."""
@@ -65,6 +73,16 @@ class ForcePlate:
         """Moment about the plate's normal through the centre of pressure [N m]; NaN below the gate."""
         return self.wrench.free_moment(self.centre_of_pressure(gate), self.normal)
 
+    def outside(self) -> float:
+        """How far the centre of pressure lies beyond the plate's edge under load, in the median, in its lengths.
+
+        Below 0 on the plate; NaN where nobody stands on it or its corners are not known.
+        """
+        if self.corners is None:
+            return float("nan")
+        load = self.wrench.force @ self.normal
+        return lengths_outside(self.centre_of_pressure(), load, self.corners, LOADED)
+
 
 def read_force_plates(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
     """All force plates of a .mot, .sto or .c3d file, in its order; forces are those on the foot."""
@@ -80,9 +98,12 @@ def plate_named(plates: tuple[ForcePlate, ...], name: str | None, path: Path, op
     """The plate of this name or number, counted from 1; the only one where none is named.
 
     `option` is how the user names one, for messages. A plate that pulls at the foot is refused: its file holds the
-    forces on the plate. A force whose opposite is there too is none of a plate, but between two bodies.
+    forces on the plate. A force whose opposite is there too is none of a plate, but between two bodies. One whose
+    centre of pressure lies off its own surface by more than a plate's length is refused too.
     """
     plate = _named(plates, name, path, option)
+    if plate.outside() > FAR:
+        raise InputError(path, plate.name, _off(plate), _OFF_REMEDY)
     pushing = plate.wrench.force @ plate.normal
     loaded = pushing[np.abs(pushing) >= LOADED]
     usual = float(np.median(loaded)) if len(loaded) else 0.0
@@ -163,33 +184,94 @@ def _from_c3d(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
         raise InputError(file, "", "holds no force plate", remedy)
     if not rate > 0.0 or not np.isfinite(rate):
         raise InputError(file, "", f"analogue rate is {rate:g} Hz", "is the file complete?")
+    if bool(arrays["polynomial"]):
+        what = "FORCE_PLATFORM:FPCOPPOLY, Kistler's correction of the centre of pressure, is not applied"
+        warnings.warn(InputWarning(f"{file}: {what}"), stacklevel=4)
     return tuple(_c3d_plate(file, arrays, k) for k in range(count))
+
+
+_OFF_REMEDY = "check POINT:UNITS, ANALOG:UNITS, and ORIGIN, CORNERS and CHANNEL of FORCE_PLATFORM"
+
+
+def _off(plate: ForcePlate) -> str:
+    return f"under load its centre of pressure lies {plate.outside():.2g} plate's lengths outside of it (median)"
 
 
 def _c3d_plate(file: str, arrays: Arrays, k: int) -> ForcePlate:
     name = f"plate {k + 1}"
-    units = [str(unit) for unit in arrays[f"units_{k}"]]
-    newton, metre = _NEWTON.get(units[0]), LENGTH.get(units[1])
-    moments = {f"{f}{length}": n * m for f, n in _NEWTON.items() for length, m in LENGTH.items()}
-    newton_metre = moments.get(re.sub(r"[. *]", "", units[2]))
-    if newton is None or metre is None or newton_metre is None:
-        raise InputError(file, name, f"is in {', '.join(map(repr, units))}", "expected N, mm or m, Nmm or Nm")
-    force, moment = arrays[f"force_{k}"] * newton, arrays[f"moment_{k}"] * newton_metre
-    corners = arrays[f"corners_{k}"] * metre
+    units = plate_units(file, name, int(arrays[f"type_{k}"]), str(arrays["unit"]), list(map(str, arrays[f"units_{k}"])))
+    corners = arrays[f"corners_{k}"] * units.metre
     with np.errstate(over="ignore", invalid="ignore"):
         down = np.cross(corners[0] - corners[1], corners[0] - corners[3])
         area = float(np.linalg.norm(down))
+        force, moment = arrays[f"force_{k}"] * units.newton, _moment(arrays, k, units)
     if not (1e-4 < area < 100.0) or not (np.isfinite(force).all() and np.isfinite(moment).all()):
         what = f"its corners span {area:.3g} m^2" if np.isfinite(force).all() else "its forces are not finite"
         raise InputError(file, name, what, "is the file damaged?")
     normal = -down / area
+    doubts = [units.doubt, *_clipped(arrays, k)]
+    if int(arrays[f"type_{k}"]) != _WITH_CENTRE:
+        per_frame = max(len(force) // max(int(arrays["frames"]), 1), 1)
+        zero = zero_samples(force @ normal, arrays["zero"], per_frame)
+        doubts.append(zero.doubt)
+        if zero.samples is not None:
+            force, moment = (values - values[zero.samples].mean(axis=0) for values in (force, moment))
     pushing = force @ normal
     loaded = pushing[np.abs(pushing) >= LOADED]
     if len(loaded) and np.median(loaded) < 0.0:  # a plate can only push; the file holds the force on the plate
         force, moment = -force, -moment
-    elif not len(loaded):
-        warnings.warn(InputWarning(f"{file}: {name} never carries {LOADED:g} N"), stacklevel=5)
     time = float(arrays["start"]) + np.arange(len(force)) / float(arrays["rate"])
     middle = corners.mean(axis=0)
     origin = np.broadcast_to(middle, force.shape).copy()
-    return ForcePlate(name, time, Wrench(force, moment, origin, LABORATORY_FRAME), middle, normal)
+    plate = ForcePlate(name, time, Wrench(force, moment, origin, LABORATORY_FRAME), middle, normal, corners)
+    said = [doubt for doubt in (*doubts, *_doubts(plate)) if doubt]
+    if said:
+        warnings.warn(InputWarning(f"{file}: {name}: {'; '.join(said)}"), stacklevel=5)
+    return plate
+
+
+def _moment(arrays: Arrays, k: int, units: PlateUnits) -> Float[np.ndarray, "t 3"]:
+    """Moment about the middle of the surface [N m].
+
+    ezc3d adds force times the lever of ORIGIN to the channels of moment as if these were in N times the unit of points.
+    Where they are not, the two are taken apart again.
+    """
+    moment = arrays[f"moment_{k}"]
+    by_lever = units.newton * units.metre
+    if units.newton_metre == by_lever or int(arrays[f"type_{k}"]) not in MOMENTS_LAST:
+        return np.asarray(moment * by_lever)
+    corners = arrays[f"corners_{k}"]
+    x, y = corners[0] - corners[1], corners[0] - corners[3]
+    down = np.cross(x, y)
+    axes = np.column_stack([each / np.linalg.norm(each) for each in (x, np.cross(down, x), down)])
+    lever = np.cross(arrays[f"force_{k}"], axes @ arrays[f"origin_{k}"])
+    return np.asarray(lever * by_lever + (moment - lever) * units.newton_metre)
+
+
+def _clipped(arrays: Arrays, k: int) -> list[str]:
+    """Channels at the end of their converter, each with the longest time of it."""
+    runs, said = arrays[f"clipped_{k}"], []
+    for channel in dict.fromkeys(runs[:, 0].tolist()):
+        own = runs[runs[:, 0] == channel]
+        _, first, count = own[int(np.argmax(own[:, 2]))]
+        begin, rate = float(arrays["start"]) + first / float(arrays["rate"]), float(arrays["rate"])
+        often = f" and {len(own) - 1} times more" if len(own) > 1 else ""
+        where = f"from {begin:.4g} to {begin + (count - 1) / rate:.4g} s{often}"
+        said.append(f"channel '{arrays[f'names_{k}'][channel]}' is clipped at the end of its converter {where}")
+    return said
+
+
+def _doubts(plate: ForcePlate) -> list[str]:
+    """What is odd about a plate's load as a whole."""
+    load = plate.wrench.force @ plate.normal
+    if not (load >= LOADED).any():
+        return [f"never carries {LOADED:g} N"]
+    said = []
+    low = float(np.percentile(np.abs(load), 5.0))
+    if low > RETURNS:
+        said.append(
+            f"never returns to about 0 N: it carries {low:.0f} N or more for 95 % of the time; its zero is not known"
+        )
+    if plate.outside() > OUTSIDE:
+        said.append(f"{_off(plate)}; {_OFF_REMEDY}")
+    return said
