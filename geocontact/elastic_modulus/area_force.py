@@ -98,6 +98,11 @@ class Adhesion:
     law: str
     work: float
 
+    @property
+    def words(self) -> str:
+        """Law and work, as a sentence names them."""
+        return f"{self.law.upper()}'s adhesion with a work of {self.work:g} J/m²"
+
     def pull(self, area: Float[np.ndarray, " t"], radius: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
         """Pull [N] for DMT, over sqrt(E*) for JKR; 0 without area."""
         if self.law == "dmt":

@@ -84,9 +84,20 @@ def modulus_parameter() -> Parameter:
 def fitted(
     model: AreaForce, measured: Float[np.ndarray, " n"], parameters: Sequence[Parameter], starts: int = STARTS
 ) -> Fit:
-    """Least squares by bounded quasi-Newton from the parameters' own start and `starts` more."""
+    """Least squares by bounded quasi-Newton from the parameters' own start and `starts` more.
+
+    Each start takes E* that fits best beside its other values, which is known in closed form: the pull of JKR, which
+    grows with the root of E*, makes a second minimum at no stiffness at all. With E* alone there is one start.
+    """
     floor = np.array([max(float(np.sqrt(np.mean(measured**2))), np.finfo(float).tiny)])
-    return search(model.predict, [measured[:, None]], parameters, floor, spread_starts(parameters, starts))
+    others = [p for p in parameters if p.name != MODULUS and not p.fixed]
+    begin = []
+    for start in spread_starts(parameters, starts if others else 0):
+        values = {p.name: start.get(p.name, p.start) for p in others}
+        if model.per_modulus(values).any():
+            values[MODULUS] = float(model.refit(measured[None], values, (WEAKEST, STRONGEST))[0, 0])
+        begin.append(values)
+    return search(model.predict, [measured[:, None]], parameters, floor, begin)
 
 
 def identify(
@@ -114,6 +125,8 @@ def identify(
     parameters = (modulus_parameter(), *others)
     fit = fitted(model, measured, parameters, starts)
     jacobian = fit.jacobian[0][:, 0, :]
+    if not np.isfinite(jacobian).all():
+        raise ValueError("the law has no slope at the best fit")
     _require_effect(model, fit, others, jacobian)
     memory = autocorrelation_of(model.frames, fit.residuals[0][:, 0], jacobian)
     profiles = {

@@ -41,7 +41,9 @@ def chosen_plate(record: Record, o: CopOptions) -> ForcePlate | None:
     pose = read_pose(o.plate_pose)
     record.add_input("`plate_pose`", o.plate_pose)
     wrench = plate.wrench.seen_from(pose, "ground")
-    return replace(plate, wrench=wrench, point=pose.apply(plate.point), normal=pose.rotation.apply(plate.normal))
+    corners = None if plate.corners is None else pose.apply(plate.corners)
+    point, normal = pose.apply(plate.point), pose.rotation.apply(plate.normal)
+    return replace(plate, wrench=wrench, point=point, normal=normal, corners=corners)
 
 
 def plate_curves(

@@ -72,7 +72,7 @@ def modulus_page(
     ]
     return Page(
         title=title,
-        subtitle="Elastic modulus of a contact by the area-integrated Hertz law",
+        subtitle=_subtitle(found),
         time=first.time,
         time_label="time [s]",
         headline=headline(found),
@@ -82,3 +82,9 @@ def modulus_page(
         sections=tuple(sections),
         plays=False,
     )
+
+
+def _subtitle(found: Identified) -> str:
+    sticks = found.first.model.adhesion
+    law = "the area-integrated Hertz law" if sticks is None else f"Hertz's law less {sticks.words}, which is given"
+    return f"Elastic modulus of a contact by {law}"

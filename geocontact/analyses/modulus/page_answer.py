@@ -27,9 +27,11 @@ def headline(found: Identified) -> list[str]:
     value, span = f"{rounded(p.best * MPA)} MPa", f"95 % {rounded(p.lower * MPA)} … {rounded(p.upper * MPA)} MPa"
     rmse, r2 = agreement(first.measured, first.predicted)
     if side in missed:
-        lines.append(f"E* of {value} ({span}) is only the number that fits the {_force(side)} best.")
+        lines.append(f"E* of {value} ({span}) is only the number that fits the {_force(side)} best{_sticking(found)}.")
     else:
-        lines.append(f"E* is {value} ({span}): the law meets the {_force(side)} to {rmse:.0f} N, R² {_r2(r2)}.")
+        lines.append(
+            f"E* is {value} ({span}): the law{_sticking(found)} meets the {_force(side)} to {rmse:.0f} N, R² {_r2(r2)}."
+        )
     lines += [
         f"In a trial not used it meets the {_force(told.side)} to {told.rmse:.0f} N, R² {_r2(told.r2)}."
         for told in found.predictions
@@ -45,6 +47,12 @@ def _not_described(found: Identified, missed: dict[str, float]) -> str:
     worse = ", a constant force would do better" if max(missed.values()) < 0.0 else ""
     shares = ", ".join(f"{side} {_r2(r2)}" for side, r2 in missed.items()) if len(missed) > 1 else _r2(*missed.values())
     return f"The law does not describe the {_listed(list(missed))}: R² {shares}{worse}."
+
+
+def _sticking(found: Identified) -> str:
+    """What the law holds the bodies together by, where it does; the work is given, not found."""
+    sticks = found.first.model.adhesion
+    return "" if sticks is None else f" with {sticks.words}"
 
 
 def _listed(sides: list[str]) -> str:

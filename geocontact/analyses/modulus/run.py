@@ -52,7 +52,8 @@ def _identified(
     try:
         found = identify(model, measured, others, o.bootstrap)
     except ValueError as error:
-        raise InputError(inputs.table.file, "", f"{side}: {error}", "leave it out of `free`") from error
+        remedy = "leave it out of `free`" if others else "check that areas and forces belong together"
+        raise InputError(inputs.table.file, "", f"{side}: {error}", remedy) from error
     _reserve(record, side, found)
     return found
 
@@ -126,7 +127,8 @@ def _tell(record: Record, found: Identified) -> None:
         p = each.profiles[MODULUS]
         rmse, r2 = agreement(each.measured, each.predicted)
         span = f"{p.lower * 1e-6:.4g} … {p.upper * 1e-6:.4g}"
-        record.say(f"{side}: E* {each.modulus * 1e-6:.4g} MPa (95 % {span}), RMSE {rmse:.0f} N, R² {r2:.2f}")
+        sticks = "" if each.model.adhesion is None else f", {each.model.adhesion.words}"
+        record.say(f"{side}: E* {each.modulus * 1e-6:.4g} MPa (95 % {span}), RMSE {rmse:.0f} N, R² {r2:.2f}{sticks}")
     record.say("E and ν are one number here: area and force tell E* = E/(1 - ν²), and E only for a stated ν")
     for told in found.predictions:
         if told.measured is not None:

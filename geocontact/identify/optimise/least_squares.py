@@ -15,6 +15,9 @@ from geocontact.identify.optimise.tolerances import STEP
 Predict = Callable[[Mapping[str, float]], list[Float[np.ndarray, "_ c"]]]
 """Predicted channels of every trial at given values of the free parameters."""
 
+DECADES = 100.0
+"""Bounds farther apart than this factor: a parameter is thought of in its logarithm."""
+
 NO_VALUE = 3.0  # residual, in floors, where something was measured and the model has no value
 
 
@@ -81,7 +84,7 @@ def fit(
         return np.concatenate([divided(p, m, floor) for p, m in zip(predicted, measured, strict=True)])
 
     if not free:
-        return _found(predict, measured, names, np.zeros(0), scale, residual(np.zeros(0)), True, ())
+        return _found(predict, measured, free, np.zeros(0), residual(np.zeros(0)), True, ())
     searches = []
     for start in starts:
         z = np.array([start.get(p.name, p.start) for p in free])
@@ -98,14 +101,26 @@ def fit(
         )
     best = min(searches, key=lambda search: search.cost)
     costs = tuple(float(search.cost) for search in searches)
-    return _found(predict, measured, names, best.x * scale, scale, best.fun, bool(best.status > 0), costs)
+    return _found(predict, measured, free, best.x * scale, best.fun, bool(best.status > 0), costs)
 
 
 def _scale(p: Parameter) -> float:
-    """Magnitude of a parameter: that of its start, or a share of its range."""
+    """Magnitude of a parameter: that of its start, or a share of its range where that is no more telling."""
     width = p.upper - p.lower
     spare = 0.1 * width if np.isfinite(width) and width > 0.0 else 1.0
-    return abs(p.start) if abs(p.start) > 1e-3 * spare else spare
+    return abs(p.start) if over_decades(p) or abs(p.start) > 1e-3 * spare else spare
+
+
+def over_decades(p: Parameter) -> bool:
+    """Whether a parameter is positive within bounds farther apart than `DECADES`: its range is no magnitude of it."""
+    return p.lower > 0.0 and DECADES * max(p.lower, float(np.finfo(float).tiny)) < p.upper < np.inf
+
+
+def within_bounds(p: Parameter, value: float) -> tuple[float, float]:
+    """Values beside one, for a difference that does not leave the bounds: beyond them a law need not be defined."""
+    size = max(abs(p.start), abs(value)) if over_decades(p) else _scale(p)
+    below, above = max(value - STEP * size, p.lower), min(value + STEP * size, p.upper)
+    return (below, above) if below < above else (value - STEP * size, value + STEP * size)
 
 
 def divided(
@@ -120,23 +135,23 @@ def divided(
 def _found(
     predict: Predict,
     measured: Sequence[Float[np.ndarray, "_ c"]],
-    names: tuple[str, ...],
+    free: Sequence[Parameter],
     best: Float[np.ndarray, " p"],
-    scale: Float[np.ndarray, " p"],
     residual: Float[np.ndarray, " n"],
     converged: bool,
     costs: tuple[float, ...],
 ) -> Fit:
+    names = tuple(p.name for p in free)
     predicted = predict(dict(zip(names, best, strict=True)))
     columns: list[list[np.ndarray]] = [[] for _ in measured]
-    for k in range(len(names)):
-        pair = []
-        for sign in (1.0, -1.0):
+    for k, parameter in enumerate(free):
+        ends, pair = within_bounds(parameter, float(best[k])), []
+        for end in ends:
             moved = best.copy()
-            moved[k] += sign * STEP * scale[k]
+            moved[k] = end
             pair.append(predict(dict(zip(names, moved, strict=True))))
-        for trial, (above, below) in enumerate(zip(*pair, strict=True)):
-            columns[trial].append((above - below) / (2.0 * STEP * scale[k]))
+        for trial, (below, above) in enumerate(zip(*pair, strict=True)):
+            columns[trial].append((above - below) / (ends[1] - ends[0]))
     jacobian = [np.stack(c, axis=-1) if c else np.zeros((*m.shape, 0)) for c, m in zip(columns, measured, strict=True)]
     return Fit(
         values=dict(zip(names, map(float, best), strict=True)),

@@ -12,10 +12,9 @@ from scipy.optimize import minimize
 from scipy.stats import qmc
 
 from geocontact.data.parameter import Parameter
-from geocontact.identify.optimise.least_squares import Fit, Predict, divided, fit
+from geocontact.identify.optimise.least_squares import DECADES, Fit, Predict, divided, fit
 from geocontact.identify.optimise.tolerances import ROUNDING, STEP
 
-DECADES = 100.0  # bounds farther apart than this factor: the search is in the logarithm
 OPTIONS: Any = {"maxiter": 200, "ftol": 1e-10, "gtol": 1e-7}
 
 
@@ -71,7 +70,7 @@ def search(
 ) -> Fit:
     """Least squares within bounds by L-BFGS-B, the best of several starts; as `least_squares.fit` otherwise.
 
-    Byrd, Lu, Nocedal and Zhu (1995), SIAM J. Sci. Comput. 16, 1190; gradients by central differences. What
+    Byrd, Lu, Nocedal and Zhu (1995), SIAM J. Sci. Comput. 16, 1190; gradients by differences within the bounds. What
     is minimised is the logarithm of the mean square, so that starts decades away do no harm. The best search
     is finished by `least_squares.fit`, which a narrow valley does not slow down; `costs` are those before it.
     """
@@ -89,10 +88,9 @@ def search(
     def cost(z: Float[np.ndarray, " p"]) -> tuple[float, Float[np.ndarray, " p"]]:
         off, slope = residual(coordinates.values(z)), np.empty(len(z))
         for k in range(len(z)):
-            step = np.zeros(len(z))
-            step[k] = STEP
-            ahead, behind = (residual(coordinates.values(z + way * step)) for way in (1.0, -1.0))
-            slope[k] = off @ (ahead - behind) / (2.0 * STEP)
+            ends = min(z[k] + STEP, 1.0), max(z[k] - STEP, 0.0)  # beyond the bounds the law need not be defined
+            ahead, behind = (residual(coordinates.values(np.where(np.arange(len(z)) == k, end, z))) for end in ends)
+            slope[k] = off @ (ahead - behind) / (ends[0] - ends[1])
         square = float(off @ off) / len(off) + ROUNDING
         return float(np.log(square)), 2.0 * slope / (len(off) * square)
 

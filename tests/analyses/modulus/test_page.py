@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -41,3 +42,19 @@ def test_a_law_that_does_not_hold_is_said_before_its_modulus(tmp_path: Path) -> 
     assert page.headline[0].endswith("a constant force would do better.")
     assert "is only the number that fits" in page.headline[1]
     assert page.leads and isinstance(page.sections[page.leads[0]], Curves), "the forces show why"
+
+
+def test_a_soft_body_that_sticks_is_identified_and_named_with_its_law(tmp_path: Path) -> None:
+    """1.4 MPa by Johnson, Kendall and Roberts' own formula, w = 1 J/m² given, the areas of the synthetic step."""
+    file = areas(tmp_path)
+    rows = pd.read_csv(file)
+    at = rows[rows["threshold [mm]"] == 4.0]
+    cubed = (at["area_fixed [mm^2]"].to_numpy() * 1e-6 / np.pi) ** 1.5
+    force = 4.0 / 3.0 * 1.4e6 * cubed / 0.037 - np.sqrt(8.0 * np.pi * 1.0 * 1.4e6 * cubed)
+    pd.DataFrame({"time [s]": at["time [s]"], "total [N]": force}).to_csv(tmp_path / "jkr.csv", index=False)
+    result = modulus(file, tmp_path / "jkr.csv", radius=0.037, adhesion="jkr", work_of_adhesion=1.0, bootstrap=100)
+    assert result.modulus == pytest.approx(1.4e6, rel=1e-6)
+    sticks = "JKR's adhesion with a work of 1 J/m²"
+    page = page_of(result)
+    assert f"the law with {sticks} meets the total force" in page.headline[0]
+    assert sticks in page.subtitle and sticks in repr(result)
