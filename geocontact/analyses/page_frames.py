@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Float, Int
 
-FRAMES = 1001
-"""Shown at most; longer recordings are thinned out."""
+from geocontact.view.extremes import FRAMES, with_extremes
 
 
-def thinned(count: int) -> Int[np.ndarray, " k"]:
-    """Every so manieth of `count` frames, the first among them."""
-    return np.arange(0, count, -(-count // FRAMES))
+def thinned(
+    count: int, curves: Sequence[Float[np.ndarray, " t"]] = (), always: Iterable[int] = (), most: int = FRAMES
+) -> Int[np.ndarray, " k"]:
+    """Of `count` frames at most about `most`: those with the extremes of the curves; every so manieth without curves.
+
+    `always` are frames that are kept besides.
+    """
+    if len(curves):
+        return with_extremes(count, curves, most, always)
+    return np.unique([*range(0, count, -(-count // most)), *always]).astype(np.int64)

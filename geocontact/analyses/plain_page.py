@@ -14,8 +14,6 @@ from geocontact.view.page.content import Page, Picture, Section, Words
 from geocontact.view.page.tables import frame_table, inputs_table
 from geocontact.view.page.write import write_page
 
-ROWS = 200  # of a table that the page shows
-
 
 def write_plain_page(result: Result, title: str, file: Path) -> None:
     """The answer in sentences, reservations, figure, tables, inputs with hashes, options."""
@@ -26,8 +24,7 @@ def write_plain_page(result: Result, title: str, file: Path) -> None:
     if len(result.sentences) > MOST:
         sections.append(Words("What was found", list(result.sentences)))
     for name, table in result.tables().items():
-        shown = f"{name}, {ROWS} of {len(table)} rows" if len(table) > ROWS else name
-        sections.append(frame_table(shown, table.iloc[:ROWS]))
+        sections.append(frame_table(name, table))
     sections += [inputs_table(result.record.inputs), options_table(result.record)]
     page = Page(
         title,

@@ -34,7 +34,7 @@ def write_cop_report(r: FootLoads, file: Path) -> int:
 def cop_page(r: FootLoads) -> Page:
     """The page before it becomes a file."""
     time, c = r.foot.motion.time, r.centre
-    shown = np.unique([*thinned(len(time)), int(np.argmax(c.pressing))])
+    shown = thinned(len(time), [c.pressing, *c.wrench.force.T], [int(np.argmax(c.pressing))])
     forces = butterfly(r, shown)
     sections: list[Section] = [
         foot_plan(r, shown),

@@ -15,6 +15,7 @@ from geocontact.view.curves.over_cycle import mean_over_cycle
 from geocontact.view.curves.quantity import CYCLE, FORCE, TIME, Quantity
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, legend, panels
 from geocontact.view.curves.text import plain
+from geocontact.view.extremes import thinned_line
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,12 +43,29 @@ def loadcell_figure(
 
 def _lines(axes: Axes, time: Float[np.ndarray, " t"], curves: Mapping[str, Float[np.ndarray, " t"]]) -> None:
     drawn = [
-        (axes.plot(*broken(time, values), color=PALETTE[k % len(PALETTE)], ls=LINES[k % len(LINES)])[0], plain(name))
+        (
+            axes.plot(*thinned_line(*broken(time, values)), color=PALETTE[k % len(PALETTE)], ls=LINES[k % len(LINES)])[
+                0
+            ],
+            plain(name),
+        )
         for k, (name, values) in enumerate(curves.items())
     ]
     axes.set_xlim(time[0], time[-1])
     axes.axhline(0.0, color=GREY, lw=0.6, zorder=1)
     legend(axes, drawn)
+
+
+CYCLES = 8
+"""Single cycles of a style that are drawn at most: more lines tell no more, and a file must not grow with them."""
+
+
+def some_cycles(trials: Float[np.ndarray, "n t"]) -> Float[np.ndarray, "k t"]:
+    """All cycles, or `CYCLES` of them: the one with the highest peak, the one with the lowest, and others between."""
+    if len(trials) <= CYCLES:
+        return trials
+    by_peak = np.argsort(trials.max(axis=1), kind="stable")
+    return trials[np.sort(by_peak[np.linspace(0, len(trials) - 1, CYCLES).astype(int)])]
 
 
 @in_style
@@ -57,7 +75,7 @@ def ensemble_figure(
     unit: str = "N",
     per_newton: float = 1.0,
 ) -> Figure:
-    """Mean and SD over the cycle and, thin, every cycle; a panel per compartment, a colour per gait style.
+    """Mean and SD over the cycle and, thin, single cycles; a panel per compartment, a colour per gait style.
 
     Forces are shown in `unit`, of which one newton is `per_newton`.
     """
@@ -67,5 +85,5 @@ def ensemble_figure(
         mean_over_cycle(STEPS, styles, shown, axes, replace(CYCLE, name=along))
         for k, trials in enumerate(styles.values()):
             if len(trials) > 1:
-                axes.plot(STEPS, shown.shown(trials).T, color=PALETTE[k], lw=0.5, alpha=0.6, zorder=2)
+                axes.plot(STEPS, shown.shown(some_cycles(trials)).T, color=PALETTE[k], lw=0.5, alpha=0.6, zorder=2)
     return figure

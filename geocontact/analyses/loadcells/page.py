@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from geocontact.analyses.loadcells.cycles import Cut, stacked
+from geocontact.analyses.loadcells.cycles import SIDES, Cut, stacked
+from geocontact.analyses.loadcells.figure import CYCLES as SINGLE
 from geocontact.analyses.loadcells.page_cycles import beside_their_mean
 from geocontact.analyses.loadcells.page_samples import Samples, samples
 from geocontact.analyses.loadcells.page_tray import tray_plan
@@ -15,6 +16,7 @@ from geocontact.analyses.loadcells.recorded import RecordedCells
 from geocontact.analyses.page_words import NOT_A_DEVICE, counted
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.seconds import seconds
+from geocontact.view.extremes import FRAMES
 from geocontact.view.page.content import Choices, Curve, Curves, Page, PageChoice, Picture, Section, Table, Words
 
 CELLS = (
@@ -24,9 +26,12 @@ CELLS = (
 CYCLES, STYLES = "Cycles", "Difference to the first style (root mean square of the means)"
 SHIFTS = "Swing and time of each style beside the first, intervals of 95 % over cycles"
 ENSEMBLE = (
-    "Every cycle as a thin line, the mean of each style as a thick one, mean ± SD as a band; 0 to 100 % of each "
-    "cycle's own duration."
+    "Cycles as thin lines, the mean of each style as a thick one, mean ± SD as a band; 0 to 100 % of each cycle's own "
+    "duration."
 )
+SOME = f" {SINGLE} cycles of each style are drawn, those with the highest and the lowest peak among them."
+BOTH_UNITS = FRAMES // 2
+"""Samples where forces are there in two units, so that the page stays below a megabyte."""
 
 
 @dataclass(frozen=True)
@@ -78,9 +83,13 @@ def loadcell_page(
     warnings
         Reservations that came up on the way.
     """
-    forces, shown = recorded.forces, samples(recorded.forces.time)
-    cells = {name: shown.of(values) for name, values in recorded.by_cell(regression).items()}
+    forces, by_cell = recorded.forces, recorded.by_cell(regression)
+    curves = [forces.total, *forces.curves.values(), *by_cell.values()]
+    shown = samples(forces.time, curves, FRAMES if weight is None else BOTH_UNITS)
+    cells = {name: shown.of(values) for name, values in by_cell.items()}
     tray = tray_plan(cells)
+    many = cuts and max(len(trials) for trials in stacked(cuts, SIDES[0]).values()) > SINGLE
+    words = ENSEMBLE + (SOME if many else "")
 
     def sections(unit: ForceUnit) -> list[Section]:
         drawn = ensemble(unit)
@@ -89,7 +98,7 @@ def loadcell_page(
             forces_over_time,
             *([] if tray is None else [tray]),
             *others,
-            *([] if drawn is None else [Picture("Over the cycle", ENSEMBLE, drawn, wide=True)]),
+            *([] if drawn is None else [Picture("Over the cycle", words, drawn, wide=True)]),
         ]
 
     own, choices = sections(NEWTON), None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.page_frames import thinned
 from geocontact.identify.signals.gaps import broken, gaps
+from geocontact.view.extremes import FRAMES
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,11 +33,13 @@ class Samples:
         return found
 
 
-def samples(time: Float[np.ndarray, " t"]) -> Samples:
-    """Every so manieth sample, those beside gaps, and the middle of each gap."""
+def samples(
+    time: Float[np.ndarray, " t"], curves: Sequence[Float[np.ndarray, " t"]] = (), most: int = FRAMES
+) -> Samples:
+    """Samples with the extremes of the curves, `most` about, those beside gaps, and the middle of each gap."""
     missing = gaps(time)
     after = np.array([np.searchsorted(time, each.end) for each in missing], int)
-    kept = np.unique(np.concatenate([thinned(len(time)), after, after - 1])).astype(int)
+    kept = np.unique(np.concatenate([thinned(len(time), curves, most=most), after, after - 1])).astype(int)
     step = float(np.median(np.diff(time))) if len(time) > 1 else 1.0
     lost = np.maximum(np.rint(np.diff(time) / step).astype(int) - 1, 0)
     lost[np.setdiff1d(np.arange(len(lost)), after - 1)] = 0

@@ -24,6 +24,8 @@ from geocontact.view.curves.given import SERIES
 from geocontact.view.page.tables import frame_table, inputs_table
 from geocontact.view.page.write import write_page
 
+ROWS = 100  # cycles that the page lists; cycles.csv has all
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -111,7 +113,7 @@ class LoadcellResult(Result):
 
     def _write_report(self, file: Path, each: RecordedCells) -> None:
         found, titles = self._over_cycles(), {"cycles": CYCLES, "styles": STYLES, "shifts": SHIFTS}
-        shown = [frame_table(title, found[name], 5) for name, title in titles.items() if name in found]
+        shown = [frame_table(title, found[name], 5, ROWS) for name, title in titles.items() if name in found]
         own = each.folder or "."
         inputs = [entry for entry in self.record.inputs if entry.get("folder", own) == own]
         provenance = [inputs_table(inputs), options_table(self.record)]

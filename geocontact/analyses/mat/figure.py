@@ -11,6 +11,7 @@ from geocontact.geometry.drape.cells import Drape
 from geocontact.loads.mat.load import MatLoad
 from geocontact.loads.mat.map import MatMap
 from geocontact.view.curves.sheet import sheet
+from geocontact.view.extremes import thinned_line
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -40,14 +41,14 @@ def mat_figure(
     FigureCanvasAgg(figure)
     panels = figure.subplot_mosaic([["force", "cells"], ["peak", "cells"], ["area", "cells"]], width_ratios=[3, 2])
     for k, axis in enumerate("xyz"):
-        panels["force"].plot(time, load.wrench.force[:, k], color=COLOURS[k], label=axis)
-    panels["force"].plot(time, load.perpendicular, color="black", label="perpendicular to the interface")
+        panels["force"].plot(*thinned_line(time, load.wrench.force[:, k]), color=COLOURS[k], label=axis)
+    panels["force"].plot(*thinned_line(time, load.perpendicular), color="black", label="perpendicular to the interface")
     panels["force"].axhline(0.0, color="grey", lw=0.6)
     panels["force"].legend(fontsize=8, frameon=False, ncols=2)
-    panels["peak"].plot(time, load.peak * 1e-3, color="black", label="largest")
-    panels["peak"].plot(time, load.mean * 1e-3, color="grey", label="mean where it touches")
+    panels["peak"].plot(*thinned_line(time, load.peak * 1e-3), color="black", label="largest")
+    panels["peak"].plot(*thinned_line(time, load.mean * 1e-3), color="grey", label="mean where it touches")
     panels["peak"].legend(fontsize=8, frameon=False)
-    panels["area"].plot(time, load.area * 1e4, color="black")
+    panels["area"].plot(*thinned_line(time, load.area * 1e4), color="black")
     grid = np.full(laid.area.shape, np.nan)
     grid[placed.cell[:, 0], placed.cell[:, 1]] = pressure.max(axis=0) * 1e-3
     grid[grid == 0.0] = -1.0

@@ -11,6 +11,7 @@ from jaxtyping import Float, Int
 from geocontact.analyses.mat.closest_point import ClosestPoint
 from geocontact.analyses.mat.findings import MatFindings
 from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.geometry.drape.cells import Drape
 from geocontact.view.page.content import (
@@ -53,10 +54,9 @@ def write_mat_report(path: Path, r: MatFindings, drawing: bytes) -> int:
 
     `drawing` is the static figure.
     """
-    most = FRAMES
+    most, w = FRAMES, r.loads
     while True:
-        every = -(-len(r.frames.time) // most)
-        shown = np.unique([*range(0, len(r.frames.time), every), r.heaviest, int(np.argmax(r.on_faces))])
+        shown = thinned(len(r.frames.time), [w.pressing, w.peak], [r.heaviest, int(np.argmax(r.on_faces))], most)
         size = write_page(mat_page(r, shown, drawing), path)
         most = len(shown) // 2
         if size <= LARGEST_FILE or most < FEWEST:

@@ -17,8 +17,14 @@ def inputs_table(inputs: Sequence[Mapping[str, object]]) -> Table:
     return Table("Input files", ("role", "file", "unit", "SHA-256"), rows, folded=True)
 
 
-def frame_table(title: str, rows: pd.DataFrame, digits: int = 4) -> Table:
-    """A data frame as the page shows it; what is not known is empty."""
+ROWS = 200
+"""Of a table that a page shows; its file has all."""
+
+
+def frame_table(title: str, rows: pd.DataFrame, digits: int = 4, most: int = ROWS) -> Table:
+    """A data frame as the page shows it: what is not known is empty; of a long one `most` rows, as the title says."""
+    if len(rows) > most:
+        title, rows = f"{title}, {most} of {len(rows)} rows", rows.iloc[:most]
 
     def text(value: object) -> str:
         if not isinstance(value, float):

@@ -10,6 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from geocontact.view.page.bounded import bounded
 from geocontact.view.page.content import (
     Curves,
     Intervals,
@@ -77,6 +78,7 @@ class PlacedSection:
 
 def page_html(page: Page) -> str:
     """The page as text."""
+    page = bounded(page)
     script, style = bundled("page.js"), bundled("style.css")
     packed = payload(page)
     placed = [

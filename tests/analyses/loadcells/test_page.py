@@ -8,13 +8,17 @@ from typing import Any
 import numpy as np
 import pytest
 
+from geocontact.analyses.loadcells.figure import CYCLES, some_cycles
 from geocontact.analyses.loadcells.job import load_cells
 from geocontact.analyses.loadcells.page import loadcell_page
 from geocontact.analyses.loadcells.page_samples import samples
 from geocontact.analyses.loadcells.page_tray import tray_plan
+from geocontact.analyses.loadcells.result import ROWS
 from geocontact.data.errors import InputError
 from geocontact.view.page.content import Curves, Page, Plan
-from tests.analyses.loadcells.synthetic_walk import recorded
+from geocontact.view.page.tables import frame_table
+from geocontact.view.page.write import write_page
+from tests.analyses.loadcells.synthetic_walk import HEAD, gait, recorded
 
 
 def page_of(file: Path, **options: Any) -> Page:
@@ -71,3 +75,42 @@ def test_curves_are_broken_where_samples_are_missing() -> None:
     assert (np.diff(shown.numbers) > 0).all() and shown.numbers[-1] == shown.total == 500, "numbers go with the clock"
     long = samples(np.delete(np.arange(0.0, 50.0, 0.01), np.arange(2501, 2550)))
     assert len(long.kept) < 1300 and np.isnan(long.of(np.ones(len(long.given)))).sum() == 1
+
+
+@pytest.mark.slow
+@pytest.mark.drawn
+def test_the_page_of_a_long_recording_stays_below_a_megabyte(tmp_path: Path) -> None:
+    """1e5 samples, 908 strides; the one sample of the largest force, far from any other, is on the page."""
+    rows = 100_000
+    time = 0.01 * np.arange(rows)
+    cells = gait(time) + np.random.default_rng(0).normal(0.0, 2.0, (rows, 4))
+    cells[54_321] = 1500.0
+    cells[65_432, 2] = 0.5
+    table = np.column_stack([time, cells])
+    np.savetxt(tmp_path / "long.csv", table, fmt="%.6g", delimiter=",", header=HEAD, comments="")
+    result = load_cells(tmp_path / "long.csv", unit="N", cycles="stride", level=300.0)
+    (each,) = result.recordings
+    page = loadcell_page(each, result.regression, result.cuts, lambda _: None)
+    force, cell = (s for s in page.sections if isinstance(s, Curves) and s.title in ("Contact force", "Load cells"))
+    assert max(np.nanmax(curve.values) for curve in force.curves) == 6000.0
+    assert min(np.nanmin(curve.values) for curve in cell.curves) == 0.5
+    for stretch in range(20):
+        inside, all_of_it = (
+            (page.time >= 50 * stretch) & (page.time < 50 * (stretch + 1)),
+            slice(5000 * stretch, 5000 * (stretch + 1)),
+        )
+        highest = table[all_of_it, 1:].sum(axis=1).max()
+        assert np.nanmax(force.curves[-1].values[inside]) == pytest.approx(highest, rel=1e-5)
+    result.write_page(tmp_path / "report.html")
+    assert (tmp_path / "report.html").stat().st_size < 1_000_000
+    listed = frame_table("Cycles", result.table("cycles"), 5, ROWS)
+    assert len(listed.rows) == ROWS and listed.title == "Cycles, 100 of 908 rows"
+    in_both_units = loadcell_page(each, result.regression, result.cuts, result._drawn, 70.0 * 9.80665, [listed])
+    assert write_page(in_both_units, tmp_path / "report.html") < 1_000_000
+
+
+def test_of_many_cycles_the_highest_and_the_lowest_are_drawn() -> None:
+    trials = np.sin(np.linspace(0.0, np.pi, 101)) * np.random.default_rng(3).permutation(np.arange(1.0, 101.0))[:, None]
+    drawn = some_cycles(trials)
+    assert len(drawn) == CYCLES and drawn.max() == 100.0 and drawn.max(axis=1).min() == pytest.approx(1.0)
+    assert some_cycles(trials[:3]) is not None and len(some_cycles(trials[:3])) == 3

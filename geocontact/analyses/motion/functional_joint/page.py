@@ -29,7 +29,7 @@ def write_joint_page(
     path: Path, title: str, record: Record, pair: MovedPair, points: JointPoints, apart: Float[np.ndarray, " t"]
 ) -> int:
     """Write the self-contained page; returns its size in bytes. `apart` is in mm."""
-    shown = thinned(len(pair.time))
+    shown = thinned(len(pair.time), [apart])
     sections: list[Section] = [
         _picture(pair, points, shown),
         Curves("Distance between the joint of one segment and of the other", "mm", [Curve("apart", apart[shown])]),

@@ -44,7 +44,7 @@ def write_forces_report(
     sentences: Sequence[str] = (),
 ) -> int:
     """Write the self-contained page; returns its size in bytes."""
-    shown = thinned(len(forces.time))
+    shown = thinned(len(forces.time), list(np.asarray(forces.values).T))
     turning = np.array([c.kind == "rotational" for c in forces.model.coordinates], dtype=bool)
     base = forces.at_ground
     values = np.asarray(forces.values)[shown]

@@ -39,7 +39,7 @@ def write_kinematics_report(
     sentences: Sequence[str] = (),
 ) -> int:
     """Write the self-contained page; returns its size in bytes."""
-    shown = thinned(len(found.time))
+    shown = thinned(len(found.time), [*np.asarray(found.values).T, *found.distances.T])
     angular = np.array([c.kind == "rotational" for c in model.coordinates])
     off = 1e3 * found.distances
     values = np.asarray(found.values)[shown]

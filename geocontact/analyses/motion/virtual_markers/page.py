@@ -30,7 +30,7 @@ def write_markers_page(
     markers: MarkerTrajectories,
 ) -> int:
     """Write the self-contained page along coordinates [rad, m]; returns its size in bytes."""
-    shown = thinned(len(markers.time))
+    shown = thinned(len(markers.time), list(markers.positions.reshape(len(markers.time), -1).T))
     places = markers.positions[shown]
     panels = [
         Curves(f"{axis} of the markers", "m", [Curve(n, places[:, k, i]) for k, n in enumerate(markers.names)])
