@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+DECADES = 100.0
+"""Bounds farther apart than this factor: a parameter is thought of in its logarithm."""
+
 
 @dataclass(frozen=True)
 class Parameter:
@@ -43,3 +46,8 @@ class Parameter:
             raise ValueError(f"{self.name}: start {self.start:g} is not between {self.lower:g} and {self.upper:g}")
         if not self.fixed and self.lower == self.upper:
             raise ValueError(f"{self.name}: lower and upper bound are equal; say fixed = true instead")
+
+    @property
+    def over_decades(self) -> bool:
+        """Whether it is positive within finite bounds farther apart than `DECADES`: its range is no magnitude of it."""
+        return self.lower > 0.0 and DECADES * self.lower < self.upper < math.inf

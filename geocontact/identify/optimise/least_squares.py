@@ -15,9 +15,6 @@ from geocontact.identify.optimise.tolerances import STEP
 Predict = Callable[[Mapping[str, float]], list[Float[np.ndarray, "_ c"]]]
 """Predicted channels of every trial at given values of the free parameters."""
 
-DECADES = 100.0
-"""Bounds farther apart than this factor: a parameter is thought of in its logarithm."""
-
 NO_VALUE = 3.0  # residual, in floors, where something was measured and the model has no value
 
 
@@ -108,17 +105,12 @@ def _scale(p: Parameter) -> float:
     """Magnitude of a parameter: that of its start, or a share of its range where that is no more telling."""
     width = p.upper - p.lower
     spare = 0.1 * width if np.isfinite(width) and width > 0.0 else 1.0
-    return abs(p.start) if over_decades(p) or abs(p.start) > 1e-3 * spare else spare
-
-
-def over_decades(p: Parameter) -> bool:
-    """Whether a parameter is positive within bounds farther apart than `DECADES`: its range is no magnitude of it."""
-    return p.lower > 0.0 and DECADES * max(p.lower, float(np.finfo(float).tiny)) < p.upper < np.inf
+    return abs(p.start) if p.over_decades or abs(p.start) > 1e-3 * spare else spare
 
 
 def within_bounds(p: Parameter, value: float) -> tuple[float, float]:
     """Values beside one, for a difference that does not leave the bounds: beyond them a law need not be defined."""
-    size = max(abs(p.start), abs(value)) if over_decades(p) else _scale(p)
+    size = max(abs(p.start), abs(value)) if p.over_decades else _scale(p)
     below, above = max(value - STEP * size, p.lower), min(value + STEP * size, p.upper)
     return (below, above) if below < above else (value - STEP * size, value + STEP * size)
 

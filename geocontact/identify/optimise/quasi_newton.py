@@ -12,7 +12,7 @@ from scipy.optimize import minimize
 from scipy.stats import qmc
 
 from geocontact.data.parameter import Parameter
-from geocontact.identify.optimise.least_squares import DECADES, Fit, Predict, divided, fit
+from geocontact.identify.optimise.least_squares import Fit, Predict, divided, fit
 from geocontact.identify.optimise.tolerances import ROUNDING, STEP
 
 OPTIONS: Any = {"maxiter": 200, "ftol": 1e-10, "gtol": 1e-7}
@@ -32,7 +32,7 @@ class Coordinates:
         lower, upper = np.array([p.lower for p in free], float), np.array([p.upper for p in free], float)
         if not np.isfinite(lower).all() or not np.isfinite(upper).all():
             raise ValueError("every free parameter needs a finite lower and upper bound")
-        wide = (lower > 0.0) & (upper > DECADES * np.maximum(lower, np.finfo(float).tiny))
+        wide = np.array([p.over_decades for p in free])
         return cls(np.where(wide, np.log(np.where(wide, lower, 1.0)), lower), _upper(upper, wide), wide)
 
     def values(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " p"]:
