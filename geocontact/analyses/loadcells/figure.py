@@ -65,7 +65,7 @@ def some_cycles(trials: Float[np.ndarray, "n t"]) -> Float[np.ndarray, "k t"]:
     if len(trials) <= CYCLES:
         return trials
     by_peak = np.argsort(trials.max(axis=1), kind="stable")
-    return trials[np.sort(by_peak[np.linspace(0, len(trials) - 1, CYCLES).astype(int)])]
+    return np.asarray(trials[np.sort(by_peak[np.linspace(0, len(trials) - 1, CYCLES).astype(int)])])
 
 
 @in_style

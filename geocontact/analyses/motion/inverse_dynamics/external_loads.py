@@ -86,8 +86,8 @@ def _turned(plate: ForcePlate, o: IdOptions, file: Path, model: Multibody) -> Fo
         wrench = plate.wrench
         wrench = Wrench(turn.apply(wrench.force), turn.apply(wrench.moment), turn.apply(wrench.origin), wrench.frame)
         corners = None if plate.corners is None else turn.apply(plate.corners)
-        point, normal = turn.apply(plate.point), turn.apply(plate.normal)
-        plate = replace(plate, wrench=wrench, point=point, normal=normal, corners=corners)
+        point, up = turn.apply(plate.point), turn.apply(plate.normal)
+        plate = replace(plate, wrench=wrench, point=point, normal=up, corners=corners)
     down = model.gravity / max(float(np.linalg.norm(model.gravity)), 1e-12)
     if -plate.normal @ down < UP and np.linalg.norm(model.gravity) > 0.0:
         normal = " ".join(f"{x:.2g}" for x in plate.normal)
