@@ -14,6 +14,7 @@ from jaxtyping import Float
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.result import Result
 from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
@@ -27,7 +28,6 @@ from geocontact.view.page.write import write_page
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-FRAMES = 1001  # that the page shows at most
 MAT = (
     "The simulated force is the component that lifts the arm; a pressure mat also counts what presses from the sides, "
     "and is loaded by straps, sleeves and a push force on the tool that the simulation does not know."
@@ -86,7 +86,7 @@ class ShoulderCompareResult(Result):
     def write_page(self, file: Path) -> None:
         """ArmAndRecording curves and errors by phase."""
         time = self.channels[0].time
-        shown = np.arange(0, len(time), -(-len(time) // FRAMES))
+        shown = thinned(len(time), [values for one in self.channels for values in (one.measured, one.model)])
         panels = []
         for one in self.channels:
             unit, factor = one.shown_in
