@@ -19,6 +19,7 @@ from scipy.interpolate import CubicSpline
 
 from geocontact.dynamics.collocation.multibody import jerk_controlled
 from geocontact.dynamics.collocation.problem import ControlProblem, Course
+from geocontact.dynamics.symbols import residual, scaled
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.contact_parameter import ContactParameter, bounds, usual
 from geocontact.standing_up.first_fit import first_fit
@@ -107,14 +108,12 @@ def standing_phase(
     terms, at = {}, 0
     for name in tracks:
         symbol, size = channels[name]
-        off = (symbol - values[at : at + width[name], :]) / SX(
-            size
-        )  # an array (2,) under a (2, 1) symbol would give (2, 2)
+        off = residual(symbol, values[at : at + width[name], :], size)
         terms[name] = share * sumsqr(recorded * off if name == "strap" and recorded.numel() else off)
         at += width[name]
     seen = vertcat(values, recorded, share)
     sizes = np.r_[np.full(3, jerk_sizes[0]), np.full(n - 3, jerk_sizes[1])]
-    terms |= {**small, "jerk": sumsqr(jerk / sizes)}
+    terms |= {**small, "jerk": sumsqr(scaled(jerk, sizes))}
     system = jerk_controlled(
         e,
         controlled=range(n - 3),

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.dynamics.equations import Equations
+from geocontact.dynamics.symbols import column
 from geocontact.standing_up.contact_parameter import ContactParameter
 
 if TYPE_CHECKING:
@@ -48,6 +49,15 @@ class StandingModel:
     normal_energy: SX
     given: int = 0
     elsewhere: Mapping[str, SX] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Keep all of it as CasADi's own columns, whatever a force law returned. ValueError for another shape."""
+        for name, count in (("force", 2), ("centre", 1), ("energy", 1), ("normal_energy", 1)):
+            object.__setattr__(self, name, column(getattr(self, name), count))
+        worn = 1 if self.strap.numel() else 0
+        for name in ("strap", "shear"):
+            object.__setattr__(self, name, column(getattr(self, name), worn))
+        object.__setattr__(self, "elsewhere", {name: column(of, 1) for name, of in self.elsewhere.items()})
 
     @property
     def straps(self) -> SX:

@@ -16,6 +16,7 @@ from geocontact.dynamics.collocation.motion import CollocatedMotion
 from geocontact.dynamics.collocation.multibody import jerk_controlled
 from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem, Course
 from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions, solve
+from geocontact.dynamics.symbols import residual
 from geocontact.standing_up.chain import COORDINATES, Subject
 from geocontact.standing_up.feet import PLANTED
 from geocontact.standing_up.standing_model import StandingModel
@@ -133,7 +134,7 @@ def standing_up(
     n, e = model.count, model.equations
     torques = len(model.joints)
     wanted, jerk = SX.sym("wanted", n), SX.sym("jerk", n)
-    off = (e.q - wanted) / model.per_coordinate(0.01, np.radians(2.0))
+    off = residual(e.q, wanted, model.per_coordinate(0.01, np.radians(2.0)))
     torque = model.torques
     extra = torque[3:, :] - assistance * torque[:3, :] if n > N else SX(0)
     cost = sumsqr(off) + 1e-5 * sumsqr(jerk) + 1e-6 * sumsqr(torque) + UNPOWERED * sumsqr(extra)

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
+from geocontact.dynamics.symbols import column
 
 if TYPE_CHECKING:
     from casadi import SX
@@ -59,6 +60,14 @@ class ControlledSystem:
     prior: SX
     names: tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]
     path_at_start: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        """ValueError for what is no column, a rate that is not one for each state, a cost that is not one number."""
+        for name in ("x", "u", "w", "p", "path"):
+            column(getattr(self, name))
+        column(self.rate, self.x.numel())
+        for name in ("duration", "cost", "end_cost", "prior"):
+            column(getattr(self, name), 1)
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from geocontact.dynamics.collocation.blocks import ProgramBlock
 from geocontact.dynamics.collocation.motion import CollocatedMotion
 from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem, Course
 from geocontact.dynamics.collocation.scheme import Scheme
+from geocontact.dynamics.symbols import residual, scaled
 
 if TYPE_CHECKING:
     from casadi import SX
@@ -188,7 +189,7 @@ class Transcription:
         inner = np.tile(np.r_[self.scales.x, self.scales.u], self.scheme.degree)
         order = [self.scales.p, np.ones(1), self.scales.x, inner, self.scales.x][:parts]
         local = [SX.sym(f"v{k}", len(scale)) for k, scale in enumerate(order)]
-        return vertcat(*local), [v * s if len(s) else v for v, s in zip(local, order, strict=True)]
+        return vertcat(*local), [v * SX(s) if len(s) else v for v, s in zip(local, order, strict=True)]
 
     def _of(self, symbols: list[SX], values: list[SX], expression: SX) -> SX:
         from casadi import Function
@@ -213,10 +214,10 @@ class Transcription:
             given = [x[:, j], u[:, j], data[j * nw : (j + 1) * nw, :], p]
             symbols = [s.x, s.u, s.w, s.p]
             slope = mtimes(every, SX(c.derivative[j]))
-            pieces.append((slope - length * self._of(symbols, given, s.rate)) / self.scales.x)
-            pieces.append(self._of(symbols, given, s.path) / self.scales.path)
+            pieces.append(residual(slope, length * self._of(symbols, given, s.rate), self.scales.x))
+            pieces.append(scaled(self._of(symbols, given, s.path), self.scales.path))
             cost = cost + length * c.weights[j] * self._of(symbols, given, s.cost)
-        pieces.append((mtimes(every, SX(c.of_states(np.ones(1))[0])) - x1) / self.scales.x)
+        pieces.append(residual(mtimes(every, SX(c.of_states(np.ones(1))[0])), x1, self.scales.x))
         rows = vertcat(*pieces)
         index, values = [], []
         for k, (trial, mesh) in enumerate(zip(self.problem.trials, self.meshes, strict=True)):
@@ -237,7 +238,7 @@ class Transcription:
         data = SX.sym("data", s.w.numel())
         u = inner.reshape((self.nx + self.nu, d))[self.nx :, :]
         at_start = mtimes(u, SX(self.scheme.of_controls(np.zeros(1))[0]))
-        path = self._of([s.x, s.u, s.w, s.p], [x0, at_start, data, p], s.path) / self.scales.path
+        path = scaled(self._of([s.x, s.u, s.w, s.p], [x0, at_start, data, p], s.path), self.scales.path)
         rows = path[list(s.path_at_start), :]
         index, values = [], []
         for k, trial in enumerate(self.problem.trials):
