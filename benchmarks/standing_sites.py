@@ -202,7 +202,9 @@ def predicted(out: Path, nodes: float) -> dict[str, Any]:
             found = solve(phase.control, SolverOptions("radau", 4, 1, 1e-7, 300, 60.0), meshes=(mesh,))
             seen = seen_in(model, found.motions[0], p, trial.time, trial.name)
             (told,) = judged(model.equations, range(6), model.turning, phase, found, certify=found.solved)
-            result = TrialResult(recorded=trial, model=seen, acceleration=np.zeros_like(seen.q), judged=told)
+            result = TrialResult(
+                recorded=trial, model=seen, points=seen, acceleration=np.zeros_like(seen.q), judged=told
+            )
             errors = errors_table([result], study.noise, study.tracks).set_index("quantity")["rmsd"]
             certified = told.certificate is not None and told.certificate.converged
             how = {"ending": found.ending, "cpu seconds": round(found.seconds, 2), "certified": certified}

@@ -312,6 +312,32 @@ def accelerations(file: Path, names: Sequence[str], q: np.ndarray, u: np.ndarray
     return found
 
 
+def solved(model_file: Path, solution: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Accelerations as a `MocoTrajectory` has them, and as its model has them by its states and controls, (s, n)."""
+    import opensim
+
+    model, state = _model(model_file)
+    read = opensim.MocoTrajectory(str(solution))
+    names = [name.split("/")[2] for name in read.getStateNames() if name.endswith("/value")]
+    values, rates, told = (
+        np.column_stack([of(f"/jointset/{name}/{name}/{kind}") for name in names])
+        for kind, of in (("value", read.getStateMat), ("speed", read.getStateMat), ("accel", read.getDerivativeMat))
+    )
+    controls = {name.split("/")[-1]: read.getControlMat(name) for name in read.getControlNames()}
+    found = np.zeros(told.shape)
+    for k in range(len(found)):
+        _set(model, state, names, values[k])
+        for name, rate in zip(names, rates[k], strict=True):
+            model.updCoordinateSet().get(name).setSpeedValue(state, float(rate))
+        for name, torque in controls.items():
+            actuator = opensim.CoordinateActuator.safeDownCast(model.getForceSet().get(name))
+            actuator.overrideActuation(state, True)
+            actuator.setOverrideActuation(state, float(torque[k]))
+        model.realizeAcceleration(state)
+        found[k] = [model.getCoordinateSet().get(name).getAccelerationValue(state) for name in names]
+    return told, found
+
+
 def run_inverse_kinematics(setup: Path) -> None:
     """OpenSim's own tool on a set-up file, from its folder, where results go too."""
     from contextlib import chdir

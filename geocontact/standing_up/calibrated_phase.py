@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from geocontact.dynamics.collocation.refinement import refined
 from geocontact.dynamics.collocation.solve import CollocationResult, Progress, SolverOptions, solve
 from geocontact.standing_up.contact_numbers import ContactNumbers, contact_numbers, unsettled_numbers
 from geocontact.standing_up.cost_shares import cost_shares
@@ -31,7 +32,7 @@ class PhaseSearch:
     options
         Of the solver; its intervals do not count.
     nodes
-        Intervals a second.
+        Intervals a second where the search starts; those that leave too much of the balance are halved.
     starts
         Further starts, drawn from what is believed.
     resamples
@@ -103,14 +104,19 @@ def calibrated_phase(
     progress: Progress | None = None,
 ) -> CalibratedPhase:
     """Solve what `build` makes of trials and of where the parameters start (None: where the phase itself says)."""
-    meshes = tuple(np.linspace(0.0, 1.0, round(search.nodes * float(t.time[-1])) + 1) for t in trials)
+    even = tuple(np.linspace(0.0, 1.0, round(search.nodes * float(t.time[-1])) + 1) for t in trials)
 
     def solved(phase: PhaseProblem, warm: CollocationResult | None) -> CollocationResult:
+        meshes = even if warm is None else warm.meshes
         return solve(phase.control, search.options, meshes=meshes, warm=warm, progress=progress)
+
+    def finer(phase: PhaseProblem, found: CollocationResult) -> CollocationResult:
+        return refined(phase.control, found, search.options, model.turning, progress=progress)
 
     runs = _runs(trials, build, search, solved)
     ended = tuple((run[1].objective, run[1].solved) for run in runs)
     phase, found = min([run for run in runs if run[1].solved] or runs, key=lambda run: run[1].objective)
+    found = finer(phase, found)
     numbers, doubt = unsettled_numbers(phase, found), ""
     curves: tuple[PhaseProfile, ...] = ()
     if found.solved:
@@ -126,7 +132,7 @@ def calibrated_phase(
         if again is not None:
             p = np.clip(found.p - again.bias, *phase.control.p)
             held = replace(phase, control=replace(phase.control, p=(p, p), guess_p=p))
-            found = solved(held, found)
+            found = finer(held, solved(held, found))
             phase = held
     controlled = range(len(model.joints))
     motions = judged(model.equations, controlled, model.turning, phase, found, certify=found.solved)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.dynamics.collocation.certificate import FINER, Certificate, certificate, fine_residual
+from geocontact.dynamics.collocation.certificate import Certificate, certificate, fine_residual
 from geocontact.dynamics.collocation.resimulation import Resimulation, resimulation
 from geocontact.dynamics.collocation.solve import CollocationResult
 from geocontact.dynamics.equations import Equations
@@ -47,13 +47,11 @@ def judged(
 ) -> tuple[JudgedMotion, ...]:
     """Of every trial; `controlled` are those of the equations' inputs that were sought."""
     stepper = Stepper(equations)
-    system, turns = phase.control.system, np.array(turning, bool)
+    system = phase.control.system
     each = []
     for trial, motion in zip(phase.control.trials, found.motions, strict=True):
         again: Resimulation = resimulation(stepper, motion, found.p, trial.inputs, controlled)
-        left = fine_residual(system, trial, again)
+        left = fine_residual(system, trial, motion, found.p, turning)
         seen = certificate(found.solved, system, trial, again, turning) if certify else None
-        time = motion.times(FINER * motion.scheme.degree)
-        force, moment = (left[:, which].max(axis=1, initial=0.0) for which in (~turns, turns))
-        each.append(JudgedMotion(seen, time, force, moment))
+        each.append(JudgedMotion(seen, left.time, left.force, left.moment))
     return tuple(each)

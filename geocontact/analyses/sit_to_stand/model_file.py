@@ -1,8 +1,7 @@
-"""The chains with their contacts as an OpenSim model that solution_NAME.sto belongs to.
+"""The chains with their contacts as an OpenSim model that solution_NAME.sto solves.
 
-OpenSim lets a sphere slide and be pressed half of its depth below the ground, here both are on it: of a foot that
-slides the moment of friction differs by half of the depth times the friction, and with it the foot's acceleration. With
-that point told accelerations of a moving foot are OpenSim's.
+A sphere slides and is pressed where OpenSim's is, half of its depth below the ground, and straps are its bushings: the
+accelerations of the equations are those of the model.
 """
 
 from __future__ import annotations

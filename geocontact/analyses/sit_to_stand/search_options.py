@@ -22,7 +22,7 @@ class StandingSearchOptions(Options):
     The search
     ----------
     nodes
-        Intervals in a second.
+        Intervals in a second where a search starts.
     degree
         Collocation points in an interval (Radau).
     iterations

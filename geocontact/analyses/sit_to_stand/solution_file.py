@@ -14,14 +14,17 @@ from geocontact.standing_up.exoskeleton import EXO_JOINTS
 
 
 def write_solution(file: Path, trial: TrialResult, solved: bool) -> None:
-    """The motion as OpenSim's Moco reads it; torques are those of both legs [N m]."""
-    q, u = trial.model.q, trial.model.u
+    """The motion at its collocation points as OpenSim's Moco reads it; torques are those of both legs [N m].
+
+    At these points it solves the equations; at the recording's own times something is left of the balance.
+    """
+    q, u = trial.points.q, trial.points.u
     names = (*COORDINATES, *(EXO_JOINTS if q.shape[1] > len(COORDINATES) else ()))
 
     def paths(ending: str, values: Float[np.ndarray, "t n"]) -> dict[str, Float[np.ndarray, " t"]]:
         return {f"/jointset/{name}/{name}/{ending}": values[:, k] for k, name in enumerate(names)}
 
     states = paths("value", q) | paths("speed", u)
-    torque = np.zeros((len(q), 0)) if trial.model.torque is None else trial.model.torque
+    torque = np.zeros((len(q), 0)) if trial.points.torque is None else trial.points.torque
     controls = {f"/forceset/{name}_torque": column for name, column in zip(names[3:], torque.T, strict=True)}
-    write_moco_trajectory(file, trial.recorded.time, states, controls, paths("accel", trial.acceleration), solved)
+    write_moco_trajectory(file, trial.points.time, states, controls, paths("accel", trial.acceleration), solved)

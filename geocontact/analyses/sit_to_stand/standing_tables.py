@@ -17,8 +17,10 @@ BEYOND = (
     "open loop [-]",
     "open loop expected [-]",
     "growth rate [1/s]",
+    "intervals [-]",
+    "shortest interval [s]",
 )
-"""Departures of coordinates from another integrator [rad, m], and the growth of deviations."""
+"""Departures of coordinates from another integrator [rad, m], the growth of deviations, and the mesh."""
 
 
 def errors_table(trials: Sequence[TrialResult], noise: StandingNoise, tracks: Sequence[str]) -> pd.DataFrame:
@@ -46,7 +48,9 @@ def certificate_rows(phase: str, names: Sequence[str], motions: Sequence[JudgedM
         told: dict[str, object] = {"phase": phase, "trial": name}
         told["certified"] = "no" if c is None or not c.converged else "yes"
         told |= {"residual [N]": float(seen.force.max()), "residual [N m]": float(seen.moment.max())}
-        sizes = (np.nan,) * 5 if c is None else (c.interval, c.window, c.open_loop, c.expected, c.growth_rate)
+        sizes: tuple[float, ...] = (np.nan,) * len(BEYOND)
+        if c is not None:
+            sizes = c.interval, c.window, c.open_loop, c.expected, c.growth_rate, c.intervals, c.shortest
         rows.append(told | dict(zip(BEYOND, sizes, strict=True)))
     return rows
 

@@ -23,14 +23,17 @@ class TrialResult:
     ----------
     recorded, model
         Channels at the same times; torques of the model are those of both legs.
+    points
+        Channels of the model at `CollocatedMotion.held_times`, where the equations hold.
     acceleration
-        Of the coordinates [m/s^2, rad/s^2].
+        Of the coordinates there [m/s^2, rad/s^2].
     judged
         Certificate, and residual between the points.
     """
 
     recorded: StandingTrial
     model: StandingTrial
+    points: StandingTrial
     acceleration: Float[np.ndarray, "t n"]
     judged: JudgedMotion
 

@@ -1,10 +1,10 @@
 """What a solution is worth between and beyond its points: residual, simulation from every node, open loop.
 
 A small residual at the points says nothing of the polynomials between them. So the equations are evaluated on a five
-times finer grid, and another method of integration follows the same controls: from every node over one interval and
-over a longer window, and once from the start to the end. That last run departs even from an exact solution where the
-motion is unstable (standing up grows a hundredfold in 1.5 s), so it is judged by what the errors of the intervals
-become on their way to the end.
+times finer grid with both ends of every interval, at the start of which Radau's points leave most, and another method
+of integration follows the same controls: from every node over one interval and over a longer window, and once from the
+start to the end. That last run departs even from an exact solution where the motion is unstable (standing up grows a
+hundredfold in 1.5 s), so it is judged by what the errors of the intervals become on their way to the end.
 """
 
 from __future__ import annotations
@@ -15,11 +15,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.dynamics.collocation.motion import CollocatedMotion
 from geocontact.dynamics.collocation.problem import ControlledSystem, ControlledTrial
 from geocontact.dynamics.collocation.residual import residuals
 from geocontact.dynamics.collocation.resimulation import COARSER, Resimulation
 
-FINER = 5
+FINER, LEAST = 5, 101
+"""Places for each point of an interval, and of a motion at least."""
 MARGIN = 3.0
 """Times the expected open-loop error that is let pass: it is expected to first order only."""
 
@@ -65,6 +67,8 @@ class Certificate:
     growth, growth_rate
         Of the deviation (rad, m and per second, memory in its unit) that grows most from start to end: factor, and its
         logarithm over the time [1/s].
+    intervals, shortest
+        How many there are, and the length of the shortest [s].
     """
 
     converged: bool
@@ -77,6 +81,8 @@ class Certificate:
     expected: float
     growth: float
     growth_rate: float
+    intervals: int
+    shortest: float
 
 
 def certificate(
@@ -97,9 +103,8 @@ def certificate(
         Of each coordinate: whether it is an angle, so that its balance is in N m.
     """
     limit = limits or CertificateLimits()
-    left = fine_residual(system, trial, again)
-    turns = np.array(turning, bool)
-    force, moment = (float(left[:, which].max(initial=0.0)) for which in (~turns, turns))
+    left = fine_residual(system, trial, again.motion, again.p, turning)
+    force, moment = float(left.force.max()), float(left.moment.max())
     n = len(again.stepper.equations.names)
     ends, known = _after_intervals(again), again.states()
     off = ends - known[1:]
@@ -119,22 +124,50 @@ def certificate(
     }
     failed = tuple(words for words, passed in checks.items() if not passed)
     rate = float(np.log(growth) / (end - begin))
-    return Certificate(not failed, failed, force, moment, interval, window, open_loop, expected, growth, rate)
+    sizes = force, moment, interval, window, open_loop, expected, growth, rate
+    lengths = np.diff(again.motion.breaks)
+    return Certificate(not failed, failed, *sizes, len(lengths), float(lengths.min()))
 
 
-def fine_residual(system: ControlledSystem, trial: ControlledTrial, again: Resimulation) -> Float[np.ndarray, "t n"]:
-    """Sizes of the balance on the finer grid, with either acceleration, whichever is larger."""
+@dataclass(frozen=True, eq=False)
+class FineResidual:
+    """What is left of the balance, interval by interval, the same number of times in each.
+
+    Parameters
+    ----------
+    time
+        Both ends of every interval among them [s].
+    force, moment
+        Largest of the coordinates that move [N] and that turn [N m].
+    """
+
+    time: Float[np.ndarray, " t"]
+    force: Float[np.ndarray, " t"]
+    moment: Float[np.ndarray, " t"]
+
+
+def fine_residual(
+    system: ControlledSystem,
+    trial: ControlledTrial,
+    motion: CollocatedMotion,
+    p: Float[np.ndarray, " p"],
+    turning: Sequence[bool],
+) -> FineResidual:
+    """Of a jerk-controlled system, with the acceleration as the state has it and as the derivative of the rate's
+    polynomial, whichever leaves more.
+    """
     from casadi import Function
 
-    motion, n = again.motion, len(again.stepper.equations.names)
-    time = motion.times(FINER * motion.scheme.degree)
-    _, path = residuals(system, trial, motion, again.p, time)
-    x, u = motion.state(time), motion.control(time)
-    x[:, 2 * n : 3 * n] = motion.rate(time)[:, n : 2 * n]
-    balance = Function("balance", [system.x, system.u, system.w, system.p], [system.path]).map(len(time))
-    other = balance(x.T, u.T, trial.inputs(time).T, np.tile(again.p[:, None], (1, len(time)))).full().T
-    larger: Float[np.ndarray, "t n"] = np.maximum(np.abs(path), np.abs(other))
-    return larger
+    n, turns = len(turning), np.array(turning, bool)
+    at = motion.sampled(max(FINER * motion.scheme.degree + 1, -(-LEAST // len(motion.states))))
+    _, path = residuals(system, trial, at, p)
+    x = at.state.copy()
+    x[:, 2 * n : 3 * n] = at.rate[:, n : 2 * n]
+    balance = Function("balance", [system.x, system.u, system.w, system.p], [system.path]).map(len(x))
+    given = (x.T, at.control.T, trial.inputs(at.time).T, np.tile(p[:, None], (1, len(x))))
+    left = np.maximum(np.abs(path), np.abs(balance(*given).full().T))
+    force, moment = (left[:, which].max(axis=1, initial=0.0) for which in (~turns, turns))
+    return FineResidual(at.time, force, moment)
 
 
 def _after_intervals(again: Resimulation) -> Float[np.ndarray, "m s"]:

@@ -13,6 +13,16 @@ from geocontact.dynamics.recorded_inputs import RecordedInputs
 Times = Float[np.ndarray, " t"]
 
 
+@dataclass(frozen=True, eq=False)
+class MotionSamples:
+    """States, their derivatives in time and controls at some times [s]; a time may stand there twice."""
+
+    time: Times
+    state: Float[np.ndarray, "t x"]
+    rate: Float[np.ndarray, "t x"]
+    control: Float[np.ndarray, "t u"]
+
+
 @dataclass(frozen=True)
 class CollocatedMotion:
     """States and controls of one trial.
@@ -45,11 +55,34 @@ class CollocatedMotion:
         """States where intervals begin, and the last."""
         return np.vstack([self.states[:, 0], self.end])
 
-    def times(self, each: int) -> Float[np.ndarray, " t"]:
-        """So many times even in every interval, both of its ends left out."""
-        places = (np.arange(each) + 0.5) / each
-        times: Times = (self.breaks[:-1, None] + np.diff(self.breaks)[:, None] * places).ravel()
-        return times
+    def sampled(self, each: int) -> MotionSamples:
+        """At so many even places of every interval from its start to its end, all by the interval's own polynomials.
+
+        Where two intervals meet both answer: Radau's points leave the start out, so that controls and the derivative of
+        the state there are only continued.
+        """
+        where, lengths = np.linspace(0.0, 1.0, each), np.diff(self.breaks)
+        state, rate, control = (
+            np.einsum("ts,msx->mtx", weights, values)
+            for weights, values in (
+                (self.scheme.of_states(where), self.states),
+                (self.scheme.of_rates(where), self.states / lengths[:, None, None]),
+                (self.scheme.of_controls(where), self.controls),
+            )
+        )
+        times = (self.breaks[:-1, None] + lengths[:, None] * where).ravel()
+        return MotionSamples(times, *(of.reshape(len(times), -1) for of in (state, rate, control)))
+
+    @property
+    def held_times(self) -> Float[np.ndarray, " t"]:
+        """The start, the points inside of intervals, and the end: where the equations hold and one interval answers.
+
+        A point that ends its interval is left out: there the controls of the next one begin. The end holds them with
+        Radau's points; so does the start where the problem's `path_at_start` asks for it.
+        """
+        inside = self.scheme.points[self.scheme.points < 1.0]
+        points = (self.breaks[:-1, None] + np.diff(self.breaks)[:, None] * inside).ravel()
+        return np.asarray(np.r_[self.breaks[0], points, self.breaks[-1]])
 
     def state(self, time: Times) -> Float[np.ndarray, "t x"]:
         """At any times."""

@@ -9,8 +9,9 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.seconds import seconds
-from geocontact.io.opensim.storage_writer import DIGITS
 
+DIGITS = 15
+"""Of a number: with 10 a foot on a stiff ground is accelerated by 1e-5 rad/s^2 otherwise than the solution says."""
 Table = Mapping[str, Float[np.ndarray, " t"]]
 
 

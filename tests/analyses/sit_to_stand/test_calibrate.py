@@ -134,8 +134,10 @@ def test_one_shipped_trial_from_files_to_files(tmp_path: Path) -> None:
     study = changed(tmp_path, ("mass =", 'free = ["stiffness", "heel", "toe"]\nmass ='), trials=1)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        found = gc.sit_to_stand.calibrate(study, resamples=0)
+        found = gc.sit_to_stand.calibrate(study, resamples=0, nodes=15.0)
     assert found.accepted, found.warnings
+    mesh = found.table("certificate")  # 22 even intervals leave more than 1 N m
+    assert mesh["intervals [-]"].item() > 22 and mesh["shortest interval [s]"].item() < 0.99 * 1.5 / 22
     errors = found.table("errors").set_index("quantity")
     assert errors.loc["force_y", "rmsd"] < 10.0 and errors.loc["centre", "rmsd"] < 1.2
     out = found.write(tmp_path / "cal")

@@ -58,7 +58,9 @@ def moved() -> tuple[TrialResult, np.ndarray, np.ndarray]:
     trial = StandingTrial(TIME, q, u, force, centre[:, 0], "T1", -balance[:, 3:], strap[:, 0], chair)
     none = np.zeros(len(TIME))
     return (
-        TrialResult(recorded=trial, model=trial, acceleration=a, judged=JudgedMotion(None, TIME, none, none)),
+        TrialResult(
+            recorded=trial, model=trial, points=trial, acceleration=a, judged=JudgedMotion(None, TIME, none, none)
+        ),
         (-balance[:, :3]),
         shear[:, 0],
     )

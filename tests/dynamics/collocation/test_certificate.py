@@ -6,12 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from casadi import SX
+from casadi import SX, Function
 from scipy.linalg import expm
 
-from geocontact.dynamics.collocation.certificate import Certificate, certificate
+from geocontact.dynamics.collocation.certificate import Certificate, CertificateLimits, certificate, fine_residual
+from geocontact.dynamics.collocation.motion import MotionSamples
 from geocontact.dynamics.collocation.multibody import jerk_controlled
 from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem
+from geocontact.dynamics.collocation.refinement import MOST_HALVINGS, halved, refined
+from geocontact.dynamics.collocation.residual import residuals
 from geocontact.dynamics.collocation.resimulation import resimulation
 from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions, solve
 from geocontact.dynamics.equations import equations_of_motion
@@ -70,6 +73,77 @@ def test_a_coarse_mesh_fails_although_the_solver_is_content(swung) -> None:
     seen = judged(*swung, found)
     assert found.solved and found.violation < 1e-7
     assert not seen.converged and any("residual" in words for words in seen.failed), seen
+
+
+def left_at(stepper: Stepper, found: CollocationResult, where: np.ndarray) -> np.ndarray:
+    """Largest of the balance [N m] at parts of every interval, (m, s), by polynomials that NumPy puts through the
+    points, with the acceleration as the state has it and as the derivative of the rate.
+    """
+    motion, e = found.motions[0], stepper.equations
+    balance = Function("balance", [e.q, e.u, e.a, e.w], [e.balance])
+    points, sizes = motion.scheme.points, []
+    for x, u, length in zip(motion.states, motion.controls, np.diff(motion.breaks), strict=True):
+        states = [np.polyfit(np.r_[0.0, points], of, len(points)) for of in x.T]
+        torques = [np.polyfit(points, of, len(points) - 1) for of in u[:, 2:].T]
+        q, v, a = np.split(np.array([np.polyval(of, where) for of in states]), 3)
+        slope = np.array([np.polyval(np.polyder(of), where) for of in states[2:4]]) / length
+        torque = np.array([np.polyval(of, where) for of in torques])
+        both = [balance.map(len(where))(q, v, each, torque).full() for each in (a, slope)]
+        sizes.append(np.abs(both).max(axis=(0, 1)))
+    return np.array(sizes)
+
+
+@pytest.mark.parametrize("intervals", [3, 12])
+def test_it_looks_where_radau_leaves_most(swung, intervals: int) -> None:
+    """The starts of the intervals: midpoints of a five times finer grid see two thirds of what is left there."""
+    found = solve(swung[0], SolverOptions("radau", 3, intervals))
+    seen = judged(*swung, found)
+    grid = left_at(swung[1], found, np.linspace(0.0, 1.0, 201))
+    between = left_at(swung[1], found, (np.arange(15) + 0.5) / 15.0)
+    assert seen.moment == pytest.approx(grid.max(), rel=1e-6)
+    assert grid[:, 0].max() == grid.max() and between.max() < 0.8 * grid.max()
+    time = fine_residual(swung[0].system, swung[0].trials[0], found.motions[0], found.p, (True, True)).time
+    assert len(time) >= 101 and set(found.motions[0].breaks) <= set(time)
+
+
+@pytest.mark.parametrize("kind", ["radau", "legendre"])
+def test_the_balance_is_held_where_it_is_said_to_be(swung, kind: str) -> None:
+    problem = swung[0]
+    motion = solve(problem, SolverOptions(kind, 3, 4)).motions[0]
+    time = motion.held_times[: None if kind == "radau" else -1]
+    samples = MotionSamples(time, motion.state(time), motion.rate(time), motion.control(time))
+    _, left = residuals(problem.system, problem.trials[0], samples, np.zeros(0))
+    assert len(time) == (10 if kind == "radau" else 13) and np.abs(left).max() < 1e-7
+    (grid,) = left_at(swung[1], solve(problem, SolverOptions(kind, 3, 1)), np.linspace(0.0, 1.0, 21))
+    assert grid.max() > 1e-2
+
+
+def test_only_intervals_that_leave_too_much_are_halved(swung) -> None:
+    """Until none does: each new node is the middle of an interval that left more than is let pass."""
+    problem, stepper = swung
+    limits = CertificateLimits(moment=0.25)
+    coarse = solve(problem, SolverOptions("radau", 3, 5))
+    over = left_at(stepper, coarse, np.linspace(0.0, 1.0, 101)).max(axis=1) > limits.moment
+    assert 0 < over.sum() < len(over)
+    (mesh,) = halved(problem, coarse, (True, True), limits)
+    middles = (0.1 + 0.2 * np.arange(5))[over]
+    np.testing.assert_allclose(mesh, np.sort(np.r_[np.linspace(0.0, 1.0, 6), middles]), atol=1e-12)
+    fine = refined(problem, coarse, SolverOptions("radau", 3), (True, True), limits)
+    assert fine.solved and left_at(stepper, fine, np.linspace(0.0, 1.0, 101)).max() <= limits.moment
+    assert len(coarse.meshes[0]) < len(fine.meshes[0]) < 80 and fine.iterations > coarse.iterations
+    assert len(halved(problem, fine, (True, True), limits)[0]) == len(fine.meshes[0])
+
+
+def test_halving_comes_to_an_end(swung) -> None:
+    never = refined(
+        swung[0],
+        solve(swung[0], SolverOptions("radau", 2, 1)),
+        SolverOptions("radau", 2),
+        (True, True),
+        CertificateLimits(moment=1e-9),
+    )
+    assert never.solved and len(never.meshes[0]) == 1 + 2**MOST_HALVINGS
+    assert min(np.diff(never.meshes[0])) == pytest.approx(2.0**-MOST_HALVINGS)
 
 
 def test_other_masses_than_those_solved_for_fail(swung) -> None:

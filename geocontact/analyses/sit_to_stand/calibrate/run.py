@@ -11,6 +11,7 @@ from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
 from geocontact.analyses.sit_to_stand.calibrate.result import StandingCalibrateResult
+from geocontact.analyses.sit_to_stand.certificate_words import not_certified
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation.solve import SolverOptions
@@ -37,7 +38,8 @@ def run(given: StandingUpTrials, o: StandingCalibrateOptions, record: Record) ->
         TrialResult(
             recorded=trial,
             model=seen_in(last.model, motion, last.found.p, trial.time, trial.name),
-            acceleration=motion.state(trial.time)[:, 2 * n : 3 * n],
+            points=seen_in(last.model, motion, last.found.p, motion.held_times, trial.name),
+            acceleration=motion.state(motion.held_times)[:, 2 * n : 3 * n],
             judged=seen,
         )
         for trial, motion, seen in zip(given.trials, last.found.motions, last.motions, strict=True)
@@ -91,8 +93,7 @@ def _doubt(record: Record, one: CalibratedPhase) -> None:
         record.warn(f"{phase} has no intervals: {one.doubt}")
     for motion, seen in zip(one.found.motions, one.motions, strict=True):
         if seen.certificate is not None and not seen.certificate.converged:
-            failed = "; ".join(seen.certificate.failed)
-            record.warn(f"{motion.name} in {phase} is not certified: {failed}; give more `nodes`")
+            record.warn(not_certified(f"{motion.name} in {phase}", seen.certificate))
     at_bound, believed = (
         ", ".join(n.name for n in one.numbers.numbers if n.verdict == verdict)
         for verdict in ("on its bound", "believed")

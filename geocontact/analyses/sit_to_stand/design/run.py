@@ -153,7 +153,8 @@ class _DesignSearch:
             TrialResult(
                 recorded=trial,
                 model=seen_assisted(self.model, motion, movement.found.p, trial.time, trial.name),
-                acceleration=motion.state(trial.time)[:, 2 * n : 3 * n],
+                points=seen_assisted(self.model, motion, movement.found.p, motion.held_times, trial.name),
+                acceleration=motion.state(motion.held_times)[:, 2 * n : 3 * n],
                 judged=each,
             )
             for trial, motion, each in zip(self.given.trials.trials, movement.found.motions, seen, strict=True)

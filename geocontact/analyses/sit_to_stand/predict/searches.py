@@ -9,10 +9,12 @@ from functools import partial
 import numpy as np
 
 from geocontact.analyses.run_record import Record
+from geocontact.analyses.sit_to_stand.certificate_words import not_certified
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.predict.predicted_trial import ALL, PredictedTrial
 from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
+from geocontact.dynamics.collocation.refinement import refined
 from geocontact.dynamics.collocation.solve import SolverOptions, solve, stopped_by_ctrl_c
 from geocontact.standing_up.calibrated_phase import INTERRUPTED
 from geocontact.standing_up.exoskeleton import strapped
@@ -82,8 +84,7 @@ def _doubt(record: Record, predictions: Sequence[PredictedTrial], trials: int) -
         if not one.solved:
             record.warn(f"{place} ended without an answer: {one.ending}; it is its last iterate")
         elif one.trial.judged.certificate is not None and not one.trial.judged.certificate.converged:
-            failed = "; ".join(one.trial.judged.certificate.failed)
-            record.warn(f"{place} is not certified: {failed}; give more `nodes`")
+            record.warn(not_certified(place, one.trial.judged.certificate))
     if len(predictions) < trials * len(GIVEN):
         last, ended = predictions[-1], [one for one in predictions if not one.ending.startswith(INTERRUPTED)]
         where = f"the last search was {last.trial.recorded.name} {last.name}"
@@ -106,13 +107,15 @@ def _predicted(
         stage(f"iteration {iteration}, objective {objective:.5g}, residual {residual:.2g}")
 
     mesh = np.linspace(0.0, 1.0, round(o.nodes * float(trial.time[-1])) + 1)
-    found = solve(phase.control, options, meshes=(mesh,), progress=told)
+    coarse = solve(phase.control, options, meshes=(mesh,), progress=told)
+    found = refined(phase.control, coarse, options, model.turning, progress=told)
     motion, n = found.motions[0], model.count
     (seen,) = judged(model.equations, range(n - 3), model.turning, phase, found, certify=found.solved)
     result = TrialResult(
         recorded=trial,
         model=seen_in(model, motion, found.p, trial.time, trial.name),
-        acceleration=motion.state(trial.time)[:, 2 * n : 3 * n],
+        points=seen_in(model, motion, found.p, motion.held_times, trial.name),
+        acceleration=motion.state(motion.held_times)[:, 2 * n : 3 * n],
         judged=seen,
     )
     return PredictedTrial(name, result, found.solved, found.ending, found.iterations, found.seconds)
