@@ -215,14 +215,14 @@ def freed(options: argparse.Namespace) -> dict[str, Any]:
     from geocontact.analyses.run_record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.standing_up.exoskeleton import STRAP, STRAP_PLANTED, strapped
-    from geocontact.standing_up.feet import EVERY_PLANTED, FOOT_PARAMETERS, SOUGHT
+    from geocontact.standing_up.feet import EVERY_PLANTED, SOUGHT, SOUGHT_WORN
     from geocontact.standing_up.phase_a import phase_a
     from geocontact.standing_up.phase_b import phase_b
     from geocontact.standing_up.synthetic_study import synthetic_study
 
     rows, alone = {}, synthetic_study()
     sets_a = {"A without radius": tuple(name for name in SOUGHT if name != "radius"), "A": SOUGHT}
-    for label, free in (sets_a | {"A with dissipation": tuple(each.name for each in FOOT_PARAMETERS)}).items():
+    for label, free in (sets_a | {"A with dissipation": SOUGHT_WORN}).items():
         phase = phase_a(alone.model, alone.subject, alone.trials, alone.noise, free=free)
         rows[label] = told_of(phase, alone.trials, alone.planted)
     study = standing_trials(SAMPLES / "standing_up_exoskeleton" / "study.toml", "study", Record("calibrate", {}))

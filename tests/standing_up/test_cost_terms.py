@@ -18,7 +18,7 @@ from geocontact.dynamics.collocation.scheme import scheme
 from geocontact.dynamics.collocation.transcription import Transcription, scales_from
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton import strapped, with_exoskeleton
-from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT, feet_on_ground
+from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN, feet_on_ground
 from geocontact.standing_up.phase import PhaseProblem
 from geocontact.standing_up.phase_a import phase_a
 from geocontact.standing_up.phase_b import phase_b
@@ -156,7 +156,8 @@ def built(phase: str, model: StandingModel, seen: StandingTrial) -> tuple[PhaseP
     """The phase, and what is free in it."""
     p = searched(model)
     if phase == "A":
-        return phase_a(model, SUBJECT, [seen], NOISE, free=SOUGHT, start=p), SOUGHT
+        free = SOUGHT_WORN if model.count > 6 else SOUGHT
+        return phase_a(model, SUBJECT, [seen], NOISE, free=free, start=p), free
     if phase == "B":
         free = tuple(each.name for each in model.parameters[len(FOOT_PARAMETERS) :])
         return phase_b(model, SUBJECT, [seen], NOISE, p[:7], free=free), free

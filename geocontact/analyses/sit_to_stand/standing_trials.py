@@ -15,7 +15,7 @@ from geocontact.io.recordings.standing_study import read_standing_study
 from geocontact.standing_up.chain import Subject, leg_chain
 from geocontact.standing_up.chair import COMPONENTS
 from geocontact.standing_up.exoskeleton import two_chains
-from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT
+from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN
 from geocontact.standing_up.phase_a import TRACKS
 from geocontact.standing_up.phase_b import TRACKS_B
 from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite, strap_sites
@@ -55,7 +55,8 @@ def standing_trials(file: Path, role: str, record: Record) -> StandingUpTrials:
     study = read_standing_study(file)
     record.add_input(role, file, trials=len(study.trials))
     subject = Subject(study.mass, study.height)
-    free = _known(file, "free", study.free, SOUGHT, tuple(each.name for each in FOOT_PARAMETERS))
+    usual = SOUGHT_WORN if study.exoskeleton else SOUGHT
+    free = _known(file, "free", study.free, usual, tuple(each.name for each in FOOT_PARAMETERS))
     channels = TRACKS_B if study.exoskeleton else TRACKS
     tracks = _known(file, "tracks", study.tracks, channels, channels)
     if "coordinates" not in tracks:
