@@ -131,9 +131,9 @@ def calibrated_phase(
             curves = profiles(phase, found, numbers, search.profiles, solved)
         if again is not None:
             p = np.clip(found.p - again.bias, *phase.control.p)
-            held = replace(phase, control=replace(phase.control, p=(p, p), guess_p=p))
-            found = finer(held, solved(held, found))
-            phase = held
+            at = replace(phase, control=replace(phase.control, p=(p, p), guess_p=p))
+            found = finer(at, solved(at, found))
+            phase = at
     controlled = range(len(model.joints))
     motions = judged(model.equations, controlled, model.turning, phase, found, certify=found.solved)
     shares = cost_shares(phase, found)
