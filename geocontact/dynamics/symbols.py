@@ -28,12 +28,49 @@ def constant(values: Float[np.ndarray, ...]) -> SX:
     return sparsify(SX(np.asarray(values, dtype=float)))
 
 
-def entries(column: SX, which: Sequence[int] | slice) -> SX:
+def column(symbols: SX, count: int | None = None) -> SX:
+    """Symbols as a column of CasADi's own kind, (n, 1). ValueError for another shape, or another count than is asked.
+
+    Once NumPy's functions take symbols (`apply_numpy`), what a force law returns is CasADi's `ArrayInterfaceSX`, which
+    broadcasts as NumPy does: (2, 1) over an array (2,) is (2, 2), and its sum of squares has each square twice. A plain
+    `SX` is a matrix, for which (2,) is a column.
+    """
+    from casadi import SX
+
+    plain = SX(symbols)
+    if plain.shape[1] != 1:
+        raise ValueError(f"symbols have the shape {plain.shape}, not that of a column")
+    if count is not None and plain.shape[0] != count:
+        raise ValueError(f"{plain.shape[0]} symbols where there are {count} numbers")
+    return plain
+
+
+def scaled(symbols: SX, size: float | Float[np.ndarray, " n"]) -> SX:
+    """A column in parts of its sizes, (n, 1): one size for each entry, or one number for all of them.
+
+    ValueError where there are more or fewer sizes than entries.
+    """
+    from casadi import SX
+
+    sizes = np.asarray(size, dtype=float)
+    return column(symbols, len(sizes) if sizes.ndim else None) / SX(sizes)
+
+
+def residual(symbols: SX, wanted: SX | Float[np.ndarray, " n"], size: float | Float[np.ndarray, " n"]) -> SX:
+    """How far a column is from what is wanted, in parts of its sizes, (n, 1).
+
+    ValueError where the columns are not of one length, or `scaled` has one.
+    """
+    of = column(symbols)
+    return scaled(of - column(wanted, of.shape[0]), size)
+
+
+def entries(symbols: SX, which: Sequence[int] | slice) -> SX:
     """Entries of an (n, 1) column as a column, (k, 1), also for k = 0.
 
     Indexed by one subscript, a column of one entry gives (1, 0) where nothing is taken, and `vertcat` counts its row.
     """
-    return column[which, :]
+    return symbols[which, :]
 
 
 def turn(axis: Float[np.ndarray, " 3"], angle: SX) -> SX:
