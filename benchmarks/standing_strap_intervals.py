@@ -8,7 +8,6 @@ strap's numbers. Offsets are in parts of the standard deviation, without and wit
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +29,7 @@ def main() -> None:
     report: dict[str, Any] = {"machine": machine(), "versions": versions({"casadi", "numpy", "scipy"})}
     for name, cushions in (("spheres", False), ("cushions", True)):
         report[name] = measured(cushions, options.seeds)
-        print(json.dumps({name: report[name]}, indent=2), flush=True)
+        print(as_json({name: report[name]}, 2), flush=True)
     options.out.mkdir(parents=True, exist_ok=True)
     (options.out / "standing_strap_intervals.json").write_text(as_json(report, 2), encoding="utf-8")
 
@@ -86,7 +85,8 @@ def one_noise(world: Any, true: Any, seed: int) -> dict[str, Any]:
             off = of.searched(number.value) - of.searched(planted)
             ends = {"value": number.value, "lower": number.lower, "upper": number.upper}
             by = {"off by trials alone [sd]": off / number.by_trials, "off [sd]": off / number.after}
-            rows[number.name] = {**ends, "planted": planted, **by, "inside": number.lower <= planted <= number.upper}
+            inside = bool(number.lower <= planted <= number.upper)
+            rows[number.name] = {**ends, "planted": planted, **by, "inside": inside}
         return rows
 
     found = {"as the command": row(in_b, of_b, known)}
