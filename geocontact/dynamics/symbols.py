@@ -28,8 +28,10 @@ def constant(values: Float[np.ndarray, ...]) -> SX:
     return sparsify(SX(np.asarray(values, dtype=float)))
 
 
-def column(symbols: SX, count: int | None = None) -> SX:
-    """Symbols as a column of CasADi's own kind, (n, 1). ValueError for another shape, or another count than is asked.
+def column(symbols: SX | Float[np.ndarray, " n"], count: int | None = None) -> SX:
+    """Symbols or numbers as a column of CasADi's own kind, (n, 1).
+
+    ValueError for another shape, or another count than is asked.
 
     Once NumPy's functions take symbols (`apply_numpy`), what a force law returns is CasADi's `ArrayInterfaceSX`, which
     broadcasts as NumPy does: (2, 1) over an array (2,) is (2, 2), and its sum of squares has each square twice. A plain

@@ -114,7 +114,7 @@ def _followed(
     reduced = system.hessian[free][:, free].toarray() - right.T @ answer[:, : len(free)]
     found = np.zeros((on.np, pull.shape[1]))
     found[free] = -np.linalg.solve(reduced, pull[free] - right.T @ answer[:, len(free) :])
-    return found * on.scales.p[:, None]
+    return np.asarray(found * on.scales.p[:, None])
 
 
 def _jerk_pulls(phase: PhaseProblem, found: CollocationResult, system: OptimalitySystem) -> Float[np.ndarray, "z g"]:

@@ -146,4 +146,4 @@ def _knee_slopes(
 ) -> Float[np.ndarray, "t p"]:
     """The knee's torque is a control itself, so that its derivatives are those of the controls, at all places."""
     along = np.einsum("sd,pmd->msp", weights, controls[:, :, :, model.standing.count + KNEE])
-    return along.reshape(-1, len(controls))
+    return np.asarray(along.reshape(-1, len(controls)))

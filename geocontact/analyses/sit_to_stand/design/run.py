@@ -122,13 +122,15 @@ class _DesignSearch:
                 except ArithmeticError:
                     break
             else:
-                sizes, peaks = ([getattr(each, name) for each in values] for name in ("sizes", "largest"))
+                first, second = values
                 found.append(
                     DrawnGain(
-                        *(float(each[aim]) for each in sizes),
-                        float(sizes[1][KNEE]),
-                        *(float(each[aim]) for each in peaks),
-                        float(peaks[1][KNEE]),
+                        float(first.sizes[aim]),
+                        float(second.sizes[aim]),
+                        float(second.sizes[KNEE]),
+                        float(first.largest[aim]),
+                        float(second.largest[aim]),
+                        float(second.largest[KNEE]),
                     )
                 )
         return tuple(found)
