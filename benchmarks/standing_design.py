@@ -100,6 +100,8 @@ def gain(options: argparse.Namespace) -> dict[str, Any]:
         rows[one.name] = {
             "predicted": dict(zip(NAMES, one.movement.asked.sizes.tolist(), strict=True)),
             "finer": dict(zip(NAMES, seen.asked.sizes.tolist(), strict=True)),
+            "predicted, true peaks": dict(zip(NAMES, one.movement.asked.largest.tolist(), strict=True)),
+            "finer, true peaks": dict(zip(NAMES, seen.asked.largest.tolist(), strict=True)),
             "certified in the finer simulation": judgement.certificate is not None and judgement.certificate.converged,
         }
     told = chosen.record.results["design"]
@@ -154,7 +156,7 @@ def slopes(options: argparse.Namespace) -> dict[str, Any]:
         worst[name] = float(np.abs(told[:, k] / again - 1.0).max())
     without = p.copy()
     without[SHARE] = 0.0
-    knee = 0.8 * float(movements.at(without).asked.sizes[KNEE])
+    knee = 0.8 * float(movements.at(without).asked.largest[KNEE])
     best = designed(movements, p[None], HelpTask(("share", "timing"), "strap", knee))
     optimum = {}
     ends = [designed(movements, best.p, HelpTask(best.task.vary, "strap", knee + by)).value for by in (0.2, -0.2)]
@@ -195,14 +197,14 @@ def robust(options: argparse.Namespace) -> dict[str, Any]:
                 study, parameters=file, vary=VARY, nodes=12, draws=options.draws, robust=for_all, seed=SEED
             )
             draws, best = found.table("draws"), found.best
-            limit = best.limit * float(found.designs[0].movement.asked.sizes[NAMES.index("knee")])
+            limit = best.limit * float(found.designs[0].movement.asked.largest[NAMES.index("knee")])
             told[name] = {
                 "accepted": found.accepted,
                 "ending": best.design.ending if best.design is not None else "",
                 "chosen": found.record.results["design"]["chosen"],
                 "strap by the given parameters [N]": float(best.movement.asked.sizes[0]),
                 "strap over the draws, at most [N]": float(draws["chosen [N]"].max()),
-                "knee over the draws, at most, of its limit": float(draws["knee [N m]"].max() / limit),
+                "knee over the draws, at most, of its limit": float(draws["largest knee [N m]"].max() / limit),
                 "gain over the draws, least": float(draws["gain [-]"].min()),
                 "movements": found.record.results["design"]["movements"],
                 "cpu seconds": time.process_time() - began,

@@ -31,8 +31,10 @@ class Buffered:
             self._buffer.set_res(k, memoryview(each))  # type: ignore[call-arg, arg-type]  # likewise
 
     def __call__(self, *values: Float[np.ndarray, ...]) -> list[Float[np.ndarray, " k"]]:
-        """Outputs, each in one row."""
+        """Outputs, each in one row. ValueError for more or fewer numbers than an input has: one is not for all."""
         for place, value in zip(self._inputs, values, strict=True):
+            if value.size != place.size:
+                raise ValueError(f"{value.size} numbers for {place.size} symbols")
             place[:] = value.ravel()
         self._run()
         return self._outputs

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.dynamics.collocation.refinement import refined
 from geocontact.dynamics.collocation.solve import CollocationResult, Progress, SolverOptions, solve
@@ -102,8 +103,12 @@ def calibrated_phase(
     build: Build,
     search: PhaseSearch,
     progress: Progress | None = None,
+    held: Float[np.ndarray, "p p"] | None = None,
 ) -> CalibratedPhase:
-    """Solve what `build` makes of trials and of where the parameters start (None: where the phase itself says)."""
+    """Solve what `build` makes of trials and of where the parameters start (None: where the phase itself says).
+
+    `held` is the covariance of parameters that the phase holds at what another one found.
+    """
     even = tuple(np.linspace(0.0, 1.0, round(search.nodes * float(t.time[-1])) + 1) for t in trials)
 
     def solved(phase: PhaseProblem, warm: CollocationResult | None) -> CollocationResult:
@@ -124,7 +129,7 @@ def calibrated_phase(
         if search.resamples > 1:
             again = resampled(model, trials, noise, found, build, solved, search.resamples, search.seed)
         try:
-            numbers = contact_numbers(phase, found, search.level, again)
+            numbers = contact_numbers(phase, found, search.level, again, held)
         except ValueError as error:
             doubt = str(error)
         if search.profiles:

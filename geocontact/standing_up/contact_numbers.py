@@ -13,6 +13,7 @@ from scipy.stats import norm
 from geocontact.dynamics.collocation.reduced_hessian import inverse_reduced_hessian
 from geocontact.dynamics.collocation.solve import CollocationResult
 from geocontact.identify.identifiability import Identifiability, identifiability
+from geocontact.standing_up.assumed_shares import assumed_shares
 from geocontact.standing_up.contact_parameter import ContactParameter
 from geocontact.standing_up.phase import RATE, PhaseProblem
 from geocontact.standing_up.resample import Resampled
@@ -38,6 +39,8 @@ class ContactNumber:
         "known": the trials at least halve what was believed. "believed": they do not. "held": it was not sought. "on
         its bound": the search wanted to go on, so that the value says where the bound is. "not settled": the search
         was ended before its time.
+    assumed
+        Part of `after`, in squares, that comes of what is taken as given (`assumed_shares`).
     """
 
     name: str
@@ -48,6 +51,12 @@ class ContactNumber:
     before: float
     after: float
     verdict: Told
+    assumed: float = 0.0
+
+    @property
+    def by_trials(self) -> float:
+        """The rest of `after`: Laplace's."""
+        return float(np.sqrt(max(self.after**2 - self.assumed**2, 0.0)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,12 +84,17 @@ class ContactNumbers:
 
 
 def contact_numbers(
-    phase: PhaseProblem, found: CollocationResult, level: float = 0.95, again: Resampled | None = None
+    phase: PhaseProblem,
+    found: CollocationResult,
+    level: float = 0.95,
+    again: Resampled | None = None,
+    held: Float[np.ndarray, "p p"] | None = None,
 ) -> ContactNumbers:
     """Of a phase that was solved.
 
     Intervals are Laplace's: the curvature of the cost at its least, with what is believed in it. With resampled trials
-    the bias that they show is taken off, and the intervals are widened for its own error.
+    the bias that they show is taken off, and the intervals are widened for its own error. With the covariance of what
+    is `held` they have the shares of it and of the sizes of the jerk as well.
 
     ValueError where the curvature does not exist.
     """
@@ -94,6 +108,8 @@ def contact_numbers(
     best = found.p
     if again is not None:
         sd, best = sd * again.widening, np.where(sought & ~on_bound, found.p - again.bias, found.p)
+    assumed = np.zeros(len(sd)) if held is None else assumed_shares(phase, found, held, on_bound.tolist()).sd
+    sd = np.hypot(sd, assumed)
     numbers = []
     for k, each in enumerate(phase.parameters):
         verdict: Told = "known" if sd[k] <= HALF * each.sd else "believed"
@@ -103,9 +119,27 @@ def contact_numbers(
         after = {"held": 0.0, "on its bound": np.inf}.get(verdict, float(sd[k]))
         before = each.sd if sought[k] else 0.0
         value = each.value(float(best[k]))
-        numbers.append(ContactNumber(each.name, each.unit, value, low_end, high_end, before, after, verdict))
+        own = float(assumed[k]) if told else 0.0
+        numbers.append(ContactNumber(each.name, each.unit, value, low_end, high_end, before, after, verdict, own))
     kept = np.flatnonzero(sought & ~on_bound)
     return _together(tuple(numbers), [phase.parameters[k] for k in kept], covariance[np.ix_(kept, kept)])
+
+
+def held_covariance(of: ContactNumbers, parameters: Sequence[ContactParameter]) -> Float[np.ndarray, "p p"]:
+    """Of what is searched, as a phase that held them afterwards has to take it: of the numbers in their order.
+
+    What the trials tell counts by their interval and correlation; what they do not (held there, or on a bound) by what
+    is believed of it.
+    """
+    sizes = [
+        n.after if n.verdict in ("known", "believed") else of_n.sd
+        for n, of_n in zip(of.numbers, parameters, strict=True)
+    ]
+    found = np.diag(np.array(sizes) ** 2)
+    at = [[n.name for n in of.numbers].index(name) for name in of.names]
+    sd = np.array([sizes[k] for k in at])
+    found[np.ix_(at, at)] = of.correlation * np.outer(sd, sd)
+    return found
 
 
 def unsettled_numbers(phase: PhaseProblem, found: CollocationResult) -> ContactNumbers:

@@ -66,7 +66,7 @@ def profiles(
         for side in (-1.0, 1.0):
             last = found
             for distance in side * FARTHEST * np.arange(1, points + 1) / points:
-                at = float(np.clip(found.p[k] + distance * number.after, low[k], high[k]))
+                at = float(np.clip(found.p[k] + distance * number.by_trials, low[k], high[k]))
                 least, most, begin = (
                     np.where(np.arange(len(low)) == k, at, of) for of in (low, high, phase.control.guess_p)
                 )

@@ -66,3 +66,37 @@ def test_numbers_of_a_rigid_foot_are_found_again() -> None:
     found = row_numbers(foot, spheres, law, up, centre)
     assert found.stiffness == pytest.approx(wanted, rel=1e-6)
     assert max(found.damping.values()) < 1e-3 and found.off < 1e-6
+
+
+def test_rows_are_those_of_the_least_squares_by_hand() -> None:
+    """Force, and moment about the heel over 5 cm: no step of one row's numbers makes their sum of squares less."""
+    foot, whole = rolled(), vsf_foot()
+    spheres, law, rows = whole.sole.spheres, whole.law, rows_of(whole.sole.spheres)
+    rng = np.random.default_rng(3)
+    force = 700.0 * np.sin(np.pi * TIME / TIME[-1]) + 20.0 * rng.normal(size=len(TIME))
+    centre = 0.2 * TIME / TIME[-1]
+    found = row_numbers(foot, spheres, law, force, centre)
+
+    def squares(stiffness: dict[str, float], damping: dict[str, float]) -> float:
+        total = 0.0
+        depths = np.zeros((len(TIME), len(rows)))
+        for t, (y, pitch) in enumerate(zip(foot.y, foot.pitch, strict=True)):
+            for s, ((px, py, _), radius) in enumerate(zip(spheres.centre, spheres.radius, strict=True)):
+                depths[t, s] = max(radius - (y + px * np.sin(pitch) + py * np.cos(pitch)), 0.0)
+        rates = np.maximum(np.gradient(depths, TIME, axis=0), 0.0)
+        for t, pitch in enumerate(foot.pitch):
+            up, moment = 0.0, 0.0
+            for s, row in enumerate(rows):
+                share = min(depths[t, s] / law.full_depth, 1.0)
+                pressed = stiffness[row] * depths[t, s] ** law.exponent
+                pressed += damping[row] * rates[t, s] * share**2 * (3.0 - 2.0 * share)
+                up += pressed
+                moment += pressed * (spheres.centre[s, 0] - np.sin(pitch) * spheres.radius[s])
+            total += (up - force[t]) ** 2 + ((moment - force[t] * centre[t]) / 0.05) ** 2
+        return total
+
+    least = squares(found.stiffness, found.damping)
+    for row in list(dict.fromkeys(rows))[::4]:
+        for by in (0.98, 1.02):
+            moved = {**found.stiffness, row: by * found.stiffness[row] + 1e-3}
+            assert squares(moved, found.damping) >= least * (1.0 - 1e-12)

@@ -21,6 +21,8 @@ from tests.cli.calls import MESHES
 P = np.r_[EVERY_PLANTED, STRAP_PLANTED, 0.3, 0.25]
 WITHIN = 0.01
 """Of a derivative."""
+PARTS = np.array([0.5, -1.0, 0.7])
+"""Of a knee's peak, at three places."""
 
 
 @pytest.fixture(scope="module")
@@ -33,14 +35,17 @@ def movements() -> Movements:
 def test_every_set_of_parameters_has_its_own_limit() -> None:
     """Four sets that are nearly one: the knee of the worst is on the limit, and the price is that of this set.
 
+    The knee peaks at the second of three places. Its smooth peak, which is told too low here, limits nothing.
+
     A smooth worst of them would be up to 4^(1/24), 6 %, below it. The strap is least with no share, the knee asks for
     one: 100 (1 - share) + 0.1 k, and the strap rises by 50 N a share.
     """
     share = NAMES.index("share")
 
     class Line(Movement):
-        def __init__(self, sizes: np.ndarray, slopes: np.ndarray) -> None:
-            object.__setattr__(self, "asked", SimpleNamespace(sizes=sizes, slopes=slopes))
+        def __init__(self, sizes: np.ndarray, slopes: np.ndarray, knee: np.ndarray, by: np.ndarray) -> None:
+            of = SimpleNamespace(sizes=sizes, slopes=slopes, knee=knee, knee_slopes=by)
+            object.__setattr__(self, "asked", of)
 
     class Lines(Movements):
         def __init__(self) -> None: ...
@@ -48,13 +53,14 @@ def test_every_set_of_parameters_has_its_own_limit() -> None:
         def at(self, p: np.ndarray, *, slopes: bool = True) -> Movement:
             of = np.zeros((4, len(p)))
             of[STRAP, share], of[KNEE, share] = 50.0, -100.0
-            knee = 100.0 * (1.0 - p[share]) + 0.1 * p[0]
-            return Line(np.array([10.0 + 50.0 * p[share], knee, 1.0, 1.0]), of)
+            knee, by = (100.0 * (1.0 - p[share]) + 0.1 * p[0]) * PARTS, np.zeros((3, len(p)))
+            by[:, share] = -100.0 * PARTS
+            return Line(np.array([10.0 + 50.0 * p[share], -0.9 * knee[1], 1.0, 1.0]), of, knee, by)
 
     sets = np.zeros((4, len(P)))
     sets[:, 0], sets[:, share] = np.arange(4.0), 0.5
     best = designed(Lines(), sets, HelpTask(("share",), "strap", 80.0))
-    knees = [each.asked.sizes[KNEE] for each in best.movements]
+    knees = [np.abs(each.asked.knee).max() for each in best.movements]
     assert best.met and max(knees) == pytest.approx(80.0, abs=0.02)
     np.testing.assert_allclose(best.p[:, share], 0.203, atol=2e-4)
     assert best.price == pytest.approx(0.5, rel=0.1)
@@ -78,7 +84,7 @@ def test_least_force_changes_as_the_optimality_system_says(movements: Movements)
     """By the limit of the knee, and by a number that is held, everything sought again."""
     without = P.copy()
     without[SHARE] = 0.0
-    knee = 0.8 * float(movements.at(without).asked.sizes[KNEE])
+    knee = 0.8 * float(movements.at(without).asked.largest[KNEE])
     best = designed(movements, P[None], HelpTask(("share", "timing"), "strap", knee))
     assert best.met and best.price > 0.0 and not best.on_end.any()
     limits = [designed(movements, best.p, HelpTask(("share", "timing"), "strap", knee + by)) for by in (0.2, -0.2)]
@@ -91,3 +97,24 @@ def test_least_force_changes_as_the_optimality_system_says(movements: Movements)
         sides.append(designed(movements, p, best.task).value)
     assert (sides[0] - sides[1]) / 1e-3 == pytest.approx(best.slopes[held], rel=WITHIN)
     assert best.movements[0].asked.sizes[STRAP] == pytest.approx(best.value)
+
+
+@pytest.mark.slow
+def test_true_peaks_are_those_of_the_motions_polynomials(movements: Movements) -> None:
+    """Lagrange's polynomials by hand at 41 places an interval; slopes of the places by movements solved again."""
+    seen = movements.at(P)
+    (motion,), n = seen.found.motions, movements.model.standing.count
+    points, peak = motion.scheme.points, 0.0
+    for torque in motion.controls[:, :, n + 1]:
+        for at in np.linspace(0.0, 1.0, 41):
+            parts = [np.prod([(at - b) / (a - b) for b in points if b != a]) for a in points]
+            peak = max(peak, abs(float(torque @ parts)))
+    assert seen.asked.largest[KNEE] == pytest.approx(peak, rel=1e-3) and seen.asked.largest[KNEE] <= peak
+    assert peak > 1.02 * seen.asked.sizes[KNEE]
+    place = int(np.abs(seen.asked.knee).argmax())
+    k, step, sides = NAMES.index("share"), 1e-3, []
+    for sign in (1.0, -1.0):
+        p = P.copy()
+        p[k] += sign * step
+        sides.append(movements.at(p, slopes=False).asked.knee[place])
+    assert (sides[0] - sides[1]) / (2.0 * step) == pytest.approx(seen.asked.knee_slopes[place, k], rel=WITHIN)

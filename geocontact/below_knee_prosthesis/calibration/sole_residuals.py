@@ -43,8 +43,8 @@ class SoleResiduals:
     stances: Sequence[RecordedStance]
     foot: VariableStiffnessFoot
     zones: ZoneParameters
-    noise: list[Float[np.ndarray, "t c"]]
-    slips: list[Float[np.ndarray, "t 2"]]
+    noise: list[Float[np.ndarray, "_ c"]]
+    slips: list[Float[np.ndarray, "_ 2"]]
     solved: int = 0
 
     @classmethod
@@ -77,7 +77,7 @@ class SoleResiduals:
         """Predicted less measured over the noise, stance by stance, frame by frame."""
         return self._of_data(z)[0]
 
-    def _of_data(self, z: Float[np.ndarray, " p"]) -> tuple[Float[np.ndarray, " n"], list[Float[np.ndarray, "t 2"]]]:
+    def _of_data(self, z: Float[np.ndarray, " p"]) -> tuple[Float[np.ndarray, " n"], list[Float[np.ndarray, "_ 2"]]]:
         """The same, and the slips."""
         parts, slips = [], []
         for place, (stance, noise) in enumerate(zip(self.stances, self.noise, strict=True)):
@@ -125,7 +125,7 @@ class SoleResiduals:
 
 
 def by_channel(
-    times: Sequence[Float[np.ndarray, " t"]], measured: Sequence[Float[np.ndarray, "t c"]]
+    times: Sequence[Float[np.ndarray, " _"]], measured: Sequence[Float[np.ndarray, "_ c"]]
 ) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
     """Times of what was measured, channel by channel [s], a pause after each, and its places frame by frame."""
     found, places, first, late = [], [], 0, 0.0

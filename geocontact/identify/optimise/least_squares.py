@@ -118,7 +118,10 @@ def within_bounds(p: Parameter, value: float) -> tuple[float, float]:
 def divided(
     predicted: Float[np.ndarray, "t c"], measured: Float[np.ndarray, "t c"], floor: Float[np.ndarray, " c"]
 ) -> Float[np.ndarray, " n"]:
-    """Residuals in floors, without the cells that were not measured."""
+    """Residuals in floors, without the cells that were not measured. ValueError where the sizes do not fit."""
+    if predicted.shape != measured.shape or floor.shape != predicted.shape[1:]:
+        shapes = f"{predicted.shape} predicted, {measured.shape} measured, {floor.shape} floors"
+        raise ValueError(f"channels do not fit: {shapes}")
     off = (predicted - measured) / floor
     off[np.isnan(predicted)] = NO_VALUE
     return np.asarray(off[np.isfinite(measured)])

@@ -2,12 +2,13 @@
 
 Sought are numbers d of the exoskeleton, each between what can be built; the person's movement follows them (`habit`),
 so that the derivative of what is asked is that of the whole solution, by the optimality system of the movement. The
-search is sequential quadratic programming (Kraft (1988), DFVLR-FB 88-28) on these exact slopes.
+search is sequential quadratic programming (Kraft (1988), DFVLR-FB 88-28) on these exact slopes. The aim is a smooth
+peak; the limit is one of the true peak: the knee's torque keeps to it at every place (`peaks.PLACES`) by itself.
 
 At the best d the slope of the aim is held by that of the limit and by what can be built:
-J_d + Σ λ_s c_s,d = 0 along every d that is on no bound, with a λ for each set of parameters s that is on the limit. By
-the envelope theorem the least aim changes with any number y that is not sought as J_y + Σ λ_s c_s,y, and with the limit
-as -Σ λ_s.
+J_d + Σ λ_s c_s,d = 0 along every d that is on no bound, with a λ for each place and set of parameters s on the limit.
+By the envelope theorem the least aim changes with any number y that is not sought as J_y + Σ λ_s c_s,y, and with the
+limit as -Σ λ_s.
 """
 
 from __future__ import annotations
@@ -33,8 +34,10 @@ FIRST = 0.15
 NEAR = 1e-3
 """Of the room: a number that near to an end of it is on that end."""
 STOPPED = "interrupted; the last iterate is kept"
-MET = 1e-3
+MET = 1e-4
 """Of the limit: so much more is let pass."""
+AT_PEAK = 1e-6
+"""Of a set's true peak: places that near to it are at it."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +51,7 @@ class HelpTask:
     aim
         One of `MEASURES`: strap or energy.
     knee
-        Smooth peak of the person's knee torque, both legs, at most [N m].
+        True peak of the person's knee torque, both legs, at most [N m].
     """
 
     vary: tuple[str, ...]
@@ -85,7 +88,7 @@ class HelpDesign:
     ending
         In words.
     price
-        λ, the sum over the sets: how much less the aim would be for 1 N m more at the knee.
+        λ, the sum over places and sets: how much less the aim would be for 1 N m more at the knee.
     on_end
         Of what is sought: whether it is on an end of its room.
     slopes
@@ -141,8 +144,8 @@ def designed(movements: Movements, sets: Float[np.ndarray, "s p"], task: HelpTas
     unit = max(float(np.abs(worst(start, aim)[1][task.index] * room).max()), 1e-9) / FIRST
     limit: Any = {
         "type": "ineq",
-        "fun": lambda d: 1.0 - _each(at(d), KNEE)[0] / task.knee,
-        "jac": lambda d: -_each(at(d), KNEE)[1][:, task.index] * room / task.knee,
+        "fun": lambda d: 1.0 - _knees(at(d))[0] / task.knee,
+        "jac": lambda d: -_knees(at(d))[1][:, task.index] * room / task.knee,
     }
     done, message, best = False, STOPPED, start
     try:
@@ -160,15 +163,14 @@ def designed(movements: Movements, sets: Float[np.ndarray, "s p"], task: HelpTas
         best = np.frombuffer(list(known)[-1])
     best = np.clip(best, 0.0, 1.0)
     at_end = (best <= NEAR) | (best >= 1.0 - NEAR)
-    (_, of_aim), (knees, of_knees) = worst(best, aim), _each(at(best), KNEE)
+    (_, of_aim), (knees, of_knees) = worst(best, aim), _knees(at(best))
     inside = np.array(task.index)[~at_end]
-    prices = _prices(of_aim[inside], of_knees[:, inside], knees >= task.knee * (1.0 - MET))
-    price = float(prices.sum())
+    prices = _prices(of_aim[inside], of_knees[:, inside], _on_limit(at(best), task.knee))
     met = bool(knees.max() <= task.knee * (1.0 + MET))
     stopped = message == STOPPED
     ending = "found" if done and met else message if stopped else f"not found: {message}"
     rows = with_design(sets, task, low + room * best)
-    slopes = of_aim + prices @ of_knees
+    slopes, price = of_aim + prices @ of_knees, float(prices.sum())
     return HelpDesign(task, rows, at(best), met and done, ending, price, at_end, slopes, stopped)
 
 
@@ -179,7 +181,7 @@ def with_design(sets: Float[np.ndarray, "s p"], task: HelpTask, searched: Vector
     return rows
 
 
-def _prices(of_aim: Vector, of_knees: Float[np.ndarray, "s d"], on_limit: Bool[np.ndarray, " s"]) -> Vector:
+def _prices(of_aim: Vector, of_knees: Float[np.ndarray, "k d"], on_limit: Bool[np.ndarray, " k"]) -> Vector:
     """λ of J_d + Σ λ_s c_s,d = 0 by least squares, none negative; 0 off the limit or where nothing is free to move."""
     from scipy.optimize import nnls
 
@@ -187,6 +189,21 @@ def _prices(of_aim: Vector, of_knees: Float[np.ndarray, "s d"], on_limit: Bool[n
     if on_limit.any() and len(of_aim):
         prices[on_limit] = nnls(of_knees[on_limit].T, -of_aim)[0]
     return prices
+
+
+def _on_limit(movements: Sequence[Movement], limit: float) -> Bool[np.ndarray, " k"]:
+    """Of every place of every set: whether the set's peak is there and on the limit."""
+    sizes = [np.abs(one.asked.knee) for one in movements]
+    return np.concatenate(
+        [(each >= each.max() * (1.0 - AT_PEAK)) & (each.max() >= limit * (1.0 - MET)) for each in sizes]
+    )
+
+
+def _knees(movements: Sequence[Movement]) -> tuple[Vector, Float[np.ndarray, "k p"]]:
+    """Size of the knee's torque at every place of every set, and its slopes."""
+    torque = np.concatenate([one.asked.knee for one in movements])
+    slopes = np.concatenate([one.asked.knee_slopes for one in movements])
+    return np.abs(torque), np.sign(torque)[:, None] * slopes
 
 
 def _each(movements: Sequence[Movement], measure: int) -> tuple[Vector, Float[np.ndarray, "s p"]]:

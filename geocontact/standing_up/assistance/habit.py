@@ -14,6 +14,7 @@ from jaxtyping import Float
 
 from geocontact.dynamics.collocation.multibody import jerk_controlled
 from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem
+from geocontact.dynamics.symbols import residual
 from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS, DRIVEN, TORQUES, AssistedModel
 from geocontact.standing_up.chain import COORDINATES, Subject
 from geocontact.standing_up.phase import smooth_coordinates
@@ -32,7 +33,7 @@ def habit(
 
     e, n = model.standing.equations, model.standing.count
     wanted, jerk = SX.sym("wanted", N), SX.sym("jerk", n)
-    off = (e.q[:N, :] - wanted) / np.array([PLACE, PLACE, *[TURN] * (N - 2)])
+    off = residual(e.q[:N, :], wanted, np.array([PLACE, PLACE, *[TURN] * (N - 2)]))
     leans = (sum1(e.q[N:, :]) - sum1(e.q[3:N, :])) / LEAN
     torque = e.w[1:, :]
     cost = sumsqr(off) + leans**2 + LITTLE_JERK * sumsqr(jerk) + LITTLE_TORQUE * sumsqr(torque)

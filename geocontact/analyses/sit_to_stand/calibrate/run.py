@@ -16,6 +16,7 @@ from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.standing_up.calibrated_phase import SAME, CalibratedPhase, PhaseSearch, calibrated_phase
+from geocontact.standing_up.contact_numbers import held_covariance
 from geocontact.standing_up.cost_shares import MOST_OF_IT
 from geocontact.standing_up.exoskeleton import strapped
 from geocontact.standing_up.feet import FOOT_PARAMETERS, feet_on_ground
@@ -81,7 +82,8 @@ def _phases(
         noise, tracks = given.noise, given.tracks
         return phase_b(model, given.subject, trials, noise, feet, free=straps, tracks=tracks, start=strap)
 
-    return first, calibrated_phase("B", model, given.trials, given.noise, build_b, search, told("B"))
+    known = held_covariance(first.numbers, first.phase.parameters)
+    return first, calibrated_phase("B", model, given.trials, given.noise, build_b, search, told("B"), known)
 
 
 def _doubt(record: Record, one: CalibratedPhase) -> None:

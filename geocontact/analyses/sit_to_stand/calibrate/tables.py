@@ -25,6 +25,7 @@ def parameters_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
             "upper": n.upper,
             "sd believed": n.before,
             "sd with the trials": n.after if np.isfinite(n.after) else np.nan,
+            "sd of what is assumed": n.assumed,
             "verdict": n.verdict,
         }
         for phase in phases

@@ -23,7 +23,7 @@ class CertifiedDesign:
     name
         As tables call it.
     limit
-        Of the knee, as part of its peak without help; not a number without a limit.
+        Of the knee's true peak, as part of that without help; not a number without a limit.
     design
         None where nothing was sought.
     trials
@@ -45,11 +45,22 @@ class CertifiedDesign:
 
 @dataclass(frozen=True, eq=False)
 class DrawnGain:
-    """The aim with one drawn set of parameters, by the exoskeleton that is compared with and by the chosen one."""
+    """The aim with one drawn set of parameters, by the exoskeleton that is compared with and by the chosen one.
+
+    Parameters
+    ----------
+    reference, chosen, knee
+        Smooth peaks, or mean energy, and the knee's torque with the chosen one.
+    largest_reference, largest_chosen, largest_knee
+        True peaks.
+    """
 
     reference: float
     chosen: float
     knee: float
+    largest_reference: float
+    largest_chosen: float
+    largest_knee: float
 
     @property
     def gain(self) -> float:

@@ -44,5 +44,5 @@ def _front(ax: Axes, each: Sequence[CertifiedDesign], aim: str) -> None:
     limits = np.array([one.limit for one in each])
     values = [one.movement.asked.sizes[MEASURES.index(aim)] for one in each]
     ax.plot(100.0 * limits, values, "o-", color=PALETTE[0], ms=3, lw=1.2)
-    ax.set_xlabel("limit of the knee [% of without help]")
-    ax.set_ylabel(f"least {aim} [{UNITS[aim]}]")
+    ax.set_xlabel("limit of the knee's true peak [% of without help]")
+    ax.set_ylabel(f"least {aim}, {'mean' if aim == 'energy' else 'smooth peak'} [{UNITS[aim]}]")

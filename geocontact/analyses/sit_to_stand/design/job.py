@@ -4,7 +4,7 @@
 >>> held_out, planted = "meshes/standing_up_held_out/study.toml", "meshes/standing_up_exoskeleton/truth.csv"
 >>> result = gc.sit_to_stand.design(held_out, parameters=planted, vary="share", nodes=5)
 >>> print(result.sentences[0])
-peak force of the strap, smooth: without help … N, chosen … N; knee at most 80% of without help
+peak force of the strap, smooth: without help … N, chosen … N
 """
 
 from __future__ import annotations

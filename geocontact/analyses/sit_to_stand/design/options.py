@@ -31,9 +31,9 @@ class StandingDesignOptions(StandingSearchOptions):
         What is chosen, separated by commas: share (of the person's knee torque), timing, place (of the strap), normal,
         tangential and turning (its stiffnesses).
     aim
-        The least of it: peak force of the strap, or mean energy of its springs.
+        The least of it: smooth peak of the strap's force, or mean energy of its springs.
     knee
-        Peak torque of the person's knee at most, as part of that without help.
+        True peak of the torque of the person's knee at most, as part of that without help.
 
     How it is judged
     ----------------

@@ -69,6 +69,12 @@ class StandingDesignResult(Result):
         return 1.0 - float(self.best.movement.asked.sizes[k] / self.reference.movement.asked.sizes[k])
 
     @property
+    def true_gain(self) -> float:
+        """The same of true peaks, or of the largest energy."""
+        k = MEASURES.index(self.options.aim)
+        return 1.0 - float(self.best.movement.asked.largest[k] / self.reference.movement.asked.largest[k])
+
+    @property
     def accepted(self) -> bool:
         """Whether every search found its answer, none was left out, and every motion is certified."""
         each, o = (*self.designs, *self.front), self.options

@@ -115,14 +115,24 @@ class _DesignSearch:
                 if one is last:
                     p[index] = last.movement.found.p[index]
                 try:
-                    values.append(self.movements.at(p, slopes=False).asked.sizes)
+                    values.append(self.movements.at(p, slopes=False).asked)
                 except StoppedByHandError:
                     self.stop = True
                     return tuple(found)
                 except ArithmeticError:
                     break
             else:
-                found.append(DrawnGain(float(values[0][aim]), float(values[1][aim]), float(values[1][KNEE])))
+                first, second = values
+                found.append(
+                    DrawnGain(
+                        float(first.sizes[aim]),
+                        float(second.sizes[aim]),
+                        float(second.sizes[KNEE]),
+                        float(first.largest[aim]),
+                        float(second.largest[aim]),
+                        float(second.largest[KNEE]),
+                    )
+                )
         return tuple(found)
 
     def _sought(
@@ -132,7 +142,7 @@ class _DesignSearch:
         if self.stop:
             return []
         self.now = name
-        knee = limit * float(worn.movement.asked.sizes[KNEE])
+        knee = limit * float(worn.movement.asked.largest[KNEE])
         try:
             found = designed(self.movements, sets, HelpTask(vary, self.o.aim, knee))
         except StoppedByHandError:

@@ -26,8 +26,8 @@ def in_units(one: CertifiedDesign) -> list[tuple[str, float, str]]:
 
 
 def designs_table(designs: Sequence[CertifiedDesign]) -> pd.DataFrame:
-    """One row for each: all that can be chosen, smooth peaks, largest values, and the certificate."""
-    knee = float(designs[0].movement.asked.sizes[KNEE])
+    """One row for each: all that can be chosen, smooth peaks, true peaks (largest), and the certificate."""
+    without = designs[0].movement.asked
     rows = []
     for one in designs:
         p, asked = one.movement.found.p, one.movement.asked
@@ -39,7 +39,8 @@ def designs_table(designs: Sequence[CertifiedDesign]) -> pd.DataFrame:
         for k, measure in enumerate(MEASURES):
             row[f"{measure} [{UNITS[measure]}]"] = float(asked.sizes[k])
             row[f"largest {measure} [{UNITS[measure]}]"] = float(asked.largest[k])
-        row["knee of without help [-]"] = float(asked.sizes[KNEE]) / knee
+        row["knee of without help [-]"] = float(asked.largest[KNEE] / without.largest[KNEE])
+        row["smooth knee of without help [-]"] = float(asked.sizes[KNEE] / without.sizes[KNEE])
         row["price [1/(N m)]"] = np.nan if one.design is None else one.design.price
         row["found"] = "-" if one.design is None else "yes" if one.design.met else "no"
         row["certified"] = "yes" if one.certified else "no"
@@ -85,11 +86,15 @@ def draws_table(draws: Sequence[DrawnGain], aim: str) -> pd.DataFrame:
             f"chosen [{unit}]": each.chosen,
             "knee [N m]": each.knee,
             "gain [-]": each.gain,
+            f"largest compared with [{unit}]": each.largest_reference,
+            f"largest chosen [{unit}]": each.largest_chosen,
+            "largest knee [N m]": each.largest_knee,
         }
         for k, each in enumerate(draws)
     ]
     columns = ["draw", f"compared with [{unit}]", f"chosen [{unit}]", "knee [N m]", "gain [-]"]
-    return pd.DataFrame(rows, columns=columns)
+    columns += [f"largest {name} [{unit}]" for name in ("compared with", "chosen")]
+    return pd.DataFrame(rows, columns=[*columns, "largest knee [N m]"])
 
 
 def certificates_table(designs: Sequence[CertifiedDesign]) -> pd.DataFrame:

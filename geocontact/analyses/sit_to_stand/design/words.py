@@ -12,7 +12,8 @@ from geocontact.standing_up.assistance.peaks import MEASURES, UNITS
 
 PARTS = {"share": "of the person's knee torque", "timing": "of the movement"}
 """What numbers without a unit are parts of."""
-AIMS = {"strap": "peak force of the strap", "energy": "mean energy of the strap"}
+AIMS = {"strap": ("peak force of the strap", "smooth", "true"), "energy": ("energy of the strap", "mean", "largest")}
+"""What is least, how it is measured, and what is said beside it."""
 
 
 def doubt(r: StandingDesignResult, *, stopped: bool) -> None:
@@ -40,15 +41,20 @@ def doubt(r: StandingDesignResult, *, stopped: bool) -> None:
 
 
 def say(r: StandingDesignResult, solved: int, seconds: float) -> None:
-    """The aim by each design, what was chosen, the gain, and what it cost to find."""
+    """The aim and the knee by each design, what was chosen, the gain, and what it cost to find."""
     record, aim, unit = r.record, MEASURES.index(r.options.aim), UNITS[r.options.aim]
-    each = [f"{one.name} {one.movement.asked.sizes[aim]:.3g} {unit}" for one in r.designs]
-    record.say(f"{AIMS[r.options.aim]}, smooth: {', '.join(each)}; knee at most {r.options.knee:.0%} of without help")
+    what, sought, beside = AIMS[r.options.aim]
+    asked = {one.name: one.movement.asked for one in r.designs}
+    for how, sizes in ((sought, "sizes"), (beside, "largest")):
+        each = ", ".join(f"{name} {getattr(of, sizes)[aim]:.3g} {unit}" for name, of in asked.items())
+        record.say(f"{what}, {how}: {each}")
+    record.say(_of_knee(r))
     numbers = ", ".join(f"{name} {value:.3g} {PARTS.get(name, of)}" for name, value, of in in_units(r.best))
     record.say(f"{r.best.name}: {numbers}")
     gain, (low, high) = r.gain, gain_interval(r.draws)
     also = f", {low:.0%} to {high:.0%} over {counted(len(r.draws), 'draw')}" if np.isfinite(low) else ""
-    record.say(f"gain over {r.reference.name}: {gain:.0%}{also}; shear of the strap is predicted, no mat sees it")
+    both = f"{gain:.0%} ({sought}{also}), {r.true_gain:.0%} ({beside})"
+    record.say(f"gain over {r.reference.name}: {both}; shear of the strap is predicted, no mat sees it")
     seen = [trial for one in (*r.designs, *r.front) for trial in one.trials]
     passed = sum(t.judged.certificate is not None and t.judged.certificate.converged for t in seen)
     record.say(
@@ -57,6 +63,7 @@ def say(r: StandingDesignResult, solved: int, seconds: float) -> None:
     record.results["design"] = {
         "aim": r.options.aim,
         "values": {one.name: dict(zip(MEASURES, one.movement.asked.sizes.tolist(), strict=True)) for one in r.designs},
+        "largest": {name: dict(zip(MEASURES, of.largest.tolist(), strict=True)) for name, of in asked.items()},
         "chosen": {name: value for name, value, _ in in_units(r.best)},
         "price": None if r.best.design is None else r.best.design.price,
         "gain": gain,
@@ -64,3 +71,18 @@ def say(r: StandingDesignResult, solved: int, seconds: float) -> None:
         "movements": solved,
         "cpu_seconds": round(seconds, 3),
     }
+
+
+def _of_knee(r: StandingDesignResult) -> str:
+    """How far the knee's true peak and its smooth one are below those without help."""
+    without, *others = r.designs
+    knee = MEASURES.index("knee")
+    parts = []
+    for one in others:
+        true, smooth = (
+            getattr(one.movement.asked, of)[knee] / getattr(without.movement.asked, of)[knee]
+            for of in ("largest", "sizes")
+        )
+        parts.append(f"{one.name} {true:.1%} (smooth {smooth:.1%})")
+    peak = without.movement.asked.largest[knee]
+    return f"knee at most {r.options.knee:.0%} of its true peak of {peak:.1f} N m without help: {', '.join(parts)}"
