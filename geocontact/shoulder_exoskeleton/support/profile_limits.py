@@ -23,8 +23,8 @@ from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, Supp
 ACTS = 0.02
 """N m at factor 1 below which support does not count: what the lag leaves long after a phase."""
 Keys = tuple[FactorKey, ...]
-Rows = tuple[Float[np.ndarray, "m k"], Float[np.ndarray, " m"]]
-"""A and b of A x <= b; x are the factors by their keys."""
+Rows = tuple[Float[np.ndarray, "_ _"], Float[np.ndarray, " _"]]
+"""A and b of A x <= b, a row for each bound; x are the factors by their keys."""
 
 
 @dataclass(frozen=True)
