@@ -196,21 +196,46 @@ def test_the_shoulder_s_cuff() -> None:
 
 def test_the_shoulder_s_support() -> None:
     page, told = "theory/shoulder_support.md", results("shoulder_support")
-    for reserve, one in told["simulated"].items():
-        share = "0" if reserve == "reserve 0%" else reserve.removeprefix("reserve ").replace("%", " %")
-        taken, pushed, force, rate, wrong = row(page, share, f"{one['planned']:.0%}".replace("%", " %"))
-        assert near(taken, one["taken away"], 100.0) and near(wrong, one["wrong phase, mean"], 100.0)
+    for setting, one in told["simulated"].items():
+        name = setting.replace("%", " %")
+        alone, left, plan, exact, taken, pushed, force, rate, wrong = row(page, name)
+        for cell, key in (
+            (alone, "plan without simulation"),
+            (left, "of which is left"),
+            (plan, "planned"),
+            (exact, "simulated"),
+            (taken, "taken away"),
+            (wrong, "wrong phase, mean"),
+        ):
+            assert near(cell, one[key], 100.0), (setting, key, cell)
         assert near(force.split()[0], one["force"]) and near(rate.split()[0], one["rate"])
         assert (pushed == "never") == (one["pushed_up"] == 0.0)
         assert pushed == "never" or near(pushed.split("%")[0], one["pushed_up"], 100.0)
+        times = one["share taken away and excess above the reserve [N m]"]
+        if setting.startswith("reserve"):
+            best, kept = times["times 1.0"]
+            assert kept <= 0.0101, "a limit is kept to 0.01 N m"
+            others = [each for name, each in times.items() if name != "times 1.0"]
+            assert all(share < best or over > 0.05 for share, over in others), "no multiple is better"
     for key, (ours, paper) in told["profiles"]["factors"].items():
         task, hand, phase = key.split()
         *factors, printed = row(page, f"{task}, {hand}")
         k = ("lift", "screw-in", "lower").index(phase)
         assert near(factors[k], ours) and float(printed.split(", ")[k]) == paper
-    text = (ROOT / "docs" / page).read_text(encoding="utf-8")
-    gains = [100.0 * told["profiles"]["held out, reserve 0%"][person]["gain"] for person in ("P1", "P2", "P3")]
-    assert "are {:.0f}, {:.0f} and {:.0f} points without a reserve".format(*gains) in text
+    for name, label in HELD_OUT.items():
+        for cell, one in zip(row(page, label), told["profiles"][name].values(), strict=True):
+            share, (pushed, sure) = one["reduction"], one["pushed_up"]
+            assert cell.startswith(f"{share:.0%}".replace("%", " %"))
+            assert ("never" in cell) == (pushed == 0.0) and f"{sure:.1%}".replace("%", " %") in cell, (label, cell)
+
+
+HELD_OUT = {
+    "held out, certainty 95%": "certainty 95 %, by arm weight",
+    "held out, reserve 20%": "reserve 20 %, by arm weight",
+    "held out, reserve 20%, same factors": "reserve 20 %, same factors",
+    "table 3": "table 3",
+}
+"""Persons held out by what their profile keeps, and the row of the page."""
 
 
 def test_force_beside_a_refined_mesh() -> None:

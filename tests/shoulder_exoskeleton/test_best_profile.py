@@ -11,15 +11,16 @@ import pytest
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial, ModelError, Support, support_case, varied_case
 from geocontact.shoulder_exoskeleton.support.best_profile import (
     Aim,
-    Limits,
-    SupportProfile,
     best_profile,
     front,
+    measured,
+    passed,
     uniform_profile,
 )
-from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport, held_out, judged
-from geocontact.shoulder_exoskeleton.support.outcome import PRESENT, TABLE_3, outcome
+from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport, Maker, held_out, judged
+from geocontact.shoulder_exoskeleton.support.outcome import PRESENT, TABLE_3, Factors, outcome
 from geocontact.shoulder_exoskeleton.support.phases import LIFT, LOWER, REST
+from geocontact.shoulder_exoskeleton.support.profile_limits import Among, Limits
 from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, SupportCase, lagged
 from geocontact.shoulder_exoskeleton.synthetic.arm_trials import all_arms
 
@@ -166,18 +167,26 @@ def test_a_model_without_errors_varies_nothing(trials: list[ArmTrial]) -> None:
     assert share[0] != 0.0
 
 
+def planned(limits: Limits | None = None) -> Maker:
+    """The best profile of the others as the human elevation has it, without a simulation."""
+    return lambda others, own: best_profile([support_case(t, SUPPORT) for t in others], limits).factors
+
+
+def one_factor(others: Sequence[ArmTrial], own: Sequence[ArmTrial]) -> Factors:
+    return uniform_profile([support_case(t, SUPPORT) for t in others]).factors
+
+
 @pytest.fixture(scope="module")
 def judgement(trials: list[ArmTrial]) -> dict[str, HeldOutSupport]:
-    return held_out(trials, SUPPORT, best_profile, uniform_profile, draws=30)
+    return held_out(trials, SUPPORT, planned(), one_factor, draws=30)
 
 
 def test_a_held_out_person_takes_no_part(trials: list[ArmTrial], judgement: dict[str, HeldOutSupport]) -> None:
     weaker = [replace(t, lever=0.5 * t.lever) if t.person == "P2" else t for t in trials]
 
-    def limited(cases: Sequence[SupportCase]) -> SupportProfile:
-        return best_profile(cases, Limits(force=30.0))
-
-    again, same = (held_out(each, SUPPORT, limited, uniform_profile, draws=2) for each in (weaker, trials))
+    again, same = (
+        held_out(each, SUPPORT, planned(Limits(force=30.0)), one_factor, draws=2) for each in (weaker, trials)
+    )
     assert again["P2"].factors == same["P2"].factors and again["P1"].factors != same["P1"].factors
     others = [support_case(t, SUPPORT) for t in trials if t.person != "P3"]
     assert judgement["P3"].factors == best_profile(others).factors
@@ -195,7 +204,8 @@ def test_gains_of_held_out_persons_exceed_the_error(judgement: dict[str, HeldOut
         assert found.pushed_up[1] > found.pushed_up[0] and found.excess[1] > found.excess[0]
     for person in ("P1", "P2"):
         assert judgement[person].gain_interval[0] > 0.01 and 0.08 < judgement[person].gain < 0.14, person
-    assert judgement["P1"].pushed_up[0] == 0.0 and judgement["P1"].gain_is_beyond_the_error
+    # never pushed up as the model has it, but in 95 % of the draws up to 2.8 % of the time by 1.2 N m: no sure gain
+    assert judgement["P1"].pushed_up[0] == 0.0 and not judgement["P1"].gain_is_beyond_the_error
     assert 0.0 < judgement["P2"].pushed_up[0] < 0.05 and not judgement["P2"].gain_is_beyond_the_error
     assert judgement["P3"].pushed_up[0] > 0.5, "made for heavier arms, it pushes the lightest one up"
     assert judgement["P3"].gain > 0.0 and not judgement["P3"].gain_is_beyond_the_error
@@ -204,9 +214,7 @@ def test_gains_of_held_out_persons_exceed_the_error(judgement: dict[str, HeldOut
 def test_a_reserve_buys_safety_for_a_person_not_seen(
     trials: list[ArmTrial], judgement: dict[str, HeldOutSupport]
 ) -> None:
-    careful = held_out(
-        trials, SUPPORT, lambda cases: best_profile(cases, Limits(reserve=0.3)), uniform_profile, draws=5
-    )
+    careful = held_out(trials, SUPPORT, planned(Limits(reserve=0.3)), one_factor, draws=5)
     for person, found in careful.items():
         assert found.pushed_up[0] < 0.002 and found.excess[0] < 0.1, "of the lightest person, 64 % without a reserve"
         assert found.reduction < judgement[person].reduction - 0.05
@@ -226,4 +234,68 @@ def test_what_cannot_be_chosen_is_refused(trials: list[ArmTrial], cases: list[Su
     with pytest.raises(ValueError, match="reserve from 0 to below 1"):
         Limits(reserve=1.0)
     with pytest.raises(ValueError, match="one person alone"):
-        held_out([t for t in trials if t.person == "P1"], SUPPORT, best_profile, uniform_profile)
+        held_out([t for t in trials if t.person == "P1"], SUPPORT, planned(), one_factor)
+
+
+def drawn_constant(draws: int = 100) -> tuple[Among, np.ndarray]:
+    """An arm that needs 5 N m of 10, and draws of which each needs something else."""
+    needs = 5.0 * (1.0 + 0.1 * np.random.default_rng(3).normal(size=draws))
+    return Among([constant()], {"P1": [[constant(needed=each)] for each in needs]}), needs
+
+
+@pytest.mark.parametrize("certainty", [0.5, 0.95, 1.0])
+def test_a_certain_profile_is_a_quantile_of_the_draws(certainty: float) -> None:
+    """One factor, so the answer is an order statistic: the lightest arm among the heaviest share, over 10 N m."""
+    among, needs = drawn_constant()
+    heaviest = np.sort(needs)[-round(certainty * len(needs)) :]
+    wanted = min(0.5, heaviest.min() / 10.0)
+    limits = Limits(certainty=certainty)
+    for found in (best_profile(among, limits), uniform_profile(among, limits)):
+        assert found.factors[FactorKey("T1", "other", "lift")] == pytest.approx(wanted, abs=1e-6)
+        safe = np.mean(10.0 * (1.0 - np.exp(-2.0 / 1e-4)) * wanted <= needs + 1e-6)
+        assert safe >= certainty
+        assert abs(passed(among, limits, found.factors)) < 1e-6 or wanted == 0.5
+    assert best_profile(among).factors[FactorKey("T1", "other", "lift")] == pytest.approx(0.5), "no draw counts"
+
+
+def test_draws_of_one_person_are_kept_together() -> None:
+    """Two cases that are light in other draws: half of the draws keep both arms, not each arm half of them."""
+    light, heavy = constant(needed=3.0), constant(needed=5.0)
+    other = replace(constant(), task="T2")
+    draws = [[light, replace(other, needed=heavy.needed)], [heavy, replace(other, needed=light.needed)]]
+    found = best_profile(Among([heavy, other], {"P1": draws}), Limits(certainty=0.5)).factors
+    lifts = sorted(x for key, x in found.items() if key.phase == "lift")
+    assert lifts == pytest.approx([0.3, 0.5], abs=1e-6), "one arm of the draw that is kept"
+
+
+def test_what_no_factor_changes_counts() -> None:
+    """A device that hangs on the arm with 1 N m lets the cylinder give 1 N m more, and takes it from what is gained."""
+    found = best_profile([replace(constant(), own=-1.0)])
+    assert found.factors[FactorKey("T1", "other", "lift")] == pytest.approx(0.6, abs=1e-6)
+    assert found.value == pytest.approx((2.0 / 3.0 * 6.0 - 1.0) / 5.0, rel=5e-3)
+    limited = best_profile([replace(constant(), own_force=-5.0)], Limits(force=15.0))
+    assert limited.factors[FactorKey("T1", "other", "lift")] == pytest.approx(0.4, abs=1e-6), "(15 + 5) N over 0.2 m"
+
+
+def test_factors_scale_with_the_person() -> None:
+    """P2 needs half of what P1 does: alone with the same factors both are bound by P2, with scales neither is."""
+    cases = [constant(needed=6.0, person="P1"), constant(needed=3.0, person="P2")]
+    key = FactorKey("T1", "other", "lift")
+    assert best_profile(cases).factors[key] == pytest.approx(0.3, abs=1e-6)
+    found = best_profile(Among(cases, scales={"P1": 1.0, "P2": 0.5}))
+    assert found.of("P1")[key] == pytest.approx(0.6, abs=1e-6) and found.of("P2")[key] == pytest.approx(0.3, abs=1e-6)
+
+
+def test_aims_measure_what_they_say() -> None:
+    taken = [("P1", 0.1), ("P1", 0.5), ("P2", 0.2), ("P2", 0.3)]
+    assert measured(taken, "mean") == pytest.approx(0.275) and measured(taken, "worst") == pytest.approx(0.25)
+    assert measured(taken, "cvar", 0.25) == pytest.approx(0.1) and measured(taken, "cvar", 0.5) == pytest.approx(0.15)
+    assert measured(taken, "cvar", 0.375) == pytest.approx((0.1 + 0.5 * 0.2) / 1.5)
+
+
+def test_a_gain_that_may_push_the_arm_up_is_not_sure() -> None:
+    """Never as the model has it, but in some of the draws: within the model's error (1.5 % of the time, 0.2 N m)."""
+    sure = HeldOutSupport({}, {}, 0.4, (0.35, 0.45), 0.1, (0.05, 0.15), (0.0, 0.0), (0.0, 0.0))
+    assert sure.gain_is_beyond_the_error
+    assert not replace(sure, pushed_up=(0.0, 0.015), excess=(0.0, 0.2)).gain_is_beyond_the_error
+    assert not replace(sure, gain_interval=(-0.01, 0.15)).gain_is_beyond_the_error

@@ -44,8 +44,9 @@ LONGEST = {
     "prosthesis.calibrate",
     "prosthesis.compare",
     "prosthesis.design",
+    "shoulder.optimise",
 }
-"""More than ten CPU seconds; tests/analyses/prosthesis makes the same calls and looks at what they say."""
+"""More than ten CPU seconds; tests/analyses makes the same calls and looks at what they say."""
 DIAGNOSES = "geocontact.analyses.gap.diagnose.run.diagnose"
 OF_THE_SAME_CASE = {
     "discriminability": ("geocontact.gap.identifiability.discriminability.attribute", "attribution"),

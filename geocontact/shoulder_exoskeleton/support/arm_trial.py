@@ -34,6 +34,8 @@ class ArmTrial:
         Of the upper arm in the device's frame, smoothed and without gaps, at the same times.
     wearer
         To whom the device is adjusted.
+    arm_moment
+        Of the arm's weight about the shoulder when it is stretched out level [N m]; see `human_arm.arm_weight`.
     """
 
     name: str
@@ -46,6 +48,7 @@ class ArmTrial:
     lever: float
     motion: ArmMotion
     wearer: Wearer
+    arm_moment: float
 
 
 @dataclass(frozen=True)
@@ -62,6 +65,26 @@ class Support:
 
     torque: Callable[[Float[np.ndarray, " t"]], Float[np.ndarray, " t"]]
     lag: float
+
+
+@dataclass(frozen=True, eq=False)
+class Transfer:
+    """What of the cylinder's torque reaches an arm, from a simulation of the device along its motion.
+
+    Parameters
+    ----------
+    elevation
+        Of the device's arm [rad]: the controller sees it, and the cylinder's lever follows it.
+    gain
+        Torque on the arm over the cylinder's torque, where more or less of it is given [-].
+    own, own_force
+        Torque on the arm [N m] and force at the interface [N] that no factor changes.
+    """
+
+    elevation: Float[np.ndarray, " t"]
+    gain: Float[np.ndarray, " t"] | float = 1.0
+    own: Float[np.ndarray, " t"] | float = 0.0
+    own_force: Float[np.ndarray, " t"] | float = 0.0
 
 
 @dataclass(frozen=True)
@@ -86,9 +109,18 @@ class ModelError:
     sensing: Sensing = field(default_factory=Sensing)
 
 
-def support_case(trial: ArmTrial, support: Support, thresholds: Thresholds | None = None) -> SupportCase:
-    """The case as the model has it: true angle and current at the controller, no delay."""
-    return _case(trial, support, trial.needed.total, trial.elevation, (trial.elevation, trial.current), thresholds)
+def support_case(
+    trial: ArmTrial, support: Support, thresholds: Thresholds | None = None, transfer: Transfer | None = None
+) -> SupportCase:
+    """The case as the model has it: true angle and current at the controller, no delay.
+
+    Parameters
+    ----------
+    transfer
+        Of the torque to the arm; without it the device's arm is where the human one is, and all of its torque counts.
+    """
+    way = transfer or Transfer(trial.elevation)
+    return _case(trial, support, way, trial.needed.total, way.elevation, (way.elevation, trial.current), thresholds)
 
 
 def varied_case(
@@ -97,19 +129,21 @@ def varied_case(
     error: ModelError,
     rng: np.random.Generator,
     thresholds: Thresholds | None = None,
+    transfer: Transfer | None = None,
 ) -> SupportCase:
     """The case with errors drawn: one of each kind for the whole trial, sensor noise for each sample."""
-    parts = trial.needed
+    parts, way = trial.needed, transfer or Transfer(trial.elevation)
     heavier, harder = 1.0 + error.weight * rng.normal(), 1.0 + error.push * rng.normal()
     needed = heavier * (parts.weight + parts.motion) + parts.tool + harder * parts.push
-    elevation = trial.elevation + error.elevation * rng.normal()
+    elevation = way.elevation + error.elevation * rng.normal()
     signals = sensed(parts.time, elevation, trial.current, error.sensing, rng)
-    return _case(trial, support, needed, elevation, signals, thresholds)
+    return _case(trial, support, way, needed, elevation, signals, thresholds)
 
 
 def _case(
     trial: ArmTrial,
     support: Support,
+    way: Transfer,
     needed: Float[np.ndarray, " t"],
     elevation: Float[np.ndarray, " t"],
     signals: tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"]],
@@ -124,7 +158,9 @@ def _case(
         time,
         detected(time, *signals, thresholds),
         needed,
-        support.torque(elevation),
+        np.asarray(way.gain * support.torque(elevation)),
         support.lag,
         trial.lever,
+        way.own,
+        way.own_force,
     )

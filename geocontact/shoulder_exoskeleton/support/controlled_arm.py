@@ -66,13 +66,25 @@ class ControlledArm:
 
 
 def controlled_arm(
-    motion: ArmMotion, device: Device, wearer: Wearer, level: float, controller: Controller, cuff: Cuff = "point"
+    motion: ArmMotion,
+    device: Device,
+    wearer: Wearer,
+    level: float,
+    controller: Controller,
+    cuff: Cuff = "point",
+    guess: Int[np.ndarray, " t"] | None = None,
 ) -> ControlledArm:
     """Motion of the exoskeleton's arm under a support profile; the cylinder has `level` times the factor's share.
 
+    Parameters
+    ----------
+    guess
+        Phases to begin with, such as those under a similar profile; those of the human elevation unless given. They
+        change the time that it takes, not what is found.
+
     ArithmeticError as of `simulate_arm`, and where phases do not settle.
     """
-    phase = controller.phases(motion.time, motion.elevation)
+    phase = controller.phases(motion.time, motion.elevation) if guess is None else guess
     for _ in range(PASSES):
         factor = controller.factors[phase]
         found = simulate_arm(motion, device, wearer, level, factor=factor, cuff=cuff)

@@ -8,13 +8,21 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial, ModelError, Support, support_case, varied_case
-from geocontact.shoulder_exoskeleton.support.best_profile import SupportProfile
+from geocontact.shoulder_exoskeleton.support.arm_trial import (
+    ArmTrial,
+    ModelError,
+    Support,
+    Transfer,
+    support_case,
+    varied_case,
+)
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome, outcome
 from geocontact.shoulder_exoskeleton.support.support_case import SupportCase
 
-Maker = Callable[[Sequence[SupportCase]], SupportProfile]
-"""How a profile is made from cases."""
+Maker = Callable[[Sequence[ArmTrial], Sequence[ArmTrial]], Factors]
+"""Makes a profile from the others' trials for the person of the second ones, of whom only the arm's weight counts."""
+Reaches = Callable[[ArmTrial, Factors], Transfer | None]
+"""How the cylinder's torque reaches an arm under a profile; None: all of it, at the human elevation."""
 COVERED = (0.05, 0.95)
 """Quantiles of the intervals."""
 
@@ -25,6 +33,8 @@ class HeldOutSupport:
 
     Parameters
     ----------
+    factors
+        The person's own.
     outcomes
         In the person's cases by name, as the model has them.
     reduction
@@ -50,8 +60,11 @@ class HeldOutSupport:
 
     @property
     def gain_is_beyond_the_error(self) -> bool:
-        """Whether the interval of the gain lies above 0; what pushes the arm up is no gain."""
-        return self.gain_interval[0] > 0.0 and self.pushed_up[0] == 0.0
+        """Whether the interval of the gain lies above 0 and the arm is pushed up in none of 95 % of the draws.
+
+        What pushes the arm up within the model's error is no gain.
+        """
+        return self.gain_interval[0] > 0.0 and max(self.pushed_up) == 0.0
 
 
 def held_out(
@@ -62,26 +75,32 @@ def held_out(
     error: ModelError | None = None,
     draws: int = 200,
     seed: int = 0,
+    reaches: Reaches = lambda trial, factors: None,
 ) -> dict[str, HeldOutSupport]:
     """For each person the profile that the others make, beside another that they make.
 
     Parameters
     ----------
     make
-        A profile from cases, such as `lambda cases: best_profile(cases, limits)`.
+        A profile from the others' trials, such as `ClosedLoop.settled`.
     compared
         Makes the profile that gains are counted from, such as one factor for everything.
     draws
         Of the model's errors for each person.
+    reaches
+        Such as `ClosedLoop.transfer`.
 
     ValueError where there is one person only.
     """
     persons = list(dict.fromkeys(trial.person for trial in trials))
     if len(persons) < 2:
         raise ValueError("one person alone cannot be held out")
-    others = {p: [support_case(trial, support) for trial in trials if trial.person != p] for p in persons}
-    made, beside = ({p: by(cases).factors for p, cases in others.items()} for by in (make, compared))
-    return judged(trials, support, made, beside, error, draws, seed)
+    made, beside = dict[str, Factors](), dict[str, Factors]()
+    for person in persons:
+        theirs = [trial for trial in trials if trial.person == person]
+        others = [trial for trial in trials if trial.person != person]
+        made[person], beside[person] = make(others, theirs), compared(others, theirs)
+    return judged(trials, support, made, beside, error, draws, seed, reaches)
 
 
 def judged(
@@ -92,25 +111,32 @@ def judged(
     error: ModelError | None = None,
     draws: int = 200,
     seed: int = 0,
+    reaches: Reaches = lambda trial, factors: None,
 ) -> dict[str, HeldOutSupport]:
     """For each person named in `factors` what these do to it, beside those in `compared`."""
     found = {}
-    for number, (person, own) in enumerate(factors.items()):
-        rng = np.random.default_rng([seed, number])
+    for number, person in enumerate(factors):
         theirs = [trial for trial in trials if trial.person == person]
-        nominal = [support_case(trial, support) for trial in theirs]
-        varied = [[varied_case(trial, support, error or ModelError(), rng) for trial in theirs] for _ in range(draws)]
-        exact, base = _outcomes(nominal, own), _outcomes(nominal, compared[person])
-        with_error, base_error = ([_outcomes(each, given) for each in varied] for given in (own, compared[person]))
+        both = []
+        for own in (factors[person], compared[person]):
+            rng = np.random.default_rng([seed, number])  # the same errors for both
+            ways = [reaches(trial, own) for trial in theirs]
+            pairs = list(zip(theirs, ways, strict=True))
+            exact = _outcomes([support_case(trial, support, transfer=way) for trial, way in pairs], own)
+            varied = []
+            for _ in range(draws):
+                cases = [varied_case(t, support, error or ModelError(), rng, transfer=way) for t, way in pairs]
+                varied.append(_outcomes(cases, own))
+            both.append((exact, varied))
+        (exact, with_error), (base, base_error) = both
         reductions = np.array([_mean(each) for each in with_error])
-        gains = reductions - [_mean(each) for each in base_error]
         found[person] = HeldOutSupport(
-            factors=own,
-            outcomes={case.name: each for case, each in zip(nominal, exact, strict=True)},
+            factors=factors[person],
+            outcomes={trial.name: each for trial, each in zip(theirs, exact, strict=True)},
             reduction=_mean(exact),
             interval=_interval(reductions),
             gain=_mean(exact) - _mean(base),
-            gain_interval=_interval(gains),
+            gain_interval=_interval(reductions - [_mean(each) for each in base_error]),
             pushed_up=_worst("pushed_up", exact, with_error),
             excess=_worst("excess", exact, with_error),
         )

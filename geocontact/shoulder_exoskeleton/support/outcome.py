@@ -44,7 +44,7 @@ class SupportOutcome:
     force
         Largest force at the interface [N].
     rate
-        Largest rate of the support torque [N m/s].
+        Largest rate of the support torque [N m/s]; of a plan that of the part that follows the factors.
     """
 
     reduction: float
@@ -56,14 +56,22 @@ class SupportOutcome:
 
 def outcome(case: SupportCase, factors: Factors) -> SupportOutcome:
     """Of a profile that has a factor for each supported phase of the case."""
-    support = case.support(factors)
-    return outcome_of(case.time, case.needed, support, float(np.abs(support).max() / case.lever))
+    steepest = float(np.abs(np.diff(case.given(factors)) / np.diff(case.time)).max())
+    return outcome_of(case.needed, case.support(factors), float(case.force(factors).max()), steepest)
 
 
 def outcome_of(
-    time: Float[np.ndarray, " t"], needed: Float[np.ndarray, " t"], support: Float[np.ndarray, " t"], force: float
+    needed: Float[np.ndarray, " t"], support: Float[np.ndarray, " t"], force: float, rate: float
 ) -> SupportOutcome:
-    """Of a torque on the arm beside the one that it needs [N m], with the largest force at the interface [N]."""
+    """Of a torque on the arm beside the one that it needs [N m].
+
+    Parameters
+    ----------
+    force
+        Largest at the interface [N].
+    rate
+        Largest of the torque [N m/s].
+    """
     over = support - needed
     given = support > TOLERANCE
     pushed = given & (over > TOLERANCE)
@@ -72,7 +80,7 @@ def outcome_of(
         pushed_up=float(pushed.mean()),
         excess=float(np.max(over[given], initial=0.0)),
         force=force,
-        rate=float(np.abs(np.diff(support) / np.diff(time)).max()),
+        rate=rate,
     )
 
 

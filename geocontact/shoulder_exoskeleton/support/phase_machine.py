@@ -81,7 +81,8 @@ def detected(
     current
         Of the tool at the same times [A].
     """
-    limits = np.array([getattr(thresholds or Thresholds(), each.name) for each in fields(Thresholds)])
+    used = thresholds or Thresholds()
+    limits = np.array([getattr(used, each.name) for each in fields(Thresholds)])
     found: Int[np.ndarray, " t"] = _detected(time, elevation, current, limits)
     return found
 

@@ -13,6 +13,7 @@ from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.device import Wearer
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
 from geocontact.shoulder_exoskeleton.human_arm.arm_track import arm_track
+from geocontact.shoulder_exoskeleton.human_arm.arm_weight import arm_moment
 from geocontact.shoulder_exoskeleton.human_arm.elevation_torque import CUTOFF, elevation_torque
 from geocontact.shoulder_exoskeleton.human_arm.hand_load import ToolWork, hand_load
 from geocontact.shoulder_exoskeleton.smoothed_motion import smoothed_motion
@@ -80,7 +81,9 @@ def recorded_arms(
         hand: Hand = "dominant" if motion.side == worker.dominant else "other"
         label = f"{name} {motion.side}"
         current = use.current[kept]
+        reach = float(np.linalg.norm(track.elbow - track.shoulder, axis=1).mean())
+        moment = arm_moment(worker.mass, worker.sex, reach)
         found.append(
-            ArmTrial(label, worker.name, task, hand, needed, own.elevation, current, lever, own, worker.lengths)
+            ArmTrial(label, worker.name, task, hand, needed, own.elevation, current, lever, own, worker.lengths, moment)
         )
     return found, motions.notes

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from geocontact.shoulder_exoskeleton.device import Device
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
@@ -28,14 +28,29 @@ DOWN = np.array([0.0, 0.0, -1.0])
 
 @dataclass(frozen=True, eq=False)
 class SimulatedSupport:
-    """One arm under a profile, and what the profile does to it."""
+    """One arm under a profile, and what the profile does to it.
+
+    Parameters
+    ----------
+    torque
+        With which the cuff raises the upper arm [N m].
+    force
+        In the cuff [N].
+    """
 
     arm: ControlledArm
+    torque: Float[np.ndarray, " t"]
+    force: Float[np.ndarray, " t"]
     outcome: SupportOutcome
 
 
 def simulated_support(
-    trial: ArmTrial, device: Device, factors: Factors, sensing: Sensing | None = None, seed: int = 0
+    trial: ArmTrial,
+    device: Device,
+    factors: Factors,
+    sensing: Sensing | None = None,
+    seed: int = 0,
+    guess: Int[np.ndarray, " t"] | None = None,
 ) -> SimulatedSupport:
     """Closed loop along the trial's motion; the person moves as recorded, whatever the support.
 
@@ -45,17 +60,20 @@ def simulated_support(
         Of the controller; None: exact.
     seed
         Of its noise.
+    guess
+        As of `controlled_arm`.
 
     ArithmeticError as of `controlled_arm`.
     """
     keys = [FactorKey(trial.task, trial.hand, phase) for phase in PHASES]
     shares = np.array([factors.get(key, 0.0) for key in keys])
     control = Controller(shares, trial.current, Thresholds(), sensing, seed)
-    arm = controlled_arm(trial.motion, device, trial.wearer, 1.0, control)
+    arm = controlled_arm(trial.motion, device, trial.wearer, 1.0, control, guess=guess)
     found = arm.simulation
-    force = float(np.linalg.norm(found.told["force"], axis=1).max())
     torque = raising_torque(found)
-    return SimulatedSupport(arm, outcome_of(trial.needed.time, trial.needed.total, torque, force))
+    rate = float(np.abs(np.diff(torque) / np.diff(found.motion.time)).max())
+    force = np.linalg.norm(found.told["force"], axis=1)
+    return SimulatedSupport(arm, torque, force, outcome_of(trial.needed.total, torque, float(force.max()), rate))
 
 
 def raising_torque(arm: ArmSimulation) -> Float[np.ndarray, " t"]:

@@ -2,11 +2,13 @@
 
 Support is linear in its factors: the cylinder's force is proportional to its pressure, and the pressure follows the
 factor of the phase with a lag of first order, p' = (factor - p) / lag. So the torque is A x, x the factors and column k
-of A the full torque times what the lag makes of "phase k".
+of A the full torque times what the lag makes of "phase k". What reaches the arm has another part that no factor
+changes, the device's own weight above all: the torque on the arm is own + A x.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import exp
@@ -44,11 +46,15 @@ class SupportCase:
     needed
         Torque of the shoulder without support [N m].
     full
-        Torque of the device at factor 1 and the elevation of each moment [N m].
+        Torque of the device on the arm at factor 1 and the elevation of each moment [N m].
     lag
         Time constant of the pressure [s].
     lever
         Middle of the cuff from the axis of elevation [m]: the interface carries the support torque over it.
+    own
+        Torque on the arm that no factor changes [N m]; 0 where the cylinder's torque counts alone.
+    own_force
+        The same of the force at the interface [N].
     """
 
     name: str
@@ -61,6 +67,8 @@ class SupportCase:
     full: Float[np.ndarray, " t"]
     lag: float
     lever: float
+    own: Float[np.ndarray, " t"] | float = 0.0
+    own_force: Float[np.ndarray, " t"] | float = 0.0
 
     @property
     def keys(self) -> tuple[FactorKey, ...]:
@@ -73,9 +81,17 @@ class SupportCase:
         pressures = np.column_stack([lagged(self.time, 1.0 * (self.phase == k), self.lag) for k in SUPPORTED])
         return np.asarray(pressures * self.full[:, None])
 
-    def support(self, factors: dict[FactorKey, float]) -> Float[np.ndarray, " t"]:
-        """Support torque of a profile [N m]."""
+    def given(self, factors: Mapping[FactorKey, float]) -> Float[np.ndarray, " t"]:
+        """The part of the torque on the arm that a profile gives, A x [N m]."""
         return np.asarray(self.per_factor @ [factors[key] for key in self.keys])
+
+    def support(self, factors: Mapping[FactorKey, float]) -> Float[np.ndarray, " t"]:
+        """Torque on the arm under a profile [N m]."""
+        return np.asarray(self.own + self.given(factors))
+
+    def force(self, factors: Mapping[FactorKey, float]) -> Float[np.ndarray, " t"]:
+        """Force at the interface under a profile [N]."""
+        return np.asarray(np.abs(self.own_force + self.given(factors) / self.lever))
 
 
 @kernel

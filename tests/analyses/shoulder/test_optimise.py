@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import geocontact as gc
@@ -29,7 +30,14 @@ pytestmark = pytest.mark.filterwarnings("ignore::geocontact.data.errors.InputWar
 
 @pytest.fixture(scope="module")
 def synthetic() -> ShoulderOptimiseResult:
+    """All synthetic persons: half a minute."""
     return gc.shoulder.optimise(draws=DRAWS)
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory: pytest.TempPathFactory) -> ShoulderOptimiseResult:
+    """Two persons with one task, and a third one of whom there is no trial."""
+    return gc.shoulder.optimise(study(tmp_path_factory.mktemp("small"), 2, 1, UNSEEN), reserve=0.2, draws=DRAWS)
 
 
 def test_peak_torques_are_those_of_the_paper() -> None:
@@ -38,6 +46,7 @@ def test_peak_torques_are_those_of_the_paper() -> None:
         assert support_of(device).torque(angles).max() == pytest.approx(peak, abs=0.02)
 
 
+@pytest.mark.slow
 def test_the_best_profile_is_beside_the_paper_s(synthetic: ShoulderOptimiseResult) -> None:
     """Most support while screwing with the dominant hand; the paper's factors push arms up."""
     factors = synthetic.table("factors").set_index(["profile", "task", "hand"])
@@ -47,27 +56,63 @@ def test_the_best_profile_is_beside_the_paper_s(synthetic: ShoulderOptimiseResul
     assert factors.loc[("table 3 of the paper", "T1", "other")].tolist() == [0.6, 0.6, 0.3]
     outcomes = synthetic.table("outcomes").groupby("profile")
     assert outcomes["pushed up [-]"].max()["all persons"] == 0.0
-    assert outcomes["pushed up [-]"].max()["table 3 of the paper"] > 0.5
-    assert outcomes["excess [N m]"].max()["one factor"] < 1e-6
+    # 0.37 where it was 0.70: the device's weight hangs on the arm, which the cylinder's torque alone left out
+    simulated = synthetic.table("simulated").groupby("profile")
+    assert simulated["pushed up [-]"].max()["table 3 of the paper"] > 0.3
+    assert simulated["excess [N m]"].max()["one factor"] < 0.01
 
 
+@pytest.mark.slow
 def test_persons_held_out_are_judged(synthetic: ShoulderOptimiseResult) -> None:
+    """Scaled by the weight of their arms: nobody is pushed up, and the least is sure of the lightest's gain."""
     held = synthetic.table("held_out").set_index("person")
     assert list(held.index) == ["P1", "P2", "P3"]
-    assert held["gain beyond the model's error"].tolist() == [True, False, False], "two arms are pushed up"
+    assert held["pushed up [-]"].max() == 0.0 and held["pushed up, 95 % of draws [-]"].max() < 0.02
+    sure = (held["gain, lower [-]"] > 0.0) & (held["pushed up, 95 % of draws [-]"] == 0.0)
+    assert held["gain beyond the model's error"].tolist() == sure.tolist()
+    assert held["scale [-]"].tolist() == pytest.approx([1.0, 0.802, 0.601], abs=1e-3)
     assert np.all(held["taken away, lower [-]"] < held["taken away, upper [-]"])
-    assert any("P3: the profile that the others make pushes an arm up 6" in line for line in synthetic.warnings)
     assert any("the persons are synthetic" in line for line in synthetic.warnings)
 
 
-def test_the_profile_is_simulated(synthetic: ShoulderOptimiseResult) -> None:
-    """Less reaches the arms than the cylinder gives, and without a reserve two of them are pushed up after all."""
-    rows = synthetic.table("simulated").groupby("profile")
-    planned = synthetic.table("outcomes").groupby("profile")["taken away [-]"].mean()["all persons"]
-    assert set(rows.groups) == {"all persons", "of the others"}
-    assert 0.6 * planned < rows["taken away [-]"].mean()["all persons"] < 0.9 * planned
-    assert any("all persons, simulated, pushes an arm up" in line for line in synthetic.warnings)
-    assert any("simulated with the device's own motion and sensors: 3" in line for line in synthetic.sentences)
+@pytest.mark.slow
+def test_people_it_was_not_made_with_at_a_fifth_of_reserve() -> None:
+    """At most 2 % of the time, by the simulation of each; with the same factors for all the lightest is pushed up."""
+    scaled, same = (
+        gc.shoulder.optimise(reserve=0.2, scale=scale, draws=DRAWS).table("held_out").set_index("person")
+        for scale in ("arm", "none")
+    )
+    assert scaled["pushed up [-]"].max() <= 0.02 and scaled["excess [N m]"].max() < 0.01
+    assert same.loc["P3", "pushed up [-]"] > 0.04 and same.loc["P3", "excess [N m]"] > 0.1
+
+
+def test_plan_and_simulation_agree(small: ShoulderOptimiseResult) -> None:
+    """The plan at the human elevation was 44 % where the simulation had 30."""
+    rows = small.table("simulated")
+    exact = rows[rows["sensors"] == "exact"].groupby("profile")["taken away [-]"].mean()
+    planned = small.table("outcomes").groupby("profile")["taken away [-]"].mean()
+    assert exact["all persons"] == pytest.approx(planned["all persons"], abs=1e-6)
+    told = small.record.results["optimise"]
+    assert told["taken away"] == pytest.approx(exact["all persons"], abs=1e-6)
+    assert told["planned by the aim"] == pytest.approx(told["taken away by the aim"], abs=0.01)
+    assert set(rows[rows["sensors"] != "exact"]["profile"]) == {"all persons", "of the others"}
+    assert exact["one factor"] == pytest.approx(told["taken away by one factor"], abs=1e-6)
+    assert exact["one factor"] < exact["all persons"] - 0.05
+    share = 100.0 * told["with sensors"]
+    assert any(f"simulated with noisy, late sensors: {share:.1f}% taken away" in line for line in small.sentences)
+    assert told["with sensors"] == pytest.approx(told["taken away"], abs=0.01)
+
+
+def test_a_person_without_a_trial_gets_factors_by_arm_weight(small: ShoulderOptimiseResult) -> None:
+    """P9 weighs half as much as P1 at the same length of the arm, so half of P1's factors."""
+    scales = small.table("scales").set_index("person")["scale [-]"]
+    assert list(scales.index) == ["P1", "P2", "P9"] and scales["P1"] == 1.0
+    factors = small.table("factors").set_index(["profile", "task", "hand"])
+    for hand in ("dominant", "other"):
+        first, ninth = (factors.loc[(f"by arm weight, {person}", "T1", hand)] for person in ("P1", "P9"))
+        assert ninth.tolist() == pytest.approx((scales["P9"] * first).tolist())
+    assert scales["P9"] == pytest.approx(0.5, rel=1e-3)
+    assert not any(name.endswith("P9") for name in small.simulated)
 
 
 def test_a_low_pass_reaches_the_torque() -> None:
@@ -76,10 +121,10 @@ def test_a_low_pass_reaches_the_torque() -> None:
     assert np.abs(usual - slow).max() > 0.5
 
 
-def test_files_are_written(synthetic: ShoulderOptimiseResult, tmp_path: Path) -> None:
-    synthetic.write(tmp_path)
+def test_files_are_written(small: ShoulderOptimiseResult, tmp_path: Path) -> None:
+    small.write(tmp_path)
     names = {file.name for file in tmp_path.iterdir()}
-    tables = {"factors.csv", "outcomes.csv", "held_out.csv", "front.csv", "simulated.csv"}
+    tables = {"factors.csv", "scales.csv", "outcomes.csv", "held_out.csv", "front.csv", "simulated.csv"}
     assert names >= {*tables, "profile.png", "profile.svg", "report.html"}
     assert "Made for the others, judged on this person" in (tmp_path / "report.html").read_text(encoding="utf-8")
 
@@ -89,12 +134,12 @@ TASK = '[tasks.{name}]\ntool = {{ value = {tool}, unit = "kg" }}\npush = {{ valu
 TRIAL = '[[trials]]\nperson = "{p}"\ntask = "{t}"\nmarkers = "{p}{t}.trc"\ntool = "{p}{t}.csv"\nupright = [0.0, 0.25]\n'
 
 
-def test_the_profiles_that_are_written_are_read_back(synthetic: ShoulderOptimiseResult, tmp_path: Path) -> None:
+def test_the_profiles_that_are_written_are_read_back(small: ShoulderOptimiseResult, tmp_path: Path) -> None:
     """And lead a simulation, each hand with its own factors."""
-    write_table(synthetic.table("factors"), tmp_path, "factors")
+    write_table(small.table("factors"), tmp_path, "factors")
     back = read_profiles(tmp_path / "factors.csv")
-    assert list(back) == [each.name for each in synthetic.profiles]
-    for each in synthetic.profiles:
+    assert list(back) == [each.name for each in small.profiles]
+    for each in small.profiles:
         assert back[each.name] == pytest.approx(each.factors, abs=1e-5)
     led = simulated(profile=tmp_path / "factors.csv", profile_name="P1 alone", task="T1")
     assert led.record.results["profile"] == {"name": "P1 alone", "task": "T1"}
@@ -103,12 +148,16 @@ def test_the_profiles_that_are_written_are_read_back(synthetic: ShoulderOptimise
         assert arm.factor is not None and arm.factor[arm.phase == SCREW].max() == pytest.approx(wanted)
 
 
-def study(folder: Path, persons: int = 2) -> Path:
+UNSEEN = PERSON.format(name="P9", mass=41.0, sex="male", dominant="right")
+UNSEEN += 'upper_arm = { value = 296, unit = "mm" }\n'
+
+
+def study(folder: Path, persons: int = 2, tasks: int = 2, more: str = "") -> Path:
     """The synthetic trials without the device as files; the push is the task's for everybody."""
-    text = [TASK.format(name=task.name, tool=task.tool, push=task.push) for task in TASKS]
+    text = [TASK.format(name=task.name, tool=task.tool, push=task.push) for task in TASKS[:tasks]] + [more]
     for person in PARTICIPANTS[:persons]:
         text.append(PERSON.format(name=person.name, mass=person.mass, sex=person.sex, dominant=person.dominant))
-        for task in TASKS:
+        for task in TASKS[:tasks]:
             files = trial_files(synthetic_trial(person, task, condition("S0")))
             (folder / f"{person.name}{task.name}.trc").write_text(files["markers.trc"], encoding="ascii")
             (folder / f"{person.name}{task.name}.csv").write_text(files["tool.csv"], encoding="ascii")
@@ -121,7 +170,7 @@ def study(folder: Path, persons: int = 2) -> Path:
 @pytest.mark.slow
 def test_a_study_from_files_is_that_of_the_arrays(synthetic: ShoulderOptimiseResult, tmp_path: Path) -> None:
     """P1 pushes as the task says: markers to 0.01 mm through files give the profile of the synthetic arrays."""
-    found = gc.shoulder.optimise(study(tmp_path), draws=DRAWS)
+    found = gc.shoulder.optimise(study(tmp_path), reserve=0.3, draws=DRAWS)
     assert {case.person for case in found.cases} == {"P1", "P2"} and len(found.cases) == 8
     for case in found.cases:
         if case.person == "P1":
@@ -133,15 +182,101 @@ def test_a_study_from_files_is_that_of_the_arrays(synthetic: ShoulderOptimiseRes
 
 
 @pytest.mark.slow
-def test_limits_and_aims_reach_the_program() -> None:
-    limited = gc.shoulder.optimise(force_limit=30.0, rate_limit=40.0, reserve=0.1, draws=DRAWS)
-    outcomes = limited.table("outcomes")
-    own = outcomes[outcomes["profile"] == "all persons"]
-    assert own["force [N]"].max() == pytest.approx(30.0, abs=1e-3) and own["rate [N m/s]"].max() < 40.0 + 1e-6
-    worst = gc.shoulder.optimise(aim="cvar", worst_share=0.2, draws=DRAWS)
-    assert worst.table("factors")["lower"].iloc[1] == pytest.approx(0.0, abs=1e-6)
-    both = gc.shoulder.optimise(dominant_share=0.5, draws=DRAWS)
-    assert both.cases[1].needed.max() > 1.3 * limited.cases[1].needed.max(), "the other hand pushes as well"
+def test_limits_reach_the_program(small: ShoulderOptimiseResult, tmp_path: Path) -> None:
+    file = study(tmp_path, 1, 1)
+    limited = gc.shoulder.optimise(file, force_limit=30.0, reserve=0.3, draws=DRAWS)
+    exact = limited.table("simulated").query("profile == 'all persons' and sensors == 'exact'")
+    assert 28.0 < exact["force [N]"].max() < 30.1, "in the simulation, not in the plan only"
+    # the rate of what follows the factors, to 0.01 N m in a sample of 10 ms
+    slow = gc.shoulder.optimise(file, rate_limit=40.0, reserve=0.3, draws=DRAWS).table("outcomes")
+    assert 35.0 < slow.query("profile == 'all persons'")["rate [N m/s]"].max() < 41.1
+    both = gc.shoulder.optimise(file, reserve=0.3, dominant_share=0.5, draws=DRAWS)
+    assert both.cases[1].needed.max() > 1.3 * small.cases[1].needed.max(), "the other hand pushes as well"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("aim", "share"), [("worst", None), ("cvar", 0.5)])
+def test_best_and_one_factor_are_told_by_the_same_measure(aim: str, share: float | None, tmp_path: Path) -> None:
+    """And both by the mean over persons. A worst person's share stood beside a mean: 28.9 % and 32.1 %."""
+    found = gc.shoulder.optimise(study(tmp_path, 2, 1), aim=aim, worst_share=share, reserve=0.2, draws=DRAWS)
+    rows = found.table("simulated").query("sensors == 'exact'")
+    by_aim, by_mean = {}, {}
+    for profile in ("all persons", "one factor"):
+        own = rows[rows["profile"] == profile]
+        persons = own.groupby("person")["taken away [-]"].mean()
+        by_mean[profile] = persons.mean()
+        by_aim[profile] = persons.min() if aim == "worst" else own["taken away [-]"].nsmallest(len(own) // 2).mean()
+    first, second = found.sentences[:2]
+    assert first.startswith(f"{by_aim['all persons']:.1%} of the shoulders' torque is taken away ")
+    assert first.endswith(f"one factor for all tasks, hands and phases takes {by_aim['one factor']:.1%}")
+    assert second == (
+        f"in the mean over persons it is {by_mean['all persons']:.1%}, and {by_mean['one factor']:.1%} with one factor"
+    )
+
+
+@pytest.mark.slow
+def test_the_best_profile_is_best_in_simulate(tmp_path: Path) -> None:
+    """Files in, files out: the moment from the written forces and the recorded markers, in plain numpy.
+
+    Of the profile and of 0.95, 1.05, 1.10 and 1.15 of it: the others break the reserve of 10 % or take less away.
+    """
+    found = gc.shoulder.optimise(study(tmp_path, 1, 1), reserve=0.1, draws=DRAWS)
+    found.write(tmp_path / "made")
+    needed = {case.name.split()[1]: case.needed for case in found.cases}
+    person = tmp_path / "p1.toml"
+    person.write_text('upper_arm = { value = 300, unit = "mm" }\n', encoding="utf-8")
+    taken, over = {}, {}
+    for scale in (1.0, 0.95, 1.05, 1.10, 1.15):
+        table = pd.read_csv(tmp_path / "made" / "factors.csv").query("profile == 'all persons'")
+        for phase in ("lift", "screw-in", "lower"):
+            table[phase] = np.minimum(scale * table[phase], 1.0)
+        table.to_csv(tmp_path / "scaled.csv", index=False)
+        out = tmp_path / f"at {scale}"
+        gc.shoulder.simulate(
+            tmp_path / "P1T1.trc",
+            tool=tmp_path / "P1T1.csv",
+            upright=(0.0, 0.25),
+            device="lucy_new_cylinder",
+            profile=tmp_path / "scaled.csv",
+            person=person,
+        ).write(out)
+        shares, excess = [], []
+        for side, need in needed.items():
+            support = raised(out / "interface_forces.mot", tmp_path / "P1T1.trc", side)
+            shares.append(1.0 - np.abs(need - support).mean() / np.abs(need).mean())
+            excess.append((support - 0.9 * np.maximum(need, 0.0))[support > 0.05].max())
+        taken[scale], over[scale] = np.mean(shares), max(excess)
+    rounding = 0.03  # N m of the markers' filter, which this moment does without
+    assert over[1.0] < 0.01 + rounding
+    assert taken[1.0] == pytest.approx(found.record.results["optimise"]["taken away"], abs=2e-3)
+    for scale in (0.95, 1.05, 1.10, 1.15):
+        assert taken[scale] < taken[1.0] or over[scale] > 0.05 + rounding, (scale, taken, over)
+
+
+def raised(forces: Path, markers: Path, side: str) -> np.ndarray:
+    """r × F about the shoulder's marker, along the axis across the trunk's down and the arm [N m]."""
+    text = forces.read_text(encoding="utf-8").split("endheader\n")[1].splitlines()
+    names, values = text[0].split("\t"), np.array([line.split("\t") for line in text[1:]], float)
+    force, place = (
+        values[:, [names.index(f"cuff_{side}_force_{kind}{axis}") for axis in "xyz"]] for kind in ("v", "p")
+    )
+    lines = markers.read_text(encoding="utf-8").splitlines()
+    labels = [name for name in lines[3].split("\t")[2:] if name]
+    rows = np.array([line.split("\t")[: 2 + 3 * len(labels)] for line in lines[5:] if line.strip()], float)[:, 2:]
+    seen = {name: 1e-3 * rows[:, 3 * k : 3 * k + 3] for k, name in enumerate(labels)}
+    across = seen["Lucy_Mleft"] - seen["Lucy_MC"]
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    back = seen["T10"] - seen["Lucy_MC"]
+    below = back - (back * across).sum(axis=1, keepdims=True) * across
+    below /= np.linalg.norm(below, axis=1, keepdims=True)
+    plumb = np.array([0.0, -1.0, 0.0]) - (np.array([0.0, -1.0, 0.0]) @ across[0]) * across[0]
+    plumb /= np.linalg.norm(plumb)
+    lean = np.arctan2(np.cross(below[0], plumb) @ across[0], below[0] @ plumb)  # of T10 while standing upright
+    down = np.cos(lean) * below + np.sin(lean) * np.cross(across, below)
+    reach = place - seen[f"humerus_{side[0]}up"]
+    axis = np.cross(down, reach)
+    axis /= np.linalg.norm(axis, axis=1, keepdims=True)
+    return np.asarray((axis * np.cross(reach, force)).sum(axis=1))
 
 
 def spoilt(folder: Path, old: str, new: str) -> Path:
@@ -176,8 +311,8 @@ def test_a_study_that_cannot_be_read_is_refused(tmp_path: Path, old: str, new: s
 
 
 def test_one_person_is_not_held_out(tmp_path: Path) -> None:
-    found = gc.shoulder.optimise(study(tmp_path, 1), draws=DRAWS)
-    assert found.table("held_out").empty
+    found = gc.shoulder.optimise(study(tmp_path, 1, 1), reserve=0.3, draws=DRAWS)
+    assert found.table("held_out").empty and len(found.profiles) == 4, "all persons, one factor, the paper's, by arm"
     assert any("one person only" in line for line in found.warnings)
     found.write(tmp_path / "out")
     assert not (tmp_path / "out" / "held_out.csv").exists()
@@ -186,20 +321,22 @@ def test_one_person_is_not_held_out(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_gaps_are_filled_up_to_a_limit(tmp_path: Path) -> None:
     """A wrist out of sight for 50 ms changes little, one for 0.4 s is refused."""
-    file = study(tmp_path, 1)
+    file = study(tmp_path, 1, 1)
     trial = synthetic_trial(PARTICIPANTS[0], TASKS[0], condition("S0"))
     places = trial.markers.positions.copy()
     wrist = trial.markers.names.index("RWRI")
-    exact = gc.shoulder.optimise(file, draws=DRAWS).cases[0]
+    options = {"reserve": 0.3, "draws": DRAWS}
+    exact = gc.shoulder.optimise(file, **options).cases[0]
     for frames, refused in ((5, False), (40, True)):
         places[300 : 300 + frames, wrist] = np.nan
         lost = replace(trial, markers=replace(trial.markers, positions=places))
         (tmp_path / "P1T1.trc").write_text(trial_files(lost)["markers.trc"], encoding="ascii")
         if refused:
             with pytest.raises(InputError, match=r"up to 0\.2 s is bridged; fill the gap, or give a larger"):
-                gc.shoulder.optimise(file, draws=DRAWS)
+                gc.shoulder.optimise(file, **options)
         else:
-            np.testing.assert_allclose(gc.shoulder.optimise(file, draws=DRAWS).cases[0].needed, exact.needed, atol=1.0)
+            found = gc.shoulder.optimise(file, **options)
+            np.testing.assert_allclose(found.cases[0].needed, exact.needed, atol=1.0)
 
 
 @pytest.mark.parametrize(
@@ -208,6 +345,7 @@ def test_gaps_are_filled_up_to_a_limit(tmp_path: Path) -> None:
         ({"worst_share": 0.2}, "has no effect with `aim` mean; give `aim` cvar"),
         ({"aim": "cvar", "worst_share": 0.0}, "is not more than 0"),
         ({"reserve": 1.0}, "100 % leaves no support"),
+        ({"certainty": 1.5}, "150 % is not 0 to 100 %; give for example 95%"),
         ({"dominant_share": 1.5}, "150 % is not 0 to 100 %"),
         ({"draws": 3}, "3 draws are too few for an interval; give 20 or more"),
         ({"cutoff": 0.0}, "0 leaves noise in accelerations"),

@@ -3,8 +3,8 @@
 >>> import geocontact as gc
 >>> result = gc.shoulder.optimise()
 >>> result.sentences[0]
-"51.4% of the shoulders' torque is taken away without ever pushing an arm up, as the human elevation has it;
-one factor for all tasks, hands and phases takes 40.2%"
+"36.1% of the shoulders' torque is taken away in the simulation (36.1% planned) without ever pushing an arm up,
+nor in 95% of the draws of the model's errors; one factor for all tasks, hands and phases takes 19.2%"
 """
 
 from __future__ import annotations

@@ -41,6 +41,12 @@ class ShoulderOptimiseOptions(Options):
         Largest rate of the support torque [N m/s]; none unless given.
     reserve
         Share of the torque that is left to the shoulder at every moment, such as 10%: room for persons not seen.
+    certainty
+        Share of the draws of the model's errors (weight of the arm, push, elevation, sensors) in which no arm may be
+        pushed up; 95% where no reserve is given, 0% leaves them out.
+    scale
+        arm: each person's factors in proportion to the weight of the person's arm, besides those that are the same for
+        all; persons held out get the factors of the others by it. none: the same for everybody.
     dominant_share
         Part of the push on the tool that the dominant hand exerts, where the study does not say: 100% unless given.
 
@@ -72,6 +78,8 @@ class ShoulderOptimiseOptions(Options):
     force_limit: Annotated[float | None, LIMIT] = None
     rate_limit: Annotated[float | None, TORQUE_RATE] = None
     reserve: Annotated[Share, Spelled(default="0%")] = 0.0
+    certainty: Share | None = None
+    scale: Literal["arm", "none"] = "arm"
     dominant_share: Annotated[Share, Spelled(default="100%")] = 1.0
     draws: int = 200
     seed: int = 0
@@ -86,6 +94,10 @@ class ShoulderOptimiseOptions(Options):
             value = getattr(self, name)
             if not 0.0 <= value <= 1.0:
                 raise InputError("", f"`{name}`", f"{100.0 * value:g} % is not 0 to 100 %", "give for example 10%")
+        if self.certainty is not None and not 0.0 <= self.certainty <= 1.0:
+            raise InputError(
+                "", "`certainty`", f"{100.0 * self.certainty:g} % is not 0 to 100 %", "give for example 95%"
+            )
         if self.reserve >= 1.0:
             raise InputError("", "`reserve`", "100 % leaves no support", "give less")
         if self.worst_share is not None and self.aim != "cvar":

@@ -25,8 +25,8 @@ FIGURE = (
     "arm; the grey span is the phase screw-in as the controller detects it."
 )
 MODEL = (
-    "Profiles are chosen with the torque of the cylinder at the elevation of the human arm; the device's own weight, "
-    "its passive joints and the slip in the cuff are in the simulation only. The person moves as without the device."
+    "Profiles are chosen by linear programs that are corrected by the simulation of every arm until both agree. The "
+    "person moves as without the device."
 )
 
 
@@ -43,9 +43,14 @@ def write_profile_page(
     sections: list[Section] = [
         Picture("Torque needed and support", FIGURE, drawing(figure)),
         frame_table("Factors of support", tables["factors"], 2),
+        *(
+            [frame_table("Factors in proportion to the weight of the arm", tables["scales"], 2)]
+            if len(tables["scales"])
+            else []
+        ),
         *([frame_table("Made for the others, judged on this person", held, 3)] if len(held) else []),
         frame_table("Simulated with the device's own motion", tables["simulated"], 3),
-        frame_table("What each profile does, as the human elevation has it", tables["outcomes"], 3),
+        frame_table("What each profile does, as planned around the profile of all persons", tables["outcomes"], 3),
         Curves("Taken away over the limit of interface force", "%", curves),
         inputs_table(record.inputs),
         options_table(record),

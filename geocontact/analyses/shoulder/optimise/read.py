@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 from jaxtyping import Float
@@ -20,6 +21,7 @@ from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.cylinder import lever
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings
+from geocontact.shoulder_exoskeleton.human_arm.arm_weight import arm_moment
 from geocontact.shoulder_exoskeleton.human_arm.hand_load import ToolWork
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial, Support
 from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds
@@ -31,11 +33,18 @@ SYNTHETIC = "no `study`: the persons are synthetic, all their numbers invented"
 
 @dataclass(frozen=True, eq=False)
 class WorkersAndDevice:
-    """Arms in their trials, and what the device can do."""
+    """Arms in their trials, and what the device can do.
+
+    Parameters
+    ----------
+    unseen
+        Moment of the arm's weight of persons without a trial, by name [N m].
+    """
 
     trials: tuple[ArmTrial, ...]
     device: Device
     support: Support
+    unseen: Mapping[str, float] = field(default_factory=dict)
 
 
 def read(o: ShoulderOptimiseOptions, record: Record) -> WorkersAndDevice:
@@ -52,7 +61,12 @@ def read(o: ShoulderOptimiseOptions, record: Record) -> WorkersAndDevice:
         record.warn("every trial was recorded in the device: the shoulder's torque is that of arms that it supported")
     lengths = {name: wearer_of_lengths(record, o.study, each.lengths) for name, each in study.persons.items()}
     arms = [arm for trial in bare or study.trials for arm in _arms(o, record, study, trial, lengths[trial.person])]
-    return WorkersAndDevice(tuple(arms), device, support_of(device))
+    unseen = {
+        name: arm_moment(each.mass, each.sex, lengths[name].upper_arm)
+        for name, each in study.persons.items()
+        if name not in {trial.person for trial in bare or study.trials}
+    }
+    return WorkersAndDevice(tuple(arms), device, support_of(device), unseen)
 
 
 def support_of(device: Device) -> Support:

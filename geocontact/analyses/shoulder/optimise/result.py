@@ -18,6 +18,7 @@ from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOption
 from geocontact.analyses.shoulder.optimise.page import write_profile_page
 from geocontact.analyses.shoulder.support_profiles import factors_written
 from geocontact.io.text.results import write_table
+from geocontact.shoulder_exoskeleton.support.arm_scales import scales_of
 from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome
 from geocontact.shoulder_exoskeleton.support.support_case import SupportCase
@@ -28,10 +29,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class NamedProfile:
-    """Factors, and whose they are."""
+    """Factors, what they are called, and for which persons."""
 
     name: str
     factors: Factors
+    of: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -50,16 +52,22 @@ class ShoulderOptimiseResult(Result):
     Parameters
     ----------
     cases
-        One arm in one trial each.
+        One arm in one trial each, the device's arm where the human one is.
+    corrected
+        The same with what of the cylinder's torque reaches the arm in the simulation of the group's profile.
     elevations
         Of the arms by the cases' names [rad].
     profiles
         The group's first.
+    moments, scales
+        By person: of the arm's weight [N m], and what the profile by arm weight is multiplied by; no scales where all
+        factors are the same.
     outcomes
-        By profile and case, with the cylinder's torque at the human elevation.
+        By profile and case as planned: linear around the simulation of the group's profile.
     simulated
-        By profile and case, the device moving by its own dynamics: the group's profile, and the one that the others
-        make for each person.
+        By profile and case, the device moving by its own dynamics, with exact sensors.
+    noisy
+        The same with noisy, late sensors: the group's profile, and the one that the others make for each person.
     held_out
         By person; empty where there is one only.
     front
@@ -68,19 +76,35 @@ class ShoulderOptimiseResult(Result):
 
     options: ShoulderOptimiseOptions
     cases: tuple[SupportCase, ...]
+    corrected: tuple[SupportCase, ...]
     elevations: Mapping[str, Float[np.ndarray, " t"]]
     profiles: tuple[NamedProfile, ...]
+    moments: Mapping[str, float]
+    scales: Mapping[str, float]
     outcomes: Mapping[str, Mapping[str, SupportOutcome]]
     simulated: Mapping[str, Mapping[str, SupportOutcome]]
+    noisy: Mapping[str, Mapping[str, SupportOutcome]]
     held_out: Mapping[str, HeldOutSupport]
     front: tuple[FrontPoint, ...]
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`factors`, `outcomes`, `simulated`, `held_out`, `front`."""
+        """`factors`, `scales`, `outcomes`, `simulated`, `held_out`, `front`."""
         return {
             "factors": factors_written({each.name: each.factors for each in self.profiles}),
+            "scales": pd.DataFrame(
+                [
+                    {"person": person, "moment of the arm's weight [N m]": self.moments[person], "scale [-]": scale}
+                    for person, scale in self.scales.items()
+                ]
+            ),
             "outcomes": self._rows(self.outcomes),
-            "simulated": self._rows(self.simulated),
+            "simulated": pd.concat(
+                [
+                    self._rows(found).assign(sensors=name)
+                    for name, found in (("exact", self.simulated), ("noisy and late", self.noisy))
+                ],
+                ignore_index=True,
+            ),
             "held_out": self._held_out(),
             "front": pd.DataFrame(
                 [{"force limit [N]": p.force, "reserve [-]": p.reserve, "taken away [-]": p.value} for p in self.front]
@@ -89,7 +113,7 @@ class ShoulderOptimiseResult(Result):
 
     def figure(self) -> Figure:
         """Torque that the shoulder needs and torque of the support, as the paper's fig. 14."""
-        return profile_figure(self.cases, self.elevations, self.profiles[0].factors)
+        return profile_figure(self.corrected, self.elevations, self.profiles[0].factors)
 
     def write_files(self, folder: Path) -> None:
         """Tables, figure, page."""
@@ -116,6 +140,7 @@ class ShoulderOptimiseResult(Result):
         rows = []
         for person, found in self.held_out.items():
             numbers = {
+                "scale [-]": self._scale_of_others(person),
                 "taken away [-]": found.reduction,
                 "taken away, lower [-]": found.interval[0],
                 "taken away, upper [-]": found.interval[1],
@@ -135,6 +160,11 @@ class ShoulderOptimiseResult(Result):
                 }
             )
         return pd.DataFrame(rows)
+
+    def _scale_of_others(self, person: str) -> float:
+        """Of a person's arm among those of the others, who made the profile."""
+        makers = set(self.held_out) - {person}
+        return scales_of(self.moments, makers)[person] if self.scales else 1.0
 
 
 def _told(found: SupportOutcome) -> dict[str, float]:

@@ -2,165 +2,147 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeVar
 
 import numpy as np
 
 from geocontact.analyses.json_file import plain
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
+from geocontact.analyses.shoulder.optimise.profiles import GROUP, made_profiles
 from geocontact.analyses.shoulder.optimise.read import WorkersAndDevice
-from geocontact.analyses.shoulder.optimise.result import FrontPoint, NamedProfile, ShoulderOptimiseResult
+from geocontact.analyses.shoulder.optimise.result import FrontPoint, ShoulderOptimiseResult
+from geocontact.analyses.shoulder.optimise.sentences import say_held_out, say_profiles, say_simulated
 from geocontact.data.errors import InputError
-from geocontact.shoulder_exoskeleton.support.arm_trial import support_case
-from geocontact.shoulder_exoskeleton.support.best_profile import (
-    Limits,
-    SupportProfile,
-    best_profile,
-    front,
-    uniform_profile,
-)
+from geocontact.shoulder_exoskeleton.support.arm_scales import scales_of
+from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial, support_case
+from geocontact.shoulder_exoskeleton.support.best_profile import front, scaled, uniform_profile
+from geocontact.shoulder_exoskeleton.support.closed_loop_profile import ClosedLoop
 from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport, Maker, held_out
-from geocontact.shoulder_exoskeleton.support.outcome import TABLE_3, Factors, SupportOutcome, outcome
+from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome, outcome
+from geocontact.shoulder_exoskeleton.support.profile_limits import Limits
 from geocontact.shoulder_exoskeleton.support.sensing import Sensing
 from geocontact.shoulder_exoskeleton.support.simulated_support import simulated_support
-from geocontact.shoulder_exoskeleton.support.support_case import SupportCase
 
 WORST = 0.25
 """Share of the cases that count as the worst."""
+CERTAIN = 0.95
+"""Share of the draws in which no arm is pushed up, where no reserve makes room for them."""
 FORCES = (10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 80.0)
 """Limits of interface force on the front [N]."""
 RESERVES = (0.0, 0.1, 0.2)
 """Shares left to the shoulder, a front each."""
-GROUP, ONE_FACTOR, PAPER = "all persons", "one factor", "table 3 of the paper"
 OTHERS = "of the others"
+T = TypeVar("T")
 
 
 def run(given: WorkersAndDevice, o: ShoulderOptimiseOptions, record: Record) -> ShoulderOptimiseResult:
     """Profiles, what they do, their fronts, and how they fare with a person held out."""
-    cases = [support_case(trial, given.support) for trial in given.trials]
-    limits = Limits(o.force_limit or np.inf, o.rate_limit or np.inf, o.reserve)
-    share = WORST if o.worst_share is None else o.worst_share
-
-    def make(of: Sequence[SupportCase]) -> SupportProfile:
-        return best_profile(of, limits, o.aim, share)
-
-    def one_factor(of: Sequence[SupportCase]) -> SupportProfile:
-        return uniform_profile(of, limits)
-
-    best, uniform = make(cases), one_factor(cases)
-    persons = tuple(dict.fromkeys(case.person for case in cases))
-    profiles = [NamedProfile(GROUP, best.factors), NamedProfile(ONE_FACTOR, uniform.factors)]
-    if set(best.factors) <= set(TABLE_3):
-        profiles.append(NamedProfile(PAPER, {key: TABLE_3[key] for key in best.factors}))
-    alone = [(person, make([case for case in cases if case.person == person])) for person in persons]
-    profiles += [NamedProfile(f"{person} alone", profile.factors) for person, profile in alone]
-    judged = _held_out(given, o, record, make, one_factor)
+    certainty = (0.0 if o.reserve else CERTAIN) if o.certainty is None else o.certainty
+    limits = Limits(o.force_limit or np.inf, o.rate_limit or np.inf, o.reserve, certainty)
+    loop = ClosedLoop(
+        given.device, given.support, limits, o.aim, WORST if o.worst_share is None else o.worst_share, seed=o.seed
+    )
+    made = _found(o, lambda: made_profiles(given, loop, by_arm=o.scale == "arm"))
+    judged = _found(o, lambda: _held_out(given, loop, o, record))
+    corrected = tuple(
+        support_case(each, given.support, transfer=made.group.transfers[each.name]) for each in given.trials
+    )
     outcomes = {
         profile.name: {
-            case.name: outcome(case, profile.factors) for case in cases if set(case.keys) <= set(profile.factors)
+            case.name: outcome(case, profile.factors)
+            for case in corrected
+            if set(case.keys) <= set(profile.factors) and case.person in profile.of
         }
-        for profile in profiles
+        for profile in made.profiles
     }
     points = [
         FrontPoint(force, reserve, profile.value)
         for reserve in RESERVES
         for force, profile in zip(
-            FORCES, front(cases, [Limits(force, limits.rate, reserve) for force in FORCES], o.aim), strict=True
+            FORCES,
+            front(corrected, [Limits(force, limits.rate, reserve) for force in FORCES], o.aim, loop.worst_share),
+            strict=True,
         )
     ]
-    led = {GROUP: _simulated(given, {case.person: best.factors for case in cases}, o)}
+    persons = dict.fromkeys(each.person for each in given.trials)
+    noisy = {GROUP: _sensed(given, dict.fromkeys(persons, made.group.profile.factors), o)}
     if judged:
-        led[OTHERS] = _simulated(given, {person: each.factors for person, each in judged.items()}, o)
+        noisy[OTHERS] = _sensed(given, {person: each.factors for person, each in judged.items()}, o)
     result = ShoulderOptimiseResult(
         record=record,
         options=o,
-        cases=tuple(cases),
+        cases=tuple(support_case(each, given.support) for each in given.trials),
+        corrected=corrected,
         elevations={trial.name: trial.elevation for trial in given.trials},
-        profiles=tuple(profiles),
+        profiles=made.profiles,
+        moments=made.moments,
+        scales=made.scales,
         outcomes=outcomes,
-        simulated=led,
+        simulated=made.simulated,
+        noisy=noisy,
         held_out=judged,
         front=tuple(points),
     )
-    _say(record, best, uniform, judged)
-    left = _say_simulated(record, led, limits)
-    record.results["optimise"] = plain(
-        {
-            "device": given.device.name,
-            "taken away": best.value,
-            "taken away by one factor": uniform.value,
-            "taken away, simulated": left,
-        }
-    )
+    taken = say_profiles(record, made, loop, given.trials)
+    say_held_out(record, judged)
+    left = say_simulated(record, noisy, limits)
+    record.results["optimise"] = plain({"device": given.device.name, **taken, "with sensors": left})
     return result
 
 
+def _found(o: ShoulderOptimiseOptions, what: Callable[[], T]) -> T:
+    """Of a study whose arms can be simulated and which has a profile."""
+    try:
+        return what()
+    except ArithmeticError as error:
+        raise InputError(o.study or "", "", str(error), "check lengths, unit and names of markers") from error
+
+
 def _held_out(
-    given: WorkersAndDevice, o: ShoulderOptimiseOptions, record: Record, make: Maker, one_factor: Maker
+    given: WorkersAndDevice, loop: ClosedLoop, o: ShoulderOptimiseOptions, record: Record
 ) -> dict[str, HeldOutSupport]:
     """By person; empty where there is one only."""
     if len({trial.person for trial in given.trials}) == 1:
         record.warn("one person only: nobody can be held out, the profile is for this person")
         return {}
     try:
-        return held_out(given.trials, given.support, make, one_factor, draws=o.draws, seed=o.seed)
+        return held_out(
+            given.trials,
+            given.support,
+            _of_others(loop, o, one=False),
+            _of_others(loop, o, one=True),
+            draws=o.draws,
+            seed=o.seed,
+            reaches=loop.transfer,
+        )
     except KeyError as error:
         what = "a task is of one person only: no profile that the others make has a factor for it"
         raise InputError(o.study or "", "", what, "let every person do every task") from error
 
 
-def _simulated(
+def _of_others(loop: ClosedLoop, o: ShoulderOptimiseOptions, *, one: bool) -> Maker:
+    """Makes a profile, or one factor, from the others, and scales it to the arm of the person held out."""
+
+    def make(others: Sequence[ArmTrial], own: Sequence[ArmTrial]) -> Factors:
+        person = own[0].person
+        moments = {each.person: each.arm_moment for each in (*others, *own)}
+        scales = scales_of(moments, {each.person for each in others}) if o.scale == "arm" else {}
+        found = loop.settled(others, uniform_profile, scales) if one else loop.settled(others, scales=scales)
+        return scaled(found.profile.factors, scales.get(person, 1.0))
+
+    return make
+
+
+def _sensed(
     given: WorkersAndDevice, factors: Mapping[str, Factors], o: ShoulderOptimiseOptions
 ) -> dict[str, SupportOutcome]:
-    """By case, with each person's factors, the device in closed loop with its sensors."""
-    found = {}
-    for trial in given.trials:
-        try:
-            one = simulated_support(trial, given.device, factors[trial.person], Sensing(), o.seed)
-        except ArithmeticError as error:
-            raise InputError(
-                o.study or "", trial.name, str(error), "check lengths, unit and names of markers"
-            ) from error
-        found[trial.name] = one.outcome
-    return found
-
-
-def _say(record: Record, best: SupportProfile, uniform: SupportProfile, judged: dict[str, HeldOutSupport]) -> None:
-    record.say(
-        f"{best.value:.1%} of the shoulders' torque is taken away without ever pushing an arm up, as the human "
-        f"elevation has it; one factor for all tasks, hands and phases takes {uniform.value:.1%}"
+    """By case, with each person's factors, the device in closed loop with its noisy, late sensors."""
+    return _found(
+        o,
+        lambda: {
+            each.name: simulated_support(each, given.device, factors[each.person], Sensing(), o.seed).outcome
+            for each in given.trials
+        },
     )
-    for person, found in judged.items():
-        low, high = found.gain_interval
-        beyond = "beyond the model's error" if found.gain_is_beyond_the_error else "within the model's error"
-        if found.pushed_up[0] > 0.0:
-            beyond = "no gain, as it pushes the arm up"
-        record.say(
-            f"{person} held out: {found.reduction:.1%}, {100 * found.gain:+.1f} points over one factor of the others "
-            f"({100 * low:.1f} to {100 * high:.1f}, {beyond}); pushed up {found.pushed_up[0]:.1%} of the time, by "
-            f"{found.excess[0]:.1f} N m at most"
-        )
-        if found.pushed_up[0] > 0.0:
-            record.warn(
-                f"{person}: the profile that the others make pushes an arm up {found.pushed_up[0]:.1%} of the time, by "
-                f"{found.excess[0]:.1f} N m at most; `reserve` leaves room"
-            )
-
-
-def _say_simulated(record: Record, led: Mapping[str, Mapping[str, SupportOutcome]], limits: Limits) -> float:
-    """What the simulation leaves of it; the share that the group's profile takes away there."""
-    for name, found in led.items():
-        ones = list(found.values())
-        share = float(np.mean([each.reduction for each in ones]))
-        up, excess = max(each.pushed_up for each in ones), max(each.excess for each in ones)
-        force, rate = max(each.force for each in ones), max(each.rate for each in ones)
-        told = f"{share:.1%} taken away, pushed up {up:.1%} of the time, by {excess:.1f} N m at most, {force:.0f} N"
-        if name == GROUP:
-            record.say(f"simulated with the device's own motion and sensors: {told} in the cuff")
-        for value, limit, what in ((force, limits.force, f"{force:.0f} N"), (rate, limits.rate, f"{rate:.0f} N m/s")):
-            if value > limit:
-                record.warn(f"the profile {name}, simulated, reaches {what} where the limit is {limit:g}")
-        if up > 0.0:
-            record.warn(f"the profile {name}, simulated, pushes an arm up: {told} in the cuff; `reserve` leaves room")
-    return float(np.mean([each.reduction for each in led[GROUP].values()]))

@@ -1,0 +1,24 @@
+"""Moment of an arm's weight by hand, and the scales that persons get from it."""
+
+from __future__ import annotations
+
+import pytest
+
+from geocontact.shoulder_exoskeleton.human_arm.arm_weight import arm_moment
+from geocontact.shoulder_exoskeleton.support.arm_scales import scales_of
+
+
+def test_the_moment_of_a_man_s_arm_by_hand() -> None:
+    """De Leva's table 4, men: 2.71, 1.62, 0.61 % of the mass at 57.72, 45.74, 79.00 % of 281.7, 268.9, 86.2 mm."""
+    weight = 73.0 * 9.81
+    by_hand = weight * (
+        0.0271 * 0.5772 * 0.2817 + 0.0162 * (0.2817 + 0.4574 * 0.2689) + 0.0061 * (0.2817 + 0.2689 + 0.79 * 0.0862)
+    )
+    assert arm_moment(73.0, "male", 0.2817) == pytest.approx(by_hand, rel=1e-12)
+    assert arm_moment(73.0, "male", 2.0 * 0.2817) == pytest.approx(2.0 * by_hand, rel=1e-12)
+    assert arm_moment(61.0, "female", 0.268) < 0.8 * arm_moment(70.0, "male", 0.278)
+
+
+def test_scales_are_shares_of_the_heaviest_maker() -> None:
+    found = scales_of({"P1": 12.0, "P2": 9.0, "P3": 6.0}, {"P2", "P3"})
+    assert found == pytest.approx({"P1": 1.0, "P2": 1.0, "P3": 2.0 / 3.0}), "P1 is heavier than any maker"
