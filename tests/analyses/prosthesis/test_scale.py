@@ -56,6 +56,9 @@ def test_files_are_read_by_ik_and_stand_as_the_person_did(made: ProsthesisScaleR
     np.testing.assert_allclose(held.marker_places(still)[0], places, atol=1e-6)
     found = inverse_kinematics(tree_of(held), seen, MarkerTasks(dict.fromkeys((m.name for m in held.markers), 1.0)))
     assert found.distances.max() < 2e-3  # the cameras' noise
+    for name in (FREE, HELD):  # all that travels with the file
+        said = (tmp_path / "out" / name).read_text().split("<credits>")[1].split("</credits>")[0]
+        assert "lean and turn with the pelvis alone" in said
     assert (tmp_path / "out" / FREE).read_text().count("<ContactSphere ") == 24 + 5
     assert (tmp_path / "out" / FREE).read_text().count("<SpringGeneralizedForce ") == 6 + 8
 
