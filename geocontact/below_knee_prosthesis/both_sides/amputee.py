@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import IntactLeg
 from geocontact.below_knee_prosthesis.both_sides.upper_body import share_of_body, turned, upper_body
+from geocontact.below_knee_prosthesis.foot_numbers import foot_numbers, socket_numbers
 from geocontact.below_knee_prosthesis.keel.on_tree import joint_numbers
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.model.leg import Inertial, Leg
@@ -75,10 +76,13 @@ class Amputee:
         return found
 
     def numbers(self) -> Mapping[str, Number]:
-        """Every number of the segments in SI, and where it is from."""
+        """Every number of segments and springs in SI, and where it is from; the sole has no force law here."""
         own = {f"prosthetic {name}": number for name, number in self.prosthetic.numbers().items()}
         own["mass"] = own.pop("prosthetic mass")
         own |= {f"intact {name}": number for name, number in self.intact.numbers().items()}
+        own |= socket_numbers(self.bushing)
+        foot = foot_numbers(self.foot, self.fulcrum)
+        own |= {name: number for name, number in foot.items() if not name.startswith("sole ")}
         mass, centre, inertia = self.pelvis_body()
         above = share_of_body(self.prosthetic.person.sex) * self.mass
         rest = f"what the legs leave, trunk, head and arms included; de Leva has {above:.1f} kg of those"

@@ -15,7 +15,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import GATE, Stance, simulate_stance
 from geocontact.below_knee_prosthesis.stance_errors import StanceErrors, longest_stance, stance_errors
-from geocontact.contact.bushing import PISTONING, PRINTED, SOCKET
+from geocontact.contact.bushing import PISTONING, PRINTED, SOCKET, Bushing
 from geocontact.data.errors import InputError
 
 BEFORE, AFTER = 0.12, 0.1
@@ -28,7 +28,7 @@ TURNED = np.radians(20.0)
 
 def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisSimulateResult:
     """From before touch-down to after toe-off."""
-    numbers = all_numbers(walk.leg, walk.fulcrum)
+    numbers = all_numbers(walk.leg, walk.foot, walk.fulcrum, bushing_of(o))
     invented = sum(number.source == "invented" for number in numbers.values())
     record.warn(f"{invented} of {len(numbers)} numbers of leg and foot are invented, see numbers.csv")
     record.warn("the socket's own turn is in the recorded knee angle as well, by up to what its bushing turns")
@@ -48,6 +48,11 @@ def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisS
     return ProsthesisSimulateResult(record=record, options=o, walk=walk, stance=found, errors=errors, numbers=numbers)
 
 
+def bushing_of(o: ProsthesisSimulateOptions) -> Bushing:
+    """Socket on the residual limb."""
+    return SOCKET if o.socket == "as_meant" else PRINTED
+
+
 def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> Stance:
     """From before touch-down to after toe-off; InputError where it cannot go on."""
     time = walk.walked.motion.time
@@ -56,10 +61,9 @@ def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> Stance:
         seen = longest_stance(walk.plate.time, walk.plate.force[:, 1])
         if seen is not None:
             span = max(span[0], seen[0] - BEFORE), min(span[1], seen[1] + AFTER)
-    bushing = SOCKET if o.socket == "as_meant" else PRINTED
     given = walk.walked.motion, walk.foot, walk.fulcrum, walk.push, span
     try:
-        return simulate_stance(*given, bushing=bushing, ground=walk.ground, machine_code=o.machine_code)
+        return simulate_stance(*given, bushing=bushing_of(o), ground=walk.ground, machine_code=o.machine_code)
     except (ArithmeticError, ValueError) as error:
         remedy = "check `mass`, `side`, `axes` and the names of the markers; as_printed no gait can be walked"
         raise InputError(o.markers, "", str(error), remedy) from error
