@@ -181,10 +181,10 @@ def _pressed(
     place = np.repeat(place, len(share), axis=0)
     place[:, 1] -= (deepest[:, None] * share).ravel()
     pressed = RigidTransform.from_components(place, turn[np.repeat(np.arange(len(pitch)), len(share))])
-    return _solved(keel, pressed, terrain, drag), pressed, (len(pitch), len(share))
+    return solved_with_drag(keel, pressed, terrain, drag), pressed, (len(pitch), len(share))
 
 
-def _solved(keel: QuasiStaticKeel, poses: RigidTransform, terrain: Terrain, drag: float) -> KeelMotion:
+def solved_with_drag(keel: QuasiStaticKeel, poses: RigidTransform, terrain: Terrain, drag: float) -> KeelMotion:
     """In equilibrium; with a drag, while all feet slide backwards on a sole of that friction without damping."""
     if not drag:
         return keel.solve(poses, terrain.ground)

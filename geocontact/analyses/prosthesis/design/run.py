@@ -45,6 +45,7 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
             found = draws(
                 knob,
                 given.foot,
+                task,
                 lambda rng: task_again(trial, errors, rng),
                 given.sd,
                 feet=o.feet,

@@ -1,0 +1,69 @@
+"""How far outcomes of a foot's map are from forward dynamics: a part of every band.
+
+The map is quasi-static and bears the recorded load. Along the same turns of pelvis, hip and knee a simulated foot has
+inertia and dampers, and on another foot than the present one the load differs, since the pelvis is free. Both were
+measured (`benchmarks/prosthesis_forward.py`): the difference on the present foot, and how it grows with the logarithm
+of the keel's stiffness over that of the present one. Of the rate of loading and of another alignment it was not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob
+from geocontact.below_knee_prosthesis.design.outcomes import Aim
+from geocontact.below_knee_prosthesis.keel.beam import tip_compliance
+from geocontact.below_knee_prosthesis.keel.keel import Keel
+
+
+@dataclass(frozen=True)
+class ModelError:
+    """Standard deviations of the logarithm of an outcome by the map over that by forward dynamics.
+
+    Parameters
+    ----------
+    here
+        On the present foot, by aim.
+    away
+        For a keel that is e times as stiff, by aim; in proportion to the logarithm of the stiffness.
+    """
+
+    here: Mapping[Aim, float]
+    away: Mapping[Aim, float]
+
+    def factors(
+        self, stiffness: Float[np.ndarray, " n"], rng: np.random.Generator
+    ) -> Float[np.ndarray, "n aims"]:
+        """A draw for values with those logarithms of stiffness over the present one; one error for all of them."""
+        here, away = (np.array([of.get(aim, 0.0) for aim in AIMS]) for of in (self.here, self.away))
+        one, other = rng.standard_normal((2, len(AIMS)))
+        return np.asarray(np.exp(here * one + stiffness[:, None] * away * other))
+
+
+MEASURED = ModelError(
+    here={"ankle_moment": 0.017, "socket_moment": 0.18, "energy": 0.028, "radius": 0.025},
+    away={"ankle_moment": 0.074, "socket_moment": 0.38, "energy": 0.127, "radius": 0.081},
+)
+"""Root mean squares of nine present feet, three persons at three settings, and of two or three others for each.
+
+The socket's peak is that of a foot that slaps down, whose dampers shift the load forwards: the map has none.
+"""
+NONE = ModelError({}, {})
+
+
+def stiffer(knob: Knob, keel: Keel) -> Float[np.ndarray, " n"]:
+    """Logarithm of the stiffness at the keel's tip of each value over that of the present one."""
+    if knob.vary == "stiffness":
+        return np.log(knob.settings / knob.present)
+    if knob.vary == "alignment":
+        return np.zeros(len(knob.settings))
+    soft = np.array([_compliance(keel, float(fulcrum)) for fulcrum in (knob.present, *knob.settings)])
+    return np.asarray(np.log(soft[0] / soft[1:]))
+
+
+def _compliance(keel: Keel, fulcrum: float) -> float:
+    return float(tip_compliance(fulcrum, keel.length, keel.bending, keel.support))
