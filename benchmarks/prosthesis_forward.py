@@ -11,7 +11,7 @@ kept are from the simulated ones, as logarithms of their ratio. From these are `
 from __future__ import annotations
 
 import argparse
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,12 +19,13 @@ from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.design.foot_task import LOADED, FootTask, foot_task
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob
+from geocontact.below_knee_prosthesis.design.model_error import stiffer
 from geocontact.below_knee_prosthesis.design.outcomes import radius_of_path
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
-from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
+from geocontact.below_knee_prosthesis.simulate import GATE, Stance, simulate_stance
 from geocontact.below_knee_prosthesis.synthetic.course import course
 from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, STANCE, true_leg
 from geocontact.loads.pose_rate import pose_rate
@@ -34,6 +35,8 @@ OTHERS = (0.0661, 0.090, 0.1509)
 """m; fulcrums beside the present one."""
 AFTER = 0.08
 """s; simulated after the stance."""
+HARD = 1.25
+"""Of the largest load on the present foot: beyond it a foot lands as nobody would let it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,10 +59,22 @@ class ForwardRun:
         """Outcomes by fulcrum."""
         return {fulcrum: stance_outcomes(stance) for fulcrum, stance in self.stances.items()}
 
-    def mapped(self) -> dict[float, dict[str, float]]:
-        """The same by the map of the foot along the present stance, angles kept."""
+    def walks(self) -> dict[float, bool]:
+        """Whether the foot stays on the floor and bears no more than a quarter above what the present one bears."""
+        most, found = float(self.stances[self.present].force[:, 1].max()), {}
+        for fulcrum, stance in self.stances.items():
+            on = np.flatnonzero(stance.force[:, 1] > GATE)
+            whole = len(on) == on[-1] - on[0] + 1
+            found[fulcrum] = whole and float(stance.force[:, 1].max()) < HARD * most
+        return found
+
+    def mapped(self, *, dragged: bool = True) -> dict[float, dict[str, float]]:
+        """The same by the map of the foot along the present stance, angles kept; with the force along the ground or not."""
         knob = Knob("fulcrum", np.array(sorted(self.stances)), self.present)
-        kept = knob.measured_still(knob.maps(vsf_foot(), self.task), self.task)[0]
+        maps = knob.maps(vsf_foot(), self.task)
+        if not dragged:
+            maps = tuple(replace(each, dragged=0.0 * each.dragged) for each in maps)
+        kept = knob.measured_still(maps, self.task)[0]
         return {float(f): dict(zip(AIMS, row, strict=True)) for f, row in zip(knob.settings, kept, strict=True)}
 
 
@@ -125,14 +140,31 @@ def main() -> None:
     for person in asked.persons:
         for setting in asked.settings:
             run = forward_run(person, setting)
-            simulated, mapped = run.simulated(), run.mapped()
-            for fulcrum, of in sorted(simulated.items()):
+            simulated, mapped, plain, walks = run.simulated(), run.mapped(), run.mapped(dragged=False), run.walks()
+            away = stiffer(Knob("fulcrum", np.array(sorted(simulated)), run.present), vsf_foot().keel)
+            for k, (fulcrum, of) in enumerate(sorted(simulated.items())):
                 found = {aim: float(np.log(mapped[fulcrum][aim] / value)) for aim, value in of.items()}
-                rows.append({"person": person, "setting": setting, "present": run.present, "fulcrum": fulcrum, **found})
-                rows[-1]["simulated_J"] = of["energy"]
+                place = {"person": person, "setting": setting, "fulcrum": fulcrum, "present": fulcrum == run.present}
+                rows.append(place | {"stiffer": float(away[k]), "walks": walks[fulcrum], **found})
+                rows[-1] |= {"simulated_J": of["energy"], "energy alone": plain[fulcrum]["energy"] / of["energy"]}
+                rows[-1] |= {"simulated_m": of["radius"], "radius alone": plain[fulcrum]["radius"] / of["radius"]}
                 told = ", ".join(f"{aim} {100.0 * value:+.1f} %" for aim, value in found.items())
-                print(f"P{person + 1} {setting} at {1e3 * fulcrum:.0f} mm: {told}", flush=True)
-    write_results("prosthesis_forward", vars(asked), {"map over simulation": rows})
+                alone = f"energy alone {100.0 * (rows[-1]['energy alone'] - 1.0):+.0f} %"
+                here = "walks" if walks[fulcrum] else "does not walk"
+                print(f"P{person + 1} {setting} at {1e3 * fulcrum:.0f} mm, {here}: {told}; {alone}", flush=True)
+    sizes = {aim: error_sizes(rows, aim) for aim in ("ankle_moment", "socket_moment", "energy", "radius")}
+    print(sizes)
+    write_results("prosthesis_forward", vars(asked), {"map over simulation": rows, "sizes": sizes})
+
+
+def error_sizes(rows: list[dict[str, float]], aim: str) -> dict[str, float]:
+    """Root mean square on the present foot, and slope of what is added over the logarithm of the stiffness."""
+    here = {(row["person"], row["setting"]): row[aim] for row in rows if row["present"]}
+    others = [row for row in rows if row["walks"] and not row["present"]]
+    more = np.array([row[aim] - here[row["person"], row["setting"]] for row in others])
+    far = np.array([row["stiffer"] for row in others])
+    size = float(np.sqrt(np.mean(np.square(list(here.values())))))
+    return {"here": size, "away": float(np.sqrt(np.sum(more**2) / np.sum(far**2))), "others": float(len(others))}
 
 
 if __name__ == "__main__":

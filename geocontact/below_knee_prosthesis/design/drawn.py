@@ -41,7 +41,9 @@ class Draws:
     Parameters
     ----------
     drawn
-        Of each draw and of its mirror image, by response, value and aim.
+        Of each draw and of its mirror image, by response, value and aim, with the recorded load.
+    free
+        The same with the load that would follow from the foot.
     lost
         Draws in which the keel had no equilibrium, and which are left out.
     beside
@@ -49,6 +51,7 @@ class Draws:
     """
 
     drawn: Float[np.ndarray, "d responses n aims"]
+    free: Float[np.ndarray, "d responses n aims"]
     lost: int
     beside: Float[np.ndarray, "d alignments judged n aims"]
 
@@ -90,6 +93,7 @@ def draws(
     rng, family, lost = np.random.default_rng(seed), finer_feet(foot, min(feet, len(FINER))), 0
     stiffness, unsure = stiffer(knob, foot.keel), np.random.default_rng([seed, 1])
     found: list[Float[np.ndarray, "responses n aims"]] = []
+    free: list[Float[np.ndarray, "responses n aims"]] = []
     beside: list[Float[np.ndarray, "alignments judged n aims"]] = []
     turned = [replace(knob, turned=angle) for angle in alignments]
     widest = max((knob, *turned), key=lambda each: float(np.abs(each.alignments).max()))
@@ -104,12 +108,13 @@ def draws(
             lost += 1
         else:
             factors = [model.factors(stiffness, unsure) for _ in here]
-            found += [each * by for each, by in zip(here, factors, strict=True)]
-            beside += [each * by for each, by in zip(there, factors, strict=True)]
+            found += [each * by for each, (by, _) in zip(here, factors, strict=True)]
+            free += [each * by * more for each, (by, more) in zip(here, factors, strict=True)]
+            beside += [each * by for each, (by, _) in zip(there, factors, strict=True)]
         step()
     if lost > FEWEST * feet:
         raise ArithmeticError(f"{lost} of {feet} drawn feet have no equilibrium along the stance")
-    return Draws(np.array(found), lost, np.array(beside))
+    return Draws(np.array(found), np.array(free), lost, np.array(beside))
 
 
 def _turned(

@@ -1,9 +1,11 @@
-"""How far outcomes of a foot's map are from forward dynamics: a part of every band.
+"""How far outcomes of a foot's map are from forward dynamics.
 
 The map is quasi-static and bears the recorded load. Along the same turns of pelvis, hip and knee a simulated foot has
-inertia and dampers, and on another foot than the present one the load differs, since the pelvis is free. Both were
-measured (`benchmarks/prosthesis_forward.py`): the difference on the present foot, and how it grows with the logarithm
-of the keel's stiffness over that of the present one. Of the rate of loading and of another alignment it was not.
+inertia and dampers: that is the map's own error, on the present foot, and every draw has it. On another foot than the
+present one the load differs as well, since the pelvis is free: that grows with the logarithm of the keel's stiffness
+over that of the present one. Bands of outcomes have both. What is best is sought with the recorded load, as the
+responses of a person say, and has the first. Both were measured (`benchmarks/prosthesis_forward.py`); of the rate of
+loading and of another alignment they were not.
 """
 
 from __future__ import annotations
@@ -29,7 +31,7 @@ class ModelError:
     here
         On the present foot, by aim.
     away
-        For a keel that is e times as stiff, by aim; in proportion to the logarithm of the stiffness.
+        What the load of a keel that is e times as stiff adds, by aim; in proportion to the logarithm of the stiffness.
     """
 
     here: Mapping[Aim, float]
@@ -37,18 +39,21 @@ class ModelError:
 
     def factors(
         self, stiffness: Float[np.ndarray, " n"], rng: np.random.Generator
-    ) -> Float[np.ndarray, "n aims"]:
-        """A draw for values with those logarithms of stiffness over the present one; one error for all of them."""
+    ) -> tuple[Float[np.ndarray, " aims"], Float[np.ndarray, "n aims"]]:
+        """A draw: of the map itself, and of the load at values with those logarithms of stiffness over the present one.
+
+        Each is one error for all values.
+        """
         here, away = (np.array([of.get(aim, 0.0) for aim in AIMS]) for of in (self.here, self.away))
         one, other = rng.standard_normal((2, len(AIMS)))
-        return np.asarray(np.exp(here * one + stiffness[:, None] * away * other))
+        return np.exp(here * one), np.exp(stiffness[:, None] * away * other)
 
 
 MEASURED = ModelError(
     here={"ankle_moment": 0.017, "socket_moment": 0.18, "energy": 0.028, "radius": 0.025},
-    away={"ankle_moment": 0.074, "socket_moment": 0.38, "energy": 0.127, "radius": 0.081},
+    away={"ankle_moment": 0.058, "socket_moment": 0.355, "energy": 0.126, "radius": 0.084},
 )
-"""Root mean squares of nine present feet, three persons at three settings, and of two or three others for each.
+"""Root mean squares of nine present feet, three persons at three settings, and of sixteen others they walk on.
 
 The socket's peak is that of a foot that slaps down, whose dampers shift the load forwards: the map has none.
 """
