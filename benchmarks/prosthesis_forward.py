@@ -69,7 +69,7 @@ class ForwardRun:
         return found
 
     def mapped(self, *, dragged: bool = True) -> dict[float, dict[str, float]]:
-        """The same by the map of the foot along the present stance, angles kept; with the force along the ground or not."""
+        """The same by the map of the foot along the present stance, angles kept."""
         knob = Knob("fulcrum", np.array(sorted(self.stances)), self.present)
         maps = knob.maps(vsf_foot(), self.task)
         if not dragged:
@@ -85,9 +85,7 @@ def forward_run(person: int, setting: str, others: tuple[float, ...] = OTHERS) -
     one = course(leg, vsf_foot(), present, lasting)
     span = (-0.06, lasting + AFTER)
     stances = {
-        fulcrum: simulate_stance(
-            one.motion, vsf_foot(), fulcrum, one.push, span, tolerance=1e-4, machine_code=False
-        )
+        fulcrum: simulate_stance(one.motion, vsf_foot(), fulcrum, one.push, span, tolerance=1e-4, machine_code=False)
         for fulcrum in (present, *others)
         if fulcrum == present or abs(fulcrum - present) > 5e-3
     }
@@ -107,7 +105,7 @@ def task_of(s: Stance) -> FootTask:
 
 
 def stance_outcomes(s: Stance) -> dict[str, float]:
-    """Of a simulated stance while it is loaded, as `design.outcomes` has them; the rate of loading is not among them."""
+    """Of a simulated stance while it is loaded, as `design.outcomes` has them but for the rate of loading."""
     weight = s.motion.leg.person.mass * GRAVITY
     loaded = np.flatnonzero(s.force[:, 1] > LOADED * weight)
     on = slice(int(loaded[0]), int(loaded[-1]) + 1)

@@ -32,7 +32,9 @@ def foot_numbers(foot: VariableStiffnessFoot, fulcrum: float) -> dict[str, Numbe
 
 def socket_numbers(bushing: Bushing) -> dict[str, Number]:
     """Stiffness and damping along the socket's six directions [N m/rad, N/m; N m s/rad, N s/m]."""
-    note = {AS_MEANT: "sec. 2.1, turns with N m in place of N mm", PRINTED: "sec. 2.1, as printed"}.get(bushing, "given")
+    note = {AS_MEANT: "sec. 2.1, turns with N m in place of N mm", PRINTED: "sec. 2.1, as printed"}.get(
+        bushing, "given"
+    )
     found = {}
     for kind, values in (("stiffness", bushing.stiffness), ("damping", bushing.damping)):
         for name, value in zip(SOCKET, values, strict=True):
@@ -45,7 +47,10 @@ def _keel(keel: Keel, fulcrum: float) -> Iterator[tuple[str, Number]]:
     known = {name: (source, note) for name, _, source, note in KEEL_ROWS}
     for name in ("length", "posterior", "joints", "width", "density", "retardation"):
         yield name, Number(float(getattr(keel, name)), *known[name])
-    yield "bending", Number(keel.bending, "derived", f"EI, with the forefoot's stiffness {COMPRESSED}; {keel.support} end")
+    yield (
+        "bending",
+        Number(keel.bending, "derived", f"EI, with the forefoot's stiffness {COMPRESSED}; {keel.support} end"),
+    )
     yield "thickness", Number(keel.thickness, "derived", "from width, modulus and EI as of beam theory")
     for k, value in enumerate(keel.stiffness(fulcrum), start=1):
         yield f"stiffness_{k}", Number(float(value), "derived", f"of hinge {k}, from EI and fulcrum")

@@ -2,7 +2,7 @@
 
 Masses, mass centres and radii of gyration are de Leva's (1996), lengths those of his mean person over the stature. He
 does not say where head and shoulders are above the hips: those are shares of the stature as well (Drillis & Contini
-1966, Body segment parameters, Office of Vocational Rehabilitation, report 1166-03, as printed by Winter 2009, fig. 4.1).
+1966, Body segment parameters, Office of Vocational Rehabilitation, report 1166-03, as Winter 2009 prints it, fig. 4.1).
 """
 
 from __future__ import annotations

@@ -126,7 +126,7 @@ def _turned(
     return np.array([one.measured_still(maps, task) for one in knobs])
 
 
-def _mirrored(of: list[Float[np.ndarray, "..."]]) -> list[Float[np.ndarray, "..."]]:
+def _mirrored(of: list[Float[np.ndarray, ...]]) -> list[Float[np.ndarray, ...]]:
     """Outcomes of the draws, and their mirror images about that of the recording, which is the first."""
     return [each for one in of[1:] for each in (one, 2.0 * of[0] - one)]
 

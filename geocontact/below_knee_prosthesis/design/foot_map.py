@@ -1,8 +1,8 @@
 """What a foot does at a pitch and under a load: height, centre of pressure and bend of its keel, tabulated once.
 
 Quasi-static, elastic and upright in the frontal plane: then a foot is a function of its pitch, its load and the force
-along the ground, and a stance is a path on that table. Solving the keel along one stance for a load costs as much as the
-whole table, from which every kinematic draw is read for next to nothing. Between the rows it is linear.
+along the ground, and a stance is a path on that table. Solving the keel along one stance for a load costs as much as
+the whole table, from which every kinematic draw is read for next to nothing. Between the rows it is linear.
 
 The force along the ground bends the keel as well, for it acts below its joints: a fifth of the load in push-off adds a
 quarter to what a keel stores. Each sphere has its share of it, as it has of the load. Its effect is tabulated for a

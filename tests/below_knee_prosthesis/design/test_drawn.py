@@ -71,7 +71,9 @@ def test_the_answers_interval_widens_with_the_errors(noisy: dict[float, np.ndarr
     width, ends = {}, {}
     for size, drawn in noisy.items():
         wanted = float(np.median(drawn[:, 1]))
-        chosen = choose(VALUES, np.repeat(drawn[:, None], 3, axis=1), "nearest", wanted, 0.11, 0.95).sides["angles kept"]
+        chosen = choose(VALUES, np.repeat(drawn[:, None], 3, axis=1), "nearest", wanted, 0.11, 0.95).sides[
+            "angles kept"
+        ]
         width[size], ends[size] = chosen.upper - chosen.lower, (chosen.lower, chosen.upper)
     assert width[0.02] > 1.5 * width[0.002]
     assert ends[0.02][0] < ends[0.002][0] and ends[0.02][1] > ends[0.002][1]
