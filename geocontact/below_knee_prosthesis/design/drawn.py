@@ -164,7 +164,8 @@ def drawn_foot(
 
 def _widest(tasks: list[FootTask]) -> FootTask:
     """Pitches and loads of all draws of a stance as one, so that one table serves them."""
-    time, pitch, load, forward = (
-        np.concatenate([getattr(each, name) for each in tasks]) for name in ("time", "pitch", "load", "forward")
+    time, pitch, thigh, load, forward = (
+        np.concatenate([getattr(each, name) for each in tasks])
+        for name in ("time", "pitch", "thigh", "load", "forward")
     )
-    return replace(tasks[0], time=time, pitch=pitch, load=load, forward=forward)
+    return replace(tasks[0], time=time, pitch=pitch, thigh=thigh, load=load, forward=forward)
