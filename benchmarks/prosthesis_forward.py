@@ -5,7 +5,7 @@
 A synthetic walk is simulated on the present foot, which gives the load and the foot's turns that a design starts from,
 and along the same turns of pelvis, hip and knee on other fulcrums: the foot with its inertia, dampers and friction, the
 pelvis free upwards and forwards. Printed is, for each person and setting, how far the design's outcomes with the angles
-kept are from the simulated ones, as logarithms of their ratio. From these are `model_error.py`'s numbers.
+kept are from the simulated ones, as logarithms of their ratio. From these are `map_error.py`'s numbers.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.design.foot_task import LOADED, FootTask, foot_task
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob
-from geocontact.below_knee_prosthesis.design.model_error import stiffer
+from geocontact.below_knee_prosthesis.design.map_error import stiffer
 from geocontact.below_knee_prosthesis.design.outcomes import radius_of_path
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of

@@ -8,7 +8,7 @@ settings share falls out of them.
 A drawn stance has its errors on top of those that the recording has already. What they do to an outcome on the average,
 as noise that only ever adds to a path's bend, they have done twice then. So each draw counts with its mirror image
 about the outcome of the recording itself on the same foot, which has the error that the recording has taken off.
-Errors of the map against forward dynamics (`model_error`) come on top.
+Errors of the map against forward dynamics (`map_error`) come on top.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZonePar
 from geocontact.below_knee_prosthesis.design.foot_map import FootMap
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import AIMS, JUDGED, Knob
-from geocontact.below_knee_prosthesis.design.model_error import MEASURED, ModelError, stiffer
+from geocontact.below_knee_prosthesis.design.map_error import MEASURED, MapError, stiffer
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
 
 KEEL = 0.03
@@ -67,7 +67,7 @@ def draws(
     walks: int,
     seed: int = 0,
     keel: float = KEEL,
-    model: ModelError = MEASURED,
+    model: MapError = MEASURED,
     step: Callable[[], None] = lambda: None,
     alignments: Sequence[float] = (),
 ) -> Draws:

@@ -14,7 +14,7 @@ from geocontact.below_knee_prosthesis.design.drawn import draws
 from geocontact.below_knee_prosthesis.design.foot_map import FootMap
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob
-from geocontact.below_knee_prosthesis.design.model_error import MEASURED, NONE, ModelError, stiffer
+from geocontact.below_knee_prosthesis.design.map_error import MEASURED, NONE, MapError, stiffer
 from geocontact.below_knee_prosthesis.keel.beam import tip_compliance
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from tests.below_knee_prosthesis.design.tasks import a_task
@@ -87,7 +87,7 @@ def test_errors_of_the_map_are_one_for_all_values_and_grow_with_the_stiffness() 
     np.testing.assert_allclose(stiffer(knob, keel), by_hand, atol=1e-12)
     np.testing.assert_allclose(stiffer(Knob("stiffness", np.array([0.6, 1.6]), 0.11), keel), np.log([0.6, 1.6]))
     assert not stiffer(Knob("alignment", np.array([-0.1, 0.1]), 0.11), keel).any()
-    model = ModelError({"energy": 0.03}, {"energy": 0.2})
+    model = MapError({"energy": 0.03}, {"energy": 0.2})
     pairs = [model.factors(by_hand, rng) for _ in range(4000)]
     own, load = (np.log([pair[k] for pair in pairs]) for k in (0, 1))
     assert not np.delete(own, ENERGY, axis=1).any() and not np.delete(load, ENERGY, axis=2).any()

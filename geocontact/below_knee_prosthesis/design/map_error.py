@@ -23,7 +23,7 @@ from geocontact.below_knee_prosthesis.keel.keel import Keel
 
 
 @dataclass(frozen=True)
-class ModelError:
+class MapError:
     """Standard deviations of the logarithm of an outcome by the map over that by forward dynamics.
 
     Parameters
@@ -49,7 +49,7 @@ class ModelError:
         return np.exp(here * one), np.exp(stiffness[:, None] * away * other)
 
 
-MEASURED = ModelError(
+MEASURED = MapError(
     here={"ankle_moment": 0.017, "socket_moment": 0.18, "energy": 0.028, "radius": 0.025},
     away={"ankle_moment": 0.058, "socket_moment": 0.355, "energy": 0.126, "radius": 0.084},
 )
@@ -57,7 +57,7 @@ MEASURED = ModelError(
 
 The socket's peak is that of a foot that slaps down, whose dampers shift the load forwards: the map has none.
 """
-NONE = ModelError({}, {})
+NONE = MapError({}, {})
 
 
 def stiffer(knob: Knob, keel: Keel) -> Float[np.ndarray, " n"]:
