@@ -79,6 +79,15 @@ def test_the_answers_interval_widens_with_the_errors(noisy: dict[float, np.ndarr
     assert ends[0.02][0] < ends[0.002][0] and ends[0.02][1] > ends[0.002][1]
 
 
+def test_a_further_alignment_of_nothing_is_the_draw_itself() -> None:
+    """With the recorded load, whose error is the same in both."""
+    given = KNOB, vsf_foot(), a_task(), erring(0.002), SURE
+    found = draws(*given, feet=1, walks=1, keel=0.0, alignments=(0.0,))
+    np.testing.assert_allclose(found.beside[:, 0], found.drawn[:, :2], rtol=1e-9)
+    assert np.abs(found.free / found.drawn - 1.0)[:, :, [0, 2], ENERGY].min() > 1e-4
+    np.testing.assert_allclose(found.free[:, :, 1], found.drawn[:, :, 1])  # the present foot bears what it bore
+
+
 def test_errors_of_the_map_are_one_for_all_values_and_grow_with_the_stiffness() -> None:
     knob = Knob("fulcrum", np.array([0.066, 0.11, 0.15]), 0.11)
     keel, rng = vsf_foot().keel, np.random.default_rng(3)
