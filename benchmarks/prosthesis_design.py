@@ -93,7 +93,8 @@ def planted(task: tuple[int, str, int, int]) -> Planted:
     trial = _recorded(leg, person, poses, time_, height, exact, present, errors, rng)
     start = time.process_time()
     knob = Knob("fulcrum", np.linspace(0.066, 0.151, VALUES), present)
-    drawn = draws(knob, foot, lambda own: task_again(trial, errors, own), sd, feet=feet, walks=walks, seed=number).drawn
+    given = knob, foot, trial.task(), lambda own: task_again(trial, errors, own), sd
+    drawn = draws(*given, feet=feet, walks=walks, seed=number).drawn
     choices = {
         aim: choose(knob.settings, drawn[..., k], MEASURES[aim].sense, wanted[aim], present, LEVEL)
         for k, aim in enumerate(AIMS)

@@ -58,7 +58,7 @@ def amputee_tree(amputee: Amputee, side: Side = "right", *, held: bool = False) 
     bodies = (
         Body("pelvis", *amputee.pelvis_body()),
         Body(f"femur{own}", *amputee.prosthetic.thigh_body()),
-        Body(f"tibia{own}", *amputee.residual_body()),
+        Body(f"tibia{own}", *amputee.prosthetic.residual_body()),
         Body(f"socket{own}", *amputee.prosthetic.prosthesis_body()),
         Body(f"calcn{own}", *posterior_part(keel)),
         *below[0],

@@ -10,10 +10,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from jaxtyping import Float
-from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from geocontact.below_knee_prosthesis.model.frustum import Frustum
+from geocontact.below_knee_prosthesis.model.frustum import Frustum, taper
 from geocontact.below_knee_prosthesis.model.leg import Inertial, Person
 from geocontact.data.body_segments import SEGMENTS
 from geocontact.data.multibody.model import Marker
@@ -118,7 +117,7 @@ class IntactLeg:
         has it; cut off at the toe joint. Half-way up between sole and ankle.
         """
         of = SEGMENTS[self.person.sex]["foot"]
-        whole = Frustum(self.length, self.ankle_radius, _taper(of.centre) * self.ankle_radius)
+        whole = Frustum(self.length, self.ankle_radius, taper(of.centre) * self.ankle_radius)
         density = of.mass * self.person.mass / whole.volume
         back = float(self.toe_joint[0] - self.heel[0])
         rear = whole.cut(back)
@@ -176,15 +175,6 @@ class IntactLeg:
             "toes_mass": Number(toes[0], "derived", "what is in front of it"),
             "sole_sphere_radius": Number(SPHERE, "invented", "of five spheres"),
         }
-
-
-def _taper(centre: float) -> float:
-    """Distal over proximal radius of a frustum whose mass centre is at that share of its length."""
-
-    def off(ratio: float) -> float:
-        return float((1.0 + 2.0 * ratio + 3.0 * ratio**2) / (4.0 * (1.0 + ratio + ratio**2)) - centre)
-
-    return float(brentq(off, 1e-6, 1e3))
 
 
 def _along_x(body: Inertial, start: Vector) -> Inertial:

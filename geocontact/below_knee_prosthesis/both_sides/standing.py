@@ -13,6 +13,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.functional import FunctionalJoints, functional_joints
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import IntactLeg, Vector
+from geocontact.below_knee_prosthesis.both_sides.upper_body import LEGS
 from geocontact.below_knee_prosthesis.from_markers.marker_names import (
     INTACT_ANKLE,
     INTACT_BODIES,
@@ -60,6 +61,7 @@ def standing_amputee(
     fulcrum: float,
     below: float,
     joints: FunctionalJoints = NO_JOINTS,
+    stature: float | None = None,
 ) -> Amputee:
     """A person with a right prosthesis; InputError where the markers cannot tell both legs.
 
@@ -69,6 +71,8 @@ def standing_amputee(
         From the sole of the prosthesis up to the keel's axis [m].
     joints
         Centres and axes that are known better than by regression and by epicondyles and malleoli.
+    stature
+        [m]; from the length of the intact leg unless given.
     """
     at = median_places(seen, (*STANDING, *INTACT_STANDING))
     pelvis = pelvis_frame(at, seen.source)
@@ -83,9 +87,15 @@ def standing_amputee(
         None if line is None else (line.centre, line.direction),
     )
     intact = _intact(seen, at, person, pelvis, joints)
-    depth = float(np.linalg.norm(at[PELVIS[0]] + at[PELVIS[1]] - at[PELVIS[2]] - at[PELVIS[3]])) / 2.0
-    width = float(np.linalg.norm(at[PELVIS[0]] - at[PELVIS[1]]))
-    return Amputee(prosthetic, intact, (depth, width), foot, fulcrum)
+    tall = (intact.thigh + intact.shank) / LEGS if stature is None else stature
+    return Amputee(prosthetic, intact, tall, _upright(pelvis.rotation), foot, fulcrum)
+
+
+def _upright(pelvis: Rotation) -> Rotation:
+    """Of a pelvis in the laboratory (y up): components of who stands upright there into the pelvis' own."""
+    up, across = np.array([0.0, 1.0, 0.0]), pelvis.apply([0.0, 0.0, 1.0]) * np.array([1.0, 0.0, 1.0])
+    across = across / np.linalg.norm(across)
+    return pelvis.inv() * Rotation.from_matrix(np.column_stack([np.cross(up, across), up, across]))
 
 
 def standing_intact_leg(seen: MarkerTrajectories, person: Person) -> IntactLeg:

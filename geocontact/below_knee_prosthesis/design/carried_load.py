@@ -62,7 +62,7 @@ class CarriedLoad:
 
 def carried(foot: FootMap, task: FootTask, tilt: Float[np.ndarray, " t"], kept: float) -> CarriedLoad:
     """The foot turned by that much against the stance [rad], toes up."""
-    channels = foot.at(task.pitch + tilt, task.load)
+    channels = foot.at(task.pitch + tilt, task.load, task.forward)
     return CarriedLoad(
         task, foot, tilt, channels[:, 0], channels[:, 1:PLACES], channels[:, PLACES:], foot.stored(channels), kept
     )
@@ -80,7 +80,8 @@ def with_torque_kept(foot: FootMap, task: FootTask, moment: Float[np.ndarray, " 
     """
     tilt = np.arange(-REACH, REACH + 0.5 * STEP, STEP)
     pitch = task.pitch[:, None] + tilt
-    channels = foot.at(pitch, np.broadcast_to(task.load[:, None], pitch.shape))
+    load, forward = (np.broadcast_to(each[:, None], pitch.shape) for each in (task.load, task.forward))
+    channels = foot.at(pitch, load, forward)
     off = _moment(task, channels[..., 1:PLACES], pitch, task.ankle) - moment[:, None]
     crossing = np.signbit(off[:, :-1]) != np.signbit(off[:, 1:])
     away = np.where(crossing, np.abs(0.5 * (tilt[1:] + tilt[:-1])), np.inf)

@@ -2,8 +2,8 @@
 
 Central differences, one number at a time, all else as it is: a step of the choice, or one standard deviation of what
 is not known. What is not known changes the foot that the stance was recorded on, so that the person answers to nothing;
-the choice is answered to. The table of the foot is elastic and without friction, so that damping and friction of the
-sole move nothing in it.
+the choice is answered to. The table of the foot is elastic and has the recorded force along the ground, so that damping
+and friction of the sole move nothing in it.
 """
 
 from __future__ import annotations

@@ -11,7 +11,13 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
 from geocontact.below_knee_prosthesis.model.leg_tree import recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Stance
-from geocontact.below_knee_prosthesis.stance_errors import PlateStance, StanceErrors, at_times, stance_errors
+from geocontact.below_knee_prosthesis.stance_errors import (
+    PlateStance,
+    StanceErrors,
+    at_times,
+    simulated_at,
+    stance_errors,
+)
 from geocontact.identify.signals.agreement import agreement
 
 ANKLE = "ankle_moment"
@@ -93,11 +99,11 @@ def plate_ankle_moment(plate: PlateStance, motion: LegMotion) -> Float[np.ndarra
 def _ankle_moments(
     stance: Stance, plate: PlateStance, errors: StanceErrors
 ) -> tuple[Float[np.ndarray, " s"], Float[np.ndarray, " s"]]:
-    """Simulated and measured over the plate's stance, over body mass [N m/kg]."""
+    """Simulated, as far as it was, and measured over the plate's stance, over body mass [N m/kg]."""
     mass, start = stance.motion.leg.person.mass, errors.start
     time = start + errors.share * errors.stance[1]
     seen = plate_ankle_moment(plate, stance.motion)
     return (
-        np.interp(time, stance.time, stance.ankle_moment) / mass,
+        simulated_at(time, stance.time, stance.ankle_moment[:, None])[:, 0] / mass,
         np.interp(time, plate.time, seen) / mass,
     )

@@ -77,14 +77,16 @@ def reasons(one: JudgedStance) -> Sequence[str]:
             f"{1e3 * lost.sum() * (s.time[1] - s.time[0]):.0f} ms: it lands harder than it did"
         )
     model, measured = one.simulated("resultant"), one.measured("resultant")
-    early = errors.share < EARLY
-    above = float((model - measured)[early].max())
+    early = np.where(np.isfinite(model) & (errors.share < EARLY), model - measured, -np.inf)
+    above = float(early.max())
     if above > OVERSHOT:
-        at = float(errors.share[early][np.argmax((model - measured)[early])])
+        at = float(errors.share[np.argmax(early)])
         touching = int((s.loads.pressing[int(np.argmin(np.abs(share - at)))] > 0.0).sum())
         found.append(f"{above:.1f} BW too much at {100.0 * at:.0f} % of the stance, on {touching} spheres")
     late = errors.stance[0] - errors.stance[1]
-    if abs(late) > LATE:
+    if not np.isfinite(late):
+        found.append("its simulation ended before toe-off")
+    elif abs(late) > LATE:
         found.append(f"the stance lasts {1e3 * late:+.0f} ms")
     if (s.loads.depth > s.foot.sole.spheres.radius).any():
         found.append("a sphere sinks beyond its radius")

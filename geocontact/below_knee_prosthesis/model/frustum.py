@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
+from scipy.optimize import brentq
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(3)
 """Exact up to the fifth power; the fourth is the highest that is needed."""
@@ -65,3 +66,12 @@ class Frustum:
 
     def _sum(self, of: Float[np.ndarray, " 3"]) -> float:
         return float(0.5 * self.length * (WEIGHTS @ of))
+
+
+def taper(centre: float) -> float:
+    """Distal over proximal radius of a frustum whose mass centre is at that share of its length."""
+
+    def off(ratio: float) -> float:
+        return float((1.0 + 2.0 * ratio + 3.0 * ratio**2) / (4.0 * (1.0 + ratio + ratio**2)) - centre)
+
+    return float(brentq(off, 1e-6, 1e3))

@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.model.frustum import Frustum
+from geocontact.below_knee_prosthesis.model.frustum import Frustum, taper
 from geocontact.data.body_segments import SEGMENTS, Sex
 from geocontact.data.multibody.model import Marker
 from geocontact.data.sourced_number import Number, Source
@@ -23,8 +23,8 @@ Vector = Float[np.ndarray, " 3"]
 Inertial = tuple[float, Vector, Float[np.ndarray, "3 3"]]
 """Mass [kg], mass centre [m] and inertia about it [kg m²]."""
 
-RESIDUAL, TAPER = 0.45, 0.6
-"""Share of the shank that is left, and of the knee's radius that the ankle has; invented."""
+RESIDUAL = 0.45
+"""Share of the shank that is left; invented."""
 SOCKET, PYLON, FOOT = 1.1, 0.35, 0.75
 """kg; socket with liner, pylon with adapters, foot shell with shoe; invented."""
 SOCKET_RADIUS, FOOT_SIZE = 0.055, (0.24, 0.06, 0.08)
@@ -124,9 +124,14 @@ class Leg:
         return mass, np.array([0.0, -of.centre * self.thigh, 0.0]), np.diag([sagittal, long, transverse])
 
     def residual_body(self) -> Inertial:
-        """Of the residual limb in the shank's frame: a frustum cut off, of the density of the whole shank."""
-        whole = Frustum(self.shank, self.knee_radius, TAPER * self.knee_radius)
-        density = SEGMENTS[self.person.sex]["shank"].mass * self.person.mass / whole.volume
+        """Of the residual limb in the shank's frame: a frustum cut off, of the density of the whole shank.
+
+        Whole it has de Leva's mass, and his mass centre tells its taper: the limb weighs the same whatever else is
+        known of the person.
+        """
+        of = SEGMENTS[self.person.sex]["shank"]
+        whole = Frustum(self.shank, self.knee_radius, taper(of.centre) * self.knee_radius)
+        density = of.mass * self.person.mass / whole.volume
         return whole.cut(self.person.residual * self.shank).body(density)
 
     def prosthesis_body(self) -> Inertial:
@@ -148,26 +153,52 @@ class Leg:
         return self.person.mass - keel - sum(part[0] for part in parts)
 
     def numbers(self) -> Mapping[str, Number]:
-        """Every number of the segments in SI, and where it is from."""
+        """Every number of the segments in SI, and where it is from: what a simulation takes of this leg."""
         leva = "de Leva 1996, of the body's mass; the study takes the same table"
         measured = "from the markers of the standing trial"
         weighed = self.person.prosthesis != SOCKET + PYLON + FOOT
         source: Source = "derived" if weighed else "invented"
         shared = "; shares of the prosthesis' mass are invented" if weighed else ""
         socket, pylon, foot = self.person.parts
+        thigh, residual = self.thigh_body(), self.residual_body()
         return {
             "mass": Number(self.person.mass, "paper", "given"),
             "thigh_length": Number(self.thigh, "derived", measured),
             "shank_length": Number(self.shank, "derived", measured),
             "knee_radius": Number(self.knee_radius, "derived", f"{measured}: half the distance of the epicondyles"),
-            "thigh_mass": Number(self.thigh_body()[0], "derived", leva),
+            **_places("hip", self.hip, "its centre in the pelvis' frame, by regression or a functional trial"),
+            **_places("ankle", self.ankle, f"in the shank's frame, {measured}"),
+            **_places("keel", self.keel, f"origin of the keel's frame K in the shank's, {measured}"),
+            **_places("turn", self.turn.as_rotvec(), f"of K in the shank's frame as a rotation vector, {measured}"),
+            "thigh_mass": Number(thigh[0], "derived", leva),
+            "thigh_centre": Number(float(-thigh[1][1]), "derived", "of its mass, below the hip; de Leva 1996"),
             "residual_share": Number(self.person.residual, "invented", "of the shank; the study does not tell it"),
-            "ankle_over_knee_radius": Number(TAPER, "invented", "of the frustum that stands for the intact shank"),
-            "residual_mass": Number(self.residual_body()[0], "derived", "frustum cut off, density of the intact shank"),
+            "ankle_over_knee_radius": Number(
+                taper(SEGMENTS[self.person.sex]["shank"].centre),
+                "derived",
+                "of the frustum of a whole shank, which puts its mass centre where de Leva has it",
+            ),
+            "residual_mass": Number(residual[0], "derived", "that frustum cut off, with de Leva's mass"),
+            "residual_centre": Number(float(-residual[1][1]), "derived", "of its mass, below the knee"),
             "socket_mass": Number(socket, source, f"with liner{shared}"),
             "pylon_mass": Number(pylon, source, f"with adapters{shared}"),
             "foot_mass": Number(foot, source, f"shell and shoe, without keel{shared}"),
+            **_prosthesis(*self.prosthesis_body()),
         }
+
+
+def _places(name: str, values: Vector, note: str) -> dict[str, Number]:
+    return {f"{name}_{axis}": Number(float(each), "derived", note) for axis, each in zip("xyz", values, strict=True)}
+
+
+def _prosthesis(mass: float, centre: Vector, inertia: Float[np.ndarray, "3 3"]) -> dict[str, Number]:
+    """Of socket, pylon and foot shell together."""
+    found = {"prosthesis_mass": Number(mass, "derived", "of these three, without keel")}
+    found |= _places("prosthesis_centre", centre, "of their mass, in the bushing's frame")
+    for a, b in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)):
+        note = "about that centre: tubes and a box of invented size"
+        found[f"prosthesis_I{'xyz'[a]}{'xyz'[b]}"] = Number(float(inertia[a, b]), "derived", note)
+    return found
 
 
 def combined(parts: tuple[Inertial, ...]) -> Inertial:

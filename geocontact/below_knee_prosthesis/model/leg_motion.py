@@ -44,6 +44,10 @@ class LegMotion:
         """One coordinate."""
         return self.values[:, RECORDED.index(name)]
 
+    def at(self, time: Float[np.ndarray, " f"]) -> Float[np.ndarray, "f 10"]:
+        """All coordinates at other times [s], on splines of the degree that a simulation is driven with."""
+        return np.asarray(make_interp_spline(self.time, self.values, k=SMOOTH)(time))
+
     def part(self, start: float, stop: float) -> LegMotion:
         """Frames between two times, one more on each side where there is one."""
         step = self.time[1] - self.time[0]

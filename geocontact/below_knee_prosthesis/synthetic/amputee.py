@@ -11,6 +11,7 @@ from zlib import crc32
 
 import numpy as np
 from jaxtyping import Float
+from scipy.spatial.transform import Rotation
 
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
@@ -24,7 +25,6 @@ from geocontact.below_knee_prosthesis.synthetic.persons import (
     HIP,
     KNEE_RADIUS,
     SHANK,
-    SPINES,
     THIGH,
     TOE_OUT,
     Walker,
@@ -89,9 +89,8 @@ def true_amputee(person: Walker, foot: VariableStiffnessFoot, fulcrum: float) ->
     intact = true_intact(person, own.person)
     seen = intact_places(intact)
     kept = {body: {name: seen[body][name] for name in names} for body, names in INTACT_BODIES.items()}
-    depth = 0.5 * (SPINES["RASI"][0] + SPINES["LASI"][0] - SPINES["RPSI"][0] - SPINES["LPSI"][0])
-    width = SPINES["RASI"][2] - SPINES["LASI"][2]
-    return Amputee(own, replace(intact, markers=_markers(kept)), (depth, width), foot, fulcrum)
+    upright = Rotation.from_euler("z", -STILL["pelvis_tilt"], degrees=True)
+    return Amputee(own, replace(intact, markers=_markers(kept)), person.stature, upright, foot, fulcrum)
 
 
 def true_intact(person: Walker, of: Person) -> IntactLeg:

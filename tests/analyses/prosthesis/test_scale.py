@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import warnings
 from pathlib import Path
 from typing import Any
@@ -56,6 +57,9 @@ def test_files_are_read_by_ik_and_stand_as_the_person_did(made: ProsthesisScaleR
     np.testing.assert_allclose(held.marker_places(still)[0], places, atol=1e-6)
     found = inverse_kinematics(tree_of(held), seen, MarkerTasks(dict.fromkeys((m.name for m in held.markers), 1.0)))
     assert found.distances.max() < 2e-3  # the cameras' noise
+    for name in (FREE, HELD):  # all that travels with the file
+        said = (tmp_path / "out" / name).read_text().split("<credits>")[1].split("</credits>")[0]
+        assert "lean and turn with the pelvis alone" in said
     assert (tmp_path / "out" / FREE).read_text().count("<ContactSphere ") == 24 + 5
     assert (tmp_path / "out" / FREE).read_text().count("<SpringGeneralizedForce ") == 6 + 8
 
@@ -71,6 +75,37 @@ def test_functional_trial_fits_better_than_regression_and_hand(made: ProsthesisS
     rms = [float(np.sqrt(np.nanmean(each.distances**2))) for each in (made.moved, other)]
     assert rms[0] < rms[1] < 0.004
     assert [joint.how for joint in made.joints] == ["functional"] * 5
+
+
+def test_numbers_are_those_of_the_written_model(made: ProsthesisScaleResult, tmp_path: Path) -> None:
+    """Each mass and spring of amputee.osim in numbers.csv; EI is that of the springs, not that of beam theory."""
+    made.write(tmp_path / "out")
+    lines = (tmp_path / "out" / "numbers.csv").read_text().splitlines()
+    rows = csv.DictReader(line for line in lines if not line.startswith("#"))
+    told = {row["number"]: float(row["value"]) for row in rows}
+    mass = {body.name: body for body in read_multibody(tmp_path / "out" / FREE).bodies}
+    pairs = {
+        "femur_r": "prosthetic thigh_mass",
+        "tibia_r": "prosthetic residual_mass",
+        "socket_r": "prosthetic prosthesis_mass",
+        "femur_l": "intact thigh_mass",
+        "tibia_l": "intact shank_mass",
+        "calcn_l": "intact foot_mass",
+        "toes_l": "intact toes_mass",
+        "pelvis": "pelvis mass",
+    }
+    for body, name in pairs.items():
+        assert told[name] == pytest.approx(mass[body].mass, rel=1e-10), name
+    for k, axis in enumerate("xyz"):
+        assert told[f"pelvis I{axis}{axis}"] == pytest.approx(mass["pelvis"].inertia[k, k], rel=1e-10)
+        assert told[f"pelvis centre_{axis}"] == pytest.approx(mass["pelvis"].centre[k], abs=1e-11)
+    text = (tmp_path / "out" / FREE).read_text()
+    names = {f"keel_{k}_r": f"keel stiffness_{k}" for k in range(1, 9)} | {"socket_ty_r": "socket_ty stiffness"}
+    for coordinate, name in names.items():
+        spring = text.split(f"<coordinate>{coordinate}</coordinate>")[1]
+        stiffness = float(spring.split("<stiffness>")[1].split("</stiffness>")[0])
+        assert told[name] == pytest.approx(stiffness, rel=1e-10), name
+    assert told["keel bending"] == pytest.approx(19.74, abs=0.005)
 
 
 @pytest.mark.parametrize(

@@ -9,10 +9,10 @@ import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.design.carried_load import REACH, with_angles_kept, with_torque_kept
-from geocontact.below_knee_prosthesis.design.foot_map import PLACES, FootMap, foot_map, needed
+from geocontact.below_knee_prosthesis.design.foot_map import PLACES, FootMap, foot_map, needed, solved_with_drag
 from geocontact.below_knee_prosthesis.design.outcomes import loading_rate, returned, roll_over_radius
 from geocontact.below_knee_prosthesis.design.roll_over import arc_through
-from geocontact.below_knee_prosthesis.design.terrain import FLAT
+from geocontact.below_knee_prosthesis.design.terrain import FLAT, LEVEL
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from tests.below_knee_prosthesis.design.tasks import a_task
 
@@ -27,6 +27,7 @@ def maps() -> dict[float, FootMap]:
 def test_at_the_tables_height_the_keel_carries_the_load(maps: dict[float, FootMap]) -> None:
     """Solved afresh at the heights that the table tells: forces, centres and angles are those of the table."""
     task, foot = a_task(), maps[0.117]
+    task = replace(task, forward=0.0 * task.forward)
     found = with_angles_kept(foot, task)
     turn = Rotation.from_euler("z", task.pitch[:, None])
     place = np.stack([0.0 * found.height, found.height, 0.0 * found.height], axis=1)
@@ -36,6 +37,43 @@ def test_at_the_tables_height_the_keel_carries_the_load(maps: dict[float, FootMa
     pressing, point = motion.loads.pressing, np.nan_to_num(motion.loads.point)
     centre = np.einsum("tn,tni->ti", pressing, point) / pressing.sum(axis=1)[:, None]
     np.testing.assert_allclose(poses.inv().apply(centre)[:, 0], found.centre[:, 0], atol=6e-3)
+
+
+def test_a_force_along_the_ground_bends_the_keel_by_statics(maps: dict[float, FootMap]) -> None:
+    """Each sphere presses k × depth and is held by a fifth of it: its moments about the hinges, summed here by hand."""
+    task, foot = a_task(), maps[0.117]
+    task = replace(task, forward=0.2 * task.load)
+    found, keel = with_angles_kept(foot, task), foot.keel.keel
+    place = np.column_stack([0.0 * found.height, found.height, 0.0 * found.height])
+    poses = RigidTransform.from_components(place, Rotation.from_euler("z", task.pitch[:, None]))
+    motion = solved_with_drag(foot.keel, poses, LEVEL, 0.2)
+    np.testing.assert_allclose(motion.force[:, 0], 0.2 * motion.force[:, 1], rtol=1e-6)
+    np.testing.assert_allclose(motion.force[:, 1], task.load, rtol=0.06)
+    np.testing.assert_allclose(motion.angles, found.angles, atol=0.05 * np.abs(found.angles).max())
+    law, spheres, segment = foot.keel.law, foot.keel.sole.spheres, np.array(foot.keel.sole.segment)
+    for pitch, height, angles in zip(task.pitch, found.height, motion.angles, strict=True):
+        hinges, turn = [], pitch
+        at = np.array([0.0, height]) + keel.posterior * np.array([np.cos(pitch), np.sin(pitch)])
+        frames = [(np.array([0.0, height]), pitch, 0.0)]
+        for angle in angles:
+            hinges.append(at)
+            turn = turn + angle
+            frames.append((at, turn, keel.posterior + len(hinges) * keel.pitch - keel.pitch))
+            at = at + keel.pitch * np.array([np.cos(turn), np.sin(turn)])
+        torque = np.zeros(8)
+        for centre, radius, of, k in zip(spheres.centre, spheres.radius, segment, law.stiffness, strict=True):
+            origin, turned, start = frames[of]
+            c, s = np.cos(turned), np.sin(turned)
+            x, y = origin + np.array([[c, -s], [s, c]]) @ (centre[:2] - [start, 0.0])
+            pressing = k * max(radius - y, 0.0) ** law.exponent
+            for j in range(of):
+                torque[j] += (x - hinges[j][0]) * pressing - (0.0 - hinges[j][1]) * 0.2 * pressing
+        for of in range(1, 9):
+            origin, turned, _ = frames[of]
+            middle = origin[0] + 0.5 * keel.pitch * np.cos(turned)
+            for j in range(of):
+                torque[j] -= 9.80665 * keel.segment_mass * (middle - hinges[j][0])
+        np.testing.assert_allclose(keel.stiffness(0.117) * angles, torque, atol=1e-3)
 
 
 def test_on_the_recorded_foot_the_kept_torque_turns_nothing(maps: dict[float, FootMap]) -> None:
@@ -74,7 +112,7 @@ def test_a_stiffer_foot_stores_less_and_rolls_on_a_larger_arc(maps: dict[float, 
 def test_energy_is_half_of_moment_times_turn() -> None:
     """Clapeyron: joints in equilibrium store half of what the moments at them do along the whole turn."""
     keel = vsf_foot().at(0.1)
-    foot = FootMap(keel, np.array([0.0, 1.0]), np.array([0.0, 1.0]), np.zeros((2, 2, PLACES + 8)))
+    foot = FootMap(keel, np.array([0.0, 1.0]), np.array([0.0, 1.0]), *np.zeros((2, 2, 2, PLACES + 8)))
     angles = np.linspace(0.01, 0.05, 8)
     channels = np.concatenate([np.zeros(PLACES), angles])
     assert foot.stored(channels) == pytest.approx(0.5 * float((keel.keel.stiffness(0.1) * angles) @ angles))

@@ -108,6 +108,6 @@ def test_both_ends_of_what_a_person_does(knob: Knob, maps: tuple[FootMap, ...]) 
 
 
 def test_maps_of_other_rows_are_refused(maps: tuple[FootMap, ...]) -> None:
-    other = FootMap(maps[0].keel, maps[0].pitch + 0.1, maps[0].load, maps[0].table)
+    other = FootMap(maps[0].keel, maps[0].pitch + 0.1, maps[0].load, maps[0].table, maps[0].dragged)
     with pytest.raises(ValueError, match="other rows"):
         feet_on_ground((maps[0], other))

@@ -86,9 +86,13 @@ def _say(r: ProsthesisCompareResult) -> None:
         own = summary[summary["setting"] == setting].set_index("quantity")
         record.say(f"{setting}: {'; '.join(_of_setting(name, own.loc[[name]].iloc[0]) for name in SAID)}")
     late = [one.errors.stance[0] - one.errors.stance[1] for one in stances if not one.calibrated]
+    late = [each for each in late if np.isfinite(each)]
     if late:
         record.say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms)")
     for one in stances:
+        if np.isnan(one.errors.stance[0]):
+            what = f"is simulated over {one.errors.simulated:.0%} of its stance, and ends before toe-off"
+            record.warn(f"{one.name} {what}: no stance time of it, errors over that part")
         if (oddness_of := r.odd.get(one.name)) is not None and oddness_of.outlier:
             seen = "; ".join(reasons(one)) or "nothing that is looked at tells why"
             record.warn(f"{one.name} stands out with {one.errors.table['resultant'][1]:.1%} BW: {seen}")

@@ -41,9 +41,8 @@ def errors_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
                 "r2 [-]": r2,
                 "rmse": off,
             }
-            told = {
-                label: agreement(curve, one.measured(name), 1.0, 0.0) for label, curve in plain[name][one.name].items()
-            }
+            seen = np.where(np.isfinite(one.simulated(name)), one.measured(name), np.nan)  # the same samples for all
+            told = {label: agreement(curve, seen, 1.0, 0.0) for label, curve in plain[name][one.name].items()}
             for label, column in ((MEAN, MEAN), (ANOTHER, "another")):
                 own = told.get(label)
                 row[f"{column} r2 [-]"] = np.nan if own is None else own.r2
@@ -89,9 +88,9 @@ def trials_table(stances: Sequence[JudgedStance], odd: Mapping[str, Oddness]) ->
                 "fulcrum [mm]": 1e3 * one.stance.fulcrum,
                 "stance [s]": one.errors.stance[0],
                 "stance on the plate [s]": one.errors.stance[1],
-                "most vertical [-]": float(one.simulated("vertical").max()),
+                "most vertical [-]": float(np.nanmax(one.simulated("vertical"))),
                 "most vertical on the plate [-]": float(one.measured("vertical").max()),
-                "most ankle moment [N m/kg]": float(model.max()),
+                "most ankle moment [N m/kg]": float(np.nanmax(model)),
                 "most ankle moment on the plate [N m/kg]": float(seen.max()),
                 "resultant rmse [-]": one.errors.table["resultant"][1],
                 "off by the study's rule [-]": own.by_study,

@@ -45,6 +45,7 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
             found = draws(
                 knob,
                 given.foot,
+                task,
                 lambda rng: task_again(trial, errors, rng),
                 given.sd,
                 feet=o.feet,
@@ -63,7 +64,7 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
             raise
         remedy = "check `mass`, the plate and how flat the foot stood"
         raise InputError(o.markers, "", str(error), remedy) from error
-    sweep = Sweep(knob, found.drawn, o.level)
+    sweep = Sweep(knob, found.drawn, found.free, o.level)
     near = {} if given.intact is None else given.intact.outcomes()
     answers = tuple(_answer(sweep, wanted_now(AIMS[k], o, task, near), AIMS[k] in near, k) for k in range(len(AIMS)))
     together = Together.of(knob.settings, ALIGNMENTS, found.beside, answers, o.level) if o.together else None
@@ -86,6 +87,8 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
     if given.intact is not None:
         record.warn(OF_ONE_STEP)
     record.warn("bands are of one trial: how a person differs from step to step is not in them")
+    if o.vary != "alignment":
+        record.warn(f"the best {o.vary} is sought with the recorded load; how the load changes is in the bands only")
     if terrain != LEVEL:
         record.warn(f"judged {words(terrain)}: the stance was recorded on a floor, its load and its turns are kept")
     _say(result)

@@ -32,20 +32,23 @@ class Sweep:
     Parameters
     ----------
     drawn
-        By draw, response, value and aim.
+        By draw, response, value and aim, with the recorded load: what the best value is sought in.
+    free
+        The same with the load that would follow from the foot: what bands and differences are of.
     level
         Probability of the bands.
     """
 
     knob: Knob
     drawn: Float[np.ndarray, "d responses n aims"]
+    free: Float[np.ndarray, "d responses n aims"]
     level: float
 
     @property
     def bands(self) -> Float[np.ndarray, "three responses n aims"]:
         """Median, lower and upper end."""
         ends = [0.5, 0.5 * (1.0 - self.level), 0.5 * (1.0 + self.level)]
-        return np.asarray(np.quantile(self.drawn, ends, axis=0))
+        return np.asarray(np.quantile(self.free, ends, axis=0))
 
     @property
     def shown(self) -> Float[np.ndarray, " n"]:
@@ -105,10 +108,10 @@ class Sweep:
         for j, response in enumerate(RESPONSES):
             words = []
             for k, aim in enumerate(AIMS):
-                off = self.drawn[:, j, -1, k] - self.drawn[:, j, 0, k]
+                off = self.free[:, j, -1, k] - self.free[:, j, 0, k]
                 median, lower, upper = np.quantile(off, [0.5, 0.5 * (1.0 - self.level), 0.5 * (1.0 + self.level)])
                 name, unit = MEASURES[aim].words.partition(",")[0], MEASURES[aim].unit
-                small = NO_DIFFERENCE * float(np.abs(self.drawn[..., k]).mean())
+                small = NO_DIFFERENCE * float(np.abs(self.free[..., k]).mean())
                 if max(abs(lower), abs(upper)) < small:
                     words.append(f"{name} the same")
                 elif lower <= 0.0 <= upper:

@@ -17,7 +17,7 @@ from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim
 
 @dataclass(frozen=True, eq=False)
 class Together:
-    """Outcomes of all pairs.
+    """Outcomes of all pairs, with the recorded load.
 
     Parameters
     ----------

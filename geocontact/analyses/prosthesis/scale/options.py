@@ -28,7 +28,8 @@ class ProsthesisScaleOptions(Options):
     mass
         Of the body with the prosthesis.
     height
-        Of the person [m]; only compared with the lengths of the legs.
+        Of the person [m]: how far trunk, head and arms reach, and compared with the lengths of the legs; from these
+        unless given.
     side
         Of the prosthesis.
     sex

@@ -20,8 +20,8 @@ from geocontact.view.page.tables import frame_table, inputs_table
 from geocontact.view.page.write import write_page
 
 TRUNK = (
-    "Trunk, head and arms are part of the pelvis, as in the study: moments on the pelvis are those of a trunk lying "
-    "in it, and it does not lean by itself."
+    "Trunk, head and arms are one rigid body with the pelvis, upright as while standing, arms hanging (de Leva): it "
+    "leans with the pelvis only, and its arms do not swing. Moments on pelvis and hips are those of such a trunk."
 )
 SKIN = (
     "Markers lie on skin. Centres from a functional trial are off by what skin moves, more if the joint moves little: "

@@ -24,7 +24,9 @@ from geocontact.io.text.results import write_table
 FREE, HELD = "amputee.osim", "amputee_ik.osim"
 NOTE = (
     "Made by geocontact prosthesis scale. Springs of socket and keel are those of one fulcrum; the spheres of both "
-    "soles have no force law here."
+    "soles have no force law here. Trunk, head and arms are one rigid body with the pelvis (masses and moments of "
+    "inertia: de Leva 1996), upright as while standing, arms hanging: they lean and turn with the pelvis alone, "
+    "so that moments on pelvis and hips leave out what a trunk does by itself."
 )
 
 

@@ -42,7 +42,7 @@ JOINTS = {
 def run(stood: Stood, o: ProsthesisScaleOptions, record: Record) -> ProsthesisScaleResult:
     """The model, its joints and its standing pose."""
     below = sole_numbers()["below"].value
-    made = standing_amputee(stood.seen, stood.person, stood.foot, stood.fulcrum, below, stood.joints)
+    made = standing_amputee(stood.seen, stood.person, stood.foot, stood.fulcrum, below, stood.joints, o.height)
     mass = made.pelvis_body()[0]
     if not mass > 0.0:
         what = f"the legs leave {mass:.1f} kg of {made.mass:g} kg for all above them"
@@ -58,7 +58,7 @@ def run(stood: Stood, o: ProsthesisScaleOptions, record: Record) -> ProsthesisSc
     told = [joint.how == "functional" for joint in joints]
     record.say(
         f"both legs of {made.mass:g} kg in {len(held.bodies)} bodies with {len(held.coordinates)} coordinates, "
-        f"pelvis with all above it {mass:.1f} kg, residual limb {made.residual_body()[0]:.2f} kg"
+        f"pelvis with all above it {mass:.1f} kg, residual limb {made.prosthetic.residual_body()[0]:.2f} kg"
     )
     record.say(f"{sum(told)} of {len(told)} joint centres from the functional trial")
     if moved is not None:
@@ -69,7 +69,7 @@ def run(stood: Stood, o: ProsthesisScaleOptions, record: Record) -> ProsthesisSc
         {
             "mass_kg": held.mass,
             "pelvis_kg": mass,
-            "residual_kg": made.residual_body()[0],
+            "residual_kg": made.prosthetic.residual_body()[0],
             "density_kg_per_m3": made.intact.density,
             "joints_off_themselves_mm": {joint.name: 1e3 * joint.rms for joint in joints if joint.rms is not None},
             "functional_rms_mm": None if moved is None else 1e3 * float(np.sqrt(np.nanmean(moved.distances**2))),

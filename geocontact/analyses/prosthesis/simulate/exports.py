@@ -25,9 +25,12 @@ EVERY = 5
 
 
 def write_coordinates(folder: Path, s: Stance, side: Side) -> None:
-    """coordinates.sto: pelvis, hip and knee as recorded but for the pelvis' free places; socket and keel as found."""
-    motion = s.motion
-    values = np.column_stack([np.interp(s.time, motion.time, column) for column in motion.values.T])
+    """coordinates.sto: pelvis, hip and knee as driven but for the pelvis' free places; socket and keel as found.
+
+    Between the recorded frames pelvis, hip and knee are on splines. What was driven is the bushing's frame, on splines
+    through its poses at these frames: the same there, and within micrometres between them.
+    """
+    values = s.motion.at(s.time)
     values[:, 3:5] = s.found.q[:, :2]
     names = [*RECORDED, *SOCKET, *coordinates(s.foot.keel)]
     table = np.hstack([values, s.found.q[:, 2:]])

@@ -14,7 +14,7 @@ from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.from_markers.sides import of_side
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, RECORDED, recorded_tree
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times
 from geocontact.loads.ground import Stairs
@@ -92,7 +92,7 @@ def _lines(s: Stance, o: ProsthesisSimulateOptions, shown: Int[np.ndarray, " k"]
         return of_side(points, o.side)
 
     motion = s.motion
-    values = np.column_stack([np.interp(s.time[shown], motion.time, motion.of(name)) for name in RECORDED])
+    values = motion.at(s.time[shown])
     values[:, 3:5] = s.found.q[shown, :2]
     poses = recorded_tree(motion.leg).poses(values)
     limb = np.stack([poses["pelvis"].translation, poses["thigh"].translation, poses["shank"].translation], axis=1)

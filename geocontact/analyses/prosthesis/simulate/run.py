@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from geocontact.analyses.json_file import plain
@@ -13,7 +15,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import GATE, Stance, simulate_stance
 from geocontact.below_knee_prosthesis.stance_errors import StanceErrors, longest_stance, stance_errors
-from geocontact.contact.bushing import PISTONING, PRINTED, SOCKET
+from geocontact.contact.bushing import PISTONING, PRINTED, SOCKET, Bushing
 from geocontact.data.errors import InputError
 
 BEFORE, AFTER = 0.12, 0.1
@@ -26,7 +28,7 @@ TURNED = np.radians(20.0)
 
 def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisSimulateResult:
     """From before touch-down to after toe-off."""
-    numbers = all_numbers(walk.leg, walk.fulcrum)
+    numbers = all_numbers(walk.leg, walk.foot, walk.fulcrum, bushing_of(o))
     invented = sum(number.source == "invented" for number in numbers.values())
     record.warn(f"{invented} of {len(numbers)} numbers of leg and foot are invented, see numbers.csv")
     record.warn("the socket's own turn is in the recorded knee angle as well, by up to what its bushing turns")
@@ -39,15 +41,16 @@ def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisS
     doubt(found, record)
     told = summary(found)
     record.results["stance"] = plain(told)
-    record.say(
-        f"stance of {told['stance_s']:.2f} s at the fulcrum of {1e3 * walk.fulcrum:.0f} mm: vertical force up to "
-        f"{told['vertical_max_BW']:.2f} BW, ankle moment up to {told['ankle_moment_max_N_m']:.0f} N m, keel "
-        f"stores {told['stored_max_J']:.1f} J"
-    )
+    record.say(found_words(found, told))
     if errors is not None:
-        record.say(_said(errors))
+        record.say(beside_words(errors))
         record.results["errors"] = plain({name: {"r2": r2, "rmse": off} for name, (r2, off) in errors.table.items()})
     return ProsthesisSimulateResult(record=record, options=o, walk=walk, stance=found, errors=errors, numbers=numbers)
+
+
+def bushing_of(o: ProsthesisSimulateOptions) -> Bushing:
+    """Socket on the residual limb."""
+    return SOCKET if o.socket == "as_meant" else PRINTED
 
 
 def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> Stance:
@@ -58,13 +61,24 @@ def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> Stance:
         seen = longest_stance(walk.plate.time, walk.plate.force[:, 1])
         if seen is not None:
             span = max(span[0], seen[0] - BEFORE), min(span[1], seen[1] + AFTER)
-    bushing = SOCKET if o.socket == "as_meant" else PRINTED
     given = walk.walked.motion, walk.foot, walk.fulcrum, walk.push, span
     try:
-        return simulate_stance(*given, bushing=bushing, ground=walk.ground, machine_code=o.machine_code)
+        return simulate_stance(*given, bushing=bushing_of(o), ground=walk.ground, machine_code=o.machine_code)
     except (ArithmeticError, ValueError) as error:
         remedy = "check `mass`, `side`, `axes` and the names of the markers; as_printed no gait can be walked"
         raise InputError(o.markers, "", str(error), remedy) from error
+
+
+def found_words(found: Stance, told: Mapping[str, float]) -> str:
+    """The whole stance in a sentence, by `summary`."""
+    lasting = f"stance of {told['stance_s']:.2f} s"
+    if np.isnan(told["stance_s"]):
+        lasting = f"stance that is not over after {found.time[-1] - found.time[found.on][0]:.2f} s,"
+    return (
+        f"{lasting} at the fulcrum of {1e3 * found.fulcrum:.0f} mm: vertical force up to "
+        f"{told['vertical_max_BW']:.2f} BW, ankle moment up to {told['ankle_moment_max_N_m']:.0f} N m, keel "
+        f"stores {told['stored_max_J']:.1f} J"
+    )
 
 
 def _compared(walk: Walk, found: Stance) -> StanceErrors | None:
@@ -73,13 +87,21 @@ def _compared(walk: Walk, found: Stance) -> StanceErrors | None:
     return stance_errors(found, walk.plate)
 
 
-def _said(errors: StanceErrors) -> str:
+def beside_words(errors: StanceErrors) -> str:
+    """How far the stance is from its plate in a sentence."""
     r2, off = errors.table["resultant"]
     along = errors.table["cop_ground"]
     return (
         f"against the plate: R² {r2:.2f}, {off:.1%} BW; centre of pressure R² {along[0]:.2f}, {along[1]:.1%} of the "
-        f"foot; stance {1e3 * (errors.stance[0] - errors.stance[1]):+.0f} ms"
+        f"foot; {_lasting(errors)}"
     )
+
+
+def _lasting(errors: StanceErrors) -> str:
+    late = 1e3 * (errors.stance[0] - errors.stance[1])
+    if np.isfinite(late):
+        return f"stance {late:+.0f} ms"
+    return f"over the first {errors.simulated:.0%} of the plate's stance, for the simulation ended before toe-off"
 
 
 def doubt(found: Stance, record: Record) -> None:
@@ -87,6 +109,9 @@ def doubt(found: Stance, record: Record) -> None:
     time, loads = found.time, found.loads
     if loads.pressing[0].sum() > GATE:
         record.warn(f"the foot is on the floor at the start, with {loads.pressing[0].sum():.0f} N: begin earlier")
+    if found.on[-1]:
+        what = f"the foot is still on the floor with {found.force[-1, 1]:.0f} N where the simulation ends"
+        record.warn(f"{what}, at {found.time[-1]:.2f} s: is `mass` right, and do the markers go on past toe-off?")
     far, fast = found.beyond
     if far.any():
         most, limit = 1e3 * np.abs(found.pistoning).max(), 1e3 * PISTONING.travel

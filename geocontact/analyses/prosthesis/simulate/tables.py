@@ -7,13 +7,14 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
+from geocontact.below_knee_prosthesis.foot_numbers import foot_numbers, socket_numbers
 from geocontact.below_knee_prosthesis.from_markers.sides import of_side
-from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import numbers as keel_numbers
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.model.leg import Leg, Side
-from geocontact.below_knee_prosthesis.model.leg_tree import SOCKET
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, SOCKET
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.below_knee_prosthesis.stance_errors import StanceErrors
+from geocontact.contact.bushing import Bushing
 from geocontact.data.sourced_number import Number
 
 UNITS = {"impulse": "s"}
@@ -62,12 +63,15 @@ def curves_table(errors: StanceErrors) -> pd.DataFrame:
     return pd.DataFrame(columns)
 
 
-def all_numbers(leg: Leg, fulcrum: float) -> Mapping[str, Number]:
-    """Of leg, keel and sole, in SI."""
+def all_numbers(leg: Leg, foot: VariableStiffnessFoot, fulcrum: float, bushing: Bushing) -> Mapping[str, Number]:
+    """Of leg, socket, keel and sole as they were simulated, in SI; motion, plates and ground are in files and options.
+
+    What is also fixed: a pinned end of the keel (`Keel.compliance` tells its hinges from EI and fulcrum).
+    """
     own = {f"leg {name}": number for name, number in leg.numbers().items()}
-    own["fulcrum"] = Number(fulcrum, "derived", "chosen")
-    own |= {f"keel {name}": number for name, number in keel_numbers("pinned").items()}
-    return own | {f"sole {name}": number for name, number in sole_numbers().items()}
+    own |= socket_numbers(bushing)
+    own |= foot_numbers(foot, fulcrum)
+    return own | {"gravity": Number(GRAVITY, "derived", "standard gravity")}
 
 
 def numbers_table(numbers: Mapping[str, Number]) -> pd.DataFrame:
