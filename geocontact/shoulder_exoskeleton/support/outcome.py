@@ -45,6 +45,8 @@ class SupportOutcome:
         Largest force at the interface [N].
     rate
         Largest rate of the support torque [N m/s]; of a plan that of the part that follows the factors.
+    out_of_cuff
+        Share of the time in which the sphere is out of the cuff; 0 in a plan, which knows of no cuff.
     """
 
     reduction: float
@@ -52,6 +54,7 @@ class SupportOutcome:
     excess: float
     force: float
     rate: float
+    out_of_cuff: float = 0.0
 
 
 def outcome(case: SupportCase, factors: Factors) -> SupportOutcome:

@@ -7,7 +7,7 @@ upper arm.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -73,7 +73,8 @@ def simulated_support(
     torque = raising_torque(found)
     rate = float(np.abs(np.diff(torque) / np.diff(found.motion.time)).max())
     force = np.linalg.norm(found.told["force"], axis=1)
-    return SimulatedSupport(arm, torque, force, outcome_of(trial.needed.total, torque, float(force.max()), rate))
+    outcome = outcome_of(trial.needed.total, torque, float(force.max()), rate)
+    return SimulatedSupport(arm, torque, force, replace(outcome, out_of_cuff=float(found.out_of_cuff.mean())))
 
 
 def raising_torque(arm: ArmSimulation) -> Float[np.ndarray, " t"]:

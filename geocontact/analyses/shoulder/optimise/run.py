@@ -86,7 +86,7 @@ def run(given: WorkersAndDevice, o: ShoulderOptimiseOptions, record: Record) -> 
         front=tuple(points),
     )
     taken = say_profiles(record, made, loop, given.trials)
-    say_held_out(record, judged)
+    say_held_out(record, judged, noisy.get(OTHERS, {}))
     left = say_simulated(record, noisy, limits)
     record.results["optimise"] = plain({"device": given.device.name, **taken, "with sensors": left})
     return result

@@ -8,6 +8,7 @@ import numpy as np
 
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.optimise.profiles import GROUP, MadeProfiles
+from geocontact.analyses.shoulder.reservations import out_of_cuff_words
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial
 from geocontact.shoulder_exoskeleton.support.best_profile import Aim, measured
 from geocontact.shoulder_exoskeleton.support.closed_loop_profile import SLACK, ClosedLoop, SettledProfile
@@ -26,11 +27,13 @@ def say_profiles(record: Record, made: MadeProfiles, loop: ClosedLoop, trials: S
     record.say(
         f"{made.group.value:.1%} of the shoulders' torque is taken away{whose} in the simulation "
         f"({made.group.profile.value:.1%} planned){_kept(loop.limits)}; one factor for all tasks, hands and phases "
-        f"takes {made.one.value:.1%}"
+        f"takes {made.one.value:.1%}{_out(made.group, made.one)}"
     )
     best, one = (_by(trials, each, "mean") for each in (made.group, made.one))
     if loop.aim != "mean":
-        record.say(f"in the mean over persons it is {best:.1%}, and {one:.1%} with one factor")
+        record.say(
+            f"in the mean over persons it is {best:.1%}, and {one:.1%} with one factor{_out(made.group, made.one)}"
+        )
     taken = {
         "taken away": best,
         "taken away by one factor": one,
@@ -42,7 +45,7 @@ def say_profiles(record: Record, made: MadeProfiles, loop: ClosedLoop, trials: S
         taken["taken away by arm weight, by the aim"] = made.by_arm.value
         record.say(
             f"with factors in proportion to the weight of each person's arm {made.by_arm.value:.1%} is taken "
-            f"away{whose}"
+            f"away{whose}{_out(made.by_arm)}"
         )
     for name, found in (("of all persons", made.group), ("of one factor", made.one), ("by arm weight", made.by_arm)):
         if found is not None and found.passed > SLACK:
@@ -51,6 +54,11 @@ def say_profiles(record: Record, made: MadeProfiles, loop: ClosedLoop, trials: S
                 "that keeps them; `reserve` leaves room"
             )
     return taken
+
+
+def _out(*found: SettledProfile) -> str:
+    """What a sentence on simulated profiles says besides where a sphere leaves its cuff."""
+    return out_of_cuff_words(*(run.outcome.out_of_cuff for each in found for run in each.runs.values()))
 
 
 def _kept(limits: Limits) -> str:
@@ -64,9 +72,13 @@ def _by(trials: Sequence[ArmTrial], found: SettledProfile, aim: Aim) -> float:
     return measured([(each.person, found.runs[each.name].outcome.reduction) for each in trials], aim)
 
 
-def say_held_out(record: Record, judged: Mapping[str, HeldOutSupport]) -> None:
-    """Person by person; a gain that pushes the arm up, or may do so within the model's error, is none."""
+def say_held_out(record: Record, judged: Mapping[str, HeldOutSupport], simulated: Mapping[str, SupportOutcome]) -> None:
+    """Person by person; a gain that pushes the arm up, or may do so within the model's error, is none.
+
+    `simulated` are the same profiles in the simulation, by trial.
+    """
     for person, found in judged.items():
+        out = out_of_cuff_words(*(simulated[name].out_of_cuff for name in found.outcomes if name in simulated))
         low, high = found.gain_interval
         beyond = "beyond the model's error" if found.gain_is_beyond_the_error else "within the model's error"
         if found.pushed_up[0] > 0.0:
@@ -77,7 +89,7 @@ def say_held_out(record: Record, judged: Mapping[str, HeldOutSupport]) -> None:
             f"{person} held out: {found.reduction:.1%}, {100 * found.gain:+.1f} points over one factor of the others "
             f"({100 * low:.1f} to {100 * high:.1f}, {beyond}); pushed up {found.pushed_up[0]:.1%} of the time, by "
             f"{found.excess[0]:.1f} N m at most; in 95% of the draws of the model's errors up to "
-            f"{found.pushed_up[1]:.1%}, by {found.excess[1]:.1f} N m"
+            f"{found.pushed_up[1]:.1%}, by {found.excess[1]:.1f} N m{out}"
         )
         if found.pushed_up[0] > 0.0:
             record.warn(
@@ -95,7 +107,8 @@ def say_simulated(record: Record, noisy: Mapping[str, Mapping[str, SupportOutcom
         force, rate = max(each.force for each in ones), max(each.rate for each in ones)
         said = f"{share:.1%} taken away, pushed up {up:.1%} of the time, by {excess:.1f} N m at most, {force:.0f} N"
         if name == GROUP:
-            record.say(f"simulated with noisy, late sensors: {said} in the cuff")
+            out = out_of_cuff_words(*(each.out_of_cuff for each in ones))
+            record.say(f"simulated with noisy, late sensors: {said} in the cuff{out}")
         for value, limit, what in ((force, limits.force, f"{force:.0f} N"), (rate, limits.rate, f"{rate:.0f} N m/s")):
             if value > limit:
                 record.warn(f"the profile {name}, simulated, reaches {what} where the limit is {limit:g}")
