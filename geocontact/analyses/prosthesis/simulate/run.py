@@ -10,6 +10,8 @@ from geocontact.analyses.prosthesis.simulate.read import Walk
 from geocontact.analyses.prosthesis.simulate.result import ProsthesisSimulateResult
 from geocontact.analyses.prosthesis.simulate.tables import all_numbers
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket
+from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import GATE, Stance, simulate_stance
 from geocontact.below_knee_prosthesis.stance_errors import StanceErrors, longest_stance, stance_errors
@@ -29,16 +31,19 @@ def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisS
     numbers = all_numbers(walk.leg, walk.fulcrum)
     invented = sum(number.source == "invented" for number in numbers.values())
     record.warn(f"{invented} of {len(numbers)} numbers of leg and foot are invented, see numbers.csv")
-    record.warn("the socket's own turn is in the recorded knee angle as well, by up to what its bushing turns")
-    found = simulated(walk, o)
+    limb = simulated(walk, o)
+    found = limb.stance
     if not found.on.any():
         raise InputError(
             o.markers, "", "the foot never touches the floor", "is `ground` right, y = 0 without it, and `mass`?"
         )
     errors = _compared(walk, found)
     doubt(found, record)
+    if not limb.settled:
+        record.warn(counted_twice(limb))
     told = summary(found)
     record.results["stance"] = plain(told)
+    record.results["socket"] = plain({"turns": limb.turns, "change_BW": limb.change, "settled": limb.settled})
     record.say(
         f"stance of {told['stance_s']:.2f} s at the fulcrum of {1e3 * walk.fulcrum:.0f} mm: vertical force up to "
         f"{told['vertical_max_BW']:.2f} BW, ankle moment up to {told['ankle_moment_max_N_m']:.0f} N m, keel "
@@ -50,8 +55,8 @@ def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisS
     return ProsthesisSimulateResult(record=record, options=o, walk=walk, stance=found, errors=errors, numbers=numbers)
 
 
-def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> Stance:
-    """From before touch-down to after toe-off; InputError where it cannot go on."""
+def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> LimbInSocket:
+    """From before touch-down to after toe-off, with the socket's motion out of its markers; InputError where not."""
     time = walk.walked.motion.time
     span = (float(time[INSIDE]), float(time[-1 - INSIDE]))
     if walk.plate is not None:
@@ -59,12 +64,32 @@ def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> Stance:
         if seen is not None:
             span = max(span[0], seen[0] - BEFORE), min(span[1], seen[1] + AFTER)
     bushing = SOCKET if o.socket == "as_meant" else PRINTED
-    given = walk.walked.motion, walk.foot, walk.fulcrum, walk.push, span
+    given = walk.foot, walk.fulcrum, walk.push, span
+
+    def along(motion: LegMotion) -> Stance:
+        return simulate_stance(motion, *given, bushing=bushing, ground=walk.ground, machine_code=o.machine_code)
+
+    filtered = {"cutoff": None if o.cutoff == 0.0 else o.cutoff, "gap_limit": o.gap_limit}
     try:
-        return simulate_stance(*given, bushing=bushing, ground=walk.ground, machine_code=o.machine_code)
+        return limb_in_socket(walk.seen, walk.walked, along, **filtered, turns=o.socket_turns)
     except (ArithmeticError, ValueError) as error:
         remedy = "check `mass`, `side`, `axes` and the names of the markers; as_printed no gait can be walked"
         raise InputError(o.markers, "", str(error), remedy) from error
+
+
+def counted_twice(limb: LimbInSocket) -> str:
+    """What is left of the socket's motion in the leg's angles, where taking it out did not settle."""
+    if limb.turns == 0:
+        turned = np.degrees(np.abs(limb.stance.found.q[:, 2:5]).max())
+        piston = 1e3 * np.abs(limb.stance.pistoning).max()
+        return (
+            f"the socket's motion, up to {turned:.1f} degrees and {piston:.0f} mm, is counted twice: in the leg's angles "
+            "and in the bushing"
+        )
+    return (
+        f"fit and simulated socket do not agree yet: the last of {limb.turns} turns changed the force by "
+        f"{limb.change:.1%} of body weight"
+    )
 
 
 def _compared(walk: Walk, found: Stance) -> StanceErrors | None:
