@@ -24,7 +24,7 @@ from benchmarks.prosthesis_calibration import SETTINGS, TRIALS, Recorded, best_o
 from geocontact.below_knee_prosthesis.calibration.calibrate import calibrate
 from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedStance
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration, calibrate_whole
-from geocontact.below_knee_prosthesis.calibration.zone_parameters import BELIEVED
+from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, Walker
 from geocontact.below_knee_prosthesis.synthetic.trial import synthetic_trial
@@ -59,7 +59,7 @@ def identifiable(found: WholeCalibration) -> dict[str, Any]:
         "condition": apart.condition,
         "singular_values": apart.singular_values.tolist(),
         "memory_s": found.knowledge.memory.typical,
-        "believed_one_sd_factor": {kind: factor for kind, (factor, _) in BELIEVED.items()},
+        "believed_one_sd_factor": {kind: factor for kind, (factor, _) in PRIOR.items()},
     }
 
 

@@ -13,7 +13,7 @@ from scipy.interpolate import make_interp_spline
 
 from geocontact.below_knee_prosthesis.from_markers.marker_names import BODIES
 from geocontact.below_knee_prosthesis.from_markers.standing import hip_by_regression
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg import Leg
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
 from geocontact.below_knee_prosthesis.synthetic.course import course
@@ -25,13 +25,13 @@ BELOW, EVERY = 0.03, 5
 """m; of the keel's axis above the sole. Which sample of a stance at 500 Hz cameras take."""
 
 
-def planted_stance(fulcrum: float, lasting: float) -> Stance:
+def planted_stance(fulcrum: float, lasting: float, foot: VariableStiffnessFoot | None = None) -> Stance:
     """Of a leg with its markers and the hip where the regression puts it, along an invented course."""
-    foot = vsf_foot()
+    foot = vsf_foot() if foot is None else foot
     leg = replace(true_leg(PARTICIPANTS[0], BELOW), hip=hip_by_regression({k: np.array(v) for k, v in SPINES.items()}))
     places = marker_places(leg, foot.keel.length)
     leg = replace(leg, markers=tuple(Marker(n, b, places[b][n]) for b, names in BODIES.items() for n in names))
-    driven = course(leg, foot, fulcrum, lasting)
+    driven = course(leg, vsf_foot(), fulcrum, lasting)
     motion = replace(driven.motion, leg=leg)
     return simulate_stance(motion, foot, fulcrum, driven.push, driven.span, machine_code=False)
 

@@ -80,7 +80,7 @@ def test_markers_by_matrices_have_the_keel_where_the_simulation_has_it(
 @pytest.mark.slow
 @pytest.mark.parametrize(("fulcrum", "twice"), [(MEDIUM, 0.035), (HIGH, 0.045)], ids=["medium", "high"])
 def test_exact_markers_on_a_socket_leave_half_a_percent_of_body_weight(fulcrum: float, twice: float) -> None:
-    """Vertically; counted twice the socket's motion costs 4.2 and 5.1 %, and the same limb's own markers leave 0.3 %."""
+    """Vertically; counted twice its motion costs 4.2 and 5.1 %, and exact markers on the limb itself leave 0.3 %."""
     truth = planted_stance(fulcrum, 0.72)
     seen = markers_of(truth)
     first = walked(seen, truth.motion.leg, **EXACT)

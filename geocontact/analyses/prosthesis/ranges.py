@@ -14,7 +14,7 @@ STATURE = Plausible("the height of a person", m, (0.8, 2.6), (1.3, 2.2))
 SLOPE = Plausible("the slope of a walkway", deg, (-25.0, 25.0), (-12.0, 12.0))
 EDGE = Plausible("the edge of a step under a foot", mm, (0.0, 150.0))
 TURNS, MOST_TURNS = 6, 50
-"""Fits of the leg after the first, each with the socket's simulated motion taken out of its markers, and most of them."""
+"""Fits of the leg after the first, each with the socket's simulated motion taken out of its markers; most of them."""
 
 
 def require_turns(turns: int) -> None:

@@ -36,7 +36,9 @@ def test_a_zone_that_is_never_loaded_is_unknown() -> None:
     assert verdicts["stiffness.heel_back"] == "known"
     assert not any("forefoot" in name for name in found.told_apart.names)
     unknown = next(each for each in found.numbers if each.name == "stiffness.forefoot")
-    assert (unknown.lower, unknown.upper) == pytest.approx((unknown.value / 12.0, unknown.value * 12.0))
+    assert np.isnan(unknown.lower) and np.isnan(unknown.upper)  # a number that is not known has no interval
+    factor = 3.0**1.959964  # of the prior, one standard deviation being a factor of 3
+    assert unknown.prior == pytest.approx((unknown.value / factor, unknown.value * factor), rel=1e-6)
 
 
 @pytest.fixture(scope="module")
@@ -47,8 +49,12 @@ def calibrated() -> SoleCalibration:
 @pytest.mark.slow
 def test_planted_numbers_lie_in_their_intervals(calibrated: SoleCalibration) -> None:
     zones, values = planted()
-    inside = [n.lower <= value <= n.upper for n, value in zip(calibrated.knowledge.numbers, values, strict=True)]
-    assert sum(inside) >= 14, dict(zip(zones.names, inside, strict=True))
+    numbers = calibrated.knowledge.numbers
+    known = [n.verdict == "known" for n in numbers]
+    outside = [not n.lower <= v <= n.upper for n, v in zip(numbers, values, strict=True)]
+    # of the known ones, since others have no interval any more; one of fifteen may be outside, as before
+    assert sum(known) >= 6
+    assert sum(np.array(known) & np.array(outside)) <= 1, dict(zip(zones.names, outside, strict=True))
 
 
 @pytest.mark.slow

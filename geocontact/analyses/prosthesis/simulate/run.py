@@ -83,8 +83,8 @@ def counted_twice(limb: LimbInSocket) -> str:
         turned = np.degrees(np.abs(limb.stance.found.q[:, 2:5]).max())
         piston = 1e3 * np.abs(limb.stance.pistoning).max()
         return (
-            f"the socket's motion, up to {turned:.1f} degrees and {piston:.0f} mm, is counted twice: in the leg's angles "
-            "and in the bushing"
+            f"the socket's motion, up to {turned:.1f} degrees and {piston:.0f} mm, is counted twice: in the leg's "
+            "angles and in the bushing"
         )
     return (
         f"fit and simulated socket do not agree yet: the last of {limb.turns} turns changed the force by "
