@@ -98,8 +98,8 @@ def _say_how_well(r: ProsthesisCalibrateResult) -> None:
         record.warn("that is more than two standard deviations of the prior: did the foot stand flat in `static`?")
     if r.residual > LARGE:
         record.warn(
-            f"the residual is {r.residual:.1f} times its noise: the model does not fit this stance, and its numbers and "
-            "their intervals are not to be trusted; check `mass`, `setting`, plate and markers"
+            f"the residual is {r.residual:.1f} times its noise: the model does not fit this stance, and its numbers "
+            "and their intervals are not to be trusted; check `mass`, `setting`, plate and markers"
         )
 
 
