@@ -11,7 +11,7 @@ from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrate
 from geocontact.analyses.prosthesis.calibrate.read import ANGLES_CUTOFF, FootOnPlate
 from geocontact.analyses.prosthesis.calibrate.result import ProsthesisCalibrateResult
 from geocontact.analyses.prosthesis.ranges import TURNS
-from geocontact.analyses.prosthesis.simulate.run import counted_twice
+from geocontact.analyses.prosthesis.socket_words import counted_twice
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration, calibrate_whole
@@ -76,8 +76,9 @@ def _whole(
 
     try:
         with record.listener.stages("calibrating on the whole model"):
-            filtered = {"cutoff": ANGLES_CUTOFF, "gap_limit": o.gap_limit}
-            limb = limb_in_socket(given.seen, given.fit, along, **filtered, turns=TURNS)
+            limb = limb_in_socket(
+                given.seen, given.fit, along, cutoff=ANGLES_CUTOFF, gap_limit=o.gap_limit, turns=TURNS
+            )
             if not limb.settled:
                 record.warn(counted_twice(limb))
             stances = [replace(stance, motion=limb.walked.motion)]

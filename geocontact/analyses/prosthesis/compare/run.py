@@ -10,7 +10,8 @@ from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOpti
 from geocontact.analyses.prosthesis.compare.read import StudiedStance
 from geocontact.analyses.prosthesis.compare.result import ProsthesisCompareResult
 from geocontact.analyses.prosthesis.compare.tables import ALL, errors_table, summary_table
-from geocontact.analyses.prosthesis.simulate.run import counted_twice, simulated
+from geocontact.analyses.prosthesis.simulate.run import simulated
+from geocontact.analyses.prosthesis.socket_words import counted_twice
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.workers import each
 from geocontact.below_knee_prosthesis.evaluation.judged_stance import JudgedStance, judged

@@ -9,6 +9,7 @@ from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOp
 from geocontact.analyses.prosthesis.simulate.read import Walk
 from geocontact.analyses.prosthesis.simulate.result import ProsthesisSimulateResult
 from geocontact.analyses.prosthesis.simulate.tables import all_numbers
+from geocontact.analyses.prosthesis.socket_words import counted_twice
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket
 from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
@@ -69,27 +70,12 @@ def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> LimbInSocket:
     def along(motion: LegMotion) -> Stance:
         return simulate_stance(motion, *given, bushing=bushing, ground=walk.ground, machine_code=o.machine_code)
 
-    filtered = {"cutoff": None if o.cutoff == 0.0 else o.cutoff, "gap_limit": o.gap_limit}
+    cutoff = None if o.cutoff == 0.0 else o.cutoff
     try:
-        return limb_in_socket(walk.seen, walk.walked, along, **filtered, turns=o.socket_turns)
+        return limb_in_socket(walk.seen, walk.walked, along, cutoff=cutoff, gap_limit=o.gap_limit, turns=o.socket_turns)
     except (ArithmeticError, ValueError) as error:
         remedy = "check `mass`, `side`, `axes` and the names of the markers; as_printed no gait can be walked"
         raise InputError(o.markers, "", str(error), remedy) from error
-
-
-def counted_twice(limb: LimbInSocket) -> str:
-    """What is left of the socket's motion in the leg's angles, where taking it out did not settle."""
-    if limb.turns == 0:
-        turned = np.degrees(np.abs(limb.stance.found.q[:, 2:5]).max())
-        piston = 1e3 * np.abs(limb.stance.pistoning).max()
-        return (
-            f"the socket's motion, up to {turned:.1f} degrees and {piston:.0f} mm, is counted twice: in the leg's "
-            "angles and in the bushing"
-        )
-    return (
-        f"fit and simulated socket do not agree yet: the last of {limb.turns} turns changed the force by "
-        f"{limb.change:.1%} of body weight"
-    )
 
 
 def _compared(walk: Walk, found: Stance) -> StanceErrors | None:
