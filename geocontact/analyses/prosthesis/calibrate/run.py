@@ -96,7 +96,8 @@ def _say_how_well(r: ProsthesisCalibrateResult) -> None:
         f"trial has it; prior {1e3 * e.standing:.1f} mm and {np.degrees(e.pitch):.2f} degrees"
     )
     if abs(height) > FAR * e.standing or abs(pitch) > FAR * e.pitch:
-        record.warn("that is more than two standard deviations of the prior: did the foot stand flat in `static`?")
+        what = "height or pitch of the foot is more than two standard deviations beside the standing trial"
+        record.warn(f"{what}: did the foot stand flat in `static`?")
     if r.residual > LARGE:
         record.warn(
             f"the residual is {r.residual:.1f} times its noise: the model does not fit this stance, and its numbers "
@@ -112,7 +113,6 @@ def _say(r: ProsthesisCalibrateResult) -> None:
         record.warn(f"never loaded, so that their usual values say nothing: {', '.join(unknown)}")
     if not found.converged:
         record.warn("the search stopped before it settled; give more `starts`")
-    _say_how_well(r)
     apart = found.knowledge.told_apart
     along = f"is met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s beside the recorded speed"
     if r.whole is not None:
@@ -123,6 +123,7 @@ def _say(r: ProsthesisCalibrateResult) -> None:
         f"pressure within {100.0 * r.centre.rmsd:.1f} % of the foot (R² {r.centre.r2:.2f}); the force along the floor "
         f"{along}"
     )
+    _say_how_well(r)
     if r.whole is not None:
         record.say(
             f"on the whole model the cost falls from {r.whole.begun:.0f}, at the numbers along the recorded poses, to "
