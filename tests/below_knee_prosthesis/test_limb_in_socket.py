@@ -77,6 +77,26 @@ def test_markers_by_matrices_have_the_keel_where_the_simulation_has_it(
     assert still["RTH1"][1] < still["RASI"][1]
 
 
+def test_turns_end_where_the_force_no_longer_changes_and_where_a_turn_fails(
+    planted: tuple[Stance, MarkerTrajectories, Walked],
+) -> None:
+    """With a simulation that gives the planted stance whatever the motion, one turn is enough."""
+    truth, seen, first = planted
+    found = limb_in_socket(seen, first, lambda motion: truth, **EXACT, turns=6)
+    assert (found.turns, found.change, found.settled) == (1, 0.0, True)
+    assert found.walked.off.max() < 1e-6
+    none = limb_in_socket(seen, first, lambda motion: truth, **EXACT, turns=0)
+    assert none.walked is first and np.isnan(none.change) and not none.settled
+
+    def falls(motion: LegMotion) -> Stance:
+        if motion is first.motion:
+            return truth
+        raise ArithmeticError("the motion cannot go on")
+
+    failed = limb_in_socket(seen, first, falls, **EXACT, turns=6)
+    assert failed.walked is first and failed.turns == 0 and not failed.settled
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("fulcrum", "twice"), [(MEDIUM, 0.035), (HIGH, 0.045)], ids=["medium", "high"])
 def test_exact_markers_on_a_socket_leave_half_a_percent_of_body_weight(fulcrum: float, twice: float) -> None:
