@@ -107,8 +107,12 @@ def calibrate(
         raise ArithmeticError("the keel has no equilibrium along the stance from any start")
     best = sorted(begun, key=lambda each: each[1])[:finished]
     reach = residuals.reach
-    searches = [least(residuals, residuals.slope, z, -reach, reach, ROUNDS, ENOUGH) for z, _ in best]
+    searches = []
+    for z, _ in best:
+        residuals.search_slips(z)
+        searches.append(least(residuals, residuals.slope, z, -reach, reach, ROUNDS, ENOUGH))
     found = min(searches, key=lambda each: each.cost)
+    residuals.search_slips(found.x)
     return SoleCalibration(
         residuals,
         zones.law(residuals.values(found.x)),
