@@ -107,12 +107,8 @@ def calibrate(
         raise ArithmeticError("the keel has no equilibrium along the stance from any start")
     best = sorted(begun, key=lambda each: each[1])[:finished]
     reach = residuals.reach
-    searches = []
-    for z, _ in best:
-        residuals.search_slips(z)
-        searches.append(least(residuals, residuals.slope, z, -reach, reach, ROUNDS, ENOUGH))
+    searches = [least(residuals, residuals.slope, z, -reach, reach, ROUNDS, ENOUGH) for z, _ in best]
     found = min(searches, key=lambda each: each.cost)
-    residuals.search_slips(found.x)
     return SoleCalibration(
         residuals,
         zones.law(residuals.values(found.x)),

@@ -100,19 +100,6 @@ class SoleResiduals:
         stance = self.stance(z, place)
         return slipping(stance, self.keel(z, stance), self.slips[place], AGAIN)
 
-    def search_slips(self, z: Float[np.ndarray, " p"]) -> None:
-        """Search the slips anew: those of other numbers may be far off.
-
-        They stay where the keel finds no equilibrium.
-        """
-        for place, noise in enumerate(self.noise):
-            stance = self.stance(z, place)
-            still = np.zeros((len(noise), 2))
-            try:
-                self.slips[place] = slipping(stance, self.keel(z, stance), still, FIRST)[1]
-            except ArithmeticError:
-                continue
-
     def of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
         """Predicted less measured over the noise, stance by stance, frame by frame."""
         return self._of_data(z)[0]
