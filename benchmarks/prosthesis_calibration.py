@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.machine import write_results
+from geocontact.analyses.prosthesis.ranges import TURNS
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResiduals
@@ -27,16 +28,18 @@ from geocontact.below_knee_prosthesis.calibration.stance_from_markers import sta
 from geocontact.below_knee_prosthesis.calibration.whole_residuals import WholeResiduals
 from geocontact.below_knee_prosthesis.from_markers.sides import as_right, of_side
 from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
-from geocontact.below_knee_prosthesis.from_markers.walking import walked
+from geocontact.below_knee_prosthesis.from_markers.walking import Walked, walked
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket
 from geocontact.below_knee_prosthesis.model.leg import Person
 from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
-from geocontact.below_knee_prosthesis.simulate import Push, simulate_stance
+from geocontact.below_knee_prosthesis.simulate import Push, Stance, simulate_stance
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance, StanceErrors, longest_stance, stance_errors
 from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, Walker
 from geocontact.below_knee_prosthesis.synthetic.trial import GaitTrial, synthetic_trial
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.identify.signals.agreement import agreement
 
 SETTINGS, TRIALS = ("medium", "low", "high"), 3
@@ -54,7 +57,8 @@ class Recorded:
 
     setting: str
     stance: RecordedStance
-    motion: LegMotion
+    seen: MarkerTrajectories
+    fit: Walked
     push: Push
     plate: PlateStance
 
@@ -69,8 +73,17 @@ def recorded(trial: GaitTrial, foot: VariableStiffnessFoot) -> Recorded:
     plate = PlateStance(trial.time, of_side(trial.own, p.side), of_side(trial.centre, p.side))
     fulcrum, length = fulcrum_of(trial.setting), foot.keel.length
     stance = stance_from_markers(seen, leg, plate, fulcrum, length, cutoff=CUTOFF, gap_limit=GAP)
-    motion = walked(seen, leg, cutoff=ANGLES_CUTOFF, gap_limit=GAP).motion
-    return Recorded(trial.setting, stance, motion, Push(trial.time, of_side(trial.other, p.side)), plate)
+    fit = walked(seen, leg, cutoff=ANGLES_CUTOFF, gap_limit=GAP)
+    return Recorded(trial.setting, stance, seen, fit, Push(trial.time, of_side(trial.other, p.side)), plate)
+
+
+def in_socket(one: Recorded, foot: VariableStiffnessFoot, span: tuple[float, float]) -> LimbInSocket:
+    """The limb's motion and the stance along it on a foot, from one time to another [s]."""
+
+    def along(motion: LegMotion) -> Stance:
+        return simulate_stance(motion, foot, one.stance.fulcrum, one.push, span)
+
+    return limb_in_socket(one.seen, one.fit, along, cutoff=ANGLES_CUTOFF, gap_limit=GAP, turns=TURNS)
 
 
 def judged(one: Recorded, foot: VariableStiffnessFoot) -> StanceErrors:
@@ -78,9 +91,9 @@ def judged(one: Recorded, foot: VariableStiffnessFoot) -> StanceErrors:
     span = longest_stance(one.plate.time, one.plate.force[:, 1])
     if span is None:
         raise ValueError("a plate without a stance")
-    ends = max(span[0] - AROUND, one.motion.time[2]), min(span[1] + AROUND, one.motion.time[-3])
-    found = simulate_stance(one.motion, foot, one.stance.fulcrum, one.push, (float(ends[0]), float(ends[1])))
-    return stance_errors(found, one.plate)
+    time = one.fit.motion.time
+    ends = max(span[0] - AROUND, time[2]), min(span[1] + AROUND, time[-3])
+    return stance_errors(in_socket(one, foot, (float(ends[0]), float(ends[1]))).stance, one.plate)
 
 
 def best_of_random(residuals: SoleResiduals | WholeResiduals, samples: int, seed: int = 1) -> float:

@@ -13,19 +13,27 @@ import argparse
 import json
 import time
 from collections.abc import Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from benchmarks.machine import write_results
-from benchmarks.prosthesis_calibration import SETTINGS, TRIALS, Recorded, best_of_random, recorded, transfer_table
+from benchmarks.prosthesis_calibration import (
+    SETTINGS,
+    TRIALS,
+    Recorded,
+    best_of_random,
+    in_socket,
+    recorded,
+    transfer_table,
+)
 from geocontact.below_knee_prosthesis.calibration.calibrate import calibrate
 from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedStance
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration, calibrate_whole
-from geocontact.below_knee_prosthesis.calibration.zone_parameters import BELIEVED
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
 from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, Walker
 from geocontact.below_knee_prosthesis.synthetic.trial import synthetic_trial
 
@@ -34,9 +42,11 @@ RESULTS = Path(__file__).resolve().parent / "results" / "prosthesis_full_calibra
 CURVES = ("resultant", "fore_aft", "cop_ground")
 
 
-def as_walked(one: Recorded) -> WalkedStance:
-    """The trial as the whole model takes it."""
-    return WalkedStance(one.stance, one.motion, one.push)
+def as_walked(one: Recorded, foot: VariableStiffnessFoot) -> WalkedStance:
+    """The trial as the whole model takes it, the socket's motion on a foot out of its markers."""
+    first = WalkedStance(one.stance, one.fit.motion, one.push)
+    limb = in_socket(one, foot, (first.begin, float(one.stance.time[-1])))
+    return replace(first, motion=limb.walked.motion)
 
 
 def means(table: dict[str, Any]) -> dict[str, dict[str, float]]:
@@ -59,7 +69,7 @@ def identifiable(found: WholeCalibration) -> dict[str, Any]:
         "condition": apart.condition,
         "singular_values": apart.singular_values.tolist(),
         "memory_s": found.knowledge.memory.typical,
-        "believed_one_sd_factor": {kind: factor for kind, (factor, _) in BELIEVED.items()},
+        "believed_one_sd_factor": {kind: factor for kind, (factor, _) in PRIOR.items()},
     }
 
 
@@ -71,7 +81,7 @@ def participant(person: Walker, samples: int, trials: int) -> dict[str, Any]:
     before = time.process_time()
     still = calibrate([taken[FITTED].stance], foot)
     between = time.process_time()
-    stance = [as_walked(taken[FITTED])]
+    stance = [as_walked(taken[FITTED], still.foot)]
     whole = calibrate_whole(stance, foot, still.logarithms)
     took = time.process_time() - between
     told: dict[str, Any] = {"seconds_along_poses": between - before, "seconds_whole": took}

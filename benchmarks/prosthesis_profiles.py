@@ -33,10 +33,10 @@ HELD = 1e-9
 
 def held(found: SoleCalibration, k: int, value: float, covariance: np.ndarray) -> float:
     """Least sum of squares with one logarithm at a value."""
-    residuals, reach = found.residuals, found.residuals.zones.reach.copy()
+    residuals, reach = found.residuals, found.residuals.reach.copy()
     lower, upper = -reach, reach.copy()
     along = covariance[:, k] / covariance[k, k]
-    start = np.clip(found.logarithms + (value - found.logarithms[k]) * along, lower, upper)
+    start = np.clip(found.at + (value - found.at[k]) * along, lower, upper)
     start[k], lower[k], upper[k] = value, value - HELD, value + HELD
     return 2.0 * least(residuals, residuals.slope, start, lower, upper, ROUNDS, ENOUGH).cost
 
@@ -67,7 +67,7 @@ def main() -> None:
         before = time.process_time()
         foot = vsf_foot()
         found = calibrate([recorded(synthetic_trial(person, *FITTED), foot).stance], foot)
-        slope = found.residuals.slope(found.logarithms)
+        slope = found.residuals.slope(found.at)
         covariance = np.linalg.inv(slope.T @ slope)
         figures[person.name] = {"cost": found.cost, "numbers": []}
         for k, number in enumerate(found.knowledge.numbers):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from geocontact.data.errors import InputError
 from geocontact.data.plausible import KG, Plausible
 from geocontact.data.units import deg, m, mm, percent
 
@@ -12,3 +13,11 @@ PROSTHESIS = Plausible("the mass of a below-knee prosthesis", KG, (0.3, 10.0), (
 STATURE = Plausible("the height of a person", m, (0.8, 2.6), (1.3, 2.2))
 SLOPE = Plausible("the slope of a walkway", deg, (-25.0, 25.0), (-12.0, 12.0))
 EDGE = Plausible("the edge of a step under a foot", mm, (0.0, 150.0))
+TURNS, MOST_TURNS = 6, 50
+"""Fits of the leg after the first, each with the socket's simulated motion taken out of its markers; most of them."""
+
+
+def require_turns(turns: int) -> None:
+    """InputError for a number of fits that is none."""
+    if not 0 <= turns <= MOST_TURNS:
+        raise InputError("", "`socket_turns`", f"{turns} is not 0 to {MOST_TURNS}", f"give for example {TURNS}")

@@ -3,10 +3,10 @@
 From each of several starts, spread over the bounds (Latin hypercube), a few turns of solving the keel and fitting
 stiffness and damping at its depths (`linear_turn`); the best of them are finished over all numbers by damped
 Gauss-Newton steps. What is made least is the sum of squares of force and centre of pressure, each in units of its
-noise, and of the numbers' logarithms about the usual ones, in units of what is believed beforehand.
+noise, and of the numbers' logarithms about the usual ones, in units of the prior's standard deviation.
 
 Deviation from the study of the variable-stiffness foot, which fits the size of the force only, in newtons, without
-beliefs: the direction of the force and the centre are recorded as well, and tell zones apart that the size does not.
+priors: the direction of the force and the centre are recorded as well, and tell zones apart that the size does not.
 """
 
 from __future__ import annotations
@@ -46,8 +46,12 @@ class SoleCalibration:
         The foot's law with the numbers.
     logarithms
         Of the numbers over the usual ones.
+    errors
+        Of height [m] and pitch [rad] of the foot in each stance.
+    at
+        Everything that was sought: the logarithms, then height and pitch in standard deviations.
     cost
-        Half the sum of squares, beliefs included.
+        Half the sum of squares, priors included.
     costs
         After the linear turns, of every start; the usual numbers' first.
     converged
@@ -59,6 +63,8 @@ class SoleCalibration:
     residuals: SoleResiduals
     law: SoleLaw
     logarithms: Float[np.ndarray, " p"]
+    errors: tuple[tuple[float, float], ...]
+    at: Float[np.ndarray, " q"]
     cost: float
     costs: tuple[float, ...]
     converged: bool
@@ -94,16 +100,20 @@ def calibrate(
     usual = zones.values_of(zones.usual)
     begun = []
     for start in spread_starts(zones.parameters(), starts, seed):
-        z = np.array([np.log(start.get(name, value) / value) for name, value in zip(zones.names, usual, strict=True)])
+        z = np.zeros(len(residuals.sd))
+        z[: len(usual)] = [np.log(start.get(name, of) / of) for name, of in zip(zones.names, usual, strict=True)]
         begun.append(turned(residuals, balancing(residuals, z)))
     if not np.isfinite([cost for _, cost in begun]).any():
         raise ArithmeticError("the keel has no equilibrium along the stance from any start")
     best = sorted(begun, key=lambda each: each[1])[:finished]
-    searches = [least(residuals, residuals.slope, z, -zones.reach, zones.reach, ROUNDS, ENOUGH) for z, _ in best]
+    reach = residuals.reach
+    searches = [least(residuals, residuals.slope, z, -reach, reach, ROUNDS, ENOUGH) for z, _ in best]
     found = min(searches, key=lambda each: each.cost)
     return SoleCalibration(
         residuals,
         zones.law(residuals.values(found.x)),
+        found.x[: len(usual)],
+        tuple(residuals.errors(found.x, place) for place in range(len(stances))),
         found.x,
         found.cost,
         tuple(cost for _, cost in begun),
@@ -142,7 +152,8 @@ def turned(
         try:
             rows = [
                 linear_rows(stance, residuals.keel(now, stance), residuals.motion(now, place)[0], noise)
-                for place, (stance, noise) in enumerate(zip(residuals.stances, residuals.noise, strict=True))
+                for place, noise in enumerate(residuals.noise)
+                for stance in [residuals.stance(now, place)]
             ]
         except ArithmeticError:
             return best, lowest

@@ -1,8 +1,9 @@
-"""What stances tell of each number of the zones: intervals, and whether it is known, only believed, or unknown.
+"""What stances tell of each number of the zones: known within an interval, not identified, or unknown.
 
 Residuals of a model that is not quite right remember from frame to frame. So the covariance is that of least squares
-under noise with a memory (`noise.autocorrelation`), the beliefs beforehand standing in as one more measurement of each
-number.
+under noise with a memory (`noise.autocorrelation`), the prior standing in as one more measurement of each number. Of
+a number that is not identified an interval would be the prior's and the model's doing, and planted numbers were outside
+of it: it has none.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from typing import Literal, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
+from scipy.stats import norm
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import PAUSE
@@ -21,9 +23,9 @@ from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion
 from geocontact.identify.identifiability import Identifiability, identifiability
 from geocontact.identify.noise.autocorrelation import Autocorrelation, autocorrelation_of, sandwich
 
-Verdict = Literal["known", "believed", "unknown"]
+Verdict = Literal["known", "not identified", "unknown"]
 HALF = 0.5
-"""Share of the belief's standard deviation that is left of a number that the data make known, at most."""
+"""Share of the prior's standard deviation that is left of a number that the data make known, at most."""
 EARNEST, LASTING, BEARING = 2.5, 0.05, 0.05
 """A zone slips in earnest: faster than so many errors of the recorded speed, for at least so long [s] in sum, while it
 bears that share of body weight. Below, friction is what the search for the slip makes of it."""
@@ -38,11 +40,13 @@ class KnownNumber:
     Parameters
     ----------
     lower, upper
-        Of the interval; the bounds of the search where it is unknown.
+        Of the interval; NaN where the number is not known.
     verdict
-        "known": the data at least halve the width of the belief, and of friction the zone slips in earnest.
-        "believed": they do not. "unknown": the stances never
-        loaded the zone so that the number has any effect; its value is the usual one and says nothing.
+        "known": the data at least halve the width of the prior, and of friction the zone slips in earnest.
+        "not identified": they do not. "unknown": the stances never loaded the zone so that the number has any effect;
+        its value is the usual one and says nothing.
+    prior
+        Lower and upper end of the prior's interval of the same probability.
     """
 
     name: str
@@ -51,6 +55,7 @@ class KnownNumber:
     lower: float
     upper: float
     verdict: Verdict
+    prior: tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +69,7 @@ class Knowledge:
     memory
         Of the residuals.
     half
-        Half the interval of each number's logarithm; infinite where it is unknown.
+        Half the interval of each number's logarithm; infinite where it has no effect.
     """
 
     numbers: tuple[KnownNumber, ...]
@@ -76,6 +81,10 @@ class Knowledge:
 @runtime_checkable
 class StanceResiduals(Protocol):
     """Of stances, by the logarithms of a sole's numbers: `SoleResiduals`, `WholeResiduals`."""
+
+    @property
+    def sd(self) -> Float[np.ndarray, " p"]:
+        """Of everything that is sought, beforehand."""
 
     @property
     def zones(self) -> ZoneParameters:
@@ -100,11 +109,12 @@ class StanceResiduals(Protocol):
 def knowledge(residuals: StanceResiduals, z: Float[np.ndarray, " p"], level: float = 0.95) -> Knowledge:
     """At the logarithms that a calibration found, with intervals of probability `level`."""
     zones, values = residuals.zones, residuals.values(z)
+    usual = zones.values_of(zones.usual)
     off, slope = residuals.of_data(z), residuals.slope_of_data(z)
     size = np.linalg.norm(slope, axis=0)
     alive = size > DEAD * max(float(size.max()), DEAD)
     time, order = residuals.channel_by_channel()
-    memory, covariance = _remembering(time, off[order], slope[order][:, alive], z[alive], zones.sd[alive])
+    memory, covariance = _remembering(time, off[order], slope[order][:, alive], z[alive], residuals.sd[: len(z)][alive])
     half = np.full(len(z), np.inf)
     half[alive] = [memory.half_width(np.sqrt(covariance[:, k, k]), level) for k in range(int(alive.sum()))]
     sd = np.full(len(z), np.inf)
@@ -112,12 +122,18 @@ def knowledge(residuals: StanceResiduals, z: Float[np.ndarray, " p"], level: flo
     rows, slips = [], np.concatenate([np.ones(2 * len(zones.zones), bool), slipping_zones(residuals, z)])
     for k, each in enumerate(zones.parameters()):
         known = sd[k] <= HALF * zones.sd[k] and slips[k]
-        verdict: Verdict = "unknown" if not alive[k] else "known" if known else "believed"
-        reach = np.exp(half[k]) if alive[k] else np.inf
-        ends = max(each.lower, values[k] / reach), min(each.upper, values[k] * reach)
-        rows.append(KnownNumber(each.name, each.unit, float(values[k]), float(ends[0]), float(ends[1]), verdict))
-    names = [name for name, on in zip(zones.names, alive, strict=True) if on]
-    return Knowledge(tuple(rows), identifiability(names, slope[:, alive]), memory, half)
+        verdict: Verdict = "unknown" if not alive[k] else "known" if known else "not identified"
+        ends = np.nan, np.nan
+        if verdict == "known":
+            reach = np.exp(half[k])
+            ends = max(each.lower, values[k] / reach), min(each.upper, values[k] * reach)
+        wide = np.exp(norm.ppf(0.5 + 0.5 * level) * zones.sd[k])
+        prior = max(each.lower, usual[k] / wide), min(each.upper, usual[k] * wide)
+        found = float(values[k]), float(ends[0]), float(ends[1])
+        rows.append(KnownNumber(each.name, each.unit, *found, verdict, (float(prior[0]), float(prior[1]))))
+    count = len(zones.names)
+    names = [name for name, on in zip(zones.names, alive[:count], strict=True) if on]
+    return Knowledge(tuple(rows), identifiability(names, slope[:, :count][:, alive[:count]]), memory, half[:count])
 
 
 def slipping_zones(residuals: StanceResiduals, z: Float[np.ndarray, " p"]) -> Bool[np.ndarray, " zones"]:
@@ -142,7 +158,7 @@ def _remembering(
     z: Float[np.ndarray, " p"],
     sd: Float[np.ndarray, " p"],
 ) -> tuple[Autocorrelation, Float[np.ndarray, "g p p"]]:
-    """Memory of the residuals and covariance of the numbers with each of its times, beliefs as measurements far off."""
+    """Memory of the residuals and covariance of the numbers with each of its times, priors as measurements far off."""
     far = time[-1] * (2.0 + np.arange(len(z))) + PAUSE
     at = np.concatenate([time, far])
     both = np.vstack([slope, np.diag(1.0 / sd)])

@@ -19,6 +19,10 @@ CHANNELS = ("forward", "upward", "sideways", "centre")
 """Force on the foot in the ground's frame [N], and centre of pressure from the heel as a share of the keel's length."""
 
 
+MIDDLE = np.array([0.11, 0.0, 0.0])
+"""m; of the keel, about which an error of pitch turns it."""
+
+
 @dataclass(frozen=True)
 class Errors:
     """Standard deviations of what was recorded; those of the poses are invented for a marker laboratory.
@@ -30,7 +34,8 @@ class Errors:
     couple
         Of the plate about its surface [N m]: over the vertical force it is the error of the centre.
     height, pitch
-        Of the foot [m, rad], each constant over the stance.
+        Of the foot [m, rad]: what is constant over the stance, and as much that is not. 0.5 degrees are what a foot may
+        have stood beside flat, as a choice of the foot has it.
     speed
         Of the foot along each axis [m/s]; along the floor from frame to frame (`slip`), upward constant.
     """
@@ -38,8 +43,13 @@ class Errors:
     force: float = 3.0
     couple: float = 1.0
     height: float = 0.5e-3
-    pitch: float = np.radians(0.2)
+    pitch: float = np.radians(0.5)
     speed: float = 20e-3
+
+    @property
+    def standing(self) -> float:
+        """Of the height of the foot's middle [m]: a foot that did not stand flat stood on one of its ends."""
+        return float(np.hypot(self.height, self.pitch * MIDDLE[0]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,24 +97,22 @@ class RecordedStance:
         """Standard deviation of measured less predicted, were the model right.
 
         The plate's, and what errors of height, pitch and upward speed make of the predicted channels, each by one
-        difference.
+        difference: what is constant of height and pitch is sought besides (`moved`), what changes is noise.
         """
         e = self.errors
         pressing = np.maximum(self.force[:, 1], 1.0)
         plate = np.column_stack([np.full((len(self.time), 3), e.force), e.couple / pressing / keel.keel.length])
         base = self.predicted(keel, self.solved(keel))
         square = plate**2
-        for moved in self._moved():
-            square += np.nan_to_num(moved.predicted(keel, moved.solved(keel)) - base) ** 2
-        return np.asarray(np.sqrt(square))
-
-    def _moved(self) -> list[RecordedStance]:
-        """By one standard deviation of each error of the poses; pitch about the middle of the keel."""
-        e = self.errors
-        raised = RigidTransform.from_translation([0.0, e.height, 0.0]) * self.poses
-        middle = np.array([0.11, 0.0, 0.0])
-        turn = Rotation.from_euler("z", e.pitch)
-        pitched = self.poses * RigidTransform.from_components(middle - turn.apply(middle), turn)
         rate = self.rate.copy()
         rate[:, 1, 3] += e.speed
-        return [replace(self, poses=raised), replace(self, poses=pitched), replace(self, rate=rate)]
+        for other in (self.moved(e.standing, 0.0), self.moved(0.0, e.pitch), replace(self, rate=rate)):
+            square += np.nan_to_num(other.predicted(keel, other.solved(keel)) - base) ** 2
+        return np.asarray(np.sqrt(square))
+
+    def moved(self, height: float, pitch: float) -> RecordedStance:
+        """Raised by a height [m] and turned by a pitch [rad], the toes up, about `MIDDLE`."""
+        raised = RigidTransform.from_translation([0.0, height, 0.0]) * self.poses
+        turn = Rotation.from_euler("z", pitch)
+        about = RigidTransform.from_components(MIDDLE - turn.apply(MIDDLE), turn)
+        return replace(self, poses=raised * about)

@@ -19,6 +19,8 @@ STEP = 1e-5
 """Of a logarithm, for differences."""
 FIRST, AGAIN = 6, 2
 """Turns of the search for the slip, to begin with and at other numbers."""
+FARTHEST = 5.0
+"""Standard deviations that height and pitch may be off."""
 NO_BALANCE = 100.0
 """Residual, in units of the noise, of a stance along which the keel finds no equilibrium."""
 
@@ -28,7 +30,10 @@ PAUSE = 1000.0
 
 @dataclass(eq=False)
 class SoleResiduals:
-    """Residuals of all stances as functions of the logarithms of the numbers over the usual ones.
+    """Residuals of all stances as functions of what is sought.
+
+    That is the logarithms of the numbers over the usual ones, then of each stance the errors of the foot's height and
+    of its pitch in standard deviations (`Errors`); where the latter are left out, poses are as recorded.
 
     Parameters
     ----------
@@ -58,9 +63,31 @@ class SoleResiduals:
             noise.append(np.hstack([with_slip(stance, slips[-1]).noise(keel), still + stance.errors.speed]))
         return cls(stances, foot, ZoneParameters(foot.sole, foot.law), noise, slips)
 
-    def values(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " p"]:
+    @property
+    def sd(self) -> Float[np.ndarray, " p"]:
+        """Of everything that is sought, beforehand."""
+        return np.concatenate([self.zones.sd, np.ones(2 * len(self.stances))])
+
+    @property
+    def reach(self) -> Float[np.ndarray, " p"]:
+        """Of everything that is sought, to either bound."""
+        return np.concatenate([self.zones.reach, np.full(2 * len(self.stances), FARTHEST)])
+
+    def values(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " k"]:
         """The numbers."""
-        return np.asarray(self.zones.values_of(self.zones.usual) * np.exp(z))
+        usual = self.zones.values_of(self.zones.usual)
+        return np.asarray(usual * np.exp(z[: len(usual)]))
+
+    def errors(self, z: Float[np.ndarray, " p"], place: int) -> tuple[float, float]:
+        """Of height [m] and pitch [rad] of one stance."""
+        aside = z[len(self.zones.names) :].reshape(-1, 2)
+        height, pitch = aside[place] if len(aside) else (0.0, 0.0)
+        e = self.stances[place].errors
+        return e.standing * float(height), e.pitch * float(pitch)
+
+    def stance(self, z: Float[np.ndarray, " p"], place: int) -> RecordedStance:
+        """One stance without the errors of its height and pitch."""
+        return self.stances[place].moved(*self.errors(z, place))
 
     def keel(self, z: Float[np.ndarray, " p"], stance: RecordedStance) -> QuasiStaticKeel:
         """With these numbers at the stance's fulcrum."""
@@ -70,7 +97,7 @@ class SoleResiduals:
     def motion(self, z: Float[np.ndarray, " p"], place: int) -> tuple[KeelMotion, Float[np.ndarray, "t 2"]]:
         """Along one stance, and its slip [m/s]; ArithmeticError where the keel finds no equilibrium."""
         self.solved += 1 + AGAIN
-        stance = self.stances[place]
+        stance = self.stance(z, place)
         return slipping(stance, self.keel(z, stance), self.slips[place], AGAIN)
 
     def of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
@@ -80,7 +107,8 @@ class SoleResiduals:
     def _of_data(self, z: Float[np.ndarray, " p"]) -> tuple[Float[np.ndarray, " n"], list[Float[np.ndarray, "_ 2"]]]:
         """The same, and the slips."""
         parts, slips = [], []
-        for place, (stance, noise) in enumerate(zip(self.stances, self.noise, strict=True)):
+        for place, noise in enumerate(self.noise):
+            stance = self.stance(z, place)
             measured = self.measured(place) / noise
             try:
                 motion, slip = self.motion(z, place)
@@ -99,13 +127,13 @@ class SoleResiduals:
         return np.hstack([stance.measured, np.zeros((len(stance.time), 2))])
 
     def __call__(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " m"]:
-        """Those of the data, then what the numbers differ from the usual ones in standard deviations beforehand."""
+        """Those of the data, then what everything differs from the usual in standard deviations beforehand."""
         data, self.slips = self._of_data(z)
-        return np.concatenate([data, z / self.zones.sd])
+        return np.concatenate([data, z / self.sd[: len(z)]])
 
     def slope(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "m p"]:
         """Derivatives of `__call__` by the logarithms."""
-        return np.vstack([self.slope_of_data(z), np.diag(1.0 / self.zones.sd)])
+        return np.vstack([self.slope_of_data(z), np.diag(1.0 / self.sd[: len(z)])])
 
     def slope_of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "n p"]:
         """Derivatives of `of_data` by the logarithms, by one-sided differences."""
@@ -120,8 +148,8 @@ class SoleResiduals:
 
     def slid(self, z: Float[np.ndarray, " p"]) -> Iterator[tuple[RecordedStance, KeelMotion]]:
         """Each stance, and the keel along it."""
-        for place, stance in enumerate(self.stances):
-            yield stance, self.motion(z, place)[0]
+        for place in range(len(self.stances)):
+            yield self.stance(z, place), self.motion(z, place)[0]
 
 
 def by_channel(

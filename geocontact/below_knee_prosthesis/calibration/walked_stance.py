@@ -47,6 +47,12 @@ class WalkedStance:
         room = int((self.recorded.time[0] - self.motion.time[0]) / step) - 2
         return int(np.clip(room, 0, LEAD))
 
+    @property
+    def begin(self) -> float:
+        """When the simulation starts [s]."""
+        time = self.recorded.time
+        return float(time[0] - self.lead * (time[1] - time[0]))
+
     def inputs(self) -> RecordedInputs:
         """Of the equations."""
         return driving_inputs(self.motion, self.push.at(self.motion.time))

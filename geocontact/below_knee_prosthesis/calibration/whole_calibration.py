@@ -2,7 +2,7 @@
 
 Socket, inertia and the pelvis' free place act here, so that the force is what the simulation shows of the stance rather
 than what the recorded poses press. Damped Gauss-Newton steps from the calibration along recorded poses, with the same
-beliefs beforehand.
+priors.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class WholeCalibration:
     logarithms
         Of the numbers over the usual ones.
     begun, cost
-        Half the sum of squares at the numbers that it began with and at those found, beliefs included.
+        Half the sum of squares at the numbers that it began with and at those found, priors included.
     converged
         Whether the search ended by itself.
     """

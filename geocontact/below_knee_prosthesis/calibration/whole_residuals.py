@@ -42,6 +42,11 @@ class WholeResiduals:
         self.last: tuple[Float[np.ndarray, " p"], list[ShownStance | None]] | None = None
         self.solved = 0
 
+    @property
+    def sd(self) -> Float[np.ndarray, " p"]:
+        """Of the logarithms, beforehand."""
+        return self.zones.sd
+
     def values(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " p"]:
         """The numbers."""
         return np.asarray(self.zones.values_of(self.zones.usual) * np.exp(z))

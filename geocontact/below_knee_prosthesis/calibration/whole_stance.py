@@ -75,8 +75,7 @@ class WholeStance:
         self.model = stance_model(foot, machine_code=machine_code)
         self.tools = _tools(self.model, sole_places(foot.keel), machine_code)
         self.inputs = stance.inputs()
-        time = stance.recorded.time
-        self.begin = float(time[0] - stance.lead * (time[1] - time[0]))
+        self.begin = stance.begin
 
     def shown(self, foot: VariableStiffnessFoot) -> ShownStance:
         """ArithmeticError where the motion cannot go on."""

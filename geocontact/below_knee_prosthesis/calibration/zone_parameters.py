@@ -1,4 +1,4 @@
-"""Numbers of the zones of a sole: names, beliefs beforehand, and their place in a law."""
+"""Numbers of the zones of a sole: names, priors, and their place in a law."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from geocontact.loads.sphere_set import SoleLaw
 Kind = Literal["stiffness", "damping", "friction"]
 KINDS: tuple[Kind, ...] = ("stiffness", "damping", "friction")
 UNITS: dict[Kind, str] = {"stiffness": "N/m^n", "damping": "N s/m", "friction": "-"}
-BELIEVED: dict[Kind, tuple[float, float]] = {"stiffness": (3.0, 12.0), "damping": (10.0, 30.0), "friction": (2.0, 4.0)}
-"""Factors, both invented: one standard deviation of what is believed beforehand, and the bounds of the search."""
+PRIOR: dict[Kind, tuple[float, float]] = {"stiffness": (3.0, 12.0), "damping": (10.0, 30.0), "friction": (2.0, 4.0)}
+"""Factors, both invented: one standard deviation of the prior, and the bounds of the search."""
 
 
 @dataclass(frozen=True)
@@ -52,13 +52,13 @@ class ZoneParameters:
 
     @property
     def sd(self) -> Float[np.ndarray, " p"]:
-        """Of the logarithm of each number beforehand (`BELIEVED`)."""
-        return np.log([BELIEVED[kind][0] for kind in self.kinds])
+        """Of the prior of the logarithm of each number (`PRIOR`)."""
+        return np.log([PRIOR[kind][0] for kind in self.kinds])
 
     @property
     def reach(self) -> Float[np.ndarray, " p"]:
         """Of the logarithm of each number from the usual one to either bound."""
-        return np.log([BELIEVED[kind][1] for kind in self.kinds])
+        return np.log([PRIOR[kind][1] for kind in self.kinds])
 
     def values_of(self, law: SoleLaw) -> Float[np.ndarray, " p"]:
         """The numbers of a law."""

@@ -8,8 +8,8 @@ from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibrati
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
 
 HEAD = """\
-# Force law of the sole, calibrated on one stance; SI units. Numbers marked unknown were never loaded, those marked
-# believed are little better than what was believed beforehand.
+# Force law of the sole, calibrated on one stance; SI units. Numbers marked unknown were never loaded; those marked
+# not identified the stance hardly tells: the prior has most of the say.
 """
 
 

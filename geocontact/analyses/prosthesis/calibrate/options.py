@@ -12,7 +12,7 @@ from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import CUTOFF, GAP, NOISE, SHIFT, SPEED, TILT
 
-MOST_STARTS, PITCH = 1000, math.radians(0.2)
+MOST_STARTS, PITCH = 1000, math.radians(0.5)
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ class ProsthesisCalibrateOptions(Options):
     machine_code: bool = False
     force_noise: Annotated[float, NOISE] = 3.0
     height_error: Annotated[Length, SHIFT, Spelled(default="0.5mm")] = 0.5e-3
-    pitch_error: Annotated[Degrees, TILT, Spelled(default=0.2)] = PITCH
+    pitch_error: Annotated[Degrees, TILT, Spelled(default=0.5)] = PITCH
     speed_error: Annotated[float, SPEED] = 20e-3
     cutoff: Annotated[float, CUTOFF] = 15.0
     gap_limit: Annotated[float, GAP] = 0.2

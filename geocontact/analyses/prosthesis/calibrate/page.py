@@ -26,7 +26,8 @@ POSES = [
     "The keel is in equilibrium in every frame: its inertia is left out.",
     "The foot may slip beside its recorded speed, within its error, so that the force along the floor is the plate's.",
     "Friction is therefore told only where the foot slips in earnest.",
-    "Poses are taken as they were recorded; what their errors do to each sample is in its weight.",
+    "Height and pitch of the foot are sought besides, as constant errors of the standing trial.",
+    "What errors of the poses do to each sample is in its weight.",
 ]
 WALKED = [
     "The stance is simulated: inertia, socket and the free pelvis act, and the force is what comes of the start.",
@@ -34,7 +35,8 @@ WALKED = [
     "Angles are taken as they were recorded; what errors of the start, of hip and of knee do is in the weights.",
 ]
 READ = [
-    "Known: the data at least halve the width of what was believed beforehand. Believed: they do not.",
+    "Known: the data at least halve the width of the prior.",
+    "Not identified: they do not; the value is stated beside its prior and has no interval.",
     "Unknown: the stance never loaded the zone, and the value is the usual one.",
     "Intervals count that residuals remember from frame to frame; they hold for this model, not beyond it.",
 ]

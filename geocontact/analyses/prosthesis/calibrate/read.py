@@ -18,11 +18,11 @@ from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedSta
 from geocontact.below_knee_prosthesis.clocks import clock_offset
 from geocontact.below_knee_prosthesis.from_markers.sides import of_side
 from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
-from geocontact.below_knee_prosthesis.from_markers.walking import walked
+from geocontact.below_knee_prosthesis.from_markers.walking import Walked, walked
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg import Leg, Person
+from geocontact.below_knee_prosthesis.model.leg import Person
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import Push
 from geocontact.data.errors import InputError
@@ -44,10 +44,12 @@ class Filtered(TypedDict):
 
 @dataclass(frozen=True, eq=False)
 class FootOnPlate:
-    """A foot and its stance, as of a right leg; with the leg's motion for the whole model."""
+    """A foot and its stance, as of a right leg; for the whole model the markers, their fit and the leg's motion."""
 
     foot: VariableStiffnessFoot
     stance: RecordedStance
+    seen: MarkerTrajectories
+    fit: Walked | None
     walked: WalkedStance | None
 
 
@@ -73,14 +75,14 @@ def read(o: ProsthesisCalibrateOptions, record: Record) -> FootOnPlate:
     time, height = recorded_heights(seen, leg, foot.sole.spheres, **filtered)
     require_one_clock(o.plates, "`plate`", name, clock_offset(time, height, plate.time, plate.force[:, 1]))
     require_under_foot(o.plates, name, stance.centre)
-    return FootOnPlate(foot, stance, _walked(o, record, seen, leg, stance) if o.full else None)
+    if not o.full:
+        return FootOnPlate(foot, stance, seen, None, None)
+    fit = walked(seen, leg, cutoff=ANGLES_CUTOFF, gap_limit=o.gap_limit)
+    return FootOnPlate(foot, stance, seen, fit, _walked(o, record, fit, stance))
 
 
-def _walked(
-    o: ProsthesisCalibrateOptions, record: Record, seen: MarkerTrajectories, leg: Leg, stance: RecordedStance
-) -> WalkedStance:
-    """Of the stance: InputError where markers of pelvis and thigh, or the other plate, do not tell enough of it."""
-    found = walked(seen, leg, cutoff=ANGLES_CUTOFF, gap_limit=o.gap_limit)
+def _walked(o: ProsthesisCalibrateOptions, record: Record, found: Walked, stance: RecordedStance) -> WalkedStance:
+    """Of the stance: InputError where the markers, or the other plate, do not cover enough of it."""
     other = plate_named(read_force_plates(o.plates), o.other_plate, o.plates, "`other_plate`")
     require_weight(o.plates, "`other_plate`", other.name, other.wrench.force[:, 1], o.mass * GRAVITY)
     motion, time = found.motion, stance.time

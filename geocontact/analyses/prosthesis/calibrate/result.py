@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pandas as pd
 from jaxtyping import Float
 from numpy import ndarray
@@ -59,6 +60,12 @@ class ProsthesisCalibrateResult(Result):
     centre: Agreement
 
     @property
+    def residual(self) -> float:
+        """Of the data at the numbers found last, over their noise, root mean square."""
+        at = self.calibration.at if self.whole is None else self.whole.logarithms
+        return float(np.sqrt(np.mean(self.last.residuals.of_data(at) ** 2)))
+
+    @property
     def last(self) -> SoleCalibration | WholeCalibration:
         """What was found last."""
         return self.calibration if self.whole is None else self.whole
@@ -78,6 +85,8 @@ class ProsthesisCalibrateResult(Result):
                 "lower": each.lower,
                 "upper": each.upper,
                 "verdict": each.verdict,
+                "prior lower": each.prior[0],
+                "prior upper": each.prior[1],
             }
             for each in self.last.knowledge.numbers
         ]

@@ -3,19 +3,27 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
-from geocontact.analyses.prosthesis.calibrate.read import FootOnPlate
+from geocontact.analyses.prosthesis.calibrate.read import ANGLES_CUTOFF, FootOnPlate
 from geocontact.analyses.prosthesis.calibrate.result import ProsthesisCalibrateResult
+from geocontact.analyses.prosthesis.ranges import TURNS
+from geocontact.analyses.prosthesis.socket_words import counted_twice
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration, calibrate_whole
-from geocontact.below_knee_prosthesis.calibration.zone_parameters import BELIEVED
+from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
+from geocontact.below_knee_prosthesis.limb_in_socket import limb_in_socket
+from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
+from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import agreement
 
+FAR, LARGE = 2.0, 2.0
+"""Standard deviations of height and pitch, and residual over noise, root mean square, that are warned of."""
 SHARE_OF_DEPTH = 1.0
 """Of its radius that a sphere may sink before its centre is under the ground."""
 
@@ -30,8 +38,8 @@ def run(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> Pr
         remedy = "check height and pitch of the foot; the sole must press and not sink"
         raise InputError(o.markers, "", str(error), remedy) from error
     whole = _whole(given, found, o, record)
-    motion, slip = found.residuals.motion(found.logarithms, 0)
-    predicted = stance.predicted(found.foot.at(stance.fulcrum), motion)
+    motion, slip = found.residuals.motion(found.at, 0)
+    predicted = found.residuals.stance(found.at, 0).predicted(found.foot.at(stance.fulcrum), motion)
     if whole is not None:
         one = whole.residuals.wholes[0]
         predicted, slip = one.channels(one.shown(whole.foot)), 0.0 * slip
@@ -58,15 +66,43 @@ def _whole(
     given: FootOnPlate, found: SoleCalibration, o: ProsthesisCalibrateOptions, record: Record
 ) -> WholeCalibration | None:
     """On the whole model, where that is asked for."""
-    if given.walked is None:
+    if given.walked is None or given.fit is None:
         return None
+    stance = given.walked
+    push, span = stance.push, (stance.begin, float(stance.recorded.time[-1]))
+
+    def along(motion: LegMotion) -> Stance:
+        return simulate_stance(motion, found.foot, given.stance.fulcrum, push, span, machine_code=o.machine_code)
+
     try:
         with record.listener.stages("calibrating on the whole model"):
-            return calibrate_whole(
-                [given.walked], given.foot, found.logarithms, level=o.level, machine_code=o.machine_code
+            limb = limb_in_socket(
+                given.seen, given.fit, along, cutoff=ANGLES_CUTOFF, gap_limit=o.gap_limit, turns=TURNS
             )
+            if not limb.settled:
+                record.warn(counted_twice(limb))
+            stances = [replace(stance, motion=limb.walked.motion)]
+            return calibrate_whole(stances, given.foot, found.logarithms, level=o.level, machine_code=o.machine_code)
     except ArithmeticError as error:
         raise InputError(o.markers, "", str(error), "check `mass`, `side` and `axes`, or leave `full` out") from error
+
+
+def _say_how_well(r: ProsthesisCalibrateResult) -> None:
+    """How the foot stood, and what speaks against the fit."""
+    record, e = r.record, r.stance.errors
+    (height, pitch), *_ = r.calibration.errors
+    record.say(
+        f"the foot is {1e3 * height:+.1f} mm and {np.degrees(pitch):+.2f} degrees (toes up) beside where its standing "
+        f"trial has it; prior {1e3 * e.standing:.1f} mm and {np.degrees(e.pitch):.2f} degrees"
+    )
+    if abs(height) > FAR * e.standing or abs(pitch) > FAR * e.pitch:
+        what = "height or pitch of the foot is more than two standard deviations beside the standing trial"
+        record.warn(f"{what}: did the foot stand flat in `static`?")
+    if r.residual > LARGE:
+        record.warn(
+            f"the residual is {r.residual:.1f} times its noise: the model does not fit this stance, and its numbers "
+            "and their intervals are not to be trusted; check `mass`, `setting`, plate and markers"
+        )
 
 
 def _say(r: ProsthesisCalibrateResult) -> None:
@@ -87,19 +123,23 @@ def _say(r: ProsthesisCalibrateResult) -> None:
         f"pressure within {100.0 * r.centre.rmsd:.1f} % of the foot (R² {r.centre.r2:.2f}); the force along the floor "
         f"{along}"
     )
+    _say_how_well(r)
     if r.whole is not None:
         record.say(
             f"on the whole model the cost falls from {r.whole.begun:.0f}, at the numbers along the recorded poses, to "
             f"{r.whole.cost:.0f}"
         )
     record.say(
-        f"{verdicts['known']} of {len(found.knowledge.numbers)} numbers are known, {verdicts['believed']} are little "
-        f"better than believed beforehand, {verdicts['unknown']} unknown; {apart.verdict} "
-        f"(condition {apart.condition:.3g})"
+        f"{verdicts['known']} of {len(found.knowledge.numbers)} numbers are known, {verdicts['not identified']} not "
+        f"identified, {verdicts['unknown']} unknown; {apart.verdict} (condition {apart.condition:.3g})"
     )
-    factors = ", ".join(f"{kind} a factor {sd:g}" for kind, (sd, _) in BELIEVED.items())
-    record.say(f"believed beforehand (invented), as one standard deviation about the usual number: {factors}")
+    factors = ", ".join(f"{kind} a factor {sd:g}" for kind, (sd, _) in PRIOR.items())
+    record.say(f"prior (invented), as one standard deviation about the usual number: {factors}")
+    (height, pitch), *_ = r.calibration.errors
     record.results["calibrate"] = {
+        "height_m": height,
+        "pitch_rad": pitch,
+        "residual_over_noise": r.residual,
         "vertical_rmse_of_body_weight": r.vertical.rmsd,
         "vertical_r2": r.vertical.r2,
         "centre_rmse_of_foot": r.centre.rmsd,

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 from geocontact.analyses.options import Expression, Options
+from geocontact.analyses.prosthesis.ranges import TURNS, require_turns
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import CUTOFF, GAP
 
@@ -24,6 +25,9 @@ class ProsthesisCompareOptions(Options):
     ----------
     cutoff
         Zero-lag low-pass of the recorded coordinates [Hz]; 0 leaves them as they are.
+    socket_turns
+        Most fits after the first, each with the socket's simulated motion taken out of its markers. With 0 that motion
+        is counted twice: in the leg's angles and again in the bushing.
     gap_limit
         Longest time for which a coordinate may be unknown [s].
     markers_map
@@ -45,6 +49,7 @@ class ProsthesisCompareOptions(Options):
     study: Path
     _: KW_ONLY
     cutoff: Annotated[float, CUTOFF] = 6.0
+    socket_turns: int = TURNS
     gap_limit: Annotated[float, GAP] = 0.2
     markers_map: str | None = None
     axes: Expression | None = None
@@ -53,6 +58,7 @@ class ProsthesisCompareOptions(Options):
     workers: int | None = None
 
     def refuse_impossible(self) -> None:
-        """No process at all."""
+        """No process at all, a negative number of fits."""
+        require_turns(self.socket_turns)
         if self.workers is not None and self.workers < 1:
             raise InputError("", "`workers`", f"{self.workers} is less than one process", "give 1 or more")

@@ -63,6 +63,7 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
         other_plate=trial.other_plate,
         plate=trial.plate,
         cutoff=o.cutoff,
+        socket_turns=o.socket_turns,
         gap_limit=o.gap_limit,
         machine_code=o.machine_code,
         markers_map=o.markers_map,

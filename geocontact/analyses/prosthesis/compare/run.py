@@ -11,10 +11,12 @@ from geocontact.analyses.prosthesis.compare.read import StudiedStance
 from geocontact.analyses.prosthesis.compare.result import ProsthesisCompareResult
 from geocontact.analyses.prosthesis.compare.tables import ALL, errors_table, summary_table
 from geocontact.analyses.prosthesis.simulate.run import simulated
+from geocontact.analyses.prosthesis.socket_words import counted_twice
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.workers import each
 from geocontact.below_knee_prosthesis.evaluation.judged_stance import JudgedStance, judged
 from geocontact.below_knee_prosthesis.evaluation.outliers import FEWEST, oddness, reasons
+from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.errors import InputError
 
@@ -35,7 +37,9 @@ def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions, record: R
             if isinstance(became, str):
                 record.warn(f"{one.trial.name} is left out: {became}")
             else:
-                found[one.trial.name] = became
+                found[one.trial.name] = became.stance
+                if not became.settled:
+                    record.warn(f"{one.trial.name}: {counted_twice(became)}")
             step()
     if not found:
         raise InputError(o.study, "[[trials]]", "no stance could be simulated", "look at one with prosthesis simulate")
@@ -53,13 +57,13 @@ def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions, record: R
     return result
 
 
-def _stance_of(one: StudiedStance) -> Stance | str:
-    """A stance, or why there is none; runs in a process of its own."""
+def _stance_of(one: StudiedStance) -> LimbInSocket | str:
+    """A stance along the limb's motion, or why there is none; runs in a process of its own."""
     try:
         found = simulated(one.walk, one.asked)
     except InputError as error:
         return error.what
-    return found if found.on.any() else "the foot never touches the floor"
+    return found if found.stance.on.any() else "the foot never touches the floor"
 
 
 def _judged(one: StudiedStance, stance: Stance) -> JudgedStance:

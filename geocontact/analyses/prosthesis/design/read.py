@@ -78,7 +78,7 @@ def read(o: ProsthesisDesignOptions, record: Record) -> FootAndTrial:
 
 
 def _known(file: Path, zones: ZoneParameters, record: Record) -> Float[np.ndarray, " p"]:
-    """From intervals; a number that is not known from any stance keeps its belief."""
+    """From intervals of known numbers; any other keeps its prior."""
     try:
         table = pd.read_csv(file)
     except (OSError, ValueError) as error:
@@ -92,10 +92,13 @@ def _known(file: Path, zones: ZoneParameters, record: Record) -> Float[np.ndarra
     if lost:
         raise InputError(file, "", f"no row {lost[0]!r}", "give numbers.csv of prosthesis calibrate")
     found = []
-    for name, believed in zip(zones.names, zones.sd, strict=True):
+    for name, prior in zip(zones.names, zones.sd, strict=True):
+        if told["verdict"].to_dict()[name] != "known":
+            found.append(float(prior))
+            continue
         lower, upper = (float(told[column].to_dict()[name]) for column in ("lower", "upper"))
         if not 0.0 < lower <= upper < np.inf:
             raise InputError(file, name, f"{lower:g} to {upper:g} is no interval", "give positive bounds, lower first")
         own = np.log(upper / lower) / (2.0 * norm.ppf(0.5 + 0.5 * INTERVAL))
-        found.append(believed if told["verdict"].to_dict()[name] == "unknown" else min(float(own), float(believed)))
+        found.append(min(float(own), float(prior)))
     return np.array(found)

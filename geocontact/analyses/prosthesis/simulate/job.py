@@ -5,12 +5,11 @@
 >>> plates = {"plates": trial + "plates.mot", "plate": "own_force", "other_plate": "other_force"}
 >>> result = gc.prosthesis.simulate(trial + "walking.trc", static=trial + "standing.trc", mass=77.3, **plates)
 >>> result
-stance of 0.74 s at the fulcrum of 117 mm: vertical force up to 1.26 BW, ankle moment up to 95 N m, keel
-stores 10.5 J
-against the plate: R² 0.89, 9.2% BW; centre of pressure R² 1.00, 1.7% of the foot; stance +0 ms
+stance of 0.73 s at the fulcrum of 117 mm: vertical force up to 1.30 BW, ankle moment up to 100 N m, keel
+stores 11.0 J
+against the plate: R² 0.92, 7.8% BW; centre of pressure R² 1.00, 1.1% of the foot; stance -6 ms
 warning: the hip's centre is that of a regression; a `functional` trial tells it better
 warning: 79 of 138 numbers of leg and foot are invented, see numbers.csv
-warning: the socket's own turn is in the recorded knee angle as well, by up to what its bushing turns
 """
 
 from __future__ import annotations

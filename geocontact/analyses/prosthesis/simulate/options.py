@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import BodyMass, Expression, Fraction, Options, PartLength, Spelled, TimeSpan
-from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, RESIDUAL
+from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, RESIDUAL, TURNS, require_turns
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import CUTOFF, GAP
 
@@ -66,6 +66,9 @@ class ProsthesisSimulateOptions(Options):
     ----------
     cutoff
         Zero-lag low-pass of the recorded coordinates [Hz]; 0 leaves them as they are.
+    socket_turns
+        Most fits after the first, each with the socket's simulated motion taken out of its markers. With 0 that motion
+        is counted twice: in the leg's angles and again in the bushing.
     gap_limit
         Longest time for which a coordinate may be unknown [s].
     machine_code
@@ -99,6 +102,7 @@ class ProsthesisSimulateOptions(Options):
     plate: str | None = None
     cutoff: Annotated[float, CUTOFF] = 6.0
     gap_limit: Annotated[float, GAP] = 0.2
+    socket_turns: int = TURNS
     machine_code: bool = False
     markers_map: str | None = None
     axes: Expression | None = None
@@ -117,3 +121,4 @@ class ProsthesisSimulateOptions(Options):
         if self.plate == self.other_plate:
             what = f"{self.plate} is named for both feet"
             raise InputError("", "`plate`", what, "each foot needs a plate of its own")
+        require_turns(self.socket_turns)

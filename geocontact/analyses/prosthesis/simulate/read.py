@@ -68,6 +68,8 @@ class Walk:
         Under the prosthetic foot; None where it is not named.
     cluster
         The foot by the markers on its socket.
+    seen
+        Markers that the motion was fitted to.
     """
 
     leg: Leg
@@ -78,6 +80,7 @@ class Walk:
     push: Push
     plate: PlateStance | None
     cluster: SeenFoot
+    seen: MarkerTrajectories
 
 
 def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
@@ -99,7 +102,7 @@ def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
     _require_clock(o, found.motion.time, other)
     own = _own(o, plates, found, foot, ground)
     poses = keel_poses(seen, leg, seen.time, FOOT_CUTOFF, o.gap_limit)
-    return Walk(leg, found, ground, foot, fulcrum, push, own, SeenFoot(seen.time, poses))
+    return Walk(leg, found, ground, foot, fulcrum, push, own, SeenFoot(seen.time, poses), seen)
 
 
 def _hip(o: ProsthesisSimulateOptions, standing: MarkerTrajectories, record: Record) -> Float[np.ndarray, " 3"] | None:

@@ -11,7 +11,10 @@ from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOp
 from geocontact.analyses.prosthesis.simulate.read import Walk
 from geocontact.analyses.prosthesis.simulate.result import ProsthesisSimulateResult
 from geocontact.analyses.prosthesis.simulate.tables import all_numbers
+from geocontact.analyses.prosthesis.socket_words import counted_twice
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket
+from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import GATE, Stance, simulate_stance
 from geocontact.below_knee_prosthesis.stance_errors import StanceErrors, longest_stance, stance_errors
@@ -31,16 +34,19 @@ def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisS
     numbers = all_numbers(walk.leg, walk.foot, walk.fulcrum, bushing_of(o))
     invented = sum(number.source == "invented" for number in numbers.values())
     record.warn(f"{invented} of {len(numbers)} numbers of leg and foot are invented, see numbers.csv")
-    record.warn("the socket's own turn is in the recorded knee angle as well, by up to what its bushing turns")
-    found = simulated(walk, o)
+    limb = simulated(walk, o)
+    found = limb.stance
     if not found.on.any():
         raise InputError(
             o.markers, "", "the foot never touches the floor", "is `ground` right, y = 0 without it, and `mass`?"
         )
     errors = _compared(walk, found)
     doubt(found, record)
+    if not limb.settled:
+        record.warn(counted_twice(limb))
     told = summary(found)
     record.results["stance"] = plain(told)
+    record.results["socket"] = plain({"turns": limb.turns, "change_BW": limb.change, "settled": limb.settled})
     record.say(found_words(found, told))
     if errors is not None:
         record.say(beside_words(errors))
@@ -53,17 +59,23 @@ def bushing_of(o: ProsthesisSimulateOptions) -> Bushing:
     return SOCKET if o.socket == "as_meant" else PRINTED
 
 
-def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> Stance:
-    """From before touch-down to after toe-off; InputError where it cannot go on."""
+def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> LimbInSocket:
+    """From before touch-down to after toe-off, with the socket's motion out of its markers; InputError where not."""
     time = walk.walked.motion.time
     span = (float(time[INSIDE]), float(time[-1 - INSIDE]))
     if walk.plate is not None:
         seen = longest_stance(walk.plate.time, walk.plate.force[:, 1])
         if seen is not None:
             span = max(span[0], seen[0] - BEFORE), min(span[1], seen[1] + AFTER)
-    given = walk.walked.motion, walk.foot, walk.fulcrum, walk.push, span
+    bushing = bushing_of(o)
+    given = walk.foot, walk.fulcrum, walk.push, span
+
+    def along(motion: LegMotion) -> Stance:
+        return simulate_stance(motion, *given, bushing=bushing, ground=walk.ground, machine_code=o.machine_code)
+
+    cutoff = None if o.cutoff == 0.0 else o.cutoff
     try:
-        return simulate_stance(*given, bushing=bushing_of(o), ground=walk.ground, machine_code=o.machine_code)
+        return limb_in_socket(walk.seen, walk.walked, along, cutoff=cutoff, gap_limit=o.gap_limit, turns=o.socket_turns)
     except (ArithmeticError, ValueError) as error:
         remedy = "check `mass`, `side`, `axes` and the names of the markers; as_printed no gait can be walked"
         raise InputError(o.markers, "", str(error), remedy) from error
