@@ -79,6 +79,7 @@ LASTING = {
     "docs/how-to/knee_chain.md",
     "docs/how-to/gap.md",
     "docs/how-to/prosthesis.md",
+    "docs/how-to/shoulder_support.md",
     "docs/how-to/sit_to_stand.md",
     "docs/how-to/sit_to_stand_design.md",
 }
