@@ -10,6 +10,7 @@ import pandas as pd
 from jaxtyping import Float, Int
 
 from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.run_record import Record
@@ -59,7 +60,7 @@ def write_stance_page(
     tables: Mapping[str, pd.DataFrame],
 ) -> int:
     """Write the self-contained page; returns its size in bytes."""
-    shown = np.arange(0, len(s.time), -(-len(s.time) // FRAMES))
+    shown = thinned(len(s.time), [s.force[:, 1], s.ankle_moment], most=FRAMES)
     sections: list[Section] = [
         Scene(directions=DIRECTIONS, up=(0.0, 1.0, 0.0), view=(0.3, 0.2, 1.0), linkages=_lines(s, o, shown)),
         *_curves(s, plate, shown),

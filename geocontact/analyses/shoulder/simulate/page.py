@@ -10,6 +10,7 @@ import pandas as pd
 from jaxtyping import Float, Int
 
 from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
@@ -22,7 +23,6 @@ from geocontact.view.page.scene import Scene
 from geocontact.view.page.tables import frame_table, inputs_table
 from geocontact.view.page.write import write_page
 
-FRAMES = 1001  # that the page shows at most
 METRES_PER_NEWTON = 5e-3
 """A force of 100 N is drawn 0.5 m long."""
 JOINT, MARKER, LINK, LIMB, ARROW = 0.012, 0.009, 0.014, 0.03, 0.008
@@ -60,7 +60,7 @@ def write_simulation_page(
 ) -> int:
     """Write the self-contained page; returns its size in bytes."""
     time = arms[0].simulation.motion.time
-    shown = np.arange(0, len(time), -(-len(time) // FRAMES))
+    shown = thinned(len(time), [np.linalg.norm(each.simulation.told["force"], axis=1) for each in arms])
     changed = [tables[name] for name in ("sensitivity",) if name in tables]
     sections: list[Section] = [
         Scene(directions=DIRECTIONS, up=(0.0, 0.0, 1.0), view=(-0.8, 1.0, 0.5), linkages=_lines(arms, markers, shown)),
