@@ -53,9 +53,9 @@ def test_the_ratio_is_that_of_the_middle_trial_to_the_stated_noise(elsewhere: El
     assert unstated == 0.0
 
 
-def test_half_of_the_squared_error_beyond_is_a_misfit() -> None:
+def test_more_than_is_put_down_to_noise_is_a_misfit() -> None:
     assert pytest.approx(1.2 * np.exp(0.3)) == loudest()
-    edge = np.sqrt(2.0) * loudest()
+    edge = loudest()
     assert Misfit("force", 1.001 * edge).sure and not Misfit("force", 0.999 * edge).sure
 
 

@@ -11,6 +11,7 @@ import pytest
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.mocap.c3d_markers import markers_of, read_c3d_markers
 from geocontact.io.mocap.c3d_plates import plates_of
+from geocontact.io.mocap.c3d_units import plate_units
 from geocontact.io.mocap.clipped import clipped_runs
 from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
 from geocontact.io.mocap.on_plate import lengths_outside
@@ -159,6 +160,14 @@ def test_the_lever_of_a_tilted_plate_is_taken_apart_too(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("here")
+def test_units_of_force_are_converted_or_said() -> None:
+    """Kilograms of force are 9.80665 N each; pounds without "force" are no unit of force, and are said."""
+    found = plate_units("a.c3d", "plate 1", 2, "mm", ["kgf"] * 3 + ["kgf.m"] * 3)
+    assert (found.newton, found.newton_metre, found.doubt) == (9.80665, 9.80665, "")
+    strange = plate_units("a.c3d", "plate 1", 2, "mm", ["lb"] * 3 + ["in-lb"] * 3)
+    assert "'lb'; they are taken to be in N and Nmm" in strange.doubt
+
+
 def test_channels_in_volts_are_said(tmp_path: Path) -> None:
     with pytest.warns(InputWarning, match="ANALOG:UNITS of its channels is 'V'; they are taken to be in N and Nmm"):
         only(plate_file(tmp_path / "a.c3d", channels(stance()), ("mm", "V", "V")))

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 from geocontact.analyses.shoulder.optimise.read import support_of
+from geocontact.shoulder_exoskeleton import in_cuff
+from geocontact.shoulder_exoskeleton.in_cuff import OutOfCuffError
 from geocontact.shoulder_exoskeleton.lucy import lucy_new_cylinder
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial, ModelError, support_case, varied_case
 from geocontact.shoulder_exoskeleton.support.best_profile import best_profile, scaled, uniform_profile
-from geocontact.shoulder_exoskeleton.support.closed_loop_profile import SLACK, ClosedLoop, SettledProfile
+from geocontact.shoulder_exoskeleton.support.closed_loop_profile import JUMP, SLACK, ClosedLoop, SettledProfile
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, outcome
 from geocontact.shoulder_exoskeleton.support.profile_limits import Limits
 from geocontact.shoulder_exoskeleton.support.simulated_support import SimulatedSupport, simulated_support
@@ -74,6 +76,18 @@ def test_no_single_factor_can_be_raised(arms: list[ArmTrial], settled: SettledPr
         more = {**settled.profile.factors, key: min(1.0, 1.05 * value)}
         if more[key] > value:
             assert taken(arms, more)[1] > 0.02, key
+
+
+def test_a_profile_that_loses_the_arm_keeps_no_limit(
+    loop: ClosedLoop, arms: list[ArmTrial], settled: SettledProfile, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is a candidate that fails, no error; without any profile that holds the arm the input is wrong."""
+    monkeypatch.setattr(in_cuff, "BEYOND", -10.0)  # every sphere is far out of every cuff
+    gains = {arm.name: loop.start(arm).gain for arm in arms}
+    found, _ = loop._simulated(arms, settled.profile, gains)
+    assert all(run.lost for run in found.runs.values()) and found.passed > JUMP
+    with pytest.raises(OutOfCuffError, match="100% of the time"):
+        ClosedLoop(DEVICE, support_of(DEVICE), Limits(reserve=RESERVE)).start(arms[0])
 
 
 def test_plan_and_simulation_agree(loop: ClosedLoop, arms: list[ArmTrial], settled: SettledProfile) -> None:

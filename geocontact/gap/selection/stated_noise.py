@@ -4,7 +4,7 @@ Noise that is fitted to residuals grows with what the model misses, and trials m
 that states the noise of a channel gives a second measure. In each trial the most probable deviation of the base
 parameters and of the placement is taken off the residual; what stays is compared with the stated noise, the noise of
 the inputs beside it. Up to `loudest` times that is put down to noise (`gap.case.whitening`). A model **misfits** a
-channel where more than half of the squared error of the middle trial lies beyond.
+channel where it misses more in the middle trial.
 
 "No gap" then is "unknown". A named effect stays named while what it leaves beyond the noise is at most `LEFT_OVER` of
 what the base model leaves there: the form of a real effect is never exactly that of a candidate.
@@ -51,8 +51,8 @@ class Misfit:
 
     @property
     def sure(self) -> bool:
-        """Whether more than half of the squared error is beyond what is put down to noise."""
-        return self.beyond > loudest() ** 2
+        """Whether something is beyond what is put down to noise."""
+        return self.beyond > 0.0
 
     @property
     def beyond(self) -> float:

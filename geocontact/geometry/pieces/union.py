@@ -122,6 +122,7 @@ class _Meeting:
         self._local, self._corners = surface.local, surface.corners
         low, high = pieces.boxes(self._corners)
         self._low, self._high = low - near, high + near
+        self._least, self._most = self._corners.min(axis=1), self._corners.max(axis=1)
         numbers = np.flatnonzero(pieces.closed)
         self._met = {int(k): met for k in numbers if len(met := self._others(int(k), numbers))}
 
@@ -165,8 +166,14 @@ class _Meeting:
         return np.asarray(numbers[meets & (numbers != number)])
 
     def _pairs(self, number: int, met: Int[np.ndarray, " q"]) -> Int[np.ndarray, "k 2"]:
-        """Faces of other pieces, and faces of this one that cross them."""
-        mine, other = (np.flatnonzero(np.isin(self._pieces.piece, of)) for of in ([number], met))
+        """Faces of other pieces, and faces of this one that cross them; only those near its box are looked at."""
+        near = (self._least <= self._high[number]).all(axis=1) & (self._most >= self._low[number]).all(axis=1)
+        chosen = np.zeros(len(self._pieces.closed), bool)
+        chosen[met] = True
+        mine = np.flatnonzero(self._pieces.piece == number)
+        other = np.flatnonzero(near & chosen[self._pieces.piece])
+        if not len(other):
+            return np.zeros((0, 2), np.int64)
         found = face_pairs(self._corners[other], self._corners[mine], self._near)
         return np.column_stack([other[found[:, 0]], mine[found[:, 1]]])
 

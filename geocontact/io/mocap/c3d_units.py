@@ -10,8 +10,9 @@ from geocontact.data.errors import InputError
 from geocontact.io.text.units import LENGTH, length_unit, si_unit
 
 _POUND_FORCE = 4.4482216152605
-_FORCE = {"n": 1.0, "nt": 1.0, "newton": 1.0, "newtons": 1.0, "kn": 1e3, "lbf": _POUND_FORCE}
-_MOMENT = re.compile(r"(?P<force>newtons?|nt|kn|n|lbf)[\s.*·⋅-]*(?P<length>[a-zµμ]+)\.?", re.IGNORECASE)
+_KILOGRAM_FORCE = 9.80665
+_FORCE = {"n": 1.0, "nt": 1.0, "newton": 1.0, "newtons": 1.0, "kn": 1e3, "lbf": _POUND_FORCE, "kgf": _KILOGRAM_FORCE}
+_MOMENT = re.compile(r"(?P<force>newtons?|nt|kn|n|lbf|kgf)[\s.*·⋅-]*(?P<length>[a-zµμ]+)\.?", re.IGNORECASE)
 
 MOMENTS_LAST = (2, 4)
 """Types of plates with three channels of force and three of moment."""
@@ -52,8 +53,8 @@ def plate_units(file: str, place: str, kind: int, points: str, channels: Sequenc
     else:
         moment = newton * metre
         _require_of_points(file, place, kind, channels, points, metre)
-    odd = next((each for each in channels if _electric(each)), None)
-    if odd is not None and kind != _CALIBRATED:
+    odd = next((each for each in channels if _strange(each)), None)
+    if odd is not None and not (kind == _CALIBRATED and _electric(odd)):
         doubt = f"ANALOG:UNITS of its channels is '{odd[:20]}'; they are taken to be in N and N{unit}"
     return PlateUnits(newton, metre, moment, doubt)
 
@@ -65,6 +66,11 @@ def _one(file: str, place: str, what: str, written: Sequence[str], known: list[f
         units = ", ".join(map(repr, written))
         raise InputError(file, place, f"its {what} are in {units}", "correct ANALOG:UNITS: one unit is expected")
     return found.pop() if found else None
+
+
+def _strange(written: str) -> bool:
+    """Whether a unit is written that is none of force, moment or length: pounds would be 4.4 times too small."""
+    return bool(written.strip()) and (_force(written), _moment(written), length_unit(written)) == (None, None, None)
 
 
 def _require_of_points(file: str, place: str, kind: int, channels: Sequence[str], points: str, metre: float) -> None:

@@ -115,16 +115,24 @@ class ClosedLoop:
     _phases: dict[str, Int[np.ndarray, " t"]] = field(default_factory=dict)
 
     def run(self, trial: ArmTrial, factors: Factors) -> SimulatedSupport:
-        """The arm under a profile with exact sensors; ArithmeticError as of `simulated_support`."""
+        """The arm under a profile with exact sensors; ArithmeticError as of `simulated_support`.
+
+        A profile that loses the arm is a result that is `lost`, and keeps no limit.
+        """
         found = simulated_support(trial, self.device, factors, guess=self._phases.get(trial.name))
         self._phases[trial.name] = found.arm.phase
         return found
 
     def start(self, trial: ArmTrial) -> Transfer:
-        """Transfer of torque under the arm's own best profile, with the gain there."""
+        """Transfer of torque under the arm's own best profile, with the gain there.
+
+        `OutOfCuffError` where the arm is not in its cuff under that: markers, lengths or units are wrong.
+        """
         if trial.name not in self._starts:
             own = best_profile([support_case(trial, self.support)], Limits(reserve=self.limits.reserve)).factors
             more, less = self.run(trial, own), self.run(trial, scaled(own, LESS))
+            if more.lost:
+                simulated_support(trial, self.device, own, strict=True)
             gain = self._gain(trial, (more, own), (less, scaled(own, LESS)))
             self._starts[trial.name] = self.corrected(trial, more, own, gain)
         return self._starts[trial.name]
@@ -213,7 +221,10 @@ class ClosedLoop:
         after = self.among(trials, transfers, profile.scales)
         taken = [(each.person, runs[each.name].outcome.reduction) for each in trials]
         value = measured(taken, self.aim, self.worst_share)
-        return SettledProfile(profile, value, runs, transfers, passed(after, self.limits, profile.factors)), after
+        beyond = passed(after, self.limits, profile.factors)
+        if any(each.lost for each in runs.values()):
+            beyond = max(beyond, 2.0 * JUMP)
+        return SettledProfile(profile, value, runs, transfers, beyond), after
 
     def _jumps(self, trials: Sequence[ArmTrial], found: SettledProfile) -> dict[str, FactorKey]:
         """By trial that is pushed far beyond what was planned the factor that gives most at the worst moment."""

@@ -16,6 +16,7 @@ from jaxtyping import Float, Int
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.cuff_contact import Cuff
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
+from geocontact.shoulder_exoskeleton.in_cuff import MOST_LOST
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
 from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds, detected
 from geocontact.shoulder_exoskeleton.support.sensing import Sensing, sensed
@@ -73,6 +74,7 @@ def controlled_arm(
     controller: Controller,
     cuff: Cuff = "point",
     guess: Int[np.ndarray, " t"] | None = None,
+    most_lost: float = MOST_LOST,
 ) -> ControlledArm:
     """Motion of the exoskeleton's arm under a support profile; the cylinder has `level` times the factor's share.
 
@@ -81,13 +83,15 @@ def controlled_arm(
     guess
         Phases to begin with, such as those under a similar profile; those of the human elevation unless given. They
         change the time that it takes, not what is found.
+    most_lost
+        As of `simulate_arm`.
 
     ArithmeticError as of `simulate_arm`, and where phases do not settle.
     """
     phase = controller.phases(motion.time, motion.elevation) if guess is None else guess
     for _ in range(PASSES):
         factor = controller.factors[phase]
-        found = simulate_arm(motion, device, wearer, level, factor=factor, cuff=cuff)
+        found = simulate_arm(motion, device, wearer, level, factor=factor, cuff=cuff, most_lost=most_lost)
         seen = controller.phases(motion.time, found.elevation)
         if np.array_equal(seen, phase):
             return ControlledArm(found, phase, factor)

@@ -13,6 +13,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.shoulder_exoskeleton.device import Device
+from geocontact.shoulder_exoskeleton.in_cuff import OutOfCuffError
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial
 from geocontact.shoulder_exoskeleton.support.controlled_arm import ControlledArm, Controller, controlled_arm
@@ -36,12 +37,15 @@ class SimulatedSupport:
         With which the cuff raises the upper arm [N m].
     force
         In the cuff [N].
+    lost
+        Whether the sphere is far out of the cuff for so long that nothing of it is a result.
     """
 
     arm: ControlledArm
     torque: Float[np.ndarray, " t"]
     force: Float[np.ndarray, " t"]
     outcome: SupportOutcome
+    lost: bool = False
 
 
 def simulated_support(
@@ -51,6 +55,7 @@ def simulated_support(
     sensing: Sensing | None = None,
     seed: int = 0,
     guess: Int[np.ndarray, " t"] | None = None,
+    strict: bool = False,
 ) -> SimulatedSupport:
     """Closed loop along the trial's motion; the person moves as recorded, whatever the support.
 
@@ -63,18 +68,28 @@ def simulated_support(
     guess
         As of `controlled_arm`.
 
+    strict
+        Let `OutOfCuffError` pass, in place of a result that is `lost`.
+
     ArithmeticError as of `controlled_arm`.
     """
     keys = [FactorKey(trial.task, trial.hand, phase) for phase in PHASES]
     shares = np.array([factors.get(key, 0.0) for key in keys])
     control = Controller(shares, trial.current, Thresholds(), sensing, seed)
-    arm = controlled_arm(trial.motion, device, trial.wearer, 1.0, control, guess=guess)
+    try:
+        arm, lost = controlled_arm(trial.motion, device, trial.wearer, 1.0, control, guess=guess), False
+    except OutOfCuffError:
+        if strict:
+            raise
+        arm = controlled_arm(trial.motion, device, trial.wearer, 1.0, control, guess=guess, most_lost=1.0)
+        lost = True
     found = arm.simulation
     torque = raising_torque(found)
     rate = float(np.abs(np.diff(torque) / np.diff(found.motion.time)).max())
     force = np.linalg.norm(found.told["force"], axis=1)
     outcome = outcome_of(trial.needed.total, torque, float(force.max()), rate)
-    return SimulatedSupport(arm, torque, force, replace(outcome, out_of_cuff=float(found.out_of_cuff.mean())))
+    outcome = replace(outcome, out_of_cuff=float(found.out_of_cuff.mean()))
+    return SimulatedSupport(arm, torque, force, outcome, lost)
 
 
 def raising_torque(arm: ArmSimulation) -> Float[np.ndarray, " t"]:

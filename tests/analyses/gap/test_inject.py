@@ -76,6 +76,7 @@ NOTHING = Diagnosis("case", "elbow", "no_gap", (), {}, (), (), (), {}, {}, 0.0, 
         (900.0, NOTHING, answered(67.6, 5.0, "damping"), "found", 67.6, False),
         (900.0, answered(28.0, 3.0, "damping"), answered(68.0, 4.0, "damping"), "found", 40.0, True),
         (900.0, answered(28.0, 3.0, "damping"), answered(29.0, 4.0, "damping"), "there_before", 1.0, False),
+        (900.0, answered(28.0, 20.0, "damping"), answered(28.0, 20.0, "damping"), "there_before", 0.0, True),
         (1e-9, answered(28.0, 3.0, "damping"), answered(28.0, 3.0, "damping"), "too_small", None, None),
         (900.0, answered(28.0, 3.0, "damping"), NOTHING, "not_found", None, None),
         (900.0, NOTHING, answered(1.0, 1.0, "dry_friction"), "not_found", None, None),
@@ -100,6 +101,7 @@ def test_an_effect_is_judged_by_the_change_against_the_case_before(
     assert found.change_ci95 == pytest.approx((change - half, change + half))
     (said,) = list(sentences(damping, made, after, found))[1:]
     assert ("which excludes the 40.9 injected" in said) == (holds is False)
+    assert ("and 0 as well" in said) == (status == "there_before" and holds is True)
     assert said.startswith("found: damping" if status == "found" else "not found: damping was missing before")
 
 

@@ -25,10 +25,11 @@ class Judgement:
     Parameters
     ----------
     status
-        "found": named, and not before, or its parameter changed by what was injected. "there_before": named with and
-        without it, and the parameter did not change by what was injected. "too_small": all trials together cannot hold
-        the evidence (`gap.levels.SURE`) from which an effect is named. "possible": among the effects in question only.
-        "imitated": not found, base parameters reproduce it. "not_found": anything else.
+        "found": named, and not before, or its parameter surely changed, and by what was injected. "there_before":
+        named with and without it, and the parameter did not surely change, or not by what was injected. "too_small":
+        all trials together cannot hold the evidence (`gap.levels.SURE`) from which an effect is named. "possible":
+        among the effects in question only. "imitated": not found, base parameters reproduce it. "not_found": anything
+        else.
     before
         Whether the case before was said to lack the effect.
     change, change_ci95
@@ -79,7 +80,8 @@ def judged(one: Candidate, made: Injected, before: Diagnosis, after: Diagnosis) 
         return Judgement("there_before" if was else "found", was)
     change, low, high = moved
     holds = low <= made.values[one.parameters[0].name] - rest_of(one) <= high
-    return Judgement("there_before" if was and not holds else "found", was, change, (low, high), holds)
+    shown = holds and not low <= 0.0 <= high
+    return Judgement("there_before" if was and not shown else "found", was, change, (low, high), holds)
 
 
 def imitated(name: str, size: float, absorbed: tuple[str, ...]) -> bool:

@@ -47,5 +47,6 @@ def _change(one: Candidate, made: Injected, found: Judgement) -> str:
         return ""
     p, (low, high) = one.parameters[0], found.change_ci95
     there = "which holds" if found.holds else "which excludes"
+    none = ", and 0 as well" if found.before and found.holds and low <= 0.0 <= high else ""
     by = f"{found.change:.4g} [{low:.4g}, {high:.4g}] {p.unit}"
-    return f", and {p.name} changes by {by}, {there} the {made.values[p.name]:.4g} injected"
+    return f", and {p.name} changes by {by}, {there} the {made.values[p.name]:.4g} injected{none}"

@@ -15,6 +15,7 @@ from geocontact.analyses.shoulder.optimise.read import WorkersAndDevice
 from geocontact.analyses.shoulder.optimise.result import FrontPoint, ShoulderOptimiseResult
 from geocontact.analyses.shoulder.optimise.sentences import say_held_out, say_profiles, say_simulated
 from geocontact.data.errors import InputError
+from geocontact.shoulder_exoskeleton.in_cuff import OutOfCuffError
 from geocontact.shoulder_exoskeleton.support.arm_scales import scales_of
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial, support_case
 from geocontact.shoulder_exoskeleton.support.best_profile import front, scaled, uniform_profile
@@ -96,6 +97,8 @@ def _found(o: ShoulderOptimiseOptions, what: Callable[[], T]) -> T:
     """Of a study whose arms can be simulated and which has a profile."""
     try:
         return what()
+    except OutOfCuffError as error:
+        raise InputError(o.study or "", "", error.what, error.cause) from error
     except ArithmeticError as error:
         raise InputError(o.study or "", "", str(error), "check lengths, unit and names of markers") from error
 

@@ -64,7 +64,7 @@ def _out(*found: SettledProfile) -> str:
 def _kept(limits: Limits) -> str:
     said = " without ever pushing an arm up"
     if limits.certainty > 0.0:
-        said += f", nor in {limits.certainty:.0%} of the draws of the model's errors"
+        said += f", nor in {limits.certainty:.0%} of the draws of the model's errors that it was chosen with"
     return said
 
 
