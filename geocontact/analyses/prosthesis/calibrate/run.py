@@ -122,7 +122,7 @@ def doubts(height: float, pitch: float, residual: float, vertical: float) -> lis
     if residual > LARGE or vertical > MISSED:
         found.append(
             f"the vertical force is missed by {vertical:.1%} of body weight, the residual is {residual:.1f} times its "
-            "noise: the model does not fit this stance, and its numbers and their intervals are not to be trusted; check "
+            "noise: the model does not fit this stance, its numbers and their intervals are not to be trusted; check "
             "`mass`, `setting`, plate and markers"
         )
     return found
