@@ -166,5 +166,8 @@ def test_the_table_alone_gives_the_same_curves(tmp_path: Path) -> None:
         machine_code=False,
     )
     assert ran.force[:, 1].max() > 300.0
-    np.testing.assert_allclose(again.force, ran.force, atol=0.5)  # steps of 3e-5 feel the 13th digit
-    np.testing.assert_allclose(again.keel_angles, ran.keel_angles, atol=1e-5)
+    # 0.073 N fore and aft (rms 0.008), 0.017 and 0.015 N else, around 0.2 s where spheres creep; the same walk with its
+    # angles changed in the 13th digit is 0.085, 0.017 and 0.015 N off, so that rounding makes all of it.
+    np.testing.assert_allclose(again.force, ran.force, atol=0.2)
+    assert np.sqrt(np.mean((again.force - ran.force) ** 2, axis=0)).max() < 0.03
+    np.testing.assert_allclose(again.keel_angles, ran.keel_angles, atol=1e-6)  # 5e-8
