@@ -269,6 +269,7 @@ def predict(out: Path, nodes: float, factor: float, keep: Callable[[dict[str, An
 
     from geocontact.analyses.run_record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+    from geocontact.dynamics.collocation.refinement import refined
     from geocontact.dynamics.collocation.solve import SolverOptions, solve
     from geocontact.io.recordings.contact_parameters import read_contact_parameters
     from geocontact.standing_up.contact_parameter import searched
@@ -293,7 +294,7 @@ def predict(out: Path, nodes: float, factor: float, keep: Callable[[dict[str, An
             phase = phase_c(model, study.subject, trial, study.noise, p, tracks=tracks)
             options = SolverOptions("radau", 4, 1, 1e-7, 300, LONGEST)
             mesh = np.linspace(0.0, 1.0, round(nodes * float(trial.time[-1])) + 1)
-            found = solve(phase.control, options, meshes=(mesh,))
+            found = refined(phase.control, solve(phase.control, options, meshes=(mesh,)), options, model.turning)
             seen = seen_in(model, found.motions[0], p, trial.time, trial.name)
             (told,) = judged(model.equations, range(6), model.turning, phase, found, certify=found.solved)
             passed = told.certificate is not None and told.certificate.converged

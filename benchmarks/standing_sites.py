@@ -174,6 +174,7 @@ def predicted(out: Path, nodes: float) -> dict[str, Any]:
     from geocontact.analyses.sit_to_stand.standing_tables import errors_table
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.analyses.sit_to_stand.trial_result import TrialResult
+    from geocontact.dynamics.collocation.refinement import refined
     from geocontact.dynamics.collocation.solve import SolverOptions, solve
     from geocontact.io.recordings.contact_parameters import read_contact_parameters
     from geocontact.standing_up.chain import Subject
@@ -199,7 +200,8 @@ def predicted(out: Path, nodes: float) -> dict[str, Any]:
         for trial in study.trials:
             phase = phase_c(model, study.subject, trial, study.noise, p)
             mesh = np.linspace(0.0, 1.0, round(nodes * float(trial.time[-1])) + 1)
-            found = solve(phase.control, SolverOptions("radau", 4, 1, 1e-7, 300, 60.0), meshes=(mesh,))
+            options = SolverOptions("radau", 4, 1, 1e-7, 300, 60.0)
+            found = refined(phase.control, solve(phase.control, options, meshes=(mesh,)), options, model.turning)
             seen = seen_in(model, found.motions[0], p, trial.time, trial.name)
             (told,) = judged(model.equations, range(6), model.turning, phase, found, certify=found.solved)
             result = TrialResult(
@@ -259,8 +261,8 @@ def spread(out: Path, nodes: float) -> dict[str, Any]:
         far = abs(of_exact[key]["searched"] - told["searched"])
         rows.append({
             "parameter": key, "value": told["value"], "by exact recordings": of_exact[key]["value"],
-            "sd by the curvature": told["sd"], "sd over trials": sd,
-            "exact within the curvature's 95 %": bool(far <= 1.96 * told["sd"]),
+            "sd told": told["sd"], "sd over trials": sd,
+            "exact within the told 95 %": bool(far <= 1.96 * told["sd"]),
             "exact within the trials' 95 %": bool(far <= reach * np.hypot(sd, 0.0)),
             "exact within both together": bool(far <= 1.96 * told["sd"] + reach * sd),
         })  # fmt: skip
@@ -272,6 +274,7 @@ def both_phases(study: Any, trials: Any, nodes: float) -> dict[str, dict[str, fl
     """What A and B find without resamples, by name."""
     from geocontact.dynamics.collocation.solve import SolverOptions
     from geocontact.standing_up.calibrated_phase import PhaseSearch, calibrated_phase
+    from geocontact.standing_up.contact_numbers import held_covariance
     from geocontact.standing_up.exoskeleton import strapped
     from geocontact.standing_up.feet import FOOT_PARAMETERS
     from geocontact.standing_up.phase_a import phase_a
@@ -290,7 +293,8 @@ def both_phases(study: Any, trials: Any, nodes: float) -> dict[str, dict[str, fl
     def build_b(given: Any, start: Any) -> Any:
         return phase_b(model, study.subject, given, study.noise, feet, free=free, tracks=study.tracks)
 
-    second, found = calibrated_phase("B", model, trials, study.noise, build_b, search), {}
+    known = held_covariance(first.numbers, first.phase.parameters)
+    second, found = calibrated_phase("B", model, trials, study.noise, build_b, search, held=known), {}
     for phase in (first, second):
         if not phase.found.solved:
             raise ArithmeticError(f"phase {phase.name}: {phase.found.ending}")

@@ -187,6 +187,8 @@ def profiles(options: argparse.Namespace) -> dict[str, Any]:
 
 def strap_profiles(options: argparse.Namespace) -> dict[str, Any]:
     """The same of the strap in phase B, feet held at what was planted, on the shipped study with an exoskeleton."""
+    import numpy as np
+
     from geocontact.analyses.run_record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.dynamics.collocation.solve import SolverOptions
@@ -202,16 +204,21 @@ def strap_profiles(options: argparse.Namespace) -> dict[str, Any]:
         return phase_b(model, study.subject, trials, study.noise, EVERY_PLANTED)
 
     search = PhaseSearch(SolverOptions("radau", 4, 1, 1e-7, 300), 30.0, profiles=1)
-    one = calibrated_phase("B", model, study.trials, study.noise, build, search)
+    exact = np.zeros((len(model.parameters), len(model.parameters)))
+    one = calibrated_phase("B", model, study.trials, study.noise, build, search, held=exact)
     rises = {each.name: [round(float(r), 2) for r in each.rise[each.distance != 0.0]] for each in one.profiles}
-    return {"rise three sd below and above": rises}
+    jerk = {n.name: n.assumed / n.after for n in one.numbers.numbers if n.verdict in ("known", "believed")}
+    return {"rise three sd below and above": rises, "sd of the jerk's size, of the whole sd": jerk}
 
 
 def freed(options: argparse.Namespace) -> dict[str, Any]:
     """A with and without radius and dissipation, B with one, two and four numbers of the strap.
 
-    What is not sought is held at what is believed, the feet in B at what was planted.
+    What is not sought is held at what is believed, the feet in B at what was planted: there intervals have the share of
+    the jerk's size, and what is off is said by the trials alone, too.
     """
+    import numpy as np
+
     from geocontact.analyses.run_record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.standing_up.exoskeleton import STRAP, STRAP_PLANTED, strapped
@@ -229,12 +236,15 @@ def freed(options: argparse.Namespace) -> dict[str, Any]:
     model, planted = strapped(study.subject, study.sites), [*EVERY_PLANTED, *STRAP_PLANTED]
     for label, free in (("B, normal", STRAP[:1]), ("B, normal and tangential", STRAP[:2]), ("B", STRAP)):
         phase = phase_b(model, study.subject, study.trials, study.noise, EVERY_PLANTED, free=free)
-        rows[label] = told_of(phase, study.trials, planted)
+        rows[label] = told_of(phase, study.trials, planted, np.zeros((len(planted), len(planted))))
     return rows
 
 
-def told_of(phase: Any, trials: Any, planted: Any) -> dict[str, Any]:
-    """A phase solved: deviation from what was planted, what is left of the belief, how sharply all are told."""
+def told_of(phase: Any, trials: Any, planted: Any, held: Any = None) -> dict[str, Any]:
+    """A phase solved: deviation from what was planted, what is left of the belief, how sharply all are told.
+
+    `held` is the covariance of what the phase holds; None leaves the shares of what is assumed out.
+    """
     import numpy as np
 
     from geocontact.dynamics.collocation.solve import SolverOptions, solve
@@ -242,7 +252,7 @@ def told_of(phase: Any, trials: Any, planted: Any) -> dict[str, Any]:
 
     meshes = tuple(np.linspace(0.0, 1.0, round(30.0 * float(t.time[-1])) + 1) for t in trials)
     found = solve(phase.control, SolverOptions("radau", 4, 1, 1e-7, 300), meshes=meshes)
-    numbers = contact_numbers(phase, found)
+    numbers = contact_numbers(phase, found, held=held)
     off = np.abs(numbers.correlation - np.eye(len(numbers.names)))
     told = {
         "ending": found.ending,
@@ -255,6 +265,7 @@ def told_of(phase: Any, trials: Any, planted: Any) -> dict[str, Any]:
                 "value": n.value,
                 "planted": each.value(float(at)),
                 "off in sd": (each.searched(n.value) - float(at)) / n.after,
+                "off in sd by the trials": (each.searched(n.value) - float(at)) / n.by_trials,
                 "sd left of the belief": n.after / n.before,
             }
             for n, each, at in zip(numbers.numbers, phase.parameters, planted, strict=True)
