@@ -60,7 +60,7 @@ sys.exit(code)
 """
 
 AREA = (
-    ("geocontact.analyses.area.read", "read_body", "reading"),
+    ("geocontact.analyses.area.read", "read_body_and_outer", "reading"),
     ("geocontact.analyses.area.run", "area_evolution", "frames"),
     ("geocontact.analyses.area.write", "save_both", "figures"),
     ("geocontact.analyses.area.write", "_write_report", "page"),

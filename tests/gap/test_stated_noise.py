@@ -29,28 +29,33 @@ SIZES = (1.0, 5.0, 2.0, 9.0, 4.0)
 """Of the residual of each trial, in units of the stated noise."""
 
 
-def ratios() -> tuple[list[float], list[float], float]:
-    """Ratio of made-up residuals where trials differ by nothing, where they may, and where no noise is stated."""
+def ratios(period: int) -> tuple[list[float], int]:
+    """Ratio of made-up residuals where trials differ by nothing; and how many there are where no noise is stated.
+
+    They are square waves of a period of so many samples.
+    """
     case = elbow_case(seed=2)
     problem = problem_of(case, system_of(case))
     base = base_contender(problem).judged
-    wave = [np.where(np.arange(len(r)) % 2, 1.0, -1.0)[:, None] * np.ones((1, 1)) for r in base.model.residuals]
-    made = [NOISE * size * each for size, each in zip(SIZES, wave, strict=True)]
+    waves = [np.where(np.arange(len(r)) % period < period // 2, 1.0, -1.0)[:, None] for r in base.model.residuals]
+    made = [NOISE * size * each for size, each in zip(SIZES, waves, strict=True)]
     one = replace(base, model=replace(base.model, residuals=made))
     low = np.full_like(base.noise.levels.inputs, 1e-12)
     calm = replace(base.noise, varies=np.zeros_like(base.noise.varies), levels=replace(base.noise.levels, inputs=low))
-    alike = replace(base, noise=calm)
-    both = [[each.ratio for each in misfits(problem, {"force": NOISE}, one, b)] for b in (alike, base)]
-    return both[0], both[1], float(len(misfits(problem, {}, one, base)))
+    found = misfits(problem, {"force": NOISE}, one, replace(base, noise=calm))
+    return [each.ratio for each in found], len(misfits(problem, {}, one, base))
 
 
-def test_the_ratio_is_that_of_the_middle_trial_to_the_stated_noise(elsewhere: Elsewhere) -> None:
-    """Residuals of ±4 noises in the middle trial, of 1 to 9 in the others; deviations of trials take nothing of an
-    alternating residual, and nothing is compared where no noise is stated."""
-    alike, differing, unstated = elsewhere(ratios)
-    assert alike == pytest.approx([4.0], rel=1e-6)
-    assert differing == pytest.approx([4.0], rel=0.05)
-    assert unstated == 0.0
+@pytest.mark.parametrize(("period", "shared"), [(40, 38.0 / 40.0), (2, 0.0)])
+def test_the_ratio_is_that_of_the_middle_trial_to_the_stated_noise(
+    elsewhere: Elsewhere, period: int, shared: float
+) -> None:
+    """Residuals of 4 noises in the middle trial, of 1 to 9 in the others. A square wave changes sign twice a period:
+    of its products of neighbours (p - 2)/p are 1 and the others -1; one that alternates is noise."""
+    found, unstated = elsewhere(ratios, period)
+    expected = 4.0 * np.sqrt(max(2.0 * shared - 1.0, 0.0))
+    assert found == pytest.approx([expected], rel=0.01)
+    assert unstated == 0
 
 
 def test_more_than_is_put_down_to_noise_is_a_misfit() -> None:

@@ -2,9 +2,10 @@
 
 Noise that is fitted to residuals grows with what the model misses, and trials may be said to differ by as much. A case
 that states the noise of a channel gives a second measure. In each trial the most probable deviation of the base
-parameters and of the placement is taken off the residual; what stays is compared with the stated noise, the noise of
-the inputs beside it. Up to `loudest` times that is put down to noise (`gap.case.whitening`). A model **misfits** a
-channel where it misses more in the middle trial.
+parameters and of the placement is taken off the residual. Of what stays the part counts that neighbours in time share,
+their mean product: what a model misses is smooth, while noise that grows with the signal, or has heavy tails, is not.
+It is compared with the stated noise, the noise of the inputs beside it. Up to `loudest` times that is put down to noise
+(`gap.case.whitening`). A model **misfits** a channel where it misses more in the middle trial.
 
 "No gap" then is "unknown". A named effect stays named while what it leaves beyond the noise is at most `LEFT_OVER` of
 what the base model leaves there: the form of a real effect is never exactly that of a candidate.
@@ -42,8 +43,8 @@ class Misfit:
     channel
         Name of the output.
     ratio
-        Root mean square of what is missed in the middle trial, the trial's own deviation taken off, over the noise:
-        stated, and of the inputs.
+        Root of the mean product of neighbouring residuals in the middle trial, the trial's own deviation taken off,
+        over the noise: stated, and of the inputs.
     """
 
     channel: str
@@ -87,13 +88,14 @@ def misfits(problem: Problem, stated: Mapping[str, float], one: Judged, base: Ju
     for residual, spread, layout, present in trials:
         weight = TrialWeight.of(present, problem.floor, spread * base.noise.varies)
         left = weight.cleared(residual) * problem.floor
-        squares.append([_mean(left**2, present), _mean(noise_variance(layout, low), present)])
+        both = present[1:] & present[:-1]
+        squares.append([_mean(left[1:] * left[:-1], both), _mean(noise_variance(layout, low), present)])
     found = []
     for c, name in enumerate(problem.system.outputs):
         if name not in stated:
             continue
         missed, noise = (np.array([each[k][c] for each in squares]) for k in (0, 1))
-        ratios = np.sqrt(missed / np.maximum(noise, stated[name] ** 2))
+        ratios = np.sqrt(np.maximum(missed, 0.0) / np.maximum(noise, stated[name] ** 2))
         found.append(Misfit(name, float(np.nanmedian(ratios)) if np.isfinite(ratios).any() else 0.0))
     return tuple(found)
 
