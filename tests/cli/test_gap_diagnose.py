@@ -171,14 +171,18 @@ def test_a_wrong_case_costs_the_others_nothing(many: Many) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SAME)
 def test_names_order_and_units_do_not_change_the_answer(answer: dict[str, Any], many: Many, name: str) -> None:
-    """Also not from one process to another: the answer beside it was made in this one."""
+    """Also not from one process to another: the answer beside it was made in this one.
+
+    Rounding of other units goes through searches that end a little before their optimum. Which way depends on the
+    processor: on one of them a probability of 0.8945 changed by 4e-5 of itself, half a thousandth of a nat.
+    """
     again = answer_in(many.folder / name)
     assert again["case"] == name
     same, other = ({k: v for k, v in a.items() if k not in ("case", "seconds")} for a in (answer, again))
     for key in ("verdict", "effects", "ambiguity", "absorbed", "faults", "remarks"):
         assert same[key] == other[key]
     for first, second in zip(numbers(same), numbers(other), strict=True):
-        assert first == pytest.approx(second, rel=1e-5, abs=1e-9)
+        assert first == pytest.approx(second, rel=1e-5 if name == "elbow_7" else 1e-4, abs=1e-9)
 
 
 @pytest.mark.slow
