@@ -16,6 +16,7 @@ from tests.cli.calls import PLATE, SPHERE, poses, written
 SD = (0.0, 0.3e-3, 0.0, 0.0, 0.0, 0.0)
 
 
+@pytest.mark.slow
 def test_both_intervals_agree_but_where_contact_vanishes(tmp_path: Path) -> None:
     motion = poses(tmp_path, (0, -21.5, 0), (0, -23.9, 0), (0, -30, 0))
     result = area(PLATE, SPHERE, motion, threshold=4e-3, pose_sd=SD, draws=100)

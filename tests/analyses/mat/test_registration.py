@@ -65,6 +65,7 @@ def test_results_are_in_the_frame_of_the_body_that_the_scan_is_registered_to(tmp
     assert (result.table("uncertainty").iloc[k, 1:4] > 0.0).all()
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")  # open3d's own imports warn
 @pytest.mark.parametrize("engine", ["own", pytest.param("open3d", marks=pytest.mark.slow)])
 def test_the_residual_of_a_registration_makes_the_wrench_uncertain_unless_it_is_stated(

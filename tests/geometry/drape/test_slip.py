@@ -55,6 +55,7 @@ def test_a_mat_shifted_around_a_tube_is_turned_about_its_axis():
     assert np.sqrt(out @ found.matrix[3:, 3:] @ out) == pytest.approx(turned, rel=0.25), "about the outward normal"
 
 
+@pytest.mark.slow
 def test_a_belt_is_rolled_and_tilted():
     """Four marks at quarters, pulled up and down in turns by e: no ring does that; 8 - 4 degrees of freedom."""
     radius, e = 0.06, 1e-3
