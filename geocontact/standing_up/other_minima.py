@@ -73,8 +73,9 @@ def misfit(
 
 
 def doubtful(phase: PhaseProblem, found: CollocationResult, misfits: float) -> bool:
-    """Whether the answer is to be sought from another start."""
-    return bool(on_their_bounds(phase, found.p).any()) or misfits > DOUBTFUL
+    """Whether the answer is to be sought from another start, where anything is."""
+    low, high = phase.control.p
+    return bool((low < high).any() and (on_their_bounds(phase, found.p).any() or misfits > DOUBTFUL))
 
 
 def ended(

@@ -74,6 +74,9 @@ def test_another_start_is_asked_for_on_a_bound_or_where_the_model_does_not_fit(
 ) -> None:
     with unchecked():
         assert doubtful(phase(), end(1.0, p), misfits) is asked  # type: ignore[arg-type]
+        held = phase()
+        held.control.p = held.control.guess_p, held.control.guess_p
+        assert not doubtful(held, end(1.0, p), misfits)  # type: ignore[arg-type]
 
 
 def test_a_minimum_that_costs_too_much_is_no_rival() -> None:
