@@ -106,7 +106,8 @@ def beside_rivals(
 ) -> ContactNumbers:
     """Numbers of the minimum at `p`, those that another minimum has outside their interval as not separable.
 
-    The interval then has both, each as wide as it was, and the standard deviation is that of an interval so wide.
+    The interval then has both, each as wide as it was, but no value of the other that is out of bounds; the standard
+    deviation is that of an interval so wide.
     """
     reach = float(norm.ppf(0.5 + 0.5 * level))
     told = []
@@ -119,7 +120,9 @@ def beside_rivals(
 
 def _with_rivals(of: ContactParameter, number: ContactNumber, off: Sequence[float], reach: float) -> ContactNumber:
     best, half = of.searched(number.value), reach * number.after
-    low, high = best + min(0.0, *off) - half, best + max(0.0, *off) + half
+    least, most = of.searched(of.least), of.searched(of.most)
+    low = min(best - half, max(best + min(off) - half, least))
+    high = max(best + half, min(best + max(off) + half, most))
     return replace(
         number,
         lower=of.value(low),

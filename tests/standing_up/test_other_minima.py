@@ -106,7 +106,9 @@ def test_a_number_with_a_rival_outside_its_interval_is_not_separable() -> None:
     assert held_covariance(told, BOTH)[0, 0] == pytest.approx(modulus.after**2)
     with unchecked():
         assert beside_rivals(numbers(0.1), phase(), at, [], 0.95).numbers == numbers(0.1).numbers  # type: ignore[arg-type]
+        high = beside_rivals(numbers(0.1), phase(), at, [at + np.array([2.25, 0.0])], 0.95).numbers[0]  # type: ignore[arg-type]
         stays = beside_rivals(numbers(0.1, "on its bound"), phase(), at, [at + np.array([0.0, 0.05])], 0.95)  # type: ignore[arg-type]
+    assert high.upper == pytest.approx(6e7) and high.lower == modulus.lower  # 57 MPa, 69 with half an interval
     assert stays.numbers[1].verdict == "on its bound"
 
 
