@@ -13,7 +13,6 @@ from geocontact.analyses.area.options import AreaOptions, PressureOptions
 from geocontact.analyses.area.read import Bodies
 from geocontact.analyses.area.tables import tables_of
 from geocontact.analyses.area.write import figure_of, pressure_figure_of, write_motion, write_page_of
-from geocontact.analyses.plain_page import write_plain_page
 from geocontact.analyses.result import Result
 
 if TYPE_CHECKING:
@@ -49,6 +48,11 @@ class AreaResult(Result):
         """The folder itself, and one for each of several motions."""
         return ("", *(one.name for one in self.motions if one.name))
 
+    @property
+    def title(self) -> str:
+        """The bodies."""
+        return self.bodies.title
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`area`, `pressure` and `comparison`; of several motions "name/area" and so on.
 
@@ -80,4 +84,4 @@ class AreaResult(Result):
         if len(self.motions) == 1:
             write_page_of(self.record, self.bodies, self.motions[0], file)
         else:
-            write_plain_page(self, self.bodies.title, file)
+            super().write_page(file)

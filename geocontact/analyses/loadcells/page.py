@@ -65,8 +65,6 @@ def loadcell_page(
     ensemble: Drawn,
     weight: float | None = None,
     results: Sequence[Table] = (),
-    provenance: Sequence[Table] = (),
-    warnings: Sequence[str] = (),
 ) -> Page:
     """The page of one recording.
 
@@ -78,10 +76,6 @@ def loadcell_page(
         Of the body [N]: forces can be read in per cent of it.
     results
         Cycles and styles.
-    provenance
-        Inputs with hashes, options, versions.
-    warnings
-        Reservations that came up on the way.
     """
     forces, by_cell = recorded.forces, recorded.by_cell(regression)
     curves = [forces.total, *forces.curves.values(), *by_cell.values()]
@@ -107,8 +101,7 @@ def loadcell_page(
         instead = {k: other for k, other in enumerate(sections(unit)) if other is not tray}
         other = PageChoice(unit.name, _headline(recorded, cuts, unit), _facts(recorded, unit), instead)
         choices = Choices("forces in", NEWTON.name, [other])
-    if len(shown.kept) < len(forces.time):
-        warnings = [*warnings, f"the page shows {len(shown.kept)} of {len(forces.time)} samples; forces.csv has all"]
+    part = f"the page shows {len(shown.kept)} of {len(forces.time)} samples; forces.csv has all"
     return Page(
         title=f"Load cells of {recorded.file.name}",
         subtitle=f"Tibial contact force from {len(cells)} load cells, weights '{regression.name}'",
@@ -116,7 +109,7 @@ def loadcell_page(
         time_label="time [s]",
         headline=_headline(recorded, cuts, NEWTON),
         facts=_facts(recorded, NEWTON),
-        reservations=tuple(warnings),
+        reservations=(part,) if len(shown.kept) < len(forces.time) else (),
         start_frame=int(np.nanargmax(shown.of(forces.total))),
         sections=(
             *own,
@@ -125,7 +118,6 @@ def loadcell_page(
             Words(
                 "What the numbers do not contain", [CELLS, f"Weights of the cells: {regression.source}.", NOT_A_DEVICE]
             ),
-            *provenance,
         ),
         numbers=shown.numbers,
         total=shown.total,

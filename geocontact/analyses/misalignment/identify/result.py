@@ -57,18 +57,16 @@ class IdentifyResult(Result):
         """k, x, y, l, z, b and s in SI; where nothing sets the scale, one point of the line that fits alike."""
         return self.fit.estimate.named
 
-    @property
-    def figures(self) -> tuple[str, ...]:
-        """Names of the figures."""
-        own = ("forces", "identifiability", "residuals")
-        return own if self.free is None else (*own, "conditions")
+    def figures(self) -> dict[str, Figure]:
+        """`forces`, `identifiability`, `residuals`, and `conditions` with a free joint."""
+        return {name: self.figure(name) for name in self._drawn}
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`intervals`, `bins`, `boxes`, `scale_line`, `held_out`; `conditions` and `boxes_free` with a free joint."""
         return tables_of(self.fit, self.free)
 
     def figure(self, name: str = "forces") -> Figure:
-        """One of `figures`: force over the angle unless named."""
+        """One of the figures: force over the angle unless named."""
         f = self.fit
         if name == "forces":
             return force_figure(_over(f), self._boxes("boxes", f.boxes))
@@ -81,22 +79,27 @@ class IdentifyResult(Result):
         if name == "conditions" and self.free is not None:
             boxes = self._boxes("boxes", f.boxes), self._boxes("boxes_free", self.free.boxes)
             return conditions_figure(bin_means(f.data), self.free.stroke, *boxes)
-        raise KeyError(f"no figure {name!r}; there are {', '.join(self.figures)}")
+        raise KeyError(f"no figure {name!r}; there are {', '.join(self._drawn)}")
 
     def write_files(self, folder: Path) -> None:
         """elbow.json, tables, figures, page."""
         write_json(folder / "elbow.json", self.summary)
         for name, table in self.tables().items():
             write_table(table, folder, name)
-        drawings = {name: save_both(self.figure(name), folder, name) for name in self.figures}
+        drawings = {name: save_both(self.figure(name), folder, name) for name in self._drawn}
         self._write_page(folder / "report.html", drawings)
 
     def write_page(self, file: Path) -> None:
         """Force over the angle, what the data tell, figures and tables."""
-        self._write_page(file, {name: drawing(self.figure(name)) for name in self.figures})
+        self._write_page(file, {name: drawing(self.figure(name)) for name in self._drawn})
 
     def _write_page(self, file: Path, drawings: dict[str, bytes]) -> None:
         write_fit_report(file, self.record, self.fit, self.free, self.tables(), drawings)
+
+    @property
+    def _drawn(self) -> tuple[str, ...]:
+        own = ("forces", "identifiability", "residuals")
+        return own if self.free is None else (*own, "conditions")
 
     def _boxes(self, name: str, data: Binned) -> Boxes:
         table = self.table(name)
