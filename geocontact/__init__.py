@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from geocontact.analyses.gap.discriminability.job import discriminability
     from geocontact.analyses.gap.gather.job import gather
     from geocontact.analyses.gap.inject.job import inject
-    from geocontact.analyses.loadcells.job import load_cells
+    from geocontact.analyses.loadcells.result import load_cells
     from geocontact.analyses.mat.job import mat
     from geocontact.analyses.modulus.job import modulus
     from geocontact.analyses.motion.functional_joint.job import functional_joint
@@ -90,7 +90,7 @@ _PLACES = {
     "pressure": "analyses.area.job",
     "centre_of_pressure": "analyses.cop.job",
     "fit_shape": "analyses.shape.job",
-    "load_cells": "analyses.loadcells.job",
+    "load_cells": "analyses.loadcells.result",
     "modulus": "analyses.modulus.job",
     "cohort": "study.job",
     "mat": "analyses.mat.job",

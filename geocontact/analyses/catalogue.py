@@ -27,7 +27,7 @@ PLACES = {
     "ik": "motion.inverse_kinematics.job:inverse_kinematics",
     "joint": "motion.functional_joint.job:functional_joint",
     "knee settle": "knee.settle.job:settle",
-    "loadcells": "loadcells.job:load_cells",
+    "loadcells": "loadcells.result:load_cells",
     "markers": "motion.virtual_markers.job:virtual_markers",
     "mat": "mat.job:mat",
     "modulus": "modulus.job:modulus",

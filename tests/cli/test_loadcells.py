@@ -10,7 +10,7 @@ from unittest import mock
 
 import pytest
 
-from geocontact.analyses.loadcells.job import load_cells
+from geocontact.analyses.loadcells.result import load_cells
 from geocontact.data.errors import InputWarning
 from tests.analyses.loadcells.synthetic_walk import CELLS, HEAD, LBF, PERIOD, recorded
 from tests.cli.calls import MESHES, Call, call, done, inventory, written

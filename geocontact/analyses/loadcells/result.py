@@ -1,4 +1,13 @@
-"""What load cells tell: forces of the compartments, the mean over cycles, figures and a page for each recording."""
+"""Contact forces from the load cells of an implant: `geocontact loadcells`, `gc.load_cells`.
+
+>>> import geocontact as gc, numpy as np, pandas as pd
+>>> time = np.linspace(0.0, 1.0, 101)
+>>> cells = {name: 300.0 * np.sin(np.pi * time) for name in ("PM [N]", "AM [N]", "AL [N]", "PL [N]")}
+>>> pd.DataFrame({"time [s]": time} | cells).to_csv("cells.csv", index=False)
+>>> result = gc.load_cells("cells.csv")
+>>> result
+largest forces: medial 604.6 N, lateral 595.4 N, total 1200.0 N (total at 0.5 s)
+"""
 
 from __future__ import annotations
 
@@ -10,13 +19,35 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from geocontact.analyses.figure_files import drawing
-from geocontact.analyses.loadcells.cycles import SIDES, Cut, stacked
-from geocontact.analyses.loadcells.figure import ensemble_figure, loadcell_figure
+from geocontact.analyses.job import Job
+from geocontact.analyses.loadcells.forces import (
+    SIDES,
+    Cut,
+    LoadCellInputs,
+    RecordedCells,
+    cuts_asked_for,
+    cycle_table,
+    ensemble_table,
+    read,
+    recorded_forces,
+    say_cycles,
+    shift_table,
+    stacked,
+    style_table,
+)
 from geocontact.analyses.loadcells.options import LoadcellOptions
-from geocontact.analyses.loadcells.page import CYCLES, NEWTON, SHIFTS, STYLES, ForceUnit, loadcell_page
-from geocontact.analyses.loadcells.recorded import RecordedCells
-from geocontact.analyses.loadcells.tables import cycle_table, ensemble_table, shift_table, style_table
+from geocontact.analyses.loadcells.show import (
+    CYCLES,
+    NEWTON,
+    SHIFTS,
+    STYLES,
+    ForceUnit,
+    ensemble_figure,
+    loadcell_figure,
+    loadcell_page,
+)
 from geocontact.analyses.result import Result
+from geocontact.analyses.run_record import Record
 from geocontact.data.cell_regression import CellRegression
 from geocontact.view.curves.given import SERIES
 from geocontact.view.page.tables import frame_table
@@ -115,3 +146,14 @@ class LoadcellResult(Result):
 def _named(one: RecordedCells, file: str) -> str:
     """A file of one recording, in the sub-folder that it has among several."""
     return (Path(one.folder) / file).as_posix()
+
+
+def run(given: LoadCellInputs, o: LoadcellOptions, record: Record) -> LoadcellResult:
+    """Forces of every recording, and the cycles of all of them."""
+    recordings = recorded_forces(given, o, record)
+    cuts = cuts_asked_for(record, {each.file: each.forces for each in recordings}, given.cycles, o)
+    say_cycles(record, cuts)
+    return LoadcellResult(record=record, options=o, regression=given.regression, recordings=recordings, cuts=cuts)
+
+
+load_cells = Job("loadcells", LoadcellOptions, read, run)
