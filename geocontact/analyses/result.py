@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+    from geocontact.analyses.finished_page import Thinned
     from geocontact.view.page.content import Page
 
 REPORT = "report.html"
@@ -98,7 +99,7 @@ class Result(ABC):
         """The main figure; None where there is nothing to draw."""
         return next(iter(self.figures().values()), None)
 
-    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+    def pages(self, drawings: Mapping[str, bytes]) -> Mapping[str, Page | Thinned]:
         """Pages by the name of their file; without any, figure and tables are shown on one.
 
         Reservations, input files and options are added to each.
@@ -136,7 +137,6 @@ class Result(ABC):
         """
         from geocontact.analyses.figure_files import save_both  # late, like all that draws: --help needs no numpy
         from geocontact.io.text.results import write_table
-        from geocontact.view.page.write import write_page
 
         for name, table in self.tables().items():
             if name in self.elsewhere:
@@ -149,36 +149,29 @@ class Result(ABC):
         for name, figure in self.figures().items():
             _make_room(folder / name)
             drawings[name] = save_both(figure, folder, name)
-        for name, page in self._finished_pages(drawings).items():
+        for name, page in self._pages(drawings).items():
             _make_room(folder / name)
-            write_page(page, folder / name)
+            self._write(page, folder / name, name.rpartition("/")[0])
 
     def write_page(self, file: Path) -> None:
         """Write the page of the whole, one file that needs no network; of several parts, their figure and tables."""
         from geocontact.analyses.figure_files import Drawings
-        from geocontact.view.page.write import write_page
 
-        pages = self._finished_pages(Drawings(self.figures))
-        write_page(pages[REPORT] if REPORT in pages else self._plain_page(), file)
+        pages = self._pages(Drawings(self.figures))
+        self._write(pages[REPORT] if REPORT in pages else self._plain_page(), file, "")
 
-    def _finished_pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
-        from geocontact.analyses.finished_page import finished
-
-        pages = self.pages(drawings)
-        if not pages:
-            return {REPORT: self._plain_page()}
-        homes = {name: name.rpartition("/")[0] for name in pages}
-        return {
-            name: finished(page, self.record, homes[name], self.reservations(homes[name]))
-            for name, page in pages.items()
-        }
+    def _pages(self, drawings: Mapping[str, bytes]) -> Mapping[str, Page | Thinned]:
+        return self.pages(drawings) or {REPORT: self._plain_page()}
 
     def _plain_page(self) -> Page:
-        """Figure and tables, whatever they are."""
-        from geocontact.analyses.finished_page import finished, plain_page
+        from geocontact.analyses.finished_page import plain_page
 
-        page = plain_page(self.title, self.record, self.figure(), self.tables())
-        return finished(page, self.record, "", self.warnings)
+        return plain_page(self.title, self.record, self.figure(), self.tables())
+
+    def _write(self, page: Page | Thinned, file: Path, folder: str) -> None:
+        from geocontact.analyses.finished_page import write_finished
+
+        write_finished(page, file, self.record, folder, self.reservations(folder))
 
     def put(self, draft: Path, forms: TableForms | None = None) -> list[str]:
         """Write everything into `draft`, `run.json` included; names of the files.

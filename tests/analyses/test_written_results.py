@@ -13,7 +13,7 @@ import pandas as pd
 import pytest
 from matplotlib.figure import Figure
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS, finished
+from geocontact.analyses.finished_page import INPUTS, OPTIONS, Thinned, finished
 from geocontact.analyses.result import Result
 from geocontact.analyses.run_record import Record
 from geocontact.io.text.written_units import CASES
@@ -138,3 +138,22 @@ def test_inputs_and_options_stand_where_the_page_has_a_place_for_them(tmp_path: 
     assert [len(section.rows) for section in both.sections[:1]] == [2] and both.sections[2] is words
     assert "both.csv" in page_html(both) and "left.csv" in page_html(both)
     assert len(finished(page("", INPUTS), record(tmp_path), "right", ()).sections[0].rows) == 1
+
+
+def test_a_long_page_shows_fewer_frames_until_its_file_is_small(tmp_path: Path) -> None:
+    shown: list[int] = []
+
+    def of(most: int) -> Page:
+        shown.append(most)
+        return Page("", "", np.arange(float(most)), "", sections=(Words("", ["words"] * most),))
+
+    class Long(Walks):
+        def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Thinned]:
+            return {"report.html": Thinned(of, 100, 20)}
+
+    walks = Long(record=record(tmp_path))
+    walks.page(tmp_path / "small.html")
+    assert shown == [100]
+    with mock.patch("geocontact.analyses.finished_page.LARGEST_FILE", 1000):
+        walks.page(tmp_path / "page.html")
+    assert shown[1:] == [100, 50, 25], "below twenty it is thinned no further"

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.mat.closest_point import ClosestPoint
 from geocontact.analyses.mat.findings import MatFindings
-from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.geometry.drape.cells import Drape
@@ -28,11 +27,8 @@ from geocontact.view.page.content import (
     Table,
     Words,
 )
-from geocontact.view.page.write import write_page
 
 FRAMES = 201  # frames that the page animates at most
-FEWEST = 21  # frames below which a page is not thinned any further
-LARGEST_FILE = 5_000_000  # bytes
 KPA, CM2, MM = 1e-3, 1e4, 1e3
 NEAR = 1e-3  # m; a scene asks for a distance, and nothing here has one
 FIGURE = (
@@ -49,18 +45,9 @@ AXES: Mapping[str, Sequence[float]] = {
 }
 
 
-def write_mat_report(path: Path, r: MatFindings, drawing: bytes) -> int:
-    """Write the self-contained page; returns its size in bytes. Long recordings are thinned out, as the page says.
-
-    `drawing` is the static figure.
-    """
-    most, w = FRAMES, r.loads
-    while True:
-        shown = thinned(len(r.frames.time), [w.pressing, w.peak], [r.heaviest, int(np.argmax(r.on_faces))], most)
-        size = write_page(mat_page(r, shown, drawing), path)
-        most = len(shown) // 2
-        if size <= LARGEST_FILE or most < FEWEST:
-            return size
+def shown_frames(r: MatFindings, most: int) -> Int[np.ndarray, " k"]:
+    """About so many frames at most, those with the extremes among them."""
+    return thinned(len(r.frames.time), [r.loads.pressing, r.loads.peak], [r.heaviest, int(np.argmax(r.on_faces))], most)
 
 
 def mat_page(r: MatFindings, shown: Int[np.ndarray, " k"], drawing: bytes) -> Page:
@@ -69,11 +56,9 @@ def mat_page(r: MatFindings, shown: Int[np.ndarray, " k"], drawing: bytes) -> Pa
     sections.append(Picture("The mat", FIGURE, drawing, wide=True))
     if r.closest_point is not None:
         sections.append(_two_ways(r, r.closest_point))
-    sections.append(options_table(r.record))
+    sections += [INPUTS, OPTIONS]
     sections.append(Words("What the numbers rest on", [*_reservations(r), NOT_A_DEVICE]))
-    warnings = list(r.warnings)
-    if len(shown) < len(r.frames.time):
-        warnings.append(f"the page shows {len(shown)} of {len(r.frames.time)} frames; wrench.csv has them all")
+    part = f"the page shows {len(shown)} of {len(r.frames.time)} frames; wrench.csv has them all"
     return Page(
         title=f"{r.frames.name} on {r.surface.name}",
         subtitle=f"Pressure mat of {r.frames.rows} × {r.frames.columns} cells on a body scan",
@@ -81,7 +66,7 @@ def mat_page(r: MatFindings, shown: Int[np.ndarray, " k"], drawing: bytes) -> Pa
         time_label="time [s]",
         headline=headline(r.record.sentences, most=2),
         facts=_facts(r),
-        reservations=tuple(warnings),
+        reservations=(part,) if len(shown) < len(r.frames.time) else (),
         start_frame=int(np.flatnonzero(shown == r.heaviest)[0]),
         sections=tuple(sections),
         numbers=shown + 1,

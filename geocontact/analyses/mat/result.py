@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,15 +10,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
+from geocontact.analyses.finished_page import Thinned
 from geocontact.analyses.mat.figure import mat_figure
 from geocontact.analyses.mat.findings import MatFindings
-from geocontact.analyses.mat.page import write_mat_report
+from geocontact.analyses.mat.page import FRAMES, mat_page, shown_frames
 from geocontact.analyses.mat.tables import mat_tables
+from geocontact.analyses.result import REPORT
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
-from geocontact.io.text.results import write_table
-from geocontact.io.text.written_units import CASES, RESULTS
+from geocontact.io.text.written_units import CASES
 from geocontact.view.surfaces.mat_vtp import write_mat_vtp
 
 if TYPE_CHECKING:
@@ -39,33 +40,31 @@ class MatResult(MatFindings):
         """`wrench`, `uncertainty`, `cells`, `frames_cells`; and `segments`, `registration`, `agreement` if any."""
         return mat_tables(self)
 
-    def figure(self) -> Figure:
-        """Force, pressure and area over time, and the cells with their largest pressure."""
+    def figures(self) -> dict[str, Figure]:
+        """`mat`: force, pressure and area over time, and the cells with their largest pressure."""
         largest = float(self.on_faces.max())
-        return mat_figure(self.frames.time, self.loads, self.drape, self.pressure, self.cells, largest)
+        return {"mat": mat_figure(self.frames.time, self.loads, self.drape, self.pressure, self.cells, largest)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Thinned]:
+        """The animated page."""
+        return {REPORT: Thinned(lambda most: mat_page(self, shown_frames(self, most), drawings["mat"]), FRAMES)}
+
+    def units(self, table: str) -> Mapping[str, str]:
+        """Those of gap cases for cells, which such cases hold."""
+        return CASES if table in OF_A_CASE else super().units(table)
+
+    def refers_to(self, table: str) -> Mapping[str, object] | None:
+        """Point and frame of loads."""
+        return self._point_and_frame() if table in REFERRED else None
 
     def write_files(self, folder: Path) -> None:
-        """Tables, surface, figure and page."""
-        for name, table in self.tables().items():
-            units = CASES if name in OF_A_CASE else RESULTS
-            write_table(table, folder, name, units)
-            if name in REFERRED:
-                self.record.tables[f"{name}.csv"] = self._point_and_frame()
+        """A surface for ParaView besides."""
+        named, s = f"geocontact {VERSION}", self.surface
         try:
-            write_mat_vtp(
-                folder / "mat_on_surface.vtp",
-                self.surface.vertices,
-                self.surface.faces,
-                self._on_faces(),
-                f"geocontact {VERSION}",
-            )
+            write_mat_vtp(folder / "mat_on_surface.vtp", s.vertices, s.faces, self._on_faces(), named)
         except InputError as error:
             self.record.warn(str(error))
-        write_mat_report(folder / "report.html", self, save_both(self.figure(), folder, "mat"))
-
-    def write_page(self, file: Path) -> None:
-        """The animated page."""
-        write_mat_report(file, self, drawing(self.figure()))
+        super().write_files(folder)
 
     def _point_and_frame(self) -> dict[str, object]:
         wrench = self.loads.wrench
