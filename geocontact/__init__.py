@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from geocontact.analyses.gap.gather.job import gather
     from geocontact.analyses.gap.inject.job import inject
     from geocontact.analyses.loadcells.result import load_cells
-    from geocontact.analyses.mat.job import mat
+    from geocontact.analyses.mat.result import mat
     from geocontact.analyses.modulus.job import modulus
     from geocontact.analyses.motion.functional_joint.job import functional_joint
     from geocontact.analyses.motion.inverse_dynamics.job import inverse_dynamics
@@ -93,7 +93,7 @@ _PLACES = {
     "load_cells": "analyses.loadcells.result",
     "modulus": "analyses.modulus.job",
     "cohort": "study.job",
-    "mat": "analyses.mat.job",
+    "mat": "analyses.mat.result",
     "scale": "analyses.motion.scale.job",
     "functional_joint": "analyses.motion.functional_joint.job",
     "inverse_kinematics": "analyses.motion.inverse_kinematics.job",

@@ -29,7 +29,7 @@ PLACES = {
     "knee settle": "knee.settle.job:settle",
     "loadcells": "loadcells.result:load_cells",
     "markers": "motion.virtual_markers.job:virtual_markers",
-    "mat": "mat.job:mat",
+    "mat": "mat.result:mat",
     "modulus": "modulus.job:modulus",
     "prosthesis calibrate": "prosthesis.calibrate.job:calibrate",
     "prosthesis compare": "prosthesis.compare.job:compare",

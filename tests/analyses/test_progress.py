@@ -10,8 +10,8 @@ import pytest
 
 from geocontact.analyses.job import Call, execute
 from geocontact.analyses.listener import Listener
-from geocontact.analyses.mat.job import mat
 from geocontact.analyses.mat.options import MatOptions
+from geocontact.analyses.mat.result import mat
 from geocontact.analyses.shape.job import fit_shape
 from geocontact.analyses.shape.options import ShapeOptions
 

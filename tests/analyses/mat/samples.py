@@ -14,8 +14,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.analyses.mat.job import mat
-from geocontact.analyses.mat.result import MatResult
+from geocontact.analyses.mat.result import MatResult, mat
 from geocontact.data.errors import InputError
 from tests.cli.calls import MESHES, written
 from tests.drawing import unwritten
