@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 from jaxtyping import Float, Int
 
@@ -11,12 +9,9 @@ from geocontact.analyses.cop.foot_loads import FootLoads
 from geocontact.analyses.cop.page_answer import NO_MOMENT, facts, headline
 from geocontact.analyses.cop.page_plans import MM, butterfly, foot_plan
 from geocontact.analyses.cop.page_stances import foot_curves, stance_pictures
-from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Table, Words
-from geocontact.view.page.tables import inputs_table
-from geocontact.view.page.write import write_page
 
 SPHERES, PLATE = "spheres", "force plate"
 LAW = (
@@ -24,11 +19,6 @@ LAW = (
     "is a large part of that depth: sizes of forces are as good as motion and stiffness, the place of the centre "
     "depends on them less."
 )
-
-
-def write_cop_report(r: FootLoads, file: Path) -> int:
-    """Write the self-contained page; returns its size in bytes."""
-    return write_page(cop_page(r), file)
 
 
 def cop_page(r: FootLoads) -> Page:
@@ -45,12 +35,8 @@ def cop_page(r: FootLoads) -> Page:
         *stance_pictures(r),
         *_comparison(r),
         Words("What the numbers rest on", [LAW, NOT_A_DEVICE]),
-        inputs_table(r.record.inputs),
-        options_table(r.record),
     ]
-    warnings = list(r.warnings)
-    if len(shown) < len(time):
-        warnings.append(f"the page shows {len(shown)} of {len(time)} frames; cop.csv has them all")
+    part = f"the page shows {len(shown)} of {len(time)} frames; cop.csv has them all"
     return Page(
         title=f"Centre of pressure of {r.foot.name}",
         subtitle=f"{len(r.foot.sole)} spheres on the ground, motion {r.options.motion.name}",
@@ -58,7 +44,7 @@ def cop_page(r: FootLoads) -> Page:
         time_label="time [s]",
         headline=headline(r),
         facts=facts(r),
-        reservations=tuple(warnings),
+        reservations=(part,) if len(shown) < len(time) else (),
         start_frame=int(np.argmax(c.pressing[shown])),
         sections=tuple(sections),
         numbers=shown + 1,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pandas as pd
@@ -11,12 +11,13 @@ import pandas as pd
 from geocontact.analyses.cop.along_foot import along_foot, stance_table
 from geocontact.analyses.cop.figure import LoadCurves, cop_figure
 from geocontact.analyses.cop.foot_loads import FootLoads, loads_table
-from geocontact.analyses.cop.page import write_cop_report
-from geocontact.analyses.figure_files import save_both
-from geocontact.io.text.results import write_table
+from geocontact.analyses.cop.page import cop_page
+from geocontact.analyses.result import REPORT
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 FRAME = "ground"
 WORDS = "the frame in which the motion gives the foot's pose; forces are those on the foot"
@@ -40,29 +41,26 @@ class CopResult(FootLoads):
             found["stances"] = stance_table(self, found["cop"])
         return found
 
-    def figure(self) -> Figure:
-        """Forces, centre and free moment over time, and the path seen from above."""
+    def figures(self) -> dict[str, Figure]:
+        """`cop`: forces, centre and free moment over time, and the path seen from above."""
         time, c = self.foot.motion.time, self.centre
         ours, theirs = LoadCurves(time, c.wrench.force, c.centre, c.free_moment), None
         if self.plate is not None:
             p = self.plate
             theirs = LoadCurves(time[p.frames], p.force, p.centre, p.free_moment)
-        return cop_figure(ours, theirs, c.normal, f"{self.foot.name} on the ground, {self.options.motion.name}")
+        return {
+            "cop": cop_figure(ours, theirs, c.normal, f"{self.foot.name} on the ground, {self.options.motion.name}")
+        }
 
-    def write_files(self, folder: Path) -> None:
-        """Tables, figure and page."""
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
-            told = {"frame": FRAME, "words": WORDS, "cop": CENTRES[self.options.point]}
-            if name == "along_foot":
-                told = {"frame": "foot", "words": FOOT_WORDS}
-            self.record.tables[f"{name}.csv"] = told
-        save_both(self.figure(), folder, "cop")
-        write_cop_report(self, folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The path under the foot, the forces along it, and their numbers in every frame."""
-        write_cop_report(self, file)
+        return {REPORT: cop_page(self)}
+
+    def refers_to(self, table: str) -> Mapping[str, object]:
+        """The frame, and which centre is meant."""
+        if table == "along_foot":
+            return {"frame": "foot", "words": FOOT_WORDS}
+        return {"frame": FRAME, "words": WORDS, "cop": CENTRES[self.options.point]}
 
     def _zones_table(self) -> pd.DataFrame:
         """Normal force of every zone."""
