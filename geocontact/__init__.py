@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from geocontact import chain
     from geocontact.analyses import knee, misalignment, prosthesis, shoulder, sit_to_stand
     from geocontact.analyses.area.job import area, pressure
-    from geocontact.analyses.cop.job import centre_of_pressure
+    from geocontact.analyses.cop.result import centre_of_pressure
     from geocontact.analyses.gap.diagnose.job import diagnose
     from geocontact.analyses.gap.discriminability.job import discriminability
     from geocontact.analyses.gap.gather.job import gather
@@ -88,7 +88,7 @@ _PLACES = {
     "sweep": "geometry.sweep",
     "area": "analyses.area.job",
     "pressure": "analyses.area.job",
-    "centre_of_pressure": "analyses.cop.job",
+    "centre_of_pressure": "analyses.cop.result",
     "fit_shape": "analyses.shape.job",
     "load_cells": "analyses.loadcells.result",
     "modulus": "analyses.modulus.job",

@@ -11,7 +11,7 @@ from geocontact.data.errors import InputError
 
 PLACES = {
     "area": "area.job:area",
-    "cop": "cop.job:centre_of_pressure",
+    "cop": "cop.result:centre_of_pressure",
     "elbow compare": "misalignment.compare.job:compare",
     "elbow design": "misalignment.design.job:design",
     "elbow fit": "misalignment.identify.job:identify",
