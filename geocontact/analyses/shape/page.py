@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.shape.colours import colour_end, outlying
 from geocontact.analyses.shape.fitting import Fitting
 from geocontact.geometry.fit.directions import across
 from geocontact.geometry.fit.found import ShapeFit
 from geocontact.view.page.content import Page, Picture, Scene, SceneBody, Section, Table, Words
-from geocontact.view.page.write import write_page
 
 MM = 1e3
 ROUND = 72  # sides of the drawn cylinder, rings of the drawn sphere
@@ -43,43 +42,19 @@ INTERVAL = (
 )
 
 
-def write_fit_report(
-    path: Path,
-    fitted: Fitting,
-    drawings: Mapping[str, bytes],
-    title: str,
-    provenance: Sequence[Table] = (),
-    warnings: Sequence[str] = (),
-    sentences: Sequence[str] = (),
-) -> int:
-    """Write the self-contained page of one fit; returns its size in bytes.
+def fit_page(fitted: Fitting, drawings: Mapping[str, bytes], title: str, sentences: Sequence[str] = ()) -> Page:
+    """The page of one fit.
 
     Parameters
     ----------
     drawings
         SVG of the figures by name; those that `DRAWINGS` names are shown.
-    provenance
-        Further tables: inputs with hashes, options, versions.
-    warnings
-        Reservations that came up on the way.
     sentences
         What was found.
     """
-    return write_page(fit_page(fitted, drawings, title, provenance, warnings, sentences), path)
-
-
-def fit_page(
-    fitted: Fitting,
-    drawings: Mapping[str, bytes],
-    title: str,
-    provenance: Sequence[Table] = (),
-    warnings: Sequence[str] = (),
-    sentences: Sequence[str] = (),
-) -> Page:
-    """The page before it becomes a file."""
     sections: list[Section] = [_scene(fitted)]
     sections += [Picture(*DRAWINGS[name], drawings[name], wide=name == "fit") for name in DRAWINGS if name in drawings]
-    sections += [_fits(fitted), *provenance, Words("How far to trust it", _words(fitted))]
+    sections += [_fits(fitted), INPUTS, OPTIONS, Words("How far to trust it", _words(fitted))]
     patch = fitted.patch
     chosen = f"Fitted to {int(patch.faces.sum())} of {len(patch.faces)} faces of {patch.surface.name}"
     return Page(
@@ -89,7 +64,6 @@ def fit_page(
         time_label="time [s]",
         headline=headline(sentences),
         facts=_facts(fitted.whole),
-        reservations=tuple(warnings),
         sections=tuple(sections),
     )
 
