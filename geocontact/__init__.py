@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from geocontact.analyses.motion.scale.job import scale
     from geocontact.analyses.motion.virtual_markers.job import virtual_markers
     from geocontact.analyses.result import Result
-    from geocontact.analyses.shape.job import fit_shape
+    from geocontact.analyses.shape.result import fit_shape
     from geocontact.data.errors import InputError, InputWarning
     from geocontact.data.evolution import AreaEvolution
     from geocontact.data.motion import Motion
@@ -89,7 +89,7 @@ _PLACES = {
     "area": "analyses.area.job",
     "pressure": "analyses.area.job",
     "centre_of_pressure": "analyses.cop.result",
-    "fit_shape": "analyses.shape.job",
+    "fit_shape": "analyses.shape.result",
     "load_cells": "analyses.loadcells.result",
     "modulus": "analyses.modulus.job",
     "cohort": "study.job",

@@ -17,7 +17,7 @@ PLACES = {
     "elbow fit": "misalignment.identify.job:identify",
     "elbow population": "misalignment.population.job:population",
     "elbow simulate": "misalignment.simulate.job:simulate",
-    "fit": "shape.job:fit_shape",
+    "fit": "shape.result:fit_shape",
     "gap benchmark": "gap.benchmark.job:benchmark",
     "gap diagnose": "gap.diagnose.job:diagnose",
     "gap discriminability": "gap.discriminability.job:discriminability",
