@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 
@@ -12,7 +11,6 @@ from geocontact.analyses.modulus.page_answer import facts, headline, undescribed
 from geocontact.analyses.modulus.page_intervals import modulus_intervals
 from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Table, Words
-from geocontact.view.page.write import write_page
 
 FIGURE = (
     "Left: measured force as a line, force by the law dashed. Right: how far the sum of squares rises when E* is held "
@@ -25,25 +23,7 @@ LAW = (
 )
 
 
-def write_modulus_report(
-    path: Path,
-    title: str,
-    found: Identified,
-    drawing: bytes,
-    tables: Sequence[Table],
-    warnings: Sequence[str],
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
-    return write_page(modulus_page(title, found, drawing, tables, warnings), path)
-
-
-def modulus_page(
-    title: str,
-    found: Identified,
-    drawing: bytes,
-    tables: Sequence[Table],
-    warnings: Sequence[str],
-) -> Page:
+def modulus_page(title: str, found: Identified, drawing: bytes, tables: Sequence[Table]) -> Page:
     """The page before it becomes a file; it opens with E*, or with the forces where the law does not describe them.
 
     Parameters
@@ -52,8 +32,6 @@ def modulus_page(
         The figure (SVG).
     tables
         Results first.
-    warnings
-        Reservations.
     """
     pairs = found.curves()
     first = next(iter(pairs.values()))
@@ -77,7 +55,6 @@ def modulus_page(
         time_label="time [s]",
         headline=headline(found),
         facts=facts(found),
-        reservations=tuple(warnings),
         start_frame=int(np.argmax(first.measured)),
         sections=tuple(sections),
         plays=False,

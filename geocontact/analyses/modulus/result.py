@@ -6,27 +6,27 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.modulus.figure import modulus_figure
 from geocontact.analyses.modulus.identified import Identified
 from geocontact.analyses.modulus.numbers import describe
 from geocontact.analyses.modulus.options import ModulusOptions
-from geocontact.analyses.modulus.page import write_modulus_report
+from geocontact.analyses.modulus.page import modulus_page
 from geocontact.analyses.modulus.page_tables import moduli, told_apart
 from geocontact.analyses.modulus.tables import curve_table, modulus_table, prediction_table, sensitivity_table
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.elastic_modulus.area_force import MODULUS
 from geocontact.elastic_modulus.identify import Identification
-from geocontact.io.text.results import write_table
-from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -38,6 +38,8 @@ class ModulusResult(Result):
     found
         Identification of each side, sensitivity, calibration, predictions.
     """
+
+    elsewhere: ClassVar[frozenset[str]] = frozenset({"modulus"})
 
     options: ModulusOptions
     found: Identified
@@ -69,26 +71,20 @@ class ModulusResult(Result):
         found = {"modulus": modulus_table(f), "curves": curve_table(f), "sensitivity": sensitivity_table(f)}
         return {**found, "prediction": prediction_table(f)} if f.predictions else found
 
-    def figure(self) -> Figure:
-        """Force measured and by the law, and how well E* is known."""
-        return modulus_figure(self.found.curves(), {side: i.profiles[MODULUS] for side, i in self.sides.items()})
+    def figures(self) -> dict[str, Figure]:
+        """`modulus`: force measured and by the law, and how well E* is known."""
+        profiles = {side: i.profiles[MODULUS] for side, i in self.sides.items()}
+        return {"modulus": modulus_figure(self.found.curves(), profiles)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """How well the law meets the forces, what it tells, and what it cannot tell."""
+        sensitivity = frame_table("Threshold and reading: what E* depends on", self.table("sensitivity"))
+        tables = [moduli(self.found), told_apart(self.found), sensitivity, INPUTS, OPTIONS]
+        title = f"E* from {self.options.area[0].name} and {self.options.force.name}"
+        return {REPORT: modulus_page(title, self.found, drawings["modulus"], tables)}
 
     def write_files(self, folder: Path) -> None:
-        """modulus.json, tables, figure, page."""
+        """modulus.json besides."""
         text = json.dumps(describe(self.found), indent=2, ensure_ascii=False, allow_nan=False)
         (folder / "modulus.json").write_text(text + "\n", encoding="utf-8")
-        for name, table in self.tables().items():
-            if name != "modulus":  # which modulus.json holds
-                write_table(table, folder, name)
-        self._write_report(folder / "report.html", save_both(self.figure(), folder, "modulus"))
-
-    def write_page(self, file: Path) -> None:
-        """How well the law meets the forces, what it tells, and what it cannot tell."""
-        self._write_report(file, drawing(self.figure()))
-
-    def _write_report(self, file: Path, figure: bytes) -> None:
-        sensitivity = frame_table("Threshold and reading: what E* depends on", self.table("sensitivity"))
-        provenance = [inputs_table(self.record.inputs), options_table(self.record)]
-        tables = [moduli(self.found), told_apart(self.found), sensitivity, *provenance]
-        title = f"E* from {self.options.area[0].name} and {self.options.force.name}"
-        write_modulus_report(file, title, self.found, figure, tables, self.warnings)
+        super().write_files(folder)

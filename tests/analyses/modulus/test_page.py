@@ -19,7 +19,7 @@ from tests.identify.synthetic_contact import TRUE
 
 
 def page_of(result: ModulusResult) -> Page:
-    return modulus_page("E*", result.found, b"<svg/>", [moduli(result.found)], result.warnings)
+    return modulus_page("E*", result.found, b"<svg/>", [moduli(result.found)])
 
 
 def test_a_law_that_holds_gives_its_modulus_and_the_interval(tmp_path: Path) -> None:
