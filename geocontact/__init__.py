@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from geocontact.analyses.gap.inject.job import inject
     from geocontact.analyses.loadcells.result import load_cells
     from geocontact.analyses.mat.result import mat
-    from geocontact.analyses.modulus.job import modulus
+    from geocontact.analyses.modulus.result import modulus
     from geocontact.analyses.motion.functional_joint.job import functional_joint
     from geocontact.analyses.motion.inverse_dynamics.job import inverse_dynamics
     from geocontact.analyses.motion.inverse_kinematics.job import inverse_kinematics
@@ -91,7 +91,7 @@ _PLACES = {
     "centre_of_pressure": "analyses.cop.result",
     "fit_shape": "analyses.shape.result",
     "load_cells": "analyses.loadcells.result",
-    "modulus": "analyses.modulus.job",
+    "modulus": "analyses.modulus.result",
     "cohort": "study.job",
     "mat": "analyses.mat.result",
     "scale": "analyses.motion.scale.job",

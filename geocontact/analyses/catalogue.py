@@ -30,7 +30,7 @@ PLACES = {
     "loadcells": "loadcells.result:load_cells",
     "markers": "motion.virtual_markers.job:virtual_markers",
     "mat": "mat.result:mat",
-    "modulus": "modulus.job:modulus",
+    "modulus": "modulus.result:modulus",
     "prosthesis calibrate": "prosthesis.calibrate.job:calibrate",
     "prosthesis compare": "prosthesis.compare.job:compare",
     "prosthesis design": "prosthesis.design.job:design",

@@ -8,10 +8,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.analyses.modulus.job import modulus
-from geocontact.analyses.modulus.page import modulus_page
-from geocontact.analyses.modulus.page_tables import moduli
-from geocontact.analyses.modulus.result import ModulusResult
+from geocontact.analyses.modulus.result import ModulusResult, modulus
+from geocontact.analyses.modulus.show import moduli, modulus_page
 from geocontact.data.errors import InputWarning
 from geocontact.view.page.content import Curves, Intervals, Page
 from tests.analyses.modulus.synthetic_step import areas, forces
