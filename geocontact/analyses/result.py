@@ -136,6 +136,7 @@ class Result(ABC):
         Pages come last: they show reservations that writing brought up.
         """
         from geocontact.analyses.figure_files import save_both  # late, like all that draws: --help needs no numpy
+        from geocontact.analyses.finished_page import write_finished
         from geocontact.io.text.results import write_table
 
         for name, table in self.tables().items():
@@ -151,14 +152,19 @@ class Result(ABC):
             drawings[name] = save_both(figure, folder, name)
         for name, page in self._pages(drawings).items():
             _make_room(folder / name)
-            self._write(page, folder / name, name.rpartition("/")[0])
+            home = name.rpartition("/")[0]
+            write_finished(page, folder / name, self.record, home, self.reservations(home))
 
     def write_page(self, file: Path) -> None:
         """Write the page of the whole, one file that needs no network; of several parts, their figure and tables."""
         from geocontact.analyses.figure_files import Drawings
+        from geocontact.analyses.finished_page import write_finished
 
         pages = self._pages(Drawings(self.figures))
-        self._write(pages[REPORT] if REPORT in pages else self._plain_page(), file, "")
+        if REPORT in pages:
+            write_finished(pages[REPORT], file, self.record, "", self.reservations(""))
+        else:
+            write_finished(self._plain_page(), file, self.record, "", self.warnings)
 
     def _pages(self, drawings: Mapping[str, bytes]) -> Mapping[str, Page | Thinned]:
         return self.pages(drawings) or {REPORT: self._plain_page()}
@@ -167,11 +173,6 @@ class Result(ABC):
         from geocontact.analyses.finished_page import plain_page
 
         return plain_page(self.title, self.record, self.figure(), self.tables())
-
-    def _write(self, page: Page | Thinned, file: Path, folder: str) -> None:
-        from geocontact.analyses.finished_page import write_finished
-
-        write_finished(page, file, self.record, folder, self.reservations(folder))
 
     def put(self, draft: Path, forms: TableForms | None = None) -> list[str]:
         """Write everything into `draft`, `run.json` included; names of the files.

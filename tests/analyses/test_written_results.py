@@ -97,8 +97,19 @@ def test_a_page_shows_files_and_reservations_of_its_own_part(tmp_path: Path) -> 
 
 
 def test_the_page_of_several_parts_is_figure_and_tables(tmp_path: Path) -> None:
-    text = Walks(record=record(tmp_path)).page(tmp_path / "page.html").read_text(encoding="utf-8")
-    for words in ("geocontact walks", "Two walks were recorded.", "left/forces", "held", "left.csv", "both.csv"):
+    told = record(tmp_path)
+    told.warn("no one walked fast")
+    text = Walks(record=told).page(tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "is short" not in text, "that is said on the page of each part"
+    for words in (
+        "geocontact walks",
+        "Two walks were recorded.",
+        "left/forces",
+        "held",
+        "no one walked fast",
+        "left.csv",
+        "both.csv",
+    ):
         assert words in text
 
 

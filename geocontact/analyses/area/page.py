@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Int
@@ -26,22 +25,19 @@ from geocontact.analyses.area.pose_error.along import AreaUncertainty
 from geocontact.analyses.area.pressure.page import Pressures, pressure_sections, pressure_words
 from geocontact.analyses.area.reference_areas import Compared
 from geocontact.analyses.area.words import reviewers_words
+from geocontact.analyses.finished_page import INPUTS, OPTIONS, Thinned
 from geocontact.analyses.page_words import counted
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.surface import Surface
-from geocontact.view.page.content import Choices, Page, PageChoice, Readout, Section, Table, Words
-from geocontact.view.page.write import write_page
+from geocontact.view.page.content import Choices, Page, PageChoice, Readout, Section, Words
 
 FRAMES = 201  # frames that the page animates at most; longer motions are thinned out, and the page says so
-FEWEST = 21  # frames below which a page is not thinned any further
-LARGEST_FILE = 5_000_000  # bytes; larger pages are thinned out until they fit
 
 
-def write_report(
-    path: Path,
+def thinned_page(
     moving: Surface,
     fixed: Surface,
     motion: Motion,
@@ -49,19 +45,15 @@ def write_report(
     evolution: AreaEvolution,
     maps: DistanceMaps,
     title: str = "",
-    provenance: Sequence[Table] = (),
-    warnings: Sequence[str] = (),
     pressures: Pressures | None = None,
     compared: Compared | None = None,
     uncertainty: AreaUncertainty | None = None,
     congruence: CongruenceEvolution | None = None,
-) -> int:
-    """Write the self-contained page of one contact-area analysis; returns its size in bytes.
+) -> Thinned:
+    """The page of one contact-area analysis, of as many frames as its file holds.
 
     Parameters
     ----------
-    path
-        HTML file to write.
     moving, fixed, motion, settings
         What was analysed, and how.
     evolution
@@ -70,10 +62,6 @@ def write_report(
         Distance maps gathered by the same call (`each=maps.add`).
     title
         Heading of the page; the names of the bodies if not given.
-    provenance
-        Further tables: inputs with hashes, options, versions.
-    warnings
-        Reservations that came up on the way.
     pressures
         Pressures on FIXED; the page then opens with their map, in the frame with the largest force.
     compared
@@ -85,16 +73,15 @@ def write_report(
     """
     if not maps.frames:
         raise ValueError("the distance maps hold no frame; gather them with area_evolution(..., each=maps.add)")
-    most = FRAMES
-    while True:
+
+    def of(most: int) -> Page:
         shown = shown_frames(maps, most, () if pressures is None else (pressures.heaviest,))
         told = Told(
             moving, fixed, motion, settings, evolution, maps, shown, pressures, compared, uncertainty, congruence
         )
-        size = write_page(contact_page(told, title, provenance, warnings), Path(path))
-        most = min(most, len(told.kept)) // 2
-        if size <= LARGEST_FILE or most < FEWEST:
-            return size
+        return contact_page(told, title)
+
+    return Thinned(of, FRAMES)
 
 
 def shown_frames(maps: DistanceMaps, most: int, also: Sequence[int] = ()) -> Int[np.ndarray, " k"]:
@@ -108,18 +95,13 @@ def shown_frames(maps: DistanceMaps, most: int, also: Sequence[int] = ()) -> Int
     return places
 
 
-def contact_page(
-    told: Told,
-    title: str,
-    provenance: Sequence[Table],
-    warnings: Sequence[str],
-) -> Page:
+def contact_page(told: Told, title: str) -> Page:
     """The page before it becomes a file: about the largest threshold, the others to be chosen."""
     e, frames, main, pressures = told.evolution, told.frames, told.main, told.pressures
     course = told.motion.course
     before = [scene(told)]
     shared = [strip(told)] if e.sensitivity_thresholds else []
-    after = [meshes_table(told.moving, told.fixed), *comparison_tables(told), *provenance]
+    after = [meshes_table(told.moving, told.fixed), *comparison_tables(told), INPUTS, OPTIONS]
     pressed = [] if pressures is None else pressure_sections(pressures, frames)
     distance = distance_curve(e, frames)
     foundation = [] if pressures is None else [pressure_words(pressures)]
@@ -149,7 +131,6 @@ def contact_page(
         time_label=course.label,
         headline=headline(told, main),
         facts=facts(told, main),
-        reservations=tuple(warnings),
         start_frame=int(
             np.argmax(e.fixed.area[frames, main] if pressures is None else pressures.force["total"][frames])
         ),

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,8 +13,9 @@ from geocontact.analyses.area.motion_result import MotionResult
 from geocontact.analyses.area.options import AreaOptions, PressureOptions
 from geocontact.analyses.area.read import Bodies
 from geocontact.analyses.area.tables import tables_of
-from geocontact.analyses.area.write import figure_of, pressure_figure_of, write_motion, write_page_of
-from geocontact.analyses.result import Result
+from geocontact.analyses.area.write import figure_of, page_of, pressure_figure_of, write_further
+from geocontact.analyses.finished_page import Thinned
+from geocontact.analyses.result import REPORT, Result
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -29,11 +31,14 @@ class AreaResult(Result):
         The bodies and how their contact was counted.
     motions
         What was found over each motion.
+    notes
+        What is to be said of the pictures of a motion, by its name, once they are drawn.
     """
 
     options: AreaOptions
     bodies: Bodies
     motions: tuple[MotionResult, ...]
+    notes: dict[str, list[str]] = field(default_factory=dict)
 
     @property
     def accepted(self) -> bool:
@@ -59,9 +64,7 @@ class AreaResult(Result):
         The main table is `pressure` where the analysis was called for that.
         """
         found = {
-            f"{one.name}/{name}" if one.name else name: table
-            for one in self.motions
-            for name, table in tables_of(one, self.options).items()
+            _named(one, name): table for one in self.motions for name, table in tables_of(one, self.options).items()
         }
         if not isinstance(self.options, PressureOptions):
             return found
@@ -74,14 +77,33 @@ class AreaResult(Result):
             return pressure_figure_of(self.bodies, one, one.pressure)
         return figure_of(self.bodies, one)
 
-    def write_files(self, folder: Path) -> None:
-        """Everything of each motion; several have a sub-folder each."""
+    def figures(self) -> dict[str, Figure]:
+        """`area` of each motion, and `pressure` where it was asked for."""
+        found = {}
         for one in self.motions:
-            write_motion(self.record, self.options, self.bodies, one, folder / one.name)
+            found[_named(one, "area")] = figure_of(self.bodies, one)
+            if one.pressure is not None:
+                found[_named(one, "pressure")] = pressure_figure_of(self.bodies, one, one.pressure)
+        return found
 
-    def write_page(self, file: Path) -> None:
-        """Bodies, curves and numbers of a motion over time; of several motions figure and numbers only."""
-        if len(self.motions) == 1:
-            write_page_of(self.record, self.bodies, self.motions[0], file)
-        else:
-            super().write_page(file)
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Thinned]:
+        """Bodies, curves and numbers of each motion over time."""
+        return {_named(one, REPORT): page_of(self.bodies, one) for one in self.motions}
+
+    def reservations(self, folder: str) -> tuple[str, ...]:
+        """Those of one motion, and what is to be said of its pictures."""
+        own = {one.name: one.reservations for one in self.motions}
+        return (*own[folder], *self.notes.get(folder, ()))
+
+    def write_files(self, folder: Path) -> None:
+        """Maps, series for ParaView, stills and loads for OpenSim besides, as asked for."""
+        for one in self.motions:
+            self.notes[one.name] = write_further(self.options, self.bodies, one, folder / one.name)
+            for note in self.notes[one.name]:
+                self.record.warn(note)
+        super().write_files(folder)
+
+
+def _named(one: MotionResult, file: str) -> str:
+    """A file of one motion, in the sub-folder that it has among several."""
+    return f"{one.name}/{file}" if one.name else file

@@ -1,8 +1,7 @@
-"""What an area analysis writes for one motion: tables, figures, page, and what was asked for beside them."""
+"""What an area analysis shows of one motion, figures and page, and what it writes beside them when asked."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,21 +12,16 @@ from geocontact.analyses.area.distance_file import FILE, write_maps
 from geocontact.analyses.area.figure import area_figure
 from geocontact.analyses.area.motion_result import MotionResult
 from geocontact.analyses.area.options import AreaOptions
-from geocontact.analyses.area.page import write_report
+from geocontact.analyses.area.page import thinned_page
 from geocontact.analyses.area.pressure.along import PressureEvolution
-from geocontact.analyses.area.pressure.page import Pressures, shown_pressures
+from geocontact.analyses.area.pressure.page import shown_pressures
 from geocontact.analyses.area.read import Bodies
 from geocontact.analyses.area.reference_areas import Compared
 from geocontact.analyses.area.scene import write_paraview, write_stills
-from geocontact.analyses.area.tables import tables_of
 from geocontact.analyses.contact_loads import write_contact_loads
-from geocontact.analyses.figure_files import save_both
-from geocontact.analyses.options_table import options_table
+from geocontact.analyses.finished_page import Thinned
 from geocontact.analyses.pressure_figure import PressureMap, pressure_figure
-from geocontact.analyses.run_record import Record
 from geocontact.geometry.surface import Surface
-from geocontact.io.text.results import write_table
-from geocontact.view.page.tables import inputs_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,32 +32,14 @@ PARAVIEW = "paraview"
 PRESSURE_MAPS = "pressure.npz"
 
 
-def write_motion(record: Record, o: AreaOptions, bodies: Bodies, one: MotionResult, folder: Path) -> None:
-    """Everything of one motion into its folder, which is made where it is missing."""
+def write_further(o: AreaOptions, bodies: Bodies, one: MotionResult, folder: Path) -> list[str]:
+    """What was asked for beside tables, figures and page of one motion, into its folder; what is to be said of it."""
     folder.mkdir(exist_ok=True)
-    for name, table in tables_of(one, o).items():
-        write_table(table, folder, name)
-    save_both(figure_of(bodies, one), folder, "area")
-    shown = None
-    if one.pressure is not None:
-        save_both(pressure_figure_of(bodies, one, one.pressure), folder, "pressure")
-        shown = shown_pressures(one.pressure, bodies.fixed)
-        if o.bodies is not None:
-            loads = one.pressure.parts or {"total": one.pressure.loads}
-            write_contact_loads(folder, one.motion.time, loads, *o.bodies)
+    if one.pressure is not None and o.bodies is not None:
+        loads = one.pressure.parts or {"total": one.pressure.loads}
+        write_contact_loads(folder, one.motion.time, loads, *o.bodies)
     _write_maps(o, bodies, one, folder)
-    notes = write_stills(folder, bodies, one, heading(bodies, one)) if o.stills else []
-    for note in notes:
-        record.warn(note)
-    _write_report(record, bodies, one, folder / "report.html", shown, notes)
-
-
-def write_page_of(record: Record, bodies: Bodies, one: MotionResult, file: Path) -> None:
-    """The page of one motion alone."""
-    shown = None
-    if one.pressure is not None:
-        shown = shown_pressures(one.pressure, bodies.fixed)
-    _write_report(record, bodies, one, file, shown, ())
+    return write_stills(folder, bodies, one, heading(bodies, one)) if o.stills else []
 
 
 def heading(bodies: Bodies, one: MotionResult) -> str:
@@ -117,18 +93,12 @@ def _write_pressure_maps(file: Path, fixed: Surface, one: MotionResult, e: Press
     )
 
 
-def _write_report(
-    record: Record, bodies: Bodies, one: MotionResult, file: Path, shown: Pressures | None, notes: Sequence[str]
-) -> None:
-    folder = one.name or "."
-    inputs = [each for each in record.inputs if each.get("folder", folder) == folder]
-    tables = [inputs_table(inputs), options_table(record)]
-    reference = bodies.reference
-    compared = None
+def page_of(bodies: Bodies, one: MotionResult) -> Thinned:
+    """The page of one motion."""
+    reference, compared = bodies.reference, None
     if one.comparison is not None and reference is not None:
         compared = Compared(one.comparison, reference.tolerance)
-    write_report(
-        file,
+    return thinned_page(
         bodies.moving,
         bodies.fixed,
         one.motion,
@@ -136,9 +106,7 @@ def _write_report(
         one.evolution,
         one.maps,
         heading(bodies, one),
-        tables,
-        (*one.reservations, *notes),
-        shown,
+        None if one.pressure is None else shown_pressures(one.pressure, bodies.fixed),
         compared,
         one.uncertainty,
         one.congruence,
