@@ -2,60 +2,47 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Sequence
 
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.analyses.finished_page import Thinned
 from geocontact.analyses.knee.settle.settled import SIDES, Settled
-from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import MOST, NOT_A_DEVICE, headline
-from geocontact.analyses.run_record import Record
 from geocontact.loads.settling.coordinates import NAMES
 from geocontact.view.page.content import Curve, Curves, FaceMap, Page, Readout, Row, Scene, SceneBody, Section, Words
-from geocontact.view.page.tables import inputs_table
-from geocontact.view.page.write import write_page
 from geocontact.view.surfaces.directions import camera_directions
 
 FRAMES = 101  # that the page animates at most
-LARGEST_FILE = 5_000_000  # bytes
-FEWEST = 11
+FEWEST = 6
 UNUSED = 1e-3  # m; a threshold, which a scene has even where no distance is shown
 MM, MPA = 1e3, 1e-6
 
 
-def write_settle_page(s: Settled, record: Record, path: Path) -> None:
-    """The page, with fewer frames where it would be larger than 5 MB."""
-    most = FRAMES
-    while True:
-        frames = _shown(s, most)
-        size = write_page(settle_page(s, record, frames), path)
-        if size <= LARGEST_FILE or len(frames) < FEWEST:
-            return
-        most = min(most, len(frames)) // 2
+def thinned_page(s: Settled, sentences: Sequence[str]) -> Thinned:
+    """The page, of as many frames as its file holds."""
+    return Thinned(lambda most: settle_page(s, sentences, _shown(s, most)), FRAMES, FEWEST)
 
 
-def settle_page(s: Settled, record: Record, frames: Int[np.ndarray, " k"]) -> Page:
-    """The page before it becomes a file; `frames` are numbers of frames at rest."""
+def settle_page(s: Settled, sentences: Sequence[str], frames: Int[np.ndarray, " k"]) -> Page:
+    """The page of some frames; `frames` are numbers of frames at rest."""
     course = s.inputs.motion.course
     place = int(np.flatnonzero(frames == s.heaviest)[0])
-    found = Words("What was found", list(record.sentences))
+    found = Words("What was found", list(sentences))
     return Page(
         title=s.inputs.title,
         subtitle=f"Contact equilibrium of {len(s.frames)} frames",
         time=course.values[frames],
         time_label=course.label,
-        headline=headline(tuple(record.sentences)),
-        reservations=tuple(record.warnings),
+        headline=headline(sentences),
         start_frame=place,
         sections=(
             _scene(s, frames),
             Readout(_rows(s, frames)),
             *_curves(s, frames),
-            *([found] if len(record.sentences) > MOST else []),
+            *([found] if len(sentences) > MOST else []),
             *_words(s),
-            inputs_table(record.inputs),
-            options_table(record),
         ),
         numbers=frames + 1,
         total=len(s.frames),

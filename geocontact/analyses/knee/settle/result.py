@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,15 +11,14 @@ import numpy as np
 import pandas as pd
 
 from geocontact.analyses.contact_loads import write_contact_loads
-from geocontact.analyses.figure_files import save_both
+from geocontact.analyses.finished_page import Thinned
 from geocontact.analyses.knee.settle.options import SettleOptions
-from geocontact.analyses.knee.settle.page import write_settle_page
+from geocontact.analyses.knee.settle.page import thinned_page
 from geocontact.analyses.knee.settle.settled import SIDES, Settled
 from geocontact.analyses.knee.settle.tables import pose_table, settle_table
 from geocontact.analyses.pressure_figure import PressureMap, pressure_figure
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.io.opensim.storage_writer import write_storage
-from geocontact.io.text.results import write_table
 from geocontact.loads.settling.energy_balance import EnergyBalance
 from geocontact.view.surfaces.pressure_series import PressureSeries, write_pressure_series
 
@@ -49,35 +49,32 @@ class SettleResult(Result):
         """`settle`, a row per frame, and `poses` of those at rest."""
         return {"settle": settle_table(self.settled), "poses": pose_table(self.settled)}
 
-    def figure(self) -> Figure:
-        """Forces and largest pressure over the motion, and the pressures at the largest load."""
+    def figures(self) -> dict[str, Figure]:
+        """`settle`: forces and largest pressure over the motion, and the pressures at the largest load."""
         s, k = self.settled, self.settled.heaviest
         pressure = s.face_pressure(k)
         largest = max(float(s.face_pressure(int(j)).max()) for j in s.kept)
         at = PressureMap(s.inputs.fixed.vertices, s.inputs.fixed.faces, pressure, s.centres("total"), k, largest)
         forces = {side: s.forces(side) for side in SIDES}
-        return pressure_figure(s.inputs.motion.course, forces, s.peaks, at)
+        return {"settle": pressure_figure(s.inputs.motion.course, forces, s.peaks, at)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Thinned]:
+        """Both bodies with pressures, curves and numbers over time."""
+        return {REPORT: thinned_page(self.settled, self.sentences)}
 
     def write_files(self, folder: Path) -> None:
-        """Tables, settled.mot, figure, page, and what was asked for beside them."""
+        """settled.mot besides, and what was asked for: loads for OpenSim, a series for ParaView."""
         s = self.settled
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
         time, poses = s.inputs.motion.time[s.kept], s.poses
         values = np.hstack([np.degrees(s.knee_angles[s.kept]), poses.translation])
         write_storage(folder / "settled.mot", time, COORDINATES, values, title=s.inputs.title, degrees=True)
-        save_both(self.figure(), folder, "settle")
         if self.options.bodies is not None:
             found = [load for load in s.loads if load is not None]
             loads = {side: [load[side] for load in found] for side in SIDES[:2]}
             write_contact_loads(folder, time, loads, *self.options.bodies)
         if self.options.paraview:
             write_pressure_series(self._series(), folder / "paraview")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """Both bodies with pressures, curves and numbers over time."""
-        write_settle_page(self.settled, self.record, file)
+        super().write_files(folder)
 
     def _series(self) -> PressureSeries:
         s = self.settled
