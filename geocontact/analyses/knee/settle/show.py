@@ -1,4 +1,4 @@
-"""What the page of a contact equilibrium shows: bodies with pressures, forces, pose, and how far to trust them."""
+"""What is shown of a contact equilibrium: bodies with pressures, forces, pose, and how far to trust them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.analyses.finished_page import Thinned
-from geocontact.analyses.knee.settle.settled import SIDES, Settled
+from geocontact.analyses.knee.settle.equilibrium import SIDES, Settled
 from geocontact.analyses.page_words import MOST, NOT_A_DEVICE, headline
 from geocontact.loads.settling.coordinates import NAMES
 from geocontact.view.page.content import Curve, Curves, FaceMap, Page, Readout, Row, Scene, SceneBody, Section, Words
