@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Sequence
 
 import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.motion.functional_joint.read import MovedPair, Segment
 from geocontact.analyses.motion.skeleton import JOINT, MARKER, RAY, scene_over
-from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.analyses.run_record import Record
 from geocontact.dynamics.joint_points import JointPoints
 from geocontact.view.page.content import Curve, Curves, Linkage, Page, Scene, Section, Words
-from geocontact.view.page.tables import inputs_table
-from geocontact.view.page.write import write_page
 
 SKIN = (
     "Segments are taken to be rigid. Skin slides over bone by centimetres at the thigh, smoothly and alike in every "
@@ -25,30 +22,28 @@ SKIN = (
 )
 
 
-def write_joint_page(
-    path: Path, title: str, record: Record, pair: MovedPair, points: JointPoints, apart: Float[np.ndarray, " t"]
-) -> int:
-    """Write the self-contained page; returns its size in bytes. `apart` is in mm."""
+def joint_page(
+    title: str, sentences: Sequence[str], pair: MovedPair, points: JointPoints, apart: Float[np.ndarray, " t"]
+) -> Page:
+    """The page of a joint; `apart` is in mm."""
     shown = thinned(len(pair.time), [apart])
     sections: list[Section] = [
         _picture(pair, points, shown),
         Curves("Distance between the joint of one segment and of the other", "mm", [Curve("apart", apart[shown])]),
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         Words("What the numbers do not contain", [SKIN, NOT_A_DEVICE]),
     ]
-    page = Page(
+    return Page(
         title=title,
         subtitle=f"{', '.join(pair.first.names)} against {', '.join(pair.second.names)}",
         time=pair.time[shown],
         time_label="time [s]",
-        headline=list(record.sentences),
-        reservations=tuple(record.warnings),
+        headline=list(sentences),
         sections=tuple(sections),
         numbers=shown + 1,
         total=len(pair.time),
     )
-    return write_page(page, path)
 
 
 def _picture(pair: MovedPair, points: JointPoints, shown: Int[np.ndarray, " k"]) -> Scene:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,16 +14,17 @@ from jaxtyping import Float
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.functional_joint.options import JointOptions
-from geocontact.analyses.motion.functional_joint.page import write_joint_page
+from geocontact.analyses.motion.functional_joint.page import joint_page
 from geocontact.analyses.motion.functional_joint.read import MovedPair
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.dynamics.joint_points import JointPoints
 from geocontact.io.mocap.trc_writer import write_trc
-from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -67,14 +69,13 @@ class JointResult(Result):
         """Distance between what both segments say, over time."""
         return curves_figure(self.pair.time, {"apart [mm]": self.table()[["apart [mm]"]]})
 
-    def write_files(self, folder: Path) -> None:
-        """joint.json, joint.csv, markers.trc [mm], page."""
-        write_json(folder / "joint.json", self.summary)
-        write_table(self.table(), folder, "joint")
-        write_trc(folder / "markers.trc", self.markers)
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Both segments and the joint as they move, and how far it is off itself."""
-        title = f"Joint from {self.options.trial.name}"
-        write_joint_page(file, title, self.record, self.pair, self.points, self.table()["apart [mm]"].to_numpy())
+        title, apart = f"Joint from {self.options.trial.name}", self.table()["apart [mm]"].to_numpy()
+        return {REPORT: joint_page(title, self.sentences, self.pair, self.points, apart)}
+
+    def write_files(self, folder: Path) -> None:
+        """joint.json and markers.trc [mm] besides."""
+        write_json(folder / "joint.json", self.summary)
+        write_trc(folder / "markers.trc", self.markers)
+        super().write_files(folder)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.motion.cycles_picture import cycles_pictured
 from geocontact.analyses.motion.gait_cycles import GaitCycles
 from geocontact.analyses.motion.inverse_dynamics.forces import Forces
@@ -18,7 +18,6 @@ from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.data.wrench import Wrench
 from geocontact.view.page.content import Curve, Curves, Page, Scale, Section, Table, Words
-from geocontact.view.page.write import write_page
 
 LEFT = (
     "The joint to the ground has no muscle: what is found along its coordinates is what motion, masses and plates do "
@@ -32,18 +31,15 @@ FILTERED = (
 )
 
 
-def write_forces_report(
-    path: Path,
+def forces_page(
     title: str,
     forces: Forces,
     coordinates: Float[np.ndarray, "t n"],
     loads: Mapping[str, Wrench],
     cycles: GaitCycles,
-    tables: Sequence[Table] = (),
-    warnings: Sequence[str] = (),
     sentences: Sequence[str] = (),
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+) -> Page:
+    """The page of moments and forces over time."""
     shown = thinned(len(forces.time), list(np.asarray(forces.values).T))
     turning = np.array([c.kind == "rotational" for c in forces.model.coordinates], dtype=bool)
     base = forces.at_ground
@@ -57,10 +53,11 @@ def write_forces_report(
         *cycles_pictured(cycles),
         *_left_over(forces, values, turning, base),
         *_residuals(forces),
-        *tables,
+        INPUTS,
+        OPTIONS,
         Words("What the numbers do not contain", [LEFT, FILTERED, NOT_A_DEVICE]),
     ]
-    page = Page(
+    return Page(
         title=title,
         subtitle=f"{int((~base).sum())} coordinates of {forces.model.name or 'the model'}",
         time=forces.time[shown],
@@ -68,12 +65,10 @@ def write_forces_report(
         headline=answer(forces, turning & ~base) or headline(sentences, most=2),
         facts=_facts(forces, turning & ~base),
         start_frame=_start(forces, turning & ~base, shown),
-        reservations=tuple(warnings),
         sections=tuple(sections),
         numbers=shown + 1,
         total=len(forces.time),
     )
-    return write_page(page, path)
 
 
 def answer(forces: Forces, turning: Bool[np.ndarray, " n"]) -> list[str]:

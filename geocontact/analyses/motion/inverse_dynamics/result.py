@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import pandas as pd
@@ -16,18 +16,17 @@ from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.gait_cycles import GaitCycles
 from geocontact.analyses.motion.inverse_dynamics.forces import Forces
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
-from geocontact.analyses.motion.inverse_dynamics.page import write_forces_report
+from geocontact.analyses.motion.inverse_dynamics.page import forces_page
 from geocontact.analyses.motion.inverse_dynamics.read import Loaded
 from geocontact.analyses.motion.inverse_dynamics.setup import write_setup
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.data.wrench import Wrench
 from geocontact.io.opensim.storage_writer import write_storage
-from geocontact.io.text.results import write_table
-from geocontact.view.page.tables import inputs_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -49,6 +48,8 @@ class IdResult(Result):
     summary
         Numbers of the whole motion, with units in their names.
     """
+
+    elsewhere: ClassVar[frozenset[str]] = frozenset({"forces"})
 
     options: IdOptions
     forces: Forces
@@ -74,28 +75,17 @@ class IdResult(Result):
             {"moment [N m]": table.filter(like="_moment ["), "force [N]": table.filter(like="_force [")},
         )
 
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Moments and forces over time, and what is left over."""
+        title = f"Inverse dynamics of {self.options.coordinates.name}"
+        return {
+            REPORT: forces_page(title, self.forces, self.coordinates, self.loads, self.cycles, self.sentences),
+        }
+
     def write_files(self, folder: Path) -> None:
-        """id.sto for OpenSim, its set-up, the table of gait cycles, id.json, page."""
+        """id.sto for OpenSim, its set-up and id.json besides."""
         f, title = self.forces, "Inverse Dynamics Generalized Forces"
         write_storage(folder / "id.sto", f.time, f.names, f.values, title=title, degrees=False)
-        if self.cycles:
-            write_table(self.table("cycles"), folder, "cycles")
         write_json(folder / "id.json", self.summary)
         write_setup(folder, self.options, self.given)
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """Moments and forces over time, and what is left over."""
-        tables = [inputs_table(self.record.inputs), options_table(self.record)]
-        title = f"Inverse dynamics of {self.options.coordinates.name}"
-        write_forces_report(
-            file,
-            title,
-            self.forces,
-            self.coordinates,
-            self.loads,
-            self.cycles,
-            tables,
-            self.warnings,
-            self.sentences,
-        )
+        super().write_files(folder)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.motion.cycles_picture import cycles_pictured
 from geocontact.analyses.motion.gait_cycles import GaitCycles
 from geocontact.analyses.motion.panels import panels_of
@@ -18,7 +18,6 @@ from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Scene, Section, Table, Words
-from geocontact.view.page.write import write_page
 
 SKIN = (
     "Markers lie on skin, which slides over bone by centimetres, and the model's joints are not the subject's: the "
@@ -27,18 +26,15 @@ SKIN = (
 )
 
 
-def write_kinematics_report(
-    path: Path,
+def kinematics_page(
     title: str,
     model: Multibody,
     found: Poses,
     seen: MarkerTrajectories,
     cycles: GaitCycles,
-    tables: Sequence[Table] = (),
-    warnings: Sequence[str] = (),
     sentences: Sequence[str] = (),
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+) -> Page:
+    """The page of coordinates over time."""
     shown = thinned(len(found.time), [*np.asarray(found.values).T, *found.distances.T])
     angular = np.array([c.kind == "rotational" for c in model.coordinates])
     off = 1e3 * found.distances
@@ -51,16 +47,16 @@ def write_kinematics_report(
         Curves("Distance of markers", "mm", [Curve(n, d) for n, d in zip(found.markers, off[shown].T, strict=True)]),
         *cycles_pictured(cycles),
         _markers(found),
-        *tables,
+        INPUTS,
+        OPTIONS,
         Words("What the numbers do not contain", [SKIN, NOT_A_DEVICE]),
     ]
-    page = Page(
+    return Page(
         title=title,
         subtitle=f"{len(found.names)} coordinates of {model.name or 'the model'} from {len(found.markers)} markers",
         time=found.time[shown],
         time_label="time [s]",
         headline=headline(sentences, most=2),
-        reservations=tuple(warnings),
         facts=[
             ("Distance of markers, root mean square", f"{np.sqrt(np.nanmean(off**2)):.1f} mm"),
             ("Largest distance", f"{np.nanmax(off):.1f} mm"),
@@ -69,7 +65,6 @@ def write_kinematics_report(
         numbers=shown + 1,
         total=len(found.time),
     )
-    return write_page(page, path)
 
 
 def _picture(model: Multibody, found: Poses, seen: MarkerTrajectories, shown: Int[np.ndarray, " k"]) -> Scene:

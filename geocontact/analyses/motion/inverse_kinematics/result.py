@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import pandas as pd
 
@@ -13,21 +14,20 @@ from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.gait_cycles import GaitCycles
 from geocontact.analyses.motion.inverse_kinematics.knees import knee_table
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
-from geocontact.analyses.motion.inverse_kinematics.page import write_kinematics_report
+from geocontact.analyses.motion.inverse_kinematics.page import kinematics_page
 from geocontact.analyses.motion.inverse_kinematics.read import KinematicsInputs
 from geocontact.analyses.motion.printed import printed
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.io.mocap.trc_writer import write_trc
 from geocontact.io.opensim.osim_scaler import write_scaled_model
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.opensim.tool_setup_writer import write_ik_setup
-from geocontact.io.text.results import write_table
-from geocontact.view.page.tables import inputs_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -45,6 +45,8 @@ class IkResult(Result):
     summary
         Numbers of the whole recording, with units in their names.
     """
+
+    elsewhere: ClassVar[frozenset[str]] = frozenset({"coordinates"})
 
     options: IkOptions
     seen: KinematicsInputs
@@ -80,29 +82,22 @@ class IkResult(Result):
             self.poses.time, {"angle [deg]": angles, "markers [mm]": self.table("markers").iloc[:, 1:]}
         )
 
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Coordinates over time, and how far each marker is from the model."""
+        title, seen = f"Inverse kinematics of {self.options.markers.name}", self.seen
+        return {REPORT: kinematics_page(title, seen.model, self.poses, seen.markers, self.cycles, self.sentences)}
+
     def write_files(self, folder: Path) -> None:
-        """ik.mot for OpenSim, its set-up with the markers as read, tables, ik.json, page; analog.sto if asked for."""
+        """ik.mot for OpenSim, its set-up with the markers as read and ik.json besides; analog.sto if asked for."""
         values = printed(self.seen.model.coordinates, self.poses.values)
         file = folder / "ik.mot"
         write_storage(file, self.poses.time, self.poses.names, values, title="Coordinates", degrees=True)
-        for name, table in self.tables().items():
-            if name != "coordinates":  # which ik.mot holds
-                write_table(table, folder, name)
         self._write_setup(folder)
         if (analog := self.seen.analog) is not None:
             names = [name.replace(" ", "_") for name in analog.channels]
             write_storage(folder / "analog.sto", analog.time, names, analog.values, title="Analog", degrees=False)
         write_json(folder / "ik.json", self.summary)
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """Coordinates over time, and how far each marker is from the model."""
-        title = f"Inverse kinematics of {self.options.markers.name}"
-        tables = [inputs_table(self.record.inputs), options_table(self.record)]
-        seen = self.seen
-        write_kinematics_report(
-            file, title, seen.model, self.poses, seen.markers, self.cycles, tables, self.warnings, self.sentences
-        )
+        super().write_files(folder)
 
     def _write_setup(self, folder: Path) -> None:
         """With which OpenSim's own tool finds the same."""

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.motion.marker_errors import STANDING, MarkerErrors
 from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
-from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.analyses.run_record import Record
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.view.page.content import IntervalRow, Intervals, Page, Section, Words
-from geocontact.view.page.tables import inputs_table
-from geocontact.view.page.write import write_page
 
 FACTORS = "How many times longer each segment is than in the model that was given; 1 keeps its size."
 SKIN = (
@@ -26,16 +22,14 @@ SKIN = (
 )
 
 
-def write_scaling_page(
-    path: Path,
+def scaling_page(
     title: str,
-    record: Record,
     model: Multibody,
     factors: Mapping[str, float],
     pose: Poses,
     both: tuple[Float[np.ndarray, "m 3"], Float[np.ndarray, "m 3"]],
-) -> int:
-    """Write the self-contained page; returns its size in bytes.
+) -> Page:
+    """The page of a scaled model.
 
     `both` are the markers of `pose` as they were seen and as the scaled model has them [m].
     """
@@ -50,12 +44,12 @@ def write_scaling_page(
         sections.append(Intervals("Scale factors", "times", rows, bars=True, words=FACTORS))
     sections += [
         Intervals("Distance of markers", "mm", [IntervalRow(pose.markers[k], off[k]) for k in known], bars=True),
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         Words("What the numbers do not contain", [SKIN, NOT_A_DEVICE]),
     ]
     errors = MarkerErrors.of(pose)
-    page = Page(
+    return Page(
         title=title,
         subtitle=f"{model.name or 'the model'} in its static pose",
         time=np.zeros(1),
@@ -66,11 +60,9 @@ def write_scaling_page(
             ("Largest distance", f"{1e3 * errors.largest:.1f} mm, {errors.marker}"),
             ("Mass", f"{sum(body.mass for body in model.bodies):.4g} kg"),
         ],
-        reservations=tuple(record.warnings),
         sections=tuple(sections),
         plays=False,
     )
-    return write_page(page, path)
 
 
 def answer(factors: Mapping[str, float], errors: MarkerErrors) -> list[str]:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import pandas as pd
@@ -13,15 +14,18 @@ from jaxtyping import Float
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.motion.scale.factors import labelled
 from geocontact.analyses.motion.scale.options import ScaleOptions
-from geocontact.analyses.motion.scale.page import write_scaling_page
+from geocontact.analyses.motion.scale.page import scaling_page
 from geocontact.analyses.motion.scale.read import Standing
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.dynamics.scaling import Factors
 from geocontact.io.mocap.trc_writer import write_trc
 from geocontact.io.opensim.osim_scaler import write_scaled_model
 from geocontact.io.opensim.tool_setup_writer import write_scale_setup
+
+if TYPE_CHECKING:
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -44,6 +48,8 @@ class ScaleResult(Result):
         Numbers of the scaling, with units in their names.
     """
 
+    elsewhere: ClassVar[frozenset[str]] = frozenset({"markers", "factors"})
+
     options: ScaleOptions
     standing: Standing
     factors: Factors
@@ -60,21 +66,20 @@ class ScaleResult(Result):
         by = {"body": list(told), "factor [-]": list(told.values())}
         return {"markers": pd.DataFrame(off), "factors": pd.DataFrame(by)}
 
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """The static pose with its markers, factors, distances."""
+        title, both = f"Model scaled to {self.options.static.name}", (self.seen, self.modelled)
+        return {REPORT: scaling_page(title, self.model, labelled(self.factors), self.pose, both)}
+
     def write_files(self, folder: Path) -> None:
-        """scaled.osim, scale.json, OpenSim's set-up with the static trial as it was read, page."""
+        """scaled.osim, scale.json and OpenSim's set-up with the static trial as it was read besides."""
         values = np.asarray(self.pose.values)[0].tolist()
         standing = {name: v for name, v in zip(self.pose.names, values, strict=True) if np.isfinite(v)}
         defaults = None if self.options.keep_markers else standing
         write_scaled_model(self.options.model, folder / "scaled.osim", self.model, self.factors, defaults)
         write_json(folder / "scale.json", self.summary)
         self._write_setup(folder)
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """The static pose with its markers, factors, distances."""
-        title = f"Model scaled to {self.options.static.name}"
-        both = self.seen, self.modelled
-        write_scaling_page(file, title, self.record, self.model, labelled(self.factors), self.pose, both)
+        super().write_files(folder)
 
     def _write_setup(self, folder: Path) -> None:
         """With which OpenSim's own tool makes the same model."""

@@ -2,34 +2,27 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.motion.skeleton import JOINT, MARKER, scene_of, skeleton, upwards
-from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, counted
-from geocontact.analyses.run_record import Record
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.view.page.content import Curve, Curves, Linkage, Page, Scene, Section, Words
-from geocontact.view.page.tables import inputs_table
-from geocontact.view.page.write import write_page
 
 MODELLED = "Markers sit on rigid segments: they do not slide as those on skin do, and hold no noise of cameras."
 
 
-def write_markers_page(
-    path: Path,
+def markers_page(
     title: str,
-    record: Record,
     model: Multibody,
     values: Float[np.ndarray, "t n"],
     markers: MarkerTrajectories,
-) -> int:
-    """Write the self-contained page along coordinates [rad, m]; returns its size in bytes."""
+) -> Page:
+    """The page along coordinates [rad, m]."""
     shown = thinned(len(markers.time), list(markers.positions.reshape(len(markers.time), -1).T))
     places = markers.positions[shown]
     panels = [
@@ -39,22 +32,20 @@ def write_markers_page(
     sections: list[Section] = [
         _picture(model, values[shown], places),
         *panels,
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         Words("What the numbers do not contain", [MODELLED, NOT_A_DEVICE]),
     ]
-    page = Page(
+    return Page(
         title=title,
         subtitle=f"Markers of {model.name or 'the model'} by forward kinematics, in the ground's frame",
         time=markers.time[shown],
         time_label="time [s]",
         headline=answer(model, markers),
-        reservations=tuple(record.warnings),
         sections=tuple(sections),
         numbers=shown + 1,
         total=len(markers.time),
     )
-    return write_page(page, path)
 
 
 def answer(model: Multibody, markers: MarkerTrajectories) -> list[str]:

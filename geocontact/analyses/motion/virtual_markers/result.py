@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 import pandas as pd
@@ -12,14 +13,16 @@ from jaxtyping import Float
 
 from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.virtual_markers.options import MarkersOptions
-from geocontact.analyses.motion.virtual_markers.page import write_markers_page
-from geocontact.analyses.result import Result
+from geocontact.analyses.motion.virtual_markers.page import markers_page
+from geocontact.analyses.result import REPORT, Result
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.io.mocap.trc_writer import write_trc
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -28,6 +31,8 @@ class MarkersResult(Result):
 
     `values` are the coordinates of `model` that they follow [rad, m].
     """
+
+    elsewhere: ClassVar[frozenset[str]] = frozenset({"markers"})
 
     options: MarkersOptions
     markers: MarkerTrajectories
@@ -49,12 +54,12 @@ class MarkersResult(Result):
         table = self.table()
         return curves_figure(self.markers.time, {f"{axis} [m]": table.filter(like=f"_{axis} [") for axis in "xyz"})
 
-    def write_files(self, folder: Path) -> None:
-        """markers.trc [mm], page."""
-        write_trc(folder / "markers.trc", self.markers)
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The model as it moves, with its markers."""
         title = f"Virtual markers along {self.options.coordinates.name}"
-        write_markers_page(file, title, self.record, self.model, self.values, self.markers)
+        return {REPORT: markers_page(title, self.model, self.values, self.markers)}
+
+    def write_files(self, folder: Path) -> None:
+        """markers.trc [mm] besides."""
+        write_trc(folder / "markers.trc", self.markers)
+        super().write_files(folder)
