@@ -30,11 +30,11 @@ if TYPE_CHECKING:
     from geocontact.analyses.loadcells.result import load_cells
     from geocontact.analyses.mat.result import mat
     from geocontact.analyses.modulus.result import modulus
-    from geocontact.analyses.motion.functional_joint.job import functional_joint
-    from geocontact.analyses.motion.inverse_dynamics.job import inverse_dynamics
-    from geocontact.analyses.motion.inverse_kinematics.job import inverse_kinematics
-    from geocontact.analyses.motion.scale.job import scale
-    from geocontact.analyses.motion.virtual_markers.job import virtual_markers
+    from geocontact.analyses.motion.functional_joint.result import functional_joint
+    from geocontact.analyses.motion.inverse_dynamics.result import inverse_dynamics
+    from geocontact.analyses.motion.inverse_kinematics.result import inverse_kinematics
+    from geocontact.analyses.motion.scale.result import scale
+    from geocontact.analyses.motion.virtual_markers.result import virtual_markers
     from geocontact.analyses.result import Result
     from geocontact.analyses.shape.result import fit_shape
     from geocontact.data.errors import InputError, InputWarning
@@ -94,11 +94,11 @@ _PLACES = {
     "modulus": "analyses.modulus.result",
     "cohort": "study.job",
     "mat": "analyses.mat.result",
-    "scale": "analyses.motion.scale.job",
-    "functional_joint": "analyses.motion.functional_joint.job",
-    "inverse_kinematics": "analyses.motion.inverse_kinematics.job",
-    "inverse_dynamics": "analyses.motion.inverse_dynamics.job",
-    "virtual_markers": "analyses.motion.virtual_markers.job",
+    "scale": "analyses.motion.scale.result",
+    "functional_joint": "analyses.motion.functional_joint.result",
+    "inverse_kinematics": "analyses.motion.inverse_kinematics.result",
+    "inverse_dynamics": "analyses.motion.inverse_dynamics.result",
+    "virtual_markers": "analyses.motion.virtual_markers.result",
     "diagnose": "analyses.gap.diagnose.job",
     "discriminability": "analyses.gap.discriminability.job",
     "inject": "analyses.gap.inject.job",

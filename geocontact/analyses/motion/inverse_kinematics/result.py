@@ -1,28 +1,49 @@
-"""What inverse kinematics finds: coordinates for OpenSim, distances of the markers, clinical knee angles, page."""
+"""Joint angles from recorded markers: `geocontact ik`, `gc.inverse_kinematics`.
+
+>>> import geocontact as gc
+>>> markers = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim").write("virtual") / "markers.trc"
+>>> result = gc.inverse_kinematics(markers, model="meshes/leg.osim")
+>>> result
+101 frames, 16 markers: 0.0 mm from the model, root mean square, and 0.0 mm at most, foot_r2 at 0.57 s
+(OpenSim advises less than 20 and 40 mm)
+>>> list(result.table("coordinates"))[:3]
+['time [s]', 'tilt [deg]', 'list [deg]']
+"""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
 import pandas as pd
 
-from geocontact.analyses.json_file import write_json
+from geocontact.analyses.job import Job
+from geocontact.analyses.json_file import plain, write_json
+from geocontact.analyses.motion.exchanged_markers import exchanged_markers
 from geocontact.analyses.motion.figure import curves_figure
-from geocontact.analyses.motion.gait_cycles import GaitCycles
+from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
 from geocontact.analyses.motion.inverse_kinematics.knees import knee_table
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
-from geocontact.analyses.motion.inverse_kinematics.page import kinematics_page
-from geocontact.analyses.motion.inverse_kinematics.read import KinematicsInputs
+from geocontact.analyses.motion.inverse_kinematics.read import KinematicsInputs, read
+from geocontact.analyses.motion.inverse_kinematics.show import kinematics_page
+from geocontact.analyses.motion.marker_errors import MOVING, MarkerErrors
 from geocontact.analyses.motion.printed import printed
+from geocontact.analyses.motion.upright import warn_of_tilt
 from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
 from geocontact.dynamics.inverse_kinematics import Poses
+from geocontact.dynamics.inverse_kinematics import inverse_kinematics as kinematics_of
+from geocontact.dynamics.tree import tree_of
 from geocontact.io.mocap.trc_writer import write_trc
 from geocontact.io.opensim.osim_scaler import write_scaled_model
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.opensim.tool_setup_writer import write_ik_setup
+from geocontact.io.text.tables import listed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -114,3 +135,88 @@ class IkResult(Result):
     def _distances(self) -> pd.DataFrame:
         off = {f"{name} [mm]": 1e3 * d for name, d in zip(self.poses.markers, self.poses.distances.T, strict=True)}
         return pd.DataFrame({"time [s]": self.poses.time, **off})
+
+
+UNTOLD = 1.0 / 3.0  # share of the coordinates beyond which the rest means little
+
+
+def run(seen: KinematicsInputs, o: IkOptions, record: Record) -> IkResult:
+    """Coordinates of every frame, how far the markers are from the model, and what sums them up."""
+    tree = tree_of(seen.model)
+    began = time.perf_counter()
+    with record.listener.progress("frames", len(seen.markers)) as step:
+        try:
+            found = kinematics_of(tree, seen.markers, seen.tasks, lambda _: step(), fill=o.fill)
+        except ValueError as error:
+            raise InputError(o.markers, "", str(error), "is it the right file?") from error
+    summary = _summary(found, time.perf_counter() - began)
+    cycles = _cycles(seen, found)
+    if cycles:
+        summary["gait_cycles"] = cycles.counts
+    result = IkResult(record=record, options=o, seen=seen, poses=found, cycles=cycles, summary=summary)
+    record.results.update(plain(summary))
+    errors = MarkerErrors.of(found)
+    exchanged = exchanged_markers(tree, seen.markers, seen.tasks, found)
+    errors.warn(record, MOVING, "" if exchanged is None else exchanged.words)
+    if exchanged is None:
+        warn_of_tilt(record, seen.model, found.values, o.axes)
+    _warn(record, found)
+    told = "" if (free := _never(found)) <= UNTOLD * len(found.names) else f"{free} of {len(found.names)} coordinates "
+    told = told and f"{told}are not determined; "
+    record.say(f"{told}{len(found.time)} frames, {len(found.markers)} markers: {errors.words(MOVING)}")
+    return result
+
+
+def _never(found: Poses) -> int:
+    """Coordinates that no frame tells."""
+    return int((~found.determined.any(axis=0)).sum())
+
+
+def _cycles(seen: KinematicsInputs, found: Poses) -> GaitCycles:
+    coordinates = seen.model.coordinates
+    units = ["deg" if c.kind == "rotational" else "m" for c in coordinates]
+    return gait_cycles(found.time, found.names, units, printed(coordinates, found.values), seen.strikes)
+
+
+def _summary(found: Poses, seconds: float) -> dict[str, object]:
+    """Numbers of the whole recording, as `ik.json` holds them."""
+    squares = {
+        name: {"rms_mm": float(np.sqrt(np.mean(d[there] ** 2))), "max_mm": float(d[there].max())}
+        for name, d in zip(found.markers, 1e3 * found.distances.T, strict=True)
+        if (there := np.isfinite(d)).any()
+    }
+    missing = ~np.isfinite(found.values)
+    filled = ~found.determined & ~missing & found.determined.any(axis=0)
+    return {
+        "frames": len(found.time),
+        "frames_per_second": len(found.time) / seconds,
+        "steps_mean": float(found.steps.mean()),
+        "unsettled_frames": int((~found.settled).sum()),
+        "filled_frames": {n: int(k) for n, k in zip(found.names, filled.sum(axis=0), strict=True) if k},
+        "missing_frames": {n: int(k) for n, k in zip(found.names, missing.sum(axis=0), strict=True) if k},
+        "rms_mm": 1e3 * float(np.sqrt(np.nanmean(found.distances**2))),
+        "max_mm": 1e3 * float(np.nanmax(found.distances)),
+        "markers": squares,
+    }
+
+
+def _warn(record: Record, found: Poses) -> None:
+    if not found.settled.all():
+        count = int((~found.settled).sum())
+        record.warn(f"{count} frames did not settle: markers and model may not belong together")
+    never = np.asarray(~found.determined.any(axis=0))
+    if never.any():
+        names = tuple(name for name, each in zip(found.names, never, strict=True) if each)
+        record.warn(f"no frame tells {listed(names)}: kept at the model's default")
+    for lost, what in (
+        (~found.determined & np.isfinite(found.values) & ~never, "filled between frames that tell them"),
+        (~np.isfinite(found.values), "left empty, markers do not tell them"),
+    ):
+        names = tuple(name for name, each in zip(found.names, lost.any(axis=0), strict=True) if each)
+        if names:
+            frames = found.time[lost.any(axis=1)]
+            span = f"{len(frames)} frames from {frames[0]:g} to {frames[-1]:g} s"
+            record.warn(f"{span}: {what}: {listed(names)}")
+
+
+inverse_kinematics = Job("ik", IkOptions, read, run)

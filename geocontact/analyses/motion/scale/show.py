@@ -1,4 +1,4 @@
-"""The page of a scaling: the static pose, the factors, and how far each marker is from the model."""
+"""The page of a scaled model: the static pose with its markers, factors, distances."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The page of inverse kinematics: coordinates over time, and how far each marker is from the model."""
+"""The page of coordinates over time, and how far each marker is from the model."""
 
 from __future__ import annotations
 

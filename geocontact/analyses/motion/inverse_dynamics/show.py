@@ -1,4 +1,4 @@
-"""The page of inverse dynamics: moments and forces over time, and what motion, masses and plates leave over."""
+"""The page of moments and forces over time, and what is left over."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from jaxtyping import Bool, Float, Int
 from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.motion.cycles_picture import cycles_pictured
 from geocontact.analyses.motion.gait_cycles import GaitCycles
-from geocontact.analyses.motion.inverse_dynamics.forces import Forces
-from geocontact.analyses.motion.inverse_dynamics.residuals import force_left, moment_left, verdict
+from geocontact.analyses.motion.inverse_dynamics.forces import Forces, force_left, moment_left, verdict
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import forces_on, scene_of, skeleton
 from geocontact.analyses.page_frames import thinned

@@ -1,4 +1,4 @@
-"""The page of virtual markers: the model as it moves, and where its markers are."""
+"""The page of a model as it moves, with its markers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The page of a joint from markers: both clusters as they move, with the joint as each has it."""
+"""The page of a joint: both segments as they move, and how far the joint is off itself."""
 
 from __future__ import annotations
 
