@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.misalignment.compare.pair import QUANTITIES, Pair
-from geocontact.analyses.misalignment.page import FRAMES, NOT_IN_THE_NUMBERS, write_elbow_page
+from geocontact.analyses.misalignment.page import FRAMES, NOT_IN_THE_NUMBERS, elbow_page
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.view.page.content import (
@@ -14,6 +14,7 @@ from geocontact.view.page.content import (
     Curves,
     IntervalRow,
     Intervals,
+    Page,
     Picture,
     Readout,
     Row,
@@ -24,10 +25,10 @@ from geocontact.view.page.content import (
 COMPARED = "Means over bins of the angle: measured as marks, the model as lines, a colour per trial."
 
 
-def write_comparison_report(
-    path: Path, pairs: Sequence[Pair], drawings: Mapping[str, bytes], tables: Sequence[Table], record: Record
-) -> int:
-    """Write the page of a comparison, the trial with the largest error over time; returns its size in bytes.
+def comparison_page(
+    pairs: Sequence[Pair], drawings: Mapping[str, bytes], tables: Sequence[Table], record: Record
+) -> Page:
+    """The page of a comparison, the trial with the largest error over time.
 
     `drawings` are the SVG of each channel's figure.
     """
@@ -45,13 +46,15 @@ def write_comparison_report(
         Readout([Row(each, q.unit, [f"{v:.2f}" for v in values]) for each, values in rows.items()]),
         *(Picture(QUANTITIES[each].name.capitalize(), COMPARED, svg, wide=True) for each, svg in drawings.items()),
         *tables,
+        INPUTS,
+        OPTIONS,
         NOT_IN_THE_NUMBERS,
     ]
     title = f"Model beside {counted(len({p.trial for p in pairs}), 'recording')}"
     subtitle = "Model and measurement of an elbow exoskeleton"
     facts = [(f"{p.trial}, {p.channel}", f"{_rmse(p)}, R² {p.agreement.r2:.3f}") for p in pairs]
     time = first.time[shown]
-    return write_elbow_page(path, title, subtitle, time, "time [s]", answer(pairs), facts, sections, record)
+    return elbow_page(title, subtitle, time, "time [s]", answer(pairs), facts, sections, record)
 
 
 def answer(pairs: Sequence[Pair]) -> list[str]:

@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
 from geocontact.analyses.misalignment.compare.figure import comparison_figure
 from geocontact.analyses.misalignment.compare.options import CompareOptions
-from geocontact.analyses.misalignment.compare.page import write_comparison_report
+from geocontact.analyses.misalignment.compare.page import comparison_page
 from geocontact.analyses.misalignment.compare.pair import QUANTITIES, Pair
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.result import Result
-from geocontact.io.text.results import write_table
-from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.analyses.result import REPORT, Result
+from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -52,20 +51,15 @@ class CompareResult(Result):
         beta, measured, model = zip(*(p.binned(self.options.bin).T for p in mine), strict=True)
         return comparison_figure([p.trial for p in mine], beta, measured, model, QUANTITIES[channel])
 
-    def write_files(self, folder: Path) -> None:
-        """comparison.csv, figures, page."""
-        write_table(self.table(), folder, "comparison")
-        drawings = {each: save_both(self.figure(each), folder, f"comparison_{each}") for each in self.channels}
-        self._write_page(folder / "report.html", drawings)
+    def figures(self) -> dict[str, Figure]:
+        """`comparison_force` and so on, a channel each."""
+        return {f"comparison_{each}": self.figure(each) for each in self.channels}
 
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The first trial over time, figures and errors."""
-        self._write_page(file, {each: drawing(self.figure(each)) for each in self.channels})
-
-    def _write_page(self, file: Path, drawings: dict[str, bytes]) -> None:
         shown = frame_table("Errors by trial and channel", self.table())
-        tables = [shown, inputs_table(self.record.inputs), options_table(self.record)]
-        write_comparison_report(file, self.pairs, drawings, tables, self.record)
+        drawn = {each: drawings[f"comparison_{each}"] for each in self.channels}
+        return {REPORT: comparison_page(self.pairs, drawn, [shown], self.record)}
 
 
 def _row(p: Pair) -> dict[str, object]:

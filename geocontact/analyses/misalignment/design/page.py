@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.misalignment.design.description import stroke_words
 from geocontact.analyses.misalignment.design.designed import Designed
 from geocontact.analyses.misalignment.design.tables import sensitivity_table
 from geocontact.analyses.misalignment.planar_words import MODEL, page_table
-from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.analyses.run_record import Record
 from geocontact.view.page.content import Curve, Curves, Limit, Page, Picture, Readout, Row, Section, Table, Words
-from geocontact.view.page.tables import inputs_table
-from geocontact.view.page.write import write_page
 
 FIGURE = (
     "The largest |F| over the range of angles for every pair of offsets. The white line is the limit, the white cross "
@@ -27,8 +23,8 @@ NEAR = 3.0
 """Limits are drawn with the force unless they are more than so many times its size."""
 
 
-def write_design_report(path: Path, record: Record, d: Designed, summary: dict[str, Any], drawing: bytes) -> int:
-    """Write the self-contained page; returns its size in bytes.
+def design_page(d: Designed, summary: dict[str, Any], drawing: bytes) -> Page:
+    """The page of a design.
 
     Parameters
     ----------
@@ -46,23 +42,21 @@ def write_design_report(path: Path, record: Record, d: Designed, summary: dict[s
         numbers,
         Words("Stroke of the compensation joint", [summary["needed_stroke"]["words"]]),
         page_table("Sensitivity at these offsets", sensitivity_table(d)),
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         Words("What the numbers do not contain", [MODEL, NOT_A_DEVICE]),
     ]
-    page = Page(
+    return Page(
         title=f"Offsets and stroke for a limit of {d.task.limit:g} N",
         subtitle="Exoskeleton beside a joint: offsets of the axes, stroke, and force on the limb",
         time=np.degrees(d.beta),
         time_label="angle [°]",
         headline=answer(d, summary),
         facts=[(row[0], row[1]) for row in numbers.rows[:5]],
-        reservations=tuple(record.warnings),
         start_frame=int(np.argmax(np.abs(d.force))),
         sections=tuple(sections),
         plays=False,
     )
-    return write_page(page, path)
 
 
 def answer(d: Designed, summary: dict[str, Any]) -> list[str]:

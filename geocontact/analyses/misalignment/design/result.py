@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
+from geocontact.analyses.figure_files import drawing
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.misalignment.design.designed import Designed
 from geocontact.analyses.misalignment.design.figure import design_figure, map_figure
 from geocontact.analyses.misalignment.design.options import DesignOptions
-from geocontact.analyses.misalignment.design.page import write_design_report
+from geocontact.analyses.misalignment.design.page import design_page
 from geocontact.analyses.misalignment.design.tables import boundary_table, force_table, map_table, sensitivity_table
-from geocontact.analyses.result import Result
-from geocontact.io.text.results import write_table
+from geocontact.analyses.result import REPORT, Result
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -48,18 +50,15 @@ class DesignResult(Result):
             "sensitivity": sensitivity_table(d),
         }
 
-    def figure(self) -> Figure:
-        """The limit in the plane of the offsets, and the force over the angle with its band."""
-        return design_figure(self.design)
+    def figures(self) -> dict[str, Figure]:
+        """`design`: the limit in the plane of the offsets, and the force over the angle with its band."""
+        return {"design": design_figure(self.design)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Map of the offsets, force over the angle, what the limit asks for, sensitivities."""
+        return {REPORT: design_page(self.design, self.summary, drawing(map_figure(self.design)))}
 
     def write_files(self, folder: Path) -> None:
-        """design.json, tables, figure, page."""
+        """design.json besides."""
         write_json(folder / "design.json", self.summary)
-        for name, rows in self.tables().items():
-            write_table(rows, folder, name)
-        save_both(self.figure(), folder, "design")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """Map of the offsets, force over the angle, what the limit asks for, sensitivities."""
-        write_design_report(file, self.record, self.design, self.summary, drawing(map_figure(self.design)))
+        super().write_files(folder)

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.misalignment.identify.arm_drawing import arm_drawing
 from geocontact.analyses.misalignment.identify.fitted import Fitted
 from geocontact.analyses.misalignment.identify.free_joint import Free
 from geocontact.analyses.misalignment.identify.sentences import answer, explained
-from geocontact.analyses.misalignment.page import NOT_IN_THE_NUMBERS, write_elbow_page
-from geocontact.analyses.options_table import options_table
+from geocontact.analyses.misalignment.page import NOT_IN_THE_NUMBERS, elbow_page
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
-from geocontact.view.page.content import Curve, Curves, Picture, Section, Words
-from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
+from geocontact.view.page.tables import frame_table
 
 TOLD = (
     "Left: the direction in the logarithms of k and the lengths that the recordings tell least; (−1, 1, 1, 1, 1) is "
@@ -43,15 +42,14 @@ PICTURES = {
 """Title and words of each figure."""
 
 
-def write_fit_report(
-    path: Path,
+def fit_page(
     record: Record,
     found: Fitted,
     free: Free | None,
     tables: Mapping[str, pd.DataFrame],
     drawings: Mapping[str, bytes],
-) -> int:
-    """Write the page of an identification over the angle; returns its size in bytes.
+) -> Page:
+    """The page of an identification over the angle.
 
     Parameters
     ----------
@@ -71,8 +69,8 @@ def write_fit_report(
         frame_table("What was identified", tables["intervals"].dropna(axis="columns", how="all")),
         frame_table("Force that was not used", tables["held_out"]),
         frame_table("Along the scale: numbers that give the same force", tables["scale_line"].iloc[::5]),
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         NOT_IN_THE_NUMBERS,
     ]
     title = f"Offsets and stiffness at an elbow from {counted(len(found.recordings), 'recording')}"
@@ -80,6 +78,6 @@ def write_fit_report(
     facts = [("R² of bin means", f"{found.r2:.3f}")]
     if found.held:
         facts.append(("R² of trials not used", f"{min(each.r2 for each in found.held):.3f} at least"))
-    return write_elbow_page(
-        path, title, subtitle, angle, "angle [deg]", answer(found), facts, sections, record, start_frame=len(angle) // 2
+    return elbow_page(
+        title, subtitle, angle, "angle [deg]", answer(found), facts, sections, record, start_frame=len(angle) // 2
     )

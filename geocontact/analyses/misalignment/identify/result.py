@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.misalignment.identify.figure import (
     Boxes,
@@ -22,15 +22,16 @@ from geocontact.analyses.misalignment.identify.figure import (
 from geocontact.analyses.misalignment.identify.fitted import Fitted
 from geocontact.analyses.misalignment.identify.free_joint import Free
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
-from geocontact.analyses.misalignment.identify.page import write_fit_report
+from geocontact.analyses.misalignment.identify.page import fit_page
 from geocontact.analyses.misalignment.identify.tables import QUANTILE_COLUMNS, tables_of
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.end_stop import bin_means
-from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -81,20 +82,14 @@ class IdentifyResult(Result):
             return conditions_figure(bin_means(f.data), self.free.stroke, *boxes)
         raise KeyError(f"no figure {name!r}; there are {', '.join(self._drawn)}")
 
-    def write_files(self, folder: Path) -> None:
-        """elbow.json, tables, figures, page."""
-        write_json(folder / "elbow.json", self.summary)
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
-        drawings = {name: save_both(self.figure(name), folder, name) for name in self._drawn}
-        self._write_page(folder / "report.html", drawings)
-
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Force over the angle, what the data tell, figures and tables."""
-        self._write_page(file, {name: drawing(self.figure(name)) for name in self._drawn})
+        return {REPORT: fit_page(self.record, self.fit, self.free, self.tables(), drawings)}
 
-    def _write_page(self, file: Path, drawings: dict[str, bytes]) -> None:
-        write_fit_report(file, self.record, self.fit, self.free, self.tables(), drawings)
+    def write_files(self, folder: Path) -> None:
+        """elbow.json besides."""
+        write_json(folder / "elbow.json", self.summary)
+        super().write_files(folder)
 
     @property
     def _drawn(self) -> tuple[str, ...]:

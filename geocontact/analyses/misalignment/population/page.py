@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.misalignment.planar_words import MODEL, STATES, WITHOUT_FORCE, page_table
 from geocontact.analyses.misalignment.population.drawn import Drawn
 from geocontact.analyses.misalignment.population.tables import influence_table, quantile_table
-from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.analyses.run_record import Record
 from geocontact.identify.intervals.sobol_indices import Indices
 from geocontact.view.page.content import (
     Curve,
@@ -26,8 +23,6 @@ from geocontact.view.page.content import (
     Table,
     Words,
 )
-from geocontact.view.page.tables import inputs_table
-from geocontact.view.page.write import write_page
 
 FIGURE = (
     "Left: density of the largest |F| over the range of angles. Right: probability that it is above a force; the band "
@@ -46,8 +41,8 @@ INFLUENCE = (
 )
 
 
-def write_population_report(path: Path, record: Record, d: Drawn, drawing: bytes) -> int:
-    """Write the self-contained page, whose slider goes along the forces; returns its size in bytes.
+def population_page(d: Drawn, drawing: bytes) -> Page:
+    """The page of a population, whose slider goes along the forces.
 
     `drawing` is the figure (SVG).
     """
@@ -63,24 +58,22 @@ def write_population_report(path: Path, record: Record, d: Drawn, drawing: bytes
         Picture("Distribution of the largest force", FIGURE, drawing, wide=True),
         page_table("Quantiles of the largest |F|", quantile_table(d)),
         page_table("Where the spread comes from", influence_table(d)),
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         Words("How to read where the spread comes from", [INFLUENCE]),
         Words("What the numbers do not contain", [DRAWN, MODEL, NOT_A_DEVICE]),
     ]
-    page = Page(
+    return Page(
         title=f"Largest force of {len(d.peak)} synthetic people",
         subtitle="Exoskeleton beside a joint: forces over a population",
         time=d.levels,
         time_label="force [N]",
         headline=answer(d),
         facts=[(row[0], row[1]) for row in numbers.rows[:5]],
-        reservations=tuple(record.warnings),
         start_frame=int(np.argmin(np.abs(d.levels - d.limit))),
         sections=tuple(sections),
         plays=False,
     )
-    return write_page(page, path)
 
 
 def _shares(d: Drawn) -> list[Section]:

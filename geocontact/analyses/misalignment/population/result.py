@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,23 +10,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.misalignment.population.drawn import Drawn
 from geocontact.analyses.misalignment.population.figure import population_figure
 from geocontact.analyses.misalignment.population.options import PopulationOptions
-from geocontact.analyses.misalignment.population.page import write_population_report
+from geocontact.analyses.misalignment.population.page import population_page
 from geocontact.analyses.misalignment.population.tables import (
     exceedance_table,
     influence_table,
     quantile_table,
     sample_table,
 )
-from geocontact.analyses.result import Result
-from geocontact.io.text.results import write_table
+from geocontact.analyses.result import REPORT, Result
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -50,19 +51,16 @@ class PopulationResult(Result):
         found = {"quantiles": quantile_table(d), "exceedance": exceedance_table(d), "influence": influence_table(d)}
         return {**found, "samples": sample_table(d)} if self.options.keep else found
 
-    def figure(self) -> Figure:
-        """Density of the largest force, and the probability of more."""
+    def figures(self) -> dict[str, Figure]:
+        """`population`: density of the largest force, and the probability of more."""
         d = self.drawn
-        return population_figure(d.peak[np.isfinite(d.peak)], d.levels, d.exceedance, d.limit)
+        return {"population": population_figure(d.peak[np.isfinite(d.peak)], d.levels, d.exceedance, d.limit)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Exceedance, figure, quantiles, where the spread comes from."""
+        return {REPORT: population_page(self.drawn, drawings["population"])}
 
     def write_files(self, folder: Path) -> None:
-        """population.json, tables, figure, page."""
+        """population.json besides."""
         write_json(folder / "population.json", self.summary)
-        for name, rows in self.tables().items():
-            write_table(rows, folder, name)
-        picture = save_both(self.figure(), folder, "population")
-        write_population_report(folder / "report.html", self.record, self.drawn, picture)
-
-    def write_page(self, file: Path) -> None:
-        """Exceedance, figure, quantiles, where the spread comes from."""
-        write_population_report(file, self.record, self.drawn, drawing(self.figure()))
+        super().write_files(folder)

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
-from geocontact.analyses.misalignment.page import FRAMES, NOT_IN_THE_NUMBERS, write_elbow_page
+from geocontact.analyses.misalignment.page import FRAMES, NOT_IN_THE_NUMBERS, elbow_page
 from geocontact.analyses.misalignment.simulate.loaded_trial import LoadedTrial
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.data.elbow_recording import ElbowRecording
-from geocontact.view.page.content import Curve, Curves, Picture, Readout, Row, Section, Table, Words
+from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
 
 SURFACES = (
     "Displacement of the attachment along the limb over the angle and one offset, the other being 0; blue and red are "
@@ -24,15 +24,10 @@ TURNS = "Moment on the forearm at the cuff, flexion positive"
 SYNTHETIC = "These recordings are synthetic: the explicit model with the numbers below, and noise. Nobody was measured."
 
 
-def write_simulation_report(
-    path: Path,
-    loaded: Sequence[LoadedTrial],
-    numbers: Mapping[str, float],
-    drawing: bytes,
-    tables: Sequence[Table],
-    record: Record,
-) -> int:
-    """Write the page of a simulation, its first trial over time; returns its size in bytes."""
+def simulation_page(
+    loaded: Sequence[LoadedTrial], numbers: Mapping[str, float], drawing: bytes, record: Record
+) -> Page:
+    """The page of a simulation, its first trial over time."""
     made = [each.recording for each in loaded]
     first = made[0]
     every = -(-len(first.time) // FRAMES)
@@ -56,13 +51,14 @@ def write_simulation_report(
         Words("What this is", [SYNTHETIC]),
         Picture("Displacement over angle and offset", SURFACES, drawing, wide=True),
         Table("True numbers", ("number", "unit", "value"), true),
-        *tables,
+        INPUTS,
+        OPTIONS,
         NOT_IN_THE_NUMBERS,
     ]
     facts = [(r.name, f"{r.force.min():.1f} … {r.force.max():.1f} N") for r in made]
     title, subtitle = "Synthetic recordings of an elbow exoskeleton", "Explicit model of constraint forces"
     time = first.time[shown]
-    return write_elbow_page(path, title, subtitle, time, "time [s]", answer(made, numbers), facts, sections, record)
+    return elbow_page(title, subtitle, time, "time [s]", answer(made, numbers), facts, sections, record)
 
 
 def answer(made: Sequence[ElbowRecording], numbers: Mapping[str, float]) -> list[str]:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.misalignment.law_numbers import with_units
 from geocontact.analyses.misalignment.simulate.displacement_surfaces import Surfaces
@@ -17,16 +16,15 @@ from geocontact.analyses.misalignment.simulate.figure import surface_figure
 from geocontact.analyses.misalignment.simulate.gap_case import UNITS, gap_case
 from geocontact.analyses.misalignment.simulate.loaded_trial import LoadedTrial
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
-from geocontact.analyses.misalignment.simulate.page import write_simulation_report
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.result import Result
+from geocontact.analyses.misalignment.simulate.page import simulation_page
+from geocontact.analyses.result import REPORT, Result
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.io.cases.gap_case_writer import write_gap_case
-from geocontact.io.text.results import write_table
-from geocontact.view.page.tables import inputs_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 CASE = "case"
 SYNTHETIC = {"synthetic": True, "words": "made by geocontact elbow simulate; nobody was measured"}
@@ -67,26 +65,22 @@ class SimulateResult(Result):
         """One table per trial, by its name, and `surfaces`."""
         return {**{each.recording.name: each.table() for each in self.made}, "surfaces": self.surfaces.table()}
 
-    def figure(self) -> Figure:
-        """Displacement over the angle and each offset."""
-        return surface_figure(self.surfaces)
+    def figures(self) -> dict[str, Figure]:
+        """`surfaces`: displacement over the angle and each offset."""
+        return {"surfaces": surface_figure(self.surfaces)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """The first trial over time, the true numbers, the surfaces."""
+        return {REPORT: simulation_page(self.made, self.numbers, drawings["surfaces"], self.record)}
+
+    def refers_to(self, table: str) -> Mapping[str, object] | None:
+        """What a trial is: nobody was measured."""
+        return SYNTHETIC if table in {each.name for each in self.trials} else None
 
     def write_files(self, folder: Path) -> None:
-        """A table per trial that says what it is, truth.json, surfaces, page; the gap case where it is asked for."""
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
-        for each in self.trials:
-            self.record.tables[f"{each.name}.csv"] = SYNTHETIC
+        """truth.json besides; the gap case where it is asked for."""
         if self.options.case:
             locked = [each for each in self.trials if each.displacement is None]
             write_gap_case(gap_case(locked, self.numbers), folder / CASE, UNITS)
         write_json(folder / "truth.json", self.truth)
-        self._write_page(folder / "report.html", save_both(self.figure(), folder, "surfaces"))
-
-    def write_page(self, file: Path) -> None:
-        """The first trial over time, the true numbers, the surfaces."""
-        self._write_page(file, drawing(self.figure()))
-
-    def _write_page(self, file: Path, picture: bytes) -> None:
-        tables = [inputs_table(self.record.inputs), options_table(self.record)]
-        write_simulation_report(file, self.made, self.numbers, picture, tables, self.record)
+        super().write_files(folder)
