@@ -9,10 +9,10 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.misalignment import page as elbow_page
-from geocontact.analyses.misalignment.design import page as design_page
-from geocontact.analyses.misalignment.identify.arm_drawing import arm_drawing
-from geocontact.analyses.misalignment.population import page as population_page
-from geocontact.analyses.misalignment.simulate import page as simulate_page
+from geocontact.analyses.misalignment.design import show as design_page
+from geocontact.analyses.misalignment.identify.show import arm_drawing
+from geocontact.analyses.misalignment.population import show as population_page
+from geocontact.analyses.misalignment.simulate import show as simulate_page
 from geocontact.view.page.content import Curves, Intervals, Page, Picture
 from tests.analyses.misalignment.test_population import described, population
 from tests.analyses.misalignment.trials import KNOWN, PAPER, QUICK, STROKE, changed, locked, quietly

@@ -1,4 +1,4 @@
-"""What a comparison starts from: recordings, and a model's recording for each."""
+"""A channel of a trial beside what the model says: what is read, and how far they are apart."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.analyses.misalignment.compare.options import CompareOptions
+from geocontact.analyses.misalignment.labels import CONSTRAINT
 from geocontact.analyses.misalignment.law_numbers import MMHG, PER_SI, key_of
 from geocontact.analyses.misalignment.recordings import recordings
 from geocontact.analyses.run_record import Record
@@ -17,6 +19,32 @@ from geocontact.axis_misalignment.law import NAMES
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import LARGEST_MEANT
+from geocontact.identify.signals.agreement import Agreement
+from geocontact.identify.signals.angle_bins import angle_bins, edges_over
+from geocontact.view.curves.quantity import Quantity
+
+QUANTITIES = {"force": CONSTRAINT, "displacement": Quantity("displacement of the joint", "mm", 1e3)}
+"""What channels are called and shown in."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """Measured and model at the trial's even times, SI units, and how they agree."""
+
+    trial: str
+    channel: str
+    time: Float[np.ndarray, " t"]
+    beta: Float[np.ndarray, " t"]
+    measured: Float[np.ndarray, " t"]
+    model: Float[np.ndarray, " t"]
+    agreement: Agreement
+
+    def binned(self, width: float) -> Float[np.ndarray, "b 3"]:
+        """Means of angle, measured and model over bins of the angle [rad]."""
+        there = np.isfinite(self.measured)
+        edges = edges_over([self.beta[there]], width)
+        values = np.column_stack([self.beta, self.measured, self.model])[there]
+        return np.asarray(angle_bins([self.time[there]], [values], edges, np.inf).cells().means)
 
 
 @dataclass(frozen=True)

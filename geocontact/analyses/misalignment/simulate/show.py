@@ -1,20 +1,60 @@
-"""The page of a simulation: recordings that were made."""
+"""What is shown of synthetic trials: surfaces of the displacement, and the page of the first trial."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.misalignment.labels import ANGLE
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.analyses.misalignment.page import FRAMES, NOT_IN_THE_NUMBERS, elbow_page
-from geocontact.analyses.misalignment.simulate.loaded_trial import LoadedTrial
+from geocontact.analyses.misalignment.simulate.trials import LoadedTrial, Surfaces
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.data.elbow_recording import ElbowRecording
+from geocontact.view.curves.style import BLACK, DOUBLE, empty, in_style
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+LEVELS = 13
+STRIPES = 31  # of a surface, each way
+
+
+@in_style
+def surface_figure(s: Surfaces) -> Figure:
+    """Draw d_tot over angle and x (left) and over angle and y (right), the other offset being 0.
+
+    As surfaces in space above, and as maps with lines of equal d_tot below, where values can be read off.
+    """
+    figure = empty(DOUBLE, 0.14)
+    degrees, offset = np.degrees(s.angle), s.offset * 1e3
+    most = float(max(np.abs(s.over_x).max(), np.abs(s.over_y).max())) * 1e3
+    colours: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -most, "vmax": most, "rasterized": True}
+    maps = []
+    for column, (values, name, other) in enumerate(((s.over_x * 1e3, "x", "y"), (s.over_y * 1e3, "y", "x"))):
+        space: Any = figure.add_subplot(2, 2, 1 + column, projection="3d")
+        space.plot_surface(*np.meshgrid(degrees, offset), values, rcount=STRIPES, ccount=STRIPES, lw=0.1, **colours)
+        space.set_zlabel("d_tot [mm]")
+        panel = figure.add_subplot(2, 2, 3 + column)
+        shown = panel.pcolormesh(degrees, offset, values, shading="gouraud", **colours)
+        lines = panel.contour(degrees, offset, values, levels=LEVELS, colors=BLACK, linewidths=0.5)
+        panel.clabel(lines, fontsize=6.0, fmt="%g")
+        for axes in (space, panel):
+            axes.set_ylabel(f"offset {name} [mm]")
+        space.set_xlabel("β [°]")
+        panel.set_xlabel(ANGLE)
+        space.set_title(f"{other} = 0, l = {s.l * 1e3:g} mm, z = {s.z * 1e3:g} mm", fontsize=7.0)
+        maps.append(panel)
+    figure.colorbar(shown, ax=maps, label="displacement d_tot [mm]")
+    return figure
+
 
 SURFACES = (
     "Displacement of the attachment along the limb over the angle and one offset, the other being 0; blue and red are "
