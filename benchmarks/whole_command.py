@@ -60,8 +60,8 @@ sys.exit(code)
 """
 
 AREA = (
-    ("geocontact.analyses.area.read", "read_body_and_outer", "reading"),
-    ("geocontact.analyses.area.run", "area_evolution", "frames"),
+    ("geocontact.analyses.area.bodies", "read_body_and_outer", "reading"),
+    ("geocontact.analyses.area.result", "area_evolution", "frames"),
     ("geocontact.analyses.figure_files", "save_both", "figures"),
     ("geocontact.analyses.finished_page", "write_finished", "page"),
 )

@@ -21,7 +21,7 @@ from geocontact.data.version import VERSION
 if TYPE_CHECKING:
     from geocontact import chain
     from geocontact.analyses import knee, misalignment, prosthesis, shoulder, sit_to_stand
-    from geocontact.analyses.area.job import area, pressure
+    from geocontact.analyses.area.result import area, pressure
     from geocontact.analyses.cop.result import centre_of_pressure
     from geocontact.analyses.gap.diagnose.job import diagnose
     from geocontact.analyses.gap.discriminability.job import discriminability
@@ -86,8 +86,8 @@ _PLACES = {
     "Tube": "geometry.shapes",
     "Axis": "geometry.sweep",
     "sweep": "geometry.sweep",
-    "area": "analyses.area.job",
-    "pressure": "analyses.area.job",
+    "area": "analyses.area.result",
+    "pressure": "analyses.area.result",
     "centre_of_pressure": "analyses.cop.result",
     "fit_shape": "analyses.shape.result",
     "load_cells": "analyses.loadcells.result",

@@ -10,7 +10,7 @@ from geocontact.analyses.job import Job
 from geocontact.data.errors import InputError
 
 PLACES = {
-    "area": "area.job:area",
+    "area": "area.result:area",
     "cop": "cop.result:centre_of_pressure",
     "elbow compare": "misalignment.compare.job:compare",
     "elbow design": "misalignment.design.job:design",

@@ -1,4 +1,4 @@
-"""Pressures on FIXED as an elastic layer, frame by frame: from options to numbers."""
+"""Pressures of a layer along a motion: the layer as it is given, and the load of every frame."""
 
 from __future__ import annotations
 
@@ -10,20 +10,54 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.analyses.area.options import AreaOptions
-from geocontact.analyses.area.pressure.layers import layer_given, skin_given
-from geocontact.analyses.area.read import Bodies
+from geocontact.analyses.area.bodies import Bodies
+from geocontact.analyses.area.options import FLAT, AreaOptions
+from geocontact.analyses.layer_thickness import confined_modulus, measured_thickness
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
+from geocontact.geometry.contact_area.evolution import Settings
+from geocontact.geometry.phong_offset import corner_normals, phong_offset
 from geocontact.geometry.surface import Surface
+from geocontact.geometry.surface_quadrature import surface_quadrature
 from geocontact.loads.foundation import Layer, Pressed, Skin, pressed
 from geocontact.loads.pressure_load import PressureLoad
+
+Faces = Bool[np.ndarray, " f"]
+
+
+def layer_given(
+    record: Record, fixed: Surface, faces: Faces | None, settings: Settings, o: AreaOptions, edge: float
+) -> Layer:
+    """FIXED's layer in pieces of at most `edge` [m]."""
+    try:
+        pieces = surface_quadrature(fixed, edge, faces)
+    except ValueError as error:
+        raise InputError("", "`piece`", str(error), "give a longer edge") from error
+    thickness = measured_thickness(record, fixed, pieces.point, pieces.normal, o.thickness, "`thickness`")
+    parts: dict[str, Bool[np.ndarray, " p"]] = {}
+    if settings.split is not None:
+        medial = settings.split.height(pieces.point) * settings.medial_side > 0.0
+        parts = {"medial": medial, "lateral": ~medial}
+    height = None if o.facets == FLAT else phong_offset(fixed, corner_normals(fixed), pieces.face, pieces.point)
+    return Layer(pieces, thickness, confined_modulus(o.modulus, o.poisson), o.foundation or "linear", parts, height)
+
+
+def skin_given(record: Record, moving: Surface, o: AreaOptions) -> Skin:
+    """What MOVING brings: smooth facets unless flat, and a layer where its modulus is given."""
+    normals = None if o.facets == FLAT else corner_normals(moving)
+    if o.modulus_moving is None:
+        return Skin(normals)
+    centres = moving.vertices[moving.faces].mean(axis=1)
+    thickness = measured_thickness(
+        record, moving, centres, moving.face_normal, o.thickness_moving, "`thickness_moving`"
+    )
+    return Skin(normals, thickness, confined_modulus(o.modulus_moving, o.poisson_moving))
+
 
 PIECE = 0.5e-3  # m; longest edge of a piece unless given
 AGREED = 0.01  # of the force; pieces of half the size may change it by no more without a word
 STRAINED = 0.2  # largest strain that the linear law is trusted to
-Faces = Bool[np.ndarray, " f"]
 
 
 @dataclass(frozen=True, eq=False)

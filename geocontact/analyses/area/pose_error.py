@@ -1,4 +1,4 @@
-"""Intervals of FIXED's area over a motion, drawn and to first order, and where the two agree."""
+"""Error of the poses carried into the area: what is typed of it, draws, first order, table."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses import quantities
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import MM, MM2, AreaEvolution
@@ -18,6 +19,23 @@ from geocontact.geometry.contact_area.pose_error import ErrorOfArea, PoseError, 
 from geocontact.geometry.contact_area.repeated import RepeatedArea
 from geocontact.geometry.surface import Surface
 from geocontact.io.text.side_table import read_side_table
+from geocontact.io.text.units import ANGLE, LENGTH
+
+
+def pose_sd(text: str, option: str) -> tuple[float, ...]:
+    """ "t=0.5,r=1" or "tx=0.5,rz=2" (mm, degrees) to three lengths [m] and three angles [rad]; 0 where not named."""
+    names, found = ("tx", "ty", "tz", "rx", "ry", "rz"), dict[str, float]()
+    for part in text.split(","):
+        name, _, value = (piece.strip() for piece in part.partition("="))
+        meant = [each for each in names if each == name or each[0] == name]
+        if not meant or not value or any(each in found for each in meant):
+            raise InputError("", option, f"{part.strip()!r} is no standard deviation", f"write {option} t=0.5,r=1")
+        size = quantities.number(value, option, "t=0.5,r=1")
+        found |= {each: size * (LENGTH["mm"] if each[0] == "t" else ANGLE["deg"]) for each in meant}
+    if min(found.values()) < 0.0:
+        raise InputError("", option, f"{text!r} is negative", "a standard deviation is not")
+    return tuple(found.get(each, 0.0) for each in names)
+
 
 DRAWS, SEED = 400, 1
 ENDS = (0.025, 0.975)

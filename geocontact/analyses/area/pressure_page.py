@@ -1,4 +1,4 @@
-"""What a contact page shows of pressures: the map, forces, centres of pressure, and how far to trust them."""
+"""What a page says of pressures: their map, curves, numbers, facts and words."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.analyses.area.pressure.along import PressureEvolution
+from geocontact.analyses.area.pressure import PressureEvolution
 from geocontact.analyses.page_words import rounded
 from geocontact.data.motion import Course
 from geocontact.geometry.silhouette import silhouette

@@ -1,4 +1,4 @@
-"""Congruence over a motion, frame by frame: from options to numbers."""
+"""How alike the surfaces are curved where they are in contact, along a motion."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.area.read import Bodies
+from geocontact.analyses.area.bodies import Bodies
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
