@@ -30,7 +30,7 @@ def drawing(figure: Figure) -> bytes:
 
 
 class Drawings(Mapping[str, bytes]):
-    """Figures by name as pages hold them, each drawn when it is asked for.
+    """Figures by name as pages hold them, each drawn once, when it is asked for.
 
     Parameters
     ----------
@@ -40,6 +40,7 @@ class Drawings(Mapping[str, bytes]):
 
     def __init__(self, figures: Callable[[], Mapping[str, Figure]]) -> None:
         self._figures = figures
+        self._drawn: dict[str, bytes] = {}
 
     @cached_property
     def figures(self) -> Mapping[str, Figure]:
@@ -47,7 +48,9 @@ class Drawings(Mapping[str, bytes]):
         return self._figures()
 
     def __getitem__(self, name: str) -> bytes:
-        return drawing(self.figures[name])
+        if name not in self._drawn:
+            self._drawn[name] = drawing(self.figures[name])
+        return self._drawn[name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.figures)

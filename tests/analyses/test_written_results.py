@@ -116,13 +116,14 @@ def test_the_page_of_several_parts_is_figure_and_tables(tmp_path: Path) -> None:
 def test_a_page_alone_draws_only_what_it_shows(tmp_path: Path) -> None:
     class One(Walks):
         def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
-            return {"report.html": page("One", Picture("Both", "", drawings["both"]))}
+            both = [Picture("Both", "", drawings["both"]) for _ in range(2)]
+            return {"report.html": page("One", *both)}
 
     with mock.patch(
         "geocontact.analyses.figure_files.save", side_effect=lambda _, path: path.write_text("<svg/>")
     ) as saved:
         One(record=record(tmp_path)).page(tmp_path / "page.html")
-    assert saved.call_count == 1
+    assert saved.call_count == 1, "and that once"
 
 
 def test_reservations_that_writing_brings_up_are_on_the_page(tmp_path: Path) -> None:
