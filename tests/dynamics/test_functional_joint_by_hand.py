@@ -18,7 +18,9 @@ def recorded(hinge: bool) -> tuple[RigidTransform, RigidTransform]:
     turns = np.outer(np.linspace(-0.7, 0.9, 30), [0.6, 0.8, 0.0]) if hinge else 0.8 * RNG.normal(size=(30, 3))
     joint = RigidTransform.from_components([0.2, -0.1, 0.05], Rotation.from_rotvec(turns))
     there = RigidTransform.from_translation([0.01, 0.3, -0.02])
-    off = RigidTransform.from_components(3e-3 * RNG.normal(size=(30, 3)), Rotation.from_rotvec(0.01 * RNG.normal(size=(30, 3))))
+    off = RigidTransform.from_components(
+        3e-3 * RNG.normal(size=(30, 3)), Rotation.from_rotvec(0.01 * RNG.normal(size=(30, 3)))
+    )
     return first, first * joint * off * there
 
 

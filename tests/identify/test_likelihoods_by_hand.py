@@ -183,7 +183,9 @@ def test_variation_between_trials_by_hand() -> None:
             total += unlikely(r, np.eye(len(r)) + B @ np.diag(sd**2) @ B.T)
         return total
 
-    best = minimize(lambda x: cost(np.exp(x)), np.log(prior), method="Nelder-Mead", options={"xatol": 1e-7, "fatol": 1e-10})
+    best = minimize(
+        lambda x: cost(np.exp(x)), np.log(prior), method="Nelder-Mead", options={"xatol": 1e-7, "fatol": 1e-10}
+    )
     np.testing.assert_allclose(found, np.exp(best.x), rtol=2e-3)
     one = Products.of(residuals[0], designs[0])
     B, Q = designs[0], np.diag(found**2)

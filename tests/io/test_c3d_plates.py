@@ -303,12 +303,3 @@ def test_plates_at_fault_leave_the_markers(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"its force plates cannot be worked out \(.*\); the rest of the file is read"):
         read_force_plates(file)
     np.testing.assert_allclose(read_c3d_markers(file).positions[0, 0], [0.3, 0.2, 0.1], atol=1e-6)
-
-
-@pytest.mark.parametrize("reader", [read_force_plates, read_c3d_markers])
-def test_the_byte_order_of_mips_is_named(reader: object, tmp_path: Path) -> None:
-    data = bytearray(plate_file(tmp_path / "a.c3d", channels(stance())).read_bytes())
-    data[512 * (data[0] - 1) + 3] = 86
-    (tmp_path / "a.c3d").write_bytes(data)
-    with pytest.raises(InputError, match=r"byte order of MIPS \(SGI\) computers, .* may be sound; save it for PC"):
-        reader(tmp_path / "a.c3d")  # type: ignore[operator]

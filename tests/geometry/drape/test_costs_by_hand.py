@@ -1,4 +1,4 @@
-"""What places a mat and a rectangle on a scan, beside loops over plain numbers: marks on a plane, sides by Huber's loss."""
+"""What places a mat and a rectangle on a scan, beside loops over plain numbers: marks in a plane, sides by Huber."""
 
 from __future__ import annotations
 

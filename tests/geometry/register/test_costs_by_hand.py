@@ -1,4 +1,4 @@
-"""What registration makes least, beside loops over plain numbers: of landmarks, and of one round to the partners' planes."""
+"""What registration makes least, beside loops over plain numbers: of landmarks, and of one round of the search."""
 
 from __future__ import annotations
 
@@ -33,7 +33,9 @@ def test_landmarks_by_hand() -> None:
     here = missed(R, t, a, b, w)
     for k in range(3):
         ends = [missed(R, t + way * 1e-4 * np.eye(3)[k], a, b, w) for way in (1.0, -1.0)]
-        turned = [missed(Rotation.from_rotvec(way * 1e-4 * np.eye(3)[k]).as_matrix() @ R, t, a, b, w) for way in (1, -1)]
+        turned = [
+            missed(Rotation.from_rotvec(way * 1e-4 * np.eye(3)[k]).as_matrix() @ R, t, a, b, w) for way in (1, -1)
+        ]
         for ahead, behind in (ends, turned):
             assert ahead > here < behind
             assert abs(ahead - behind) < 1e-5 * (ahead + behind - 2.0 * here) + 1e-12
@@ -51,7 +53,7 @@ def partners() -> Partners:
 
 
 def test_one_round_by_hand() -> None:
-    """Least of Σ w (h + n · (s + ω x arm))²: the normal equations, row by row, w = (1 - (h/c)²)², c = 4.685 · 1.4826 m."""
+    """Least Σ w (h + n · (s + ω x arm))²: normal equations row by row, w = (1 - (h/c)²)², c = 4.685 · 1.4826 median."""
     some = partners()
     middle = [sum(p[k] for p in some.points) / 40 for k in range(3)]
     c = 4.685 * 1.4826 * float(np.median(np.abs(some.height)))
