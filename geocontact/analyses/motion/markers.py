@@ -20,9 +20,11 @@ LARGEST, SMALLEST, FEW = 20.0, 0.05, 5
 """Span of the markers in a frame [m] beyond which the unit is another, from so many markers on below."""
 
 
-def markers_given(file: Path, axes: str | None, time: tuple[float, float] | None) -> MarkerTrajectories:
-    """Markers of a file in the model's axes, between two times [s]."""
-    seen = read_markers(file)
+def markers_given(
+    file: Path, axes: str | None, time: tuple[float, float] | None, c3d_unit: str | None
+) -> MarkerTrajectories:
+    """Markers of a file in the model's axes, between two times [s]; `c3d_unit` is that of a .c3d that has none."""
+    seen = read_markers(file, c3d_unit)
     _refuse_absurd(seen)
     if axes is not None:
         seen = seen.turned(turned_axes(axes, "`axes`"))

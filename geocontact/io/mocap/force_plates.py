@@ -88,11 +88,14 @@ class ForcePlate:
         return lengths_outside(self.centre_of_pressure(), load, self.corners, LOADED)
 
 
-def read_force_plates(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
-    """All force plates of a .mot, .sto or .c3d file, in its order; forces are those on the foot."""
+def read_force_plates(path: str | PathLike[str], c3d_unit: str | None = None) -> tuple[ForcePlate, ...]:
+    """All force plates of a .mot, .sto or .c3d file, in its order; forces are those on the foot.
+
+    `c3d_unit` is the unit of places in a .c3d file whose own is empty.
+    """
     suffix = Path(fspath(path)).suffix.lower()
     if suffix == ".c3d":
-        return _from_c3d(path)
+        return _from_c3d(path, c3d_unit)
     if suffix in (".mot", ".sto"):
         return _from_table(read_table(path))
     raise InputError(path, "", f"'{suffix}' is not a file of ground reactions", "give a .mot, .sto or .c3d file")
@@ -208,7 +211,7 @@ def _three(table: TextTable, stem: str) -> Float[np.ndarray, "t 3"]:
     return values
 
 
-def _from_c3d(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
+def _from_c3d(path: str | PathLike[str], c3d_unit: str | None) -> tuple[ForcePlate, ...]:
     """Plates as ezc3d calibrates and turns them into the laboratory: moment about the middle of the surface."""
     file = fspath(path)
     arrays = read_c3d_plates(path)
@@ -222,7 +225,7 @@ def _from_c3d(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
     if bool(arrays["polynomial"]):
         what = "FORCE_PLATFORM:FPCOPPOLY, Kistler's correction of the centre of pressure, is not applied"
         warnings.warn(InputWarning(f"{file}: {what}"), stacklevel=4)
-    return tuple(_c3d_plate(file, arrays, k) for k in range(count))
+    return tuple(_c3d_plate(file, arrays, k, c3d_unit) for k in range(count))
 
 
 _OFF_REMEDY = "check POINT:UNITS, ANALOG:UNITS, and ORIGIN, CORNERS and CHANNEL of FORCE_PLATFORM"
@@ -232,9 +235,10 @@ def _off(plate: ForcePlate) -> str:
     return f"under load its centre of pressure lies {plate.outside():.2g} plate's lengths outside of it (median)"
 
 
-def _c3d_plate(file: str, arrays: Arrays, k: int) -> ForcePlate:
+def _c3d_plate(file: str, arrays: Arrays, k: int, c3d_unit: str | None) -> ForcePlate:
     name = f"plate {k + 1}"
-    units = plate_units(file, name, int(arrays[f"type_{k}"]), str(arrays["unit"]), list(map(str, arrays[f"units_{k}"])))
+    channels = list(map(str, arrays[f"units_{k}"]))
+    units = plate_units(file, name, int(arrays[f"type_{k}"]), str(arrays["unit"]), channels, c3d_unit)
     corners = arrays[f"corners_{k}"] * units.metre
     with np.errstate(over="ignore", invalid="ignore"):
         down = np.cross(corners[0] - corners[1], corners[0] - corners[3])

@@ -38,7 +38,7 @@ def loads_on_bodies(
     file, loads = _given(record, o)
     if file is None:
         return {}
-    plates = read_force_plates(file)
+    plates = read_force_plates(file, o.c3d_unit)
     record.add_input("plates", file, plates=len(plates))
     if o.axes is not None and all(load.moves for load in loads):
         raise InputError(file, "`axes`", "has no effect: all loads are expressed in bodies", "leave it out")
