@@ -1,4 +1,4 @@
-"""Parameter section of a .c3d file, mended where ezc3d refuses a sound file for how its numbers are written.
+"""C3dParameter section of a .c3d file, mended where ezc3d refuses a sound file for how its numbers are written.
 
 Layout as c3d.org's user guide has it: four bytes, then groups and parameters one after another, each with its name, how
 far it is to the next, and numbers of one, two or four bytes, the last of them real. ezc3d takes counts as whole numbers
@@ -39,7 +39,7 @@ _CLOSING = 4  # bytes of nothing behind the last parameter: its description's le
 
 
 @dataclass(frozen=True)
-class Parameter:
+class C3dParameter:
     """Its names, kind of number (bytes), how many there are, and where kind and numbers stand in the file."""
 
     group: str
@@ -79,7 +79,7 @@ def with_whole_counts(data: bytes, file: str, analogs: bool) -> bytes | None:
     return bytes(out)
 
 
-def _require_whole(file: str, parameter: Parameter, values: tuple[float, ...], analogs: bool) -> None:
+def _require_whole(file: str, parameter: C3dParameter, values: tuple[float, ...], analogs: bool) -> None:
     for value in values:
         if abs(value) <= _LARGEST and (value == round(value) or not analogs):
             continue
@@ -87,7 +87,7 @@ def _require_whole(file: str, parameter: Parameter, values: tuple[float, ...], a
         raise InputError(file, f"{parameter.group}:{parameter.name}", what, "save it with whole numbers")
 
 
-def _shorten(out: bytearray, parameter: Parameter, values: list[int], end: int) -> None:
+def _shorten(out: bytearray, parameter: C3dParameter, values: list[int], end: int) -> None:
     """Numbers of two bytes for those of four; what follows in the section moves up."""
     at, spared = parameter.numbers_at, 2 * parameter.count
     (ahead,) = struct.unpack_from("<h", out, parameter.kind_at - 2)
@@ -117,7 +117,7 @@ def with_real_numbers(data: bytes) -> bytes | None:
         return None
 
 
-def _widen(out: bytearray, parameter: Parameter, values: tuple[int, ...]) -> None:
+def _widen(out: bytearray, parameter: C3dParameter, values: tuple[int, ...]) -> None:
     """Numbers of four bytes for those of two; all that follows in the file moves down."""
     (ahead,) = struct.unpack_from("<h", out, parameter.kind_at - 2)
     if ahead:
@@ -142,7 +142,7 @@ def _in_blocks(out: bytearray, start: int, end: int, grown: int) -> bytes:
     return bytes(out)
 
 
-def parameters(data: bytes | bytearray, order: str = "<") -> Iterator[Parameter]:
+def parameters(data: bytes | bytearray, order: str = "<") -> Iterator[C3dParameter]:
     """All parameters, as far as the section can be followed; groups come before theirs or after.
 
     `order` of the bytes is that of `struct`.
@@ -157,7 +157,7 @@ def parameters(data: bytes | bytearray, order: str = "<") -> Iterator[Parameter]
     for group, name, kind_at in places:
         (kind,) = struct.unpack_from("<b", data, kind_at)
         sizes = data[kind_at + 2 : kind_at + 2 + data[kind_at + 1]]
-        yield Parameter(groups.get(group, ""), name, kind, prod(sizes), kind_at, kind_at + 2 + len(sizes))
+        yield C3dParameter(groups.get(group, ""), name, kind, prod(sizes), kind_at, kind_at + 2 + len(sizes))
 
 
 def entries(data: bytes | bytearray, order: str = "<") -> Iterator[tuple[int, str, int]]:
