@@ -102,9 +102,7 @@ def test_markers_of_a_c3d_file_in_words(word: str, tmp_path: Path) -> None:
 def test_a_c3d_file_without_a_unit_is_refused_unless_it_is_stated(unit: str | None, tmp_path: Path) -> None:
     """It was taken as mm."""
     file = c3d(tmp_path, unit)
-    with pytest.raises(
-        InputError, match="POINT:UNITS: is empty: .* not known; state it with `c3d_unit` m, cm, mm, in o"
-    ):
+    with pytest.raises(InputError, match=r"POINT:UNITS: is empty: .* not known; state it with `c3d_unit` m, cm, mm"):
         read_c3d_markers(file)
     for stated in ("mm", "m", "in"):
         seen = read_markers(file, stated)
@@ -113,9 +111,7 @@ def test_a_c3d_file_without_a_unit_is_refused_unless_it_is_stated(unit: str | No
 
 def test_a_stated_unit_does_not_count_where_the_file_has_its_own(tmp_path: Path) -> None:
     file = c3d(tmp_path, "cm")
-    with pytest.warns(
-        InputWarning, match="POINT:UNITS is 'cm', which counts; `c3d_unit` mm is for files whose own is em"
-    ):
+    with pytest.warns(InputWarning, match="POINT:UNITS is 'cm', which counts; `c3d_unit` mm is for files"):
         seen = read_markers(file, "mm")
     np.testing.assert_allclose(seen.positions[1, 0], [0.01, 0.02, 0.04], rtol=1e-6)
     np.testing.assert_allclose(read_markers(file, "cm").positions[1, 0], [0.01, 0.02, 0.04], rtol=1e-6)
@@ -143,9 +139,7 @@ def test_columns_of_places_without_a_unit_are_refused(tmp_path: Path) -> None:
     """Of markers, of spheres, of poses."""
     file = tmp_path / "a.csv"
     file.write_text("time [s],A_x,A_y,A_z\n0,1,2,4\n1,1,2,4\n", encoding="utf-8")
-    with pytest.raises(
-        InputError, match=r"column 'A_x': unit is ''; write one of m, cm, mm, in, um in square brackets"
-    ):
+    with pytest.raises(InputError, match=r"column 'A_x': unit is ''; write one of m, cm, mm, in, um in square"):
         read_csv_markers(file)
     file.write_text("px,py,pz,radius,zone\n0.1,0.2,0.3,0.02,heel\n", encoding="utf-8")
     with pytest.raises(InputError, match="write"):
