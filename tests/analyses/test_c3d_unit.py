@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import ast
 from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from geocontact import analyses
 from geocontact.analyses.motion.markers import markers_given
 from geocontact.analyses.options import declared, unit_of_c3d
 from geocontact.data.errors import InputError
@@ -61,3 +63,16 @@ def test_markers_as_they_are_asked_for(tmp_path: Path) -> None:
         markers_given(file, None, None, None)
     seen = markers_given(file, "x,z,-y", (0.1, 0.2), "m")
     np.testing.assert_allclose(seen.positions[0, 0], [0.3, 0.1, -0.2], atol=1e-6)
+
+
+@pytest.mark.parametrize("reader", ["read_markers", "read_force_plates"])
+def test_every_analysis_passes_it_on(reader: str) -> None:
+    """Every call has a second argument. OpenSim's set-up files name .trc files only, of which times are read."""
+    calls = [
+        (file.name, call)
+        for file in Path(analyses.__file__).parent.rglob("*.py")
+        for call in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        if isinstance(call, ast.Call) and getattr(call.func, "id", "") == reader and file.name != "opensim_setup.py"
+    ]
+    assert calls
+    assert [name for name, call in calls if len(call.args) < 2] == []
