@@ -310,11 +310,6 @@ class Options:
         }
 
 
-def unit_of_c3d(stated: LengthUnit | None, *files: Path | None) -> LengthUnit | None:
-    """What was stated for a study's .c3d files, of one trial; None where it has no such file."""
-    return stated if any(file is not None and file.suffix.lower() == ".c3d" for file in files) else None
-
-
 def leads_nowhere(path: Path) -> bool:
     """Whether there is neither a file nor a folder; names that no file can have are left to who opens them."""
     try:

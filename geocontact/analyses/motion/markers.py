@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from geocontact.analyses.options import LengthUnit
 from geocontact.analyses.quantities import named_file, turned_axes
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
@@ -36,6 +37,11 @@ def markers_given(
         what = f"no frame between {first:g} and {last:g} s"
         raise InputError(seen.source, "`time`", what, f"the recording is from {seen.time[0]:g} to {seen.time[-1]:g} s")
     return part
+
+
+def unit_of_c3d(stated: LengthUnit | None, *files: Path | None) -> LengthUnit | None:
+    """What was stated for a study's .c3d files, of one trial; None where it has no such file."""
+    return stated if any(file is not None and file.suffix.lower() == ".c3d" for file in files) else None
 
 
 def _refuse_absurd(seen: MarkerTrajectories) -> None:

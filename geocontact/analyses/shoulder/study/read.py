@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from geocontact.analyses.options import unit_of_c3d
+from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.devices import wearer_of_lengths
 from geocontact.analyses.shoulder.level import level
