@@ -71,7 +71,7 @@ class _DesignSearch:
         without = self.given.p.copy()
         without[SHARE] = 0.0
         try:
-            movement = self.movements.at(without)
+            movement = self.movements.finely_at(without)
         except StoppedByHandError as error:
             raise KeyboardInterrupt from error
         except ArithmeticError as error:
