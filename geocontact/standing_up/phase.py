@@ -39,6 +39,28 @@ Smaller ones bend the motion and with it the parameters, larger ones let both fo
 
 
 @dataclass(frozen=True)
+class PhaseSizes:
+    """What the terms of a phase's cost are measured by.
+
+    Parameters
+    ----------
+    noise
+        Of one sample.
+    rate
+        Samples a second at which a deviation counts as itself [Hz].
+    jerk
+        Of the foot and of the joints [m/s^3, rad/s^3].
+    weights
+        Of what is kept small besides, by name.
+    """
+
+    noise: StandingNoise
+    rate: float
+    jerk: tuple[float, float]
+    weights: Mapping[str, float]
+
+
+@dataclass(frozen=True)
 class PhaseProblem:
     """A phase as a control problem, and what its cost consists of.
 
@@ -52,12 +74,15 @@ class PhaseProblem:
         All of them.
     free
         Names of those that are sought.
+    sizes
+        Of the terms; None where the cost is of another kind.
     """
 
     control: ControlProblem
     terms: Mapping[str, SX]
     parameters: tuple[ContactParameter, ...]
     free: tuple[str, ...]
+    sizes: PhaseSizes | None = None
 
 
 def standing_phase(
@@ -73,6 +98,7 @@ def standing_phase(
     start: Float[np.ndarray, " p"] | None = None,
     guess: Sequence[Course] | None = None,
     jerk_sizes: tuple[float, float] = (FOOT_JERK, JOINT_JERK),
+    weights: Mapping[str, float] | None = None,
 ) -> PhaseProblem:
     """The problem of all trials at once.
 
@@ -90,9 +116,12 @@ def standing_phase(
         Coordinates where the search of each motion starts, from its own start on; the recorded ones unless given.
     jerk_sizes
         Of the foot and of the joints [m/s^3, rad/s^3].
+    weights
+        Of `small`; 1 unless given.
     """
     from casadi import SX, sumsqr, vertcat
 
+    weight = dict.fromkeys(small, 1.0) | dict(weights or {})
     e, n = model.equations, model.count
     channels = {
         "coordinates": (e.q, model.per_coordinate(noise.length, noise.angle)),
@@ -113,7 +142,7 @@ def standing_phase(
         at += width[name]
     seen = vertcat(values, recorded, share)
     sizes = np.r_[np.full(3, jerk_sizes[0]), np.full(n - 3, jerk_sizes[1])]
-    terms |= {**small, "jerk": sumsqr(scaled(jerk, sizes))}
+    terms |= {name: weight[name] * of for name, of in small.items()} | {"jerk": sumsqr(scaled(jerk, sizes))}
     system = jerk_controlled(
         e,
         controlled=range(n - 3),
@@ -136,7 +165,8 @@ def standing_phase(
         for trial, course in zip(trials, guess or smooth, strict=True)
     )
     control = ControlProblem(system, made, (low, high), begin, *problem_scales(subject, n))
-    return PhaseProblem(control, terms, model.parameters, tuple(free))
+    measured = PhaseSizes(noise, RATE, jerk_sizes, weight)
+    return PhaseProblem(control, terms, model.parameters, tuple(free), measured)
 
 
 def belief(p: SX, parameters: Sequence[ContactParameter], free: Sequence[str]) -> SX:
@@ -175,9 +205,11 @@ def _data(trial: StandingTrial, tracks: Sequence[str]) -> Course:
     return lambda time: np.column_stack([course(time), np.full(len(time), share)])
 
 
-def smooth_coordinates(trial: StandingTrial) -> Callable[[Float[np.ndarray, " t"]], Float[np.ndarray, "t n"]]:
-    """Polynomials of degree 7 through the coordinates: where the search starts, accelerations must not be noise."""
-    fits = [Polynomial.fit(trial.time - trial.time[0], q, 7) for q in trial.q.T]
+def smooth_coordinates(
+    trial: StandingTrial, degree: int = 7
+) -> Callable[[Float[np.ndarray, " t"]], Float[np.ndarray, "t n"]]:
+    """Polynomials through the coordinates: where the search starts, accelerations must not be noise."""
+    fits = [Polynomial.fit(trial.time - trial.time[0], q, degree) for q in trial.q.T]
 
     def coordinates(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t n"]:
         return np.column_stack([fit(time) for fit in fits])

@@ -17,7 +17,7 @@ from geocontact.dynamics.collocation.problem import ControlProblem
 from geocontact.dynamics.collocation.refinement import MOST_HALVINGS, halved
 from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions, solve
 from geocontact.standing_up.assistance.assisted_model import AssistedModel
-from geocontact.standing_up.assistance.habit import habit
+from geocontact.standing_up.assistance.habit import HabitSizes, habit
 from geocontact.standing_up.assistance.peaks import Asked, asked
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.trials import StandingTrial
@@ -31,11 +31,12 @@ class StoppedByHandError(ArithmeticError):
 
 @dataclass(frozen=True, eq=False)
 class Movement:
-    """Of all trials with one set of parameters."""
+    """Of all trials with one set of parameters; `sizes` are those of the problem's cost."""
 
     problem: ControlProblem
     found: CollocationResult
     asked: Asked
+    sizes: HabitSizes
 
 
 class Movements:
@@ -61,13 +62,13 @@ class Movements:
         self.model, self.subject, self.trials, self.options, self.told = model, subject, tuple(trials), options, told
         self.meshes = tuple(np.linspace(0.0, 1.0, round(nodes * float(np.ptp(t.time))) + 1) for t in trials)
         self.shortest = tuple(float(mesh[1]) / 2**MOST_HALVINGS for mesh in self.meshes)
-        self.solved, self.seconds = 0, 0.0
+        self.sizes, self.solved, self.seconds = HabitSizes(), 0, 0.0
         self._last: CollocationResult | None = None
 
     def at(self, p: Vector, *, slopes: bool = True) -> Movement:
         """ArithmeticError where no movement is found, StoppedByHandError where Ctrl-C came."""
         self.told()
-        problem = habit(self.model, self.subject, self.trials, p)
+        problem = habit(self.model, self.subject, self.trials, p, self.sizes)
         found = self._solved(problem, self._last)
         if not found.solved and self._last is not None:
             found = self._solved(problem, None)
@@ -75,7 +76,7 @@ class Movements:
             raise ArithmeticError(found.ending)
         self._last = found
         self.solved, self.seconds = self.solved + 1, self.seconds + found.seconds
-        return Movement(problem, found, asked(self.model, problem, found, slopes=slopes))
+        return Movement(problem, found, asked(self.model, problem, found, slopes=slopes), self.sizes)
 
     def finely_at(self, p: Vector) -> Movement:
         """The same on meshes that are refined for it."""

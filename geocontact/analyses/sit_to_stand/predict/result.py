@@ -13,6 +13,7 @@ import pandas as pd
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.result import Result
 from geocontact.analyses.sit_to_stand.exports import write_motion
+from geocontact.analyses.sit_to_stand.numbers_table import predicted_meshes, prediction_numbers, ran_table
 from geocontact.analyses.sit_to_stand.predict.figure import strap_figure
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.predict.page import write_prediction_page
@@ -98,7 +99,7 @@ class StandingPredictResult(Result):
         ]
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`errors`, `certificate`, and `trial_NAME` by the predictor that is given everything."""
+        """`errors`, `certificate`, `numbers`, `mesh`, and `trial_NAME` by the predictor that is given everything."""
         rows = []
         for one in self.predictions:
             rows += certificate_rows(one.name, [one.trial.recorded.name], [one.trial.judged])
@@ -106,7 +107,8 @@ class StandingPredictResult(Result):
         own = {
             f"trial_{trial.recorded.name}": trial_table(trial, self.given.trials.noise, COMPARED) for trial in self.best
         }
-        return {"errors": self.errors, "certificate": certificates, **own}
+        ran = {"numbers": ran_table(prediction_numbers(self.predictions)), "mesh": predicted_meshes(self.predictions)}
+        return {"errors": self.errors, "certificate": certificates, **ran, **own}
 
     def figure(self) -> Figure:
         """Force of the strap by all predictors."""
