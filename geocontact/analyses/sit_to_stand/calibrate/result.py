@@ -10,6 +10,7 @@ import pandas as pd
 
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.result import Result
+from geocontact.analyses.sit_to_stand.calibrate.numbers import calibration_numbers
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
 from geocontact.analyses.sit_to_stand.calibrate.page import write_standing_page
 from geocontact.analyses.sit_to_stand.calibrate.tables import (
@@ -21,7 +22,7 @@ from geocontact.analyses.sit_to_stand.calibrate.tables import (
 from geocontact.analyses.sit_to_stand.exports import write_motion
 from geocontact.analyses.sit_to_stand.gap_files import write_strap_case
 from geocontact.analyses.sit_to_stand.model_file import write_standing_model
-from geocontact.analyses.sit_to_stand.numbers_table import calibration_numbers, mesh_table, ran_table
+from geocontact.analyses.sit_to_stand.numbers_table import mesh_table, ran_table
 from geocontact.analyses.sit_to_stand.standing_figure import standing_figure
 from geocontact.analyses.sit_to_stand.standing_tables import errors_table, trial_table
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials

@@ -14,7 +14,8 @@ from geocontact.analyses.result import Result
 from geocontact.analyses.sit_to_stand.compare.figure import compared_figure
 from geocontact.analyses.sit_to_stand.compare.options import StandingCompareOptions
 from geocontact.analyses.sit_to_stand.compare.page import write_compared_page
-from geocontact.analyses.sit_to_stand.numbers_table import predicted_meshes, prediction_numbers, ran_table
+from geocontact.analyses.sit_to_stand.numbers_table import ran_table
+from geocontact.analyses.sit_to_stand.predict.numbers import predicted_meshes, prediction_numbers
 from geocontact.analyses.sit_to_stand.predict.predicted_trial import ALL, PredictedTrial
 from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
 from geocontact.analyses.sit_to_stand.predict.searches import complete

@@ -12,6 +12,7 @@ from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.result import Result
 from geocontact.analyses.sit_to_stand.design.chosen import CertifiedDesign, DrawnGain
 from geocontact.analyses.sit_to_stand.design.figure import design_figure
+from geocontact.analyses.sit_to_stand.design.numbers import design_numbers
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
 from geocontact.analyses.sit_to_stand.design.page import write_choice_page
 from geocontact.analyses.sit_to_stand.design.read import TrialsToHelp
@@ -24,7 +25,7 @@ from geocontact.analyses.sit_to_stand.design.tables import (
 )
 from geocontact.analyses.sit_to_stand.exports import write_motion
 from geocontact.analyses.sit_to_stand.model_file import write_standing_model
-from geocontact.analyses.sit_to_stand.numbers_table import design_numbers, mesh_table, ran_table
+from geocontact.analyses.sit_to_stand.numbers_table import mesh_table, ran_table
 from geocontact.io.text.results import write_table
 from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS, AssistedModel
 from geocontact.standing_up.assistance.peaks import MEASURES

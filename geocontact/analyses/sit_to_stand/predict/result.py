@@ -13,8 +13,9 @@ import pandas as pd
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.result import Result
 from geocontact.analyses.sit_to_stand.exports import write_motion
-from geocontact.analyses.sit_to_stand.numbers_table import predicted_meshes, prediction_numbers, ran_table
+from geocontact.analyses.sit_to_stand.numbers_table import ran_table
 from geocontact.analyses.sit_to_stand.predict.figure import strap_figure
+from geocontact.analyses.sit_to_stand.predict.numbers import predicted_meshes, prediction_numbers
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.predict.page import write_prediction_page
 from geocontact.analyses.sit_to_stand.predict.predicted_trial import ALL, MEAN, PredictedTrial
