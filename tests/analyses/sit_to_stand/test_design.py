@@ -61,6 +61,7 @@ def refined() -> StandingDesignResult:
         return gc.sit_to_stand.design(HELD_OUT, parameters=TRUTH, vary="share", nodes=5, degree=3)
 
 
+@pytest.mark.slow
 def test_a_mesh_is_refined_until_every_motion_is_certified(refined: StandingDesignResult) -> None:
     assert refined.accepted, refined.warnings
     mesh = refined.table("certificate")
@@ -70,6 +71,7 @@ def test_a_mesh_is_refined_until_every_motion_is_certified(refined: StandingDesi
     assert rows.loc["chosen", "knee of without help [-]"] == pytest.approx(0.8, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_what_is_not_certified_is_told_with_its_mesh(refined: StandingDesignResult) -> None:
     worn = refined.designs[0]
     (trial,) = worn.trials
