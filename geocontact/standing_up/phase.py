@@ -18,7 +18,7 @@ from numpy.polynomial import Polynomial
 from scipy.interpolate import CubicSpline
 
 from geocontact.dynamics.collocation.multibody import jerk_controlled
-from geocontact.dynamics.collocation.problem import ControlProblem, Course
+from geocontact.dynamics.collocation.problem import Bounds, ControlProblem, Course
 from geocontact.dynamics.symbols import residual, scaled
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.contact_parameter import ContactParameter, bounds, usual
@@ -123,14 +123,7 @@ def standing_phase(
 
     weight = dict.fromkeys(small, 1.0) | dict(weights or {})
     e, n = model.equations, model.count
-    channels = {
-        "coordinates": (e.q, model.per_coordinate(noise.length, noise.angle)),
-        "rates": (e.u, np.full(n, noise.rate)),
-        "force": (model.force, np.full(2, noise.force)),
-        "centre": (model.centre, np.array([noise.centre])),
-        "torque": (model.torques, np.full(n - 3, noise.torque)),
-        "strap": (model.straps, np.full(model.straps.numel(), noise.strap)),
-    }
+    channels = _channels(model, noise)
     width = {name: len(channels[name][1]) for name in tracks}
     recorded = SX.sym("recorded", width["strap"] if model.elsewhere and "strap" in tracks else 0)
     values, share, jerk = SX.sym("values", sum(width.values())), SX.sym("share"), SX.sym("jerk", n)
@@ -153,10 +146,7 @@ def standing_phase(
         prior=belief(e.p, model.parameters, free),
         parameter_names=[each.name for each in model.parameters],
     )
-    low, high = bounds(model.parameters, free)
-    if held is not None:
-        fixed = np.array([each.name not in free for each in model.parameters])
-        low, high = np.where(fixed, held, low), np.where(fixed, held, high)
+    low, high = _bounds(model.parameters, free, held)
     smooth = [smooth_coordinates(trial) for trial in trials]
     begin = first_fit(model, trials, smooth, free, tracks, held) if start is None else start
     begin = np.clip(begin, low, high)
@@ -167,6 +157,30 @@ def standing_phase(
     control = ControlProblem(system, made, (low, high), begin, *problem_scales(subject, n))
     measured = PhaseSizes(noise, RATE, jerk_sizes, weight)
     return PhaseProblem(control, terms, model.parameters, tuple(free), measured)
+
+
+def _channels(model: StandingModel, noise: StandingNoise) -> dict[str, tuple[SX, Float[np.ndarray, " c"]]]:
+    """What may be tracked, and the noise of each entry."""
+    e, n = model.equations, model.count
+    return {
+        "coordinates": (e.q, model.per_coordinate(noise.length, noise.angle)),
+        "rates": (e.u, np.full(n, noise.rate)),
+        "force": (model.force, np.full(2, noise.force)),
+        "centre": (model.centre, np.array([noise.centre])),
+        "torque": (model.torques, np.full(n - 3, noise.torque)),
+        "strap": (model.straps, np.full(model.straps.numel(), noise.strap)),
+    }
+
+
+def _bounds(
+    parameters: Sequence[ContactParameter], free: Sequence[str], held: Float[np.ndarray, " p"] | None
+) -> Bounds:
+    """Of what is searched; what is not free keeps its usual value, or that of `held`."""
+    low, high = bounds(parameters, free)
+    if held is None:
+        return low, high
+    fixed = np.array([each.name not in free for each in parameters])
+    return np.where(fixed, held, low), np.where(fixed, held, high)
 
 
 def belief(p: SX, parameters: Sequence[ContactParameter], free: Sequence[str]) -> SX:
