@@ -22,7 +22,7 @@ class StandingSearchOptions(Options):
     The search
     ----------
     nodes
-        Intervals in a second to begin with; `calibrate` and `predict` halve those that leave too much.
+        Intervals in a second to begin with; those that leave too much of the balance are halved.
     degree
         Collocation points in an interval (Radau).
     iterations

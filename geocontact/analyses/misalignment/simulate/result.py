@@ -16,10 +16,12 @@ from geocontact.analyses.misalignment.simulate.displacement_surfaces import Surf
 from geocontact.analyses.misalignment.simulate.figure import surface_figure
 from geocontact.analyses.misalignment.simulate.gap_case import UNITS, gap_case
 from geocontact.analyses.misalignment.simulate.loaded_trial import LoadedTrial
+from geocontact.analyses.misalignment.simulate.numbers import numbers_table
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
 from geocontact.analyses.misalignment.simulate.page import write_simulation_report
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.result import Result
+from geocontact.axis_misalignment.synthetic import Design
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.io.cases.gap_case_writer import write_gap_case
 from geocontact.io.text.results import write_table
@@ -44,12 +46,15 @@ class SimulateResult(Result):
         Each trial with the moment on the cuff and what becomes of the actuator's torque.
     surfaces
         Displacement over the angle and each offset, with the same link.
+    design
+        How trials were made; None along recorded angles.
     """
 
     options: SimulateOptions
     numbers: Mapping[str, float]
     made: tuple[LoadedTrial, ...]
     surfaces: Surfaces
+    design: Design | None
 
     @property
     def trials(self) -> tuple[ElbowRecording, ...]:
@@ -64,15 +69,16 @@ class SimulateResult(Result):
         return told if stroke is None else {**told, "stroke_mm": [end * 1e3 for end in stroke]}
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """One table per trial, by its name, and `surfaces`."""
-        return {**{each.recording.name: each.table() for each in self.made}, "surfaces": self.surfaces.table()}
+        """One table per trial, by its name, `surfaces`, and `numbers` with all that ran."""
+        own = {each.recording.name: each.table() for each in self.made}
+        return {**own, "surfaces": self.surfaces.table(), "numbers": numbers_table(self.made, self.design)}
 
     def figure(self) -> Figure:
         """Displacement over the angle and each offset."""
         return surface_figure(self.surfaces)
 
     def write_files(self, folder: Path) -> None:
-        """A table per trial that says what it is, truth.json, surfaces, page; the gap case where it is asked for."""
+        """A table per trial that says what it is, truth.json, numbers, surfaces, page; the gap case if asked for."""
         for name, table in self.tables().items():
             write_table(table, folder, name)
         for each in self.trials:

@@ -25,21 +25,21 @@ GRID = 181  # angles at which a pole is looked for
 def run(recordings: Sequence[ElbowRecording], o: SimulateOptions, record: Record) -> SimulateResult:
     """Trials with the numbers asked for, or the paper's, and surfaces of the displacement."""
     numbers = {**PAPER, **(o.numbers or {})}
-    made = [_along(each, numbers, o) for each in recordings] if recordings else _made(numbers, o)
+    design = None if recordings else _design(o)
+    made = [_along(each, numbers, o) for each in recordings] if design is None else _made(numbers, design, o)
     for trial in made:
         each = trial.recording
         low, high = np.degrees([each.beta.min(), each.beta.max()])
         span = f"{each.force.min():.1f} … {each.force.max():.1f} N over {low:.0f} … {high:.0f}°"
         record.say(f"{each.name}, synthetic: {span}, {each.time[-1] - each.time[0]:g} s{_said(trial, o)}")
     maps = surfaces(numbers["l"], numbers["z"])
-    result = SimulateResult(record=record, options=o, numbers=numbers, made=tuple(made), surfaces=maps)
+    result = SimulateResult(record=record, options=o, numbers=numbers, made=tuple(made), surfaces=maps, design=design)
     record.results["truth"] = result.truth
     return result
 
 
-def _made(numbers: Mapping[str, float], o: SimulateOptions) -> list[LoadedTrial]:
+def _made(numbers: Mapping[str, float], design: Design, o: SimulateOptions) -> list[LoadedTrial]:
     """Recordings after the paper's experiment."""
-    design = _design(o)
     _refuse_numbers(numbers, np.linspace(*design.reach, GRID))
     rng = np.random.default_rng(SEED if o.seed is None else o.seed)
     count = TRIALS if o.trials is None else o.trials
