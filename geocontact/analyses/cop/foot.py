@@ -252,7 +252,7 @@ def chosen_plate(record: Record, o: CopOptions) -> ForcePlate | None:
     """The plate to compare with, in our frame; None where none is asked for."""
     if o.compare is None:
         return None
-    plate = plate_named(read_force_plates(o.compare), o.plate, o.compare, "`plate`")
+    plate = plate_named(read_force_plates(o.compare, o.c3d_unit), o.plate, o.compare, "`plate`")
     record.add_input("`compare`", o.compare, plate=plate.name)
     if o.plate_pose is None:
         return plate

@@ -13,6 +13,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.misalignment.law_numbers import with_units
+from geocontact.analyses.misalignment.simulate.numbers import numbers_table
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
 from geocontact.analyses.misalignment.simulate.show import simulation_page, surface_figure
 from geocontact.analyses.misalignment.simulate.trials import UNITS, LoadedTrial, Surfaces, gap_case, loaded, surfaces
@@ -46,12 +47,15 @@ class SimulateResult(Result):
         Each trial with the moment on the cuff and what becomes of the actuator's torque.
     surfaces
         Displacement over the angle and each offset, with the same link.
+    design
+        How trials were made; None along recorded angles.
     """
 
     options: SimulateOptions
     numbers: Mapping[str, float]
     made: tuple[LoadedTrial, ...]
     surfaces: Surfaces
+    design: Design | None
 
     @property
     def trials(self) -> tuple[ElbowRecording, ...]:
@@ -66,8 +70,9 @@ class SimulateResult(Result):
         return told if stroke is None else {**told, "stroke_mm": [end * 1e3 for end in stroke]}
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """One table per trial, by its name, and `surfaces`."""
-        return {**{each.recording.name: each.table() for each in self.made}, "surfaces": self.surfaces.table()}
+        """One table per trial, by its name, `surfaces`, and `numbers` with all that ran."""
+        own = {each.recording.name: each.table() for each in self.made}
+        return {**own, "surfaces": self.surfaces.table(), "numbers": numbers_table(self.made, self.design)}
 
     def figures(self) -> dict[str, Figure]:
         """`surfaces`: displacement over the angle and each offset."""
@@ -98,21 +103,21 @@ GRID = 181  # angles at which a pole is looked for
 def run(recordings: Sequence[ElbowRecording], o: SimulateOptions, record: Record) -> SimulateResult:
     """Trials with the numbers asked for, or the paper's, and surfaces of the displacement."""
     numbers = {**PAPER, **(o.numbers or {})}
-    made = [_along(each, numbers, o) for each in recordings] if recordings else _made(numbers, o)
+    design = None if recordings else _design(o)
+    made = [_along(each, numbers, o) for each in recordings] if design is None else _made(numbers, design, o)
     for trial in made:
         each = trial.recording
         low, high = np.degrees([each.beta.min(), each.beta.max()])
         span = f"{each.force.min():.1f} … {each.force.max():.1f} N over {low:.0f} … {high:.0f}°"
         record.say(f"{each.name}, synthetic: {span}, {each.time[-1] - each.time[0]:g} s{_said(trial, o)}")
     maps = surfaces(numbers["l"], numbers["z"])
-    result = SimulateResult(record=record, options=o, numbers=numbers, made=tuple(made), surfaces=maps)
+    result = SimulateResult(record=record, options=o, numbers=numbers, made=tuple(made), surfaces=maps, design=design)
     record.results["truth"] = result.truth
     return result
 
 
-def _made(numbers: Mapping[str, float], o: SimulateOptions) -> list[LoadedTrial]:
+def _made(numbers: Mapping[str, float], design: Design, o: SimulateOptions) -> list[LoadedTrial]:
     """Recordings after the paper's experiment."""
-    design = _design(o)
     _refuse_numbers(numbers, np.linspace(*design.reach, GRID))
     rng = np.random.default_rng(SEED if o.seed is None else o.seed)
     count = TRIALS if o.trials is None else o.trials

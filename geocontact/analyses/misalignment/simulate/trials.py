@@ -40,10 +40,26 @@ def read(o: SimulateOptions, record: Record) -> tuple[ElbowRecording, ...]:
 
 @dataclass(frozen=True, eq=False)
 class LoadedTrial:
-    """A recording, and the loads that go with its force and angle."""
+    """A recording, and the loads that go with its force and angle.
+
+    Parameters
+    ----------
+    numbers
+        Of the law in this trial, in SI.
+    stroke
+        Of the compensation joint [m]; None where it is locked.
+    mean_pressure
+        At which the stiffness is k [Pa].
+    turning
+        Stiffness of the cuff against turning [N m/rad].
+    """
 
     recording: ElbowRecording
     loads: CuffLoads
+    numbers: Mapping[str, float]
+    stroke: tuple[float, float] | None
+    mean_pressure: float
+    turning: float
 
     def table(self) -> pd.DataFrame:
         """What was recorded, γ and the cuff's moment; with an actuator's torque what becomes of it."""
@@ -77,7 +93,8 @@ def loaded(
     rigid = numbers if numbers["c"] else {**numbers, "b": 0.0}
     rest = at_rest(r.time, r.beta, rigid, stroke, pressure, torque, o.turning)
     link = numbers["l"], numbers["z"]
-    return LoadedTrial(r, cuff_loads(r.beta, link, replace(rest, force=r.force), turning=o.turning, torque=torque))
+    loads = cuff_loads(r.beta, link, replace(rest, force=r.force), turning=o.turning, torque=torque)
+    return LoadedTrial(r, loads, numbers, stroke, mean_pressure, o.turning)
 
 
 ANGLES = np.radians(np.arange(0.0, 136.0, 1.0))

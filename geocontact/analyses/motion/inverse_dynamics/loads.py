@@ -47,7 +47,7 @@ def loads_on_bodies(
     file, loads = _given(record, o)
     if file is None:
         return {}
-    plates = read_force_plates(file)
+    plates = read_force_plates(file, o.c3d_unit)
     record.add_input("plates", file, plates=len(plates))
     if o.axes is not None and all(load.moves for load in loads):
         raise InputError(file, "`axes`", "has no effect: all loads are expressed in bodies", "leave it out")
@@ -58,7 +58,8 @@ def loads_on_bodies(
             if body and body not in names:
                 raise InputError(o.loads or "", load.plate, f"no body '{body}'", f"bodies are: {listed(names)}")
         named = "`plate`" if o.loads is None else f"{o.loads} <force_identifier>"
-        plate, poses = plate_named(plates, load.plate, file, named), model.poses(values)
+        plate = plate_named(plates, load.plate, file, named, _weight(model), not load.force_frame)
+        poses = model.poses(values)
         if load.moves:
             wrench = _carried(file, plate, load, o.threshold, time, poses)
         else:
@@ -84,6 +85,11 @@ def _given(record: Record, o: IdOptions) -> tuple[Path | None, tuple[ExternalLoa
             raise InputError("", "`plate`", f"'{text}' is not a plate and a body", "write 1=calcn_r")
         chosen.append(ExternalLoad(plate, body))
     return o.plates, tuple(chosen)
+
+
+def _weight(model: Multibody) -> float:
+    """Of all bodies [N]."""
+    return model.mass * float(np.linalg.norm(model.gravity))
 
 
 def _turned(plate: ForcePlate, o: IdOptions, file: Path, model: Multibody) -> ForcePlate:

@@ -42,7 +42,7 @@ def read(o: ScaleOptions, record: Record) -> Standing:
     model = read_multibody(o.model)
     record.add_input("`model`", o.model, bodies=len(model.bodies), markers=len(model.markers))
     model = with_marker_set(record, model, o.model, o.marker_set)
-    whole = renamed(record, markers_given(o.static, o.axes, o.time), model, o.markers_map)
+    whole = renamed(record, markers_given(o.static, o.axes, o.time, o.c3d_unit), model, o.markers_map)
     seen = _standing(record, whole)
     record.add_input("static", o.static, frames=len(whole), markers=len(seen.names))
     factors = factors_told(model, _measured(o, record, model, whole), o.scale)
@@ -57,7 +57,7 @@ def _measured(o: ScaleOptions, record: Record, model: Multibody, standing: Marke
         named = "`sizes`" if o.sizes is not None else "`sizes_time`"
         raise InputError("", named, "has no effect: no body is measured", "name pairs of markers with `scale`")
     file, time = o.sizes or o.static, o.sizes_time if o.sizes_time is not None or o.sizes is not None else o.time
-    seen = renamed(record, markers_given(file, o.axes, time), model, o.markers_map)
+    seen = renamed(record, markers_given(file, o.axes, time, o.c3d_unit), model, o.markers_map)
     if o.sizes is not None:
         record.add_input("`sizes`", o.sizes, frames=len(seen), markers=len(seen.names))
     return seen

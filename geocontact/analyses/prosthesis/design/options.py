@@ -7,7 +7,17 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import BodyMass, Degrees, Expression, Fraction, Length, Options, PartLength, Spelled
+from geocontact.analyses.options import (
+    BodyMass,
+    C3dUnit,
+    Degrees,
+    Expression,
+    Fraction,
+    Length,
+    Options,
+    PartLength,
+    Spelled,
+)
 from geocontact.analyses.prosthesis.ranges import EDGE, FULCRUM, PERSON, SLOPE
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import CUTOFF, GAP, NOISE, SHIFT, TILT
@@ -107,6 +117,8 @@ class ProsthesisDesignOptions(Options):
     axes
         Which of the markers' axes are x (forward along the walk), y (upwards) and z: x,z,-y where the laboratory's z
         is up.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     """
 
     markers: Path
@@ -140,6 +152,7 @@ class ProsthesisDesignOptions(Options):
     gap_limit: Annotated[float, GAP] = 0.2
     markers_map: str | None = None
     axes: Expression | None = None
+    c3d_unit: C3dUnit = None
 
     def refuse_impossible(self) -> None:
         """Too few draws, a probability that is none, a plate of a trial that is not named."""

@@ -50,10 +50,10 @@ def read(o: ProsthesisDesignOptions, record: Record) -> FootAndTrial:
     """Everything the options name."""
     with record.listener.preparing():
         foot = foot_with_law(record, vsf_foot(), o.law)
-    plate, name = plate_under_foot(record, o.plates, o.plate, o.side, o.mass)
+    plate, name = plate_under_foot(record, o.plates, o.plate, o.side, o.mass, o.c3d_unit)
     trial = RecordedTrial(
-        standing=right_markers(record, "`static`", o.static, o.side, o.axes, o.markers_map),
-        walking=right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map),
+        standing=right_markers(record, "`static`", o.static, o.side, o.axes, o.markers_map, o.c3d_unit),
+        walking=right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map, o.c3d_unit),
         plate=plate,
         person=Person(o.mass),
         keel=foot.keel,

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import BodyMass, Expression, Fraction, Options, PartLength, Spelled, TimeSpan
+from geocontact.analyses.options import BodyMass, C3dUnit, Expression, Fraction, Options, PartLength, Spelled, TimeSpan
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, RESIDUAL, TURNS, require_turns
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import CUTOFF, GAP
@@ -78,6 +78,8 @@ class ProsthesisSimulateOptions(Options):
     axes
         Which of the markers' axes are x (forward along the walk), y (upwards) and z: x,z,-y where the laboratory's z
         is up.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     time
         First and last time [s]: 0.4:1.6. It has to begin before touch-down.
     """
@@ -106,6 +108,7 @@ class ProsthesisSimulateOptions(Options):
     machine_code: bool = False
     markers_map: str | None = None
     axes: Expression | None = None
+    c3d_unit: C3dUnit = None
     time: TimeSpan | None = None
 
     def refuse_impossible(self) -> None:
