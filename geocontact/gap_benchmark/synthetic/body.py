@@ -10,6 +10,7 @@ from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs, Values
+from geocontact.gap_benchmark.synthetic.plan import EffectNumbers
 
 Numbers = Mapping[str, float]
 
@@ -35,6 +36,8 @@ class SyntheticSystem:
         (course, constants) → outputs of the base model as a function of its parameters.
     motion
         (course, numbers) → deflections of the base model and their rates, "... t" with one row per interface.
+    effects
+        Which effects may be injected, and their numbers.
     loads
         Outputs that are forces.
     normal
@@ -54,6 +57,8 @@ class SyntheticSystem:
         outputs follow the inputs and their rates of the moment.
     fine
         Steps of the truth per sample to begin with.
+    quickest
+        How much quicker than at home it may move, so that a high rate does not make too many samples.
     recorded
         Outputs as a laboratory has them: NaN where nothing is measured.
     """
@@ -61,6 +66,7 @@ class SyntheticSystem:
     respond: Callable[[InputCourse, Numbers, Hooks], Outputs]
     base_model: Callable[[InputCourse, Numbers], Callable[[Values], Values]]
     motion: Callable[[InputCourse, Numbers], tuple[Values, Values]]
+    effects: EffectNumbers
     loads: tuple[int, ...] = (0,)
     normal: tuple[int, ...] = (0,)
     places: tuple[Site, ...] = ()
@@ -70,4 +76,5 @@ class SyntheticSystem:
     patchy: tuple[int, ...] = ()
     passed_on: Callable[[InputCourse, Numbers, int, Values], Values] | None = None
     fine: int = 10
+    quickest: float = 1.0
     recorded: Callable[[Float[np.ndarray, "c t"]], Float[np.ndarray, "c t"]] = np.asarray

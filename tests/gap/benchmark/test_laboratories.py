@@ -13,6 +13,7 @@ from scipy.stats import kurtosis
 from geocontact.gap_benchmark.drawing import ABROAD, HOME, Lot, drawn, lots
 from geocontact.gap_benchmark.synthetic import LABORATORIES, cases, synthetic_case
 from geocontact.gap_benchmark.synthetic.base_fit import jacobian
+from geocontact.gap_benchmark.synthetic.catalogue import SCENES
 from geocontact.gap_benchmark.synthetic.equipment.clock import Clock
 from geocontact.gap_benchmark.synthetic.equipment.placement import Placement
 from geocontact.gap_benchmark.synthetic.equipment.power_law import PowerLawNoise
@@ -25,7 +26,6 @@ from geocontact.gap_benchmark.synthetic.laboratories.paced import Pace
 from geocontact.gap_benchmark.synthetic.laboratories.placement import ANGLE, GAIN, LENGTH, placement_of
 from geocontact.gap_benchmark.synthetic.plan import NotFoundError
 from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
-from geocontact.gap_benchmark.synthetic.scenes import SCENES
 from geocontact.gap_benchmark.synthetic.trials import as_measured, record, samples, sensed
 from geocontact.gap_benchmark.synthetic.visibility import whitener
 

@@ -20,8 +20,6 @@ SLOWEST, FASTEST = 25.0, 1000.0
 """Samples per second."""
 MOST, MOST_OF_ALL = 1100, 2200
 """Samples of a channel, and of all outputs, in a trial; a trial has no more, since whole covariances are inverted."""
-QUICKEST = {"elbow": 10.0, "shoulder": 1.4}
-"""How much quicker than at home a device may move, so that a high rate does not make too many samples."""
 COARSEST, FINEST = 2.0, 0.05
 """Step of an output's numbers, in standard deviations of its noise."""
 COARSEST_INPUT = 1.0
@@ -56,7 +54,7 @@ def recorder_laboratory(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
 
 def at_another_rate(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
     """The scene at 25 to 1000 samples per second, as far as a trial has room; what nobody filtered is filtered now."""
-    quicker = float(np.exp(rng.uniform(0.0, np.log(QUICKEST.get(scene.system, 1.0)))))
+    quicker = float(np.exp(rng.uniform(0.0, np.log(scene.body.quickest))))
     scene = paced(scene, lambda _, duration: Pace.even(duration, quicker))
     duration = scene.path(rng, 0)(np.zeros(1)).duration
     most = min(MOST, MOST_OF_ALL / len(scene.outputs)) / (1.15 * duration)
