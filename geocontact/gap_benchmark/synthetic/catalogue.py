@@ -1,8 +1,9 @@
-"""Scenes by system, and every injected effect; mistakes in the data are exact and stand in `data_errors`."""
+"""Scenes by system, laboratories, and every injected effect; mistakes in the data are exact, in `data_errors`."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 
 from geocontact.gap_benchmark.synthetic.effects.attachment import CONTACT_LOSS, DEAD_ZONE, SERIES_COMPLIANCE, SLIP
 from geocontact.gap_benchmark.synthetic.effects.delays import AVERAGING, FILTER_LAG, TIME_SHIFT
@@ -29,9 +30,13 @@ from geocontact.gap_benchmark.synthetic.effects.sensors import (
     SMALL_LOADS,
 )
 from geocontact.gap_benchmark.synthetic.effects.unknown import UNKNOWN
-from geocontact.gap_benchmark.synthetic.equipment.laboratory import Forms
+from geocontact.gap_benchmark.synthetic.laboratories.inputs import inputs_laboratory
+from geocontact.gap_benchmark.synthetic.laboratories.kinds import LABORATORY_KINDS, laboratory_of_kind
+from geocontact.gap_benchmark.synthetic.laboratories.placement import placement_laboratory
+from geocontact.gap_benchmark.synthetic.laboratories.recorder import recorder_laboratory
+from geocontact.gap_benchmark.synthetic.laboratory import Forms
 from geocontact.gap_benchmark.synthetic.plan import EffectNumbers, InjectionPlan
-from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 from geocontact.gap_benchmark.synthetic.systems import elbow, foot, knee, shoulder, sit_to_stand
 
 SCENES: Mapping[str, Callable[..., SyntheticScene]] = {
@@ -81,6 +86,14 @@ PLANS: tuple[InjectionPlan, ...] = (
 )
 SECOND = {one.name: one for one in (AVERAGING, LEANING, ONE_SIDED, SMALL_LOADS, CREEPING, LOCKING, STICKING, THINNING)}
 """Effects that have a second family of equations; the others are of the first in either."""
+
+LABORATORIES: Mapping[str, Callable[[Rng, SyntheticScene], SyntheticScene]] = {
+    "home": lambda _, scene: scene,
+    "recorder": recorder_laboratory,
+    "placement": placement_laboratory,
+    "inputs": inputs_laboratory,
+    **{name: partial(laboratory_of_kind, kind=kind) for name, kind in LABORATORY_KINDS.items()},
+}
 
 
 def plans(system: str, forms: Forms = "first") -> tuple[InjectionPlan, ...]:

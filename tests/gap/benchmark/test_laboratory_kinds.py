@@ -12,17 +12,21 @@ from geocontact.gap_benchmark import drawing
 from geocontact.gap_benchmark.synthetic import cases
 from geocontact.gap_benchmark.synthetic.cases import prepared
 from geocontact.gap_benchmark.synthetic.catalogue import NUMBERS, SCENES, SECOND, plans
-from geocontact.gap_benchmark.synthetic.equipment.clock import Clock
-from geocontact.gap_benchmark.synthetic.equipment.disturbed import FilteredNoise, Humming, Knocked
-from geocontact.gap_benchmark.synthetic.equipment.placement import Placement
-from geocontact.gap_benchmark.synthetic.equipment.power_law import PowerLawNoise
-from geocontact.gap_benchmark.synthetic.equipment.wandering import Wandering
-from geocontact.gap_benchmark.synthetic.equipment.warm_up import WarmUp
-from geocontact.gap_benchmark.synthetic.laboratories.kinds import LABORATORY_KINDS, SIDES, kinds_of
-from geocontact.gap_benchmark.synthetic.laboratories.of_kind import TRIALS
+from geocontact.gap_benchmark.synthetic.laboratories.kinds import LABORATORY_KINDS, SIDES, TRIALS, kinds_of
 from geocontact.gap_benchmark.synthetic.laboratories.placement import placed_as_usual
-from geocontact.gap_benchmark.synthetic.noise import Coloured, NoiseFilter, SensorNoise
-from geocontact.gap_benchmark.synthetic.slight import UNSEEN, slightly_wrong
+from geocontact.gap_benchmark.synthetic.laboratories.unseen import UNSEEN, slightly_wrong
+from geocontact.gap_benchmark.synthetic.laboratory import Placement, WarmUp
+from geocontact.gap_benchmark.synthetic.noise import (
+    Coloured,
+    FilteredNoise,
+    Humming,
+    Knocked,
+    NoiseFilter,
+    PowerLawNoise,
+    SensorNoise,
+    Wandering,
+)
+from geocontact.gap_benchmark.synthetic.recording import Clock
 from geocontact.gap_benchmark.synthetic.trials import record
 from geocontact.gap_benchmark.synthetic.visibility import floor, sight, whitener
 from tests.gap.benchmark.scene_of_kind import scene_of

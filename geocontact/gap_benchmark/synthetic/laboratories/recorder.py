@@ -7,12 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.course import Path
-from geocontact.gap_benchmark.synthetic.equipment.clock import Clock
-from geocontact.gap_benchmark.synthetic.equipment.power_law import PowerLawNoise
-from geocontact.gap_benchmark.synthetic.equipment.recorder import Quotient, Recorder
 from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import Sizes, another_device, sampled, sizes
-from geocontact.gap_benchmark.synthetic.laboratories.paced import Pace, paced
-from geocontact.gap_benchmark.synthetic.noise import FAR_FROM_NYQUIST, USUAL, NoiseFilter
+from geocontact.gap_benchmark.synthetic.laboratories.movements import Pace, paced
+from geocontact.gap_benchmark.synthetic.noise import FAR_FROM_NYQUIST, USUAL, NoiseFilter, PowerLawNoise
+from geocontact.gap_benchmark.synthetic.recording import Clock, Quotient, Recorder
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 from geocontact.gap_benchmark.synthetic.trials import samples
 

@@ -12,7 +12,6 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.parameter import Parameter
-from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.course import InputCourse, Path
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values, read
 from geocontact.gap_benchmark.synthetic.noise import NoiseFilter, corner_of
@@ -25,7 +24,7 @@ from geocontact.gap_benchmark.synthetic.plan import (
     EffectNumbers,
     SeriesSpring,
 )
-from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, SyntheticSystem, colour
 from geocontact.gap_benchmark.synthetic.systems.interface import in_series, pull
 
 INPUTS, OUTPUTS = ("beta",), ("force",)

@@ -15,12 +15,11 @@ from jaxtyping import Float, Int
 from scipy.interpolate import CubicSpline
 
 from geocontact.data.parameter import Parameter
-from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.course import KNOTS, InputCourse, Path, logistic, smoothed, through
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs, Pull, Values, read
 from geocontact.gap_benchmark.synthetic.noise import NoiseFilter, corner_of
 from geocontact.gap_benchmark.synthetic.plan import COMMON, COMMON_UNKNOWN, Biased, EffectNumbers, SeriesSpring
-from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, SyntheticSystem, colour
 from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError, give_way
 
 INPUTS, OUTPUTS = ("x", "y", "pitch"), ("force_x", "force_y", "cop_x")

@@ -13,7 +13,6 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.parameter import Parameter
-from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.course import KNOTS, InputCourse, Path, smoothed, through
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values, read
 from geocontact.gap_benchmark.synthetic.noise import NoiseFilter, corner_of
@@ -25,7 +24,7 @@ from geocontact.gap_benchmark.synthetic.plan import (
     EffectNumbers,
     SyntheticMagnitudes,
 )
-from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, SyntheticSystem, colour
 from geocontact.gap_benchmark.synthetic.systems.interface import pull
 
 SIDES = ("medial", "lateral")

@@ -16,7 +16,6 @@ from jaxtyping import Float, Int
 from scipy.interpolate import CubicSpline
 
 from geocontact.data.parameter import Parameter
-from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.course import InputCourse, Path, reached, through
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Swing, Values, read
 from geocontact.gap_benchmark.synthetic.noise import NoiseFilter, corner_of
@@ -29,7 +28,7 @@ from geocontact.gap_benchmark.synthetic.plan import (
     DriftingLength,
     EffectNumbers,
 )
-from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, SyntheticSystem, colour
 from geocontact.gap_benchmark.synthetic.systems.interface import in_series, pull
 from geocontact.gap_benchmark.synthetic.systems.swing import GRAVITY, Arm, Torque, at_rest, follow, swing, tick
 

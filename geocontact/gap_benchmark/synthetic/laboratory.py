@@ -1,15 +1,16 @@
-"""What sits a little elsewhere in every trial: constants, zeros of inputs, gains and zeros of outputs."""
+"""Who records a scene: with what, how far things sit elsewhere in every trial, and sensors that warm up."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.course import InputCourse
+from geocontact.gap_benchmark.synthetic.recording import AT_ONCE, EXACT, USUAL, Clock, Recorder, Sampler
 
 Outputs = Float[np.ndarray, "c t"]
 
@@ -95,3 +96,57 @@ def _sum(one: Mapping[Any, float], other: Mapping[Any, float]) -> dict[Any, floa
 
 IN_PLACE = Placement()
 """Nothing is off."""
+
+
+@dataclass(frozen=True)
+class WarmUp:
+    """Off by `cold` exp(-turn/`trials`) in the trial of number `turn`."""
+
+    cold: Placement = IN_PLACE
+    trials: float = 1.0
+
+    def at(self, turn: int) -> Placement:
+        """What is left in a trial."""
+        return self.cold.times(np.full(len(self.cold), np.exp(-turn / self.trials)))
+
+
+WARM = WarmUp()
+"""Nothing is off."""
+
+
+Forms = Literal["first", "second"]
+"""Family of equations that effects are planted by."""
+
+
+@dataclass(frozen=True)
+class Laboratory:
+    """Drawn for one case: what records it, when, how far things are off, and how many trials there are.
+
+    Parameters
+    ----------
+    recorder, clock, sampler
+        Of all trials.
+    placement
+        How far things are off in each trial, drawn anew in every one (standard deviations).
+    standing
+        How far constants are off from what is told, the same in all trials.
+    warm_up
+        What channels are off by until the sensors are warm.
+    trials
+        How many for calibration and for evaluation; drawn where None.
+    forms
+        Of what is planted.
+    """
+
+    recorder: Recorder = EXACT
+    clock: Clock = USUAL
+    sampler: Sampler = AT_ONCE
+    placement: Placement = IN_PLACE
+    standing: Placement = IN_PLACE
+    warm_up: WarmUp = WARM
+    trials: tuple[int, int] | None = None
+    forms: Forms = "first"
+
+
+HOME = Laboratory()
+"""Adds nothing to a scene: noise as large everywhere, numbers in full, even samples, everything in its place."""
