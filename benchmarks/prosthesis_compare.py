@@ -14,9 +14,9 @@ from pathlib import Path
 
 import geocontact as gc
 from benchmarks.machine import write_results
-from geocontact.analyses.prosthesis.trial_files import trial_files
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, Walker
-from geocontact.below_knee_prosthesis.synthetic.trial import synthetic_trial
+from meshes.gait_persons import PARTICIPANTS, Walker
+from meshes.gait_trial import synthetic_trial
+from meshes.gait_trial_files import trial_files
 
 SETTINGS, TRIALS = ("medium", "low", "high"), 3
 MISSING = {"P2_medium_3", "P4_high_3"}

@@ -23,8 +23,8 @@ from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
-from geocontact.below_knee_prosthesis.synthetic.course import GaitCourse, course
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, STANCE, true_leg
+from meshes.gait_course import GaitCourse, course
+from meshes.gait_persons import PARTICIPANTS, STANCE, true_leg
 
 TOLERANCES = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5)
 REFERENCE, REPEATS = 1e-7, 3

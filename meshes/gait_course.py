@@ -22,11 +22,11 @@ from geocontact.below_knee_prosthesis.model.leg import Leg
 from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Push
-from geocontact.below_knee_prosthesis.synthetic.persons import SPEED, TOE_OUT
 from geocontact.dynamics.symbols import constant
 from geocontact.dynamics.tree import tree_of
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.identify.signals.zero_lag import zero_lag
+from meshes.gait_persons import SPEED, TOE_OUT
 
 if TYPE_CHECKING:
     from casadi import Function

@@ -23,9 +23,9 @@ from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.model.leg import Leg, Side
 from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
-from geocontact.below_knee_prosthesis.synthetic.course import GaitCourse, course
-from geocontact.below_knee_prosthesis.synthetic.persons import STANCE, Walker, marker_places, true_leg
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from meshes.gait_course import GaitCourse, course
+from meshes.gait_persons import STANCE, Walker, marker_places, true_leg
 
 JOINTS, FINER, ROWS = 12, 2, 2
 """Of the truth's keel and sole: joints, factor on the rows of spheres, spheres in a row."""

@@ -16,9 +16,9 @@ from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import IntactLeg
-from geocontact.below_knee_prosthesis.synthetic.course import UNDER, footfall
-from geocontact.below_knee_prosthesis.synthetic.persons import SPEED, TOE_OUT
 from geocontact.identify.signals.zero_lag import zero_lag
+from meshes.gait_course import UNDER, footfall
+from meshes.gait_persons import SPEED, TOE_OUT
 
 STRIKE, FLAT, RISE, OFF = np.radians(14.0), 0.12, 0.55, np.radians(-50.0)
 """Pitch at heel strike; shares of the stance at which the foot lies flat and its heel rises; pitch at toe-off."""

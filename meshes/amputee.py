@@ -20,7 +20,9 @@ from geocontact.below_knee_prosthesis.from_markers.marker_names import BODIES, I
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.model.leg import Person
-from geocontact.below_knee_prosthesis.synthetic.persons import (
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Marker, Multibody
+from meshes.gait_persons import (
     ANKLE,
     HIP,
     KNEE_RADIUS,
@@ -31,9 +33,7 @@ from geocontact.below_knee_prosthesis.synthetic.persons import (
     marker_places,
     true_leg,
 )
-from geocontact.below_knee_prosthesis.synthetic.trial import CAMERA_NOISE, STANDING_FRAMES, skin_error
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
-from geocontact.data.multibody.model import Marker, Multibody
+from meshes.gait_trial import CAMERA_NOISE, STANDING_FRAMES, skin_error
 
 ANKLE_RADIUS, FOOT = 0.036, 0.152
 """m; half the distance of the malleoli; length of the foot over the stature (Drillis & Contini 1966)."""

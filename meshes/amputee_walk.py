@@ -8,8 +8,8 @@ from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.equations_of_both import FREE, moving_tree
 from geocontact.below_knee_prosthesis.both_sides.walk import GivenWalk, walk_by_angles
 from geocontact.below_knee_prosthesis.model.leg_tree import PELVIS, RECORDED
-from geocontact.below_knee_prosthesis.synthetic.course import course
-from geocontact.below_knee_prosthesis.synthetic.intact_walk import ANGLES, intact_walk
+from meshes.gait_course import course
+from meshes.intact_walk import ANGLES, intact_walk
 
 
 def amputee_walk(truth: Amputee, stance: float) -> tuple[GivenWalk, tuple[float, float]]:

@@ -7,9 +7,9 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.below_knee_prosthesis.synthetic.amputee import StandingTrials
-from geocontact.below_knee_prosthesis.synthetic.trial import GaitTrial
 from geocontact.io.mocap.trc_writer import trc_text
+from meshes.amputee import StandingTrials
+from meshes.gait_trial import GaitTrial
 
 DECIMALS = 2
 """Of a millimetre."""
