@@ -9,9 +9,9 @@ from jaxtyping import Float
 
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
-from geocontact.standing_up.synthetic_study import SyntheticStudy
-from geocontact.standing_up.synthetic_unloaded import synthetic_unloaded
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
+from meshes.standing_study import SyntheticStudy
+from meshes.standing_unloaded import synthetic_unloaded
 
 SITTING, PUSHING = 0.3, 0.2
 """Time before seat-off that the files hold, and within it the time in which the chair is left [s]."""
