@@ -2,7 +2,7 @@
 
     python -m benchmarks.prosthesis_stance [--settings low medium high] [--persons 0 1] [--plain]
 
-For each setting and person the invented course of `below_knee_prosthesis.synthetic` is simulated with the foot of 24
+For each setting and person the invented course of `meshes.gait_course` is simulated with the foot of 24
 spheres, at several tolerances; the reference is a tolerance a hundred times smaller than the smallest of them. Errors
 are of the resultant ground reaction at 500 Hz over body weight: root mean square and largest, where either carries 20
 N. Times are CPU seconds of `Stepper.simulate` alone, medians of `REPEATS`, with machine code and, with `--plain`,
