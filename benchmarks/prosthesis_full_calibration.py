@@ -34,8 +34,8 @@ from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedSta
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration, calibrate_whole
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, Walker
-from geocontact.below_knee_prosthesis.synthetic.trial import synthetic_trial
+from meshes.gait_persons import PARTICIPANTS, Walker
+from meshes.gait_trial import synthetic_trial
 
 FITTED = "medium_1"
 RESULTS = Path(__file__).resolve().parent / "results" / "prosthesis_full_calibration.json"

@@ -81,7 +81,7 @@ BREAKS = [
     ("geometry/plane.py", "import matplotlib.pyplot", PLOTS),
     ("gap/localise/gap_map.py", "def late():\n    import pyvista", PLOTS),
     ("geometry/plane.py", "from geocontact import read_mesh", DOOR),
-    ("gap_benchmark/synthetic/systems/elbow/model.py", "import geocontact.chain.links", PLANTED),
+    ("gap_benchmark/synthetic/systems/elbow.py", "import geocontact.chain.links", PLANTED),
     ("gap_benchmark/synthetic/noise.py", "def late():\n    import geocontact.gap.case.refit", PLANTED),
     ("gap_benchmark/synthetic/cases.py", "import geocontact.gap_benchmark.score", PLANTED),
     ("gap/diagnose.py", "import geocontact.gap_benchmark.synthetic.label", WITHHELD),

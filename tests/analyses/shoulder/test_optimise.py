@@ -17,7 +17,6 @@ from geocontact.analyses.shoulder.optimise.read import read, support_of
 from geocontact.analyses.shoulder.optimise.result import ShoulderOptimiseResult
 from geocontact.analyses.shoulder.optimise.run import WORST, of_others
 from geocontact.analyses.shoulder.support_profiles import read_profiles
-from geocontact.analyses.shoulder.trial_files import trial_files
 from geocontact.data.errors import InputError
 from geocontact.io.text.results import write_table
 from geocontact.shoulder_exoskeleton.lucy import lucy, lucy_new_cylinder
@@ -28,6 +27,7 @@ from geocontact.shoulder_exoskeleton.support.phases import SCREW
 from geocontact.shoulder_exoskeleton.support.profile_limits import Limits
 from geocontact.shoulder_exoskeleton.synthetic.design import PARTICIPANTS, TASKS, condition
 from geocontact.shoulder_exoskeleton.synthetic.trial import synthetic_trial
+from meshes.overhead_files import trial_files
 from tests.analyses.shoulder.test_simulate import simulated
 
 DRAWS = 20
