@@ -66,7 +66,7 @@ class ProsthesisCompareResult(Result):
         return ensemble_figure(self.stances)
 
     def write_files(self, folder: Path) -> None:
-        """Tables, figure, page; of each stance coordinates, external loads, spheres, numbers as `prosthesis simulate`."""
+        """Tables, figure, page; of each stance coordinates, loads, spheres and numbers as `prosthesis simulate`."""
         for name, rows in self.tables().items():
             write_table(rows, folder, name)
         for one in self.stances:

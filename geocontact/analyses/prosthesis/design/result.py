@@ -17,6 +17,7 @@ from geocontact.analyses.prosthesis.design.page import write_design_page
 from geocontact.analyses.prosthesis.design.sensitivities_table import sensitivities_table
 from geocontact.analyses.prosthesis.design.sweep import SHOWN, UNITS, AimAnswer, Sweep, answers_table
 from geocontact.analyses.prosthesis.design.together import Together
+from geocontact.analyses.prosthesis.simulate.tables import numbers_table
 from geocontact.analyses.result import Result
 from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
@@ -67,7 +68,7 @@ class ProsthesisDesignResult(Result):
     intact: Mapping[Aim, float] | None = None
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`answers`, `ranges`, `sensitivities`, `sweep`, `shapes`, `numbers`; `intact` of that side; `pairs`, `together`."""
+        """`answers`, `ranges`, `sensitivities`, `sweep`, `shapes`, `numbers`; where asked `intact`, `pairs`, `together`."""
         vary = self.sweep.knob.vary
         told = {
             "answers": answers_table(self.answers, vary),
