@@ -2,8 +2,8 @@
 
 From the numbers that `prosthesis_calibration` finds along recorded poses with a keel without inertia, damped
 Gauss-Newton steps on the simulated stance (inertia, socket, free pelvis) by exact derivatives, height and pitch of the
-foot sought on besides. Both laws are judged by the simulation of all trials, the one that they were fitted to first, the
-foot as each trial's own standing has it. All data are synthetic, of a finer foot.
+foot sought on besides. Both laws are judged by the simulation of all trials, the one that they were fitted to first,
+the foot as each trial's own standing has it. All data are synthetic, of a finer foot.
 `--samples` draws that many random numbers between the bounds and takes the least cost. Participants that are run by
 themselves take the place of their own in benchmarks/results/prosthesis_full_calibration.json.
 """

@@ -136,7 +136,7 @@ def knowledge(residuals: StanceResiduals, z: Float[np.ndarray, " p"], level: flo
     size = np.linalg.norm(slope, axis=0)
     alive = size > DEAD * max(float(size.max()), DEAD)
     time, order = residuals.channel_by_channel()
-    memory, covariance = _remembering(time, off[order], slope[order][:, alive], z[alive], residuals.sd[: len(z)][alive])
+    memory, covariance = with_memory(time, off[order], slope[order][:, alive], z[alive], residuals.sd[: len(z)][alive])
     half = np.full(len(z), np.inf)
     half[alive] = [memory.half_width(np.sqrt(covariance[:, k, k]), level) for k in range(int(alive.sum()))]
     sd = np.full(len(z), np.inf)
@@ -188,7 +188,7 @@ def slipping_zones(residuals: StanceResiduals, z: Float[np.ndarray, " p"]) -> Bo
     return lasting >= LASTING
 
 
-def _remembering(
+def with_memory(
     time: Float[np.ndarray, " n"],
     off: Float[np.ndarray, " n"],
     slope: Float[np.ndarray, "n p"],

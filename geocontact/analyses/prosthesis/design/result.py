@@ -68,7 +68,7 @@ class ProsthesisDesignResult(Result):
     intact: Mapping[Aim, float] | None = None
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`answers`, `ranges`, `sensitivities`, `sweep`, `shapes`, `numbers`; where asked `intact`, `pairs`, `together`."""
+        """`answers`, `ranges`, `sensitivities`, `sweep`, `shapes`, `numbers`; `intact`; `pairs` and `together`."""
         vary = self.sweep.knob.vary
         told = {
             "answers": answers_table(self.answers, vary),
