@@ -11,7 +11,7 @@ SD = np.array([1.1, 2.3, 0.7])
 
 
 def linear(size: float) -> tuple[np.ndarray, np.ndarray]:
-    """White residuals of that size over the stated noise, and a slope; nothing in the data hangs on the third number."""
+    """White residuals of that size over the stated noise, and a slope; the data do not hang on the third number."""
     rng = np.random.default_rng(8)
     slope = rng.normal(size=(400, 3)) * np.array([0.3, 0.1, 1e-6])
     off = size * rng.normal(size=400)
@@ -34,7 +34,7 @@ def test_small_residuals_make_no_number_better_known_than_the_stated_noise() -> 
 
 
 def test_large_residuals_widen_what_the_data_tell_and_leave_the_prior() -> None:
-    """Three times the noise: three times a standard deviation that is the data's; B (9 J'J + P) B with B the inverse."""
+    """Three times the noise, three times a standard deviation that is the data's: B (9 J'J + P) B, B the inverse."""
     _, slope = linear(3.0)
     bread = np.linalg.inv(slope.T @ slope + np.diag(1.0 / SD**2))
     by_hand = np.sqrt(np.diag(bread @ (9.0 * slope.T @ slope + np.diag(1.0 / SD**2)) @ bread))
