@@ -183,8 +183,9 @@ def test_the_table_alone_gives_the_same_curves(tmp_path: Path) -> None:
         machine_code=False,
     )
     assert ran.force[:, 1].max() > 300.0
-    # 0.073 N fore and aft (rms 0.008), 0.017 and 0.015 N else, around 0.2 s where spheres creep; the same walk with its
-    # angles changed in the 13th digit is 0.085, 0.017 and 0.015 N off, so that rounding makes all of it.
-    np.testing.assert_allclose(again.force, ran.force, atol=0.2)
-    assert np.sqrt(np.mean((again.force - ran.force) ** 2, axis=0)).max() < 0.03
+    # 0.253 N fore and aft (rms 0.020), 0.008 and 0.025 N else, around 0.2 s where spheres creep; the same walk with its
+    # angles changed in the 13th digit is 0.244 (rms 0.025), 0.013 and 0.020 N off, so that rounding makes all of it. As
+    # its foot stood it was 0.085 N, and 0.2 and 0.03 N were allowed.
+    np.testing.assert_allclose(again.force, ran.force, atol=0.5)
+    assert np.sqrt(np.mean((again.force - ran.force) ** 2, axis=0)).max() < 0.05
     np.testing.assert_allclose(again.keel_angles, ran.keel_angles, atol=1e-6)  # 5e-8
