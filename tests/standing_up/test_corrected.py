@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import pytest
 
+from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions
 from geocontact.standing_up import calibrated_phase as module
 from geocontact.standing_up import contact_numbers as numbers_module
 from geocontact.standing_up.calibrated_phase import CalibratedPhase, PhaseSearch, calibrated_phase
 from geocontact.standing_up.contact_parameter import ContactParameter
+from geocontact.standing_up.phase import PhaseProblem
 from geocontact.standing_up.resample import Resampled
+from geocontact.standing_up.standing_model import StandingModel
+from geocontact.standing_up.trials import StandingNoise
 
+T = TypeVar("T")
 PARAMETERS = (
     ContactParameter("inside", "m", 0.5, 0.2, 0.0, 1.0),
     ContactParameter("on its bound", "m", 1.0, 0.2, 0.0, 1.0),
@@ -28,15 +33,23 @@ CORRECTED = np.array([0.4, 1.0, 0.0, 0.3, 0.3])
 """By hand: less the bias, not below the bound of 0; on the bound and held as they were."""
 
 
+def made(kind: type[T], **values: Any) -> T:
+    """One of a kind with these values only."""
+    one = kind.__new__(kind)
+    for name, value in values.items():
+        object.__setattr__(one, name, value)
+    return one
+
+
 def calibrated(monkeypatch: pytest.MonkeyPatch, *, curved: bool = True) -> CalibratedPhase:
     """A phase whose search, resamples and curvature are given."""
-    control = SimpleNamespace(p=(LOW, HIGH), guess_p=FOUND)
-    phase = SimpleNamespace(control=control, parameters=PARAMETERS)
+    control: Any = SimpleNamespace(p=(LOW, HIGH), guess_p=FOUND)
+    phase = made(PhaseProblem, control=control, parameters=PARAMETERS)
 
-    def solved(control: Any, *_: object, **__: object) -> SimpleNamespace:
+    def solved(control: Any, *_: object, **__: object) -> CollocationResult:
         low, high = control.p
         p = FOUND if (low < high).any() else low
-        return SimpleNamespace(p=p, solved=True, objective=1.0, meshes=(), motions=(), ending="")
+        return made(CollocationResult, p=p, solved=True, objective=1.0, meshes=(), motions=(), ending="")
 
     def hessian(*_: object) -> np.ndarray:
         if not curved:
@@ -49,16 +62,16 @@ def calibrated(monkeypatch: pytest.MonkeyPatch, *, curved: bool = True) -> Calib
         "resampled": lambda *_: Resampled(np.array([BIAS - 0.01, BIAS + 0.01])),
         "judged": lambda *_, **__: (),
         "cost_shares": lambda *_: {},
-        "replace": lambda of, **changed: SimpleNamespace(**(vars(of) | changed)),
+        "replace": lambda of, **changed: made(type(of), **(vars(of) | changed)),
     }
     for name, value in given.items():
         monkeypatch.setattr(module, name, value)
     monkeypatch.setattr(numbers_module, "inverse_reduced_hessian", hessian)
-    model: Any = SimpleNamespace(joints=(), turning=(), equations=None)
-    noise: Any = None
-    options: Any = None
-    build: Any = lambda trials, start: phase  # noqa: E731
-    return calibrated_phase("A", model, (), noise, build, PhaseSearch(options, resamples=2))
+    for name in ("joints", "turning"):
+        monkeypatch.setattr(StandingModel, name, ())
+    model = made(StandingModel, equations=None)
+    search = PhaseSearch(SolverOptions("radau", 4, 20, 1e-7), resamples=2)
+    return calibrated_phase("A", model, (), StandingNoise(), lambda trials, start: phase, search)
 
 
 def test_tables_and_motions_have_the_same_parameters(monkeypatch: pytest.MonkeyPatch) -> None:
