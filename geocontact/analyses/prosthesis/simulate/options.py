@@ -73,7 +73,7 @@ class ProsthesisSimulateOptions(Options):
     gap_limit
         Longest time for which a coordinate may be unknown [s].
     machine_code
-        Compile the equations first: the first run takes half a minute longer, every one after it is faster.
+        Compile the equations first: the first run takes ten seconds longer, every one after it is faster.
     markers_map
         Names of recorded markers as they are called here: R_HIP=RASI, or a file with a pair in each line.
     axes
