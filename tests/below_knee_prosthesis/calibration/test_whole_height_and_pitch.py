@@ -20,9 +20,9 @@ from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedSta
 from geocontact.below_knee_prosthesis.calibration.whole_residuals import WholeResiduals
 from geocontact.below_knee_prosthesis.calibration.whole_stance import WholeStance
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
-from geocontact.below_knee_prosthesis.synthetic.course import course
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, true_leg
 from geocontact.identify.optimise.bounded_gauss_newton import least
+from meshes.gait_course import course
+from meshes.gait_persons import PARTICIPANTS, true_leg
 from tests.below_knee_prosthesis.socket_markers import shift, turn
 
 FULCRUM, BELOW, LANDING = 0.1174, 0.03, (-0.02, 0.06)
