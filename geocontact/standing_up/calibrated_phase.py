@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from geocontact.dynamics.collocation.refinement import refined
 from geocontact.dynamics.collocation.solve import CollocationResult, Progress, SolverOptions, solve
-from geocontact.standing_up.contact_numbers import ContactNumbers, contact_numbers, unsettled_numbers
+from geocontact.standing_up.contact_numbers import ContactNumbers, contact_numbers, corrected, unsettled_numbers
 from geocontact.standing_up.cost_shares import cost_shares
 from geocontact.standing_up.judged import JudgedMotion, judged
 from geocontact.standing_up.phase import PhaseProblem
@@ -62,9 +62,9 @@ class CalibratedPhase:
     name
         A or B.
     found
-        Motions and parameters that belong together: the corrected ones where there were resamples.
+        Motions and parameters that belong together: the corrected ones where there were resamples and intervals.
     numbers
-        What the trials tell of each parameter.
+        What the trials tell of each parameter; their values are those of `found`.
     motions
         Certificate and residual of each trial.
     shares
@@ -134,8 +134,8 @@ def calibrated_phase(
             doubt = str(error)
         if search.profiles:
             curves = profiles(phase, found, numbers, search.profiles, solved)
-        if again is not None:
-            p = np.clip(found.p - again.bias, *phase.control.p)
+        if again is not None and not doubt:
+            p = corrected(phase, found, again)
             at = replace(phase, control=replace(phase.control, p=(p, p), guess_p=p))
             found = finer(at, solved(at, found))
             phase = at

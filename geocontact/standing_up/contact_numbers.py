@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 from scipy.stats import norm
 
 from geocontact.dynamics.collocation.reduced_hessian import inverse_reduced_hessian
@@ -98,16 +98,13 @@ def contact_numbers(
 
     ValueError where the curvature does not exist.
     """
-    low, high = phase.control.p
-    sought = low < high
-    margin = NEAR * (high - low)
-    on_bound = sought & ((found.p <= low + margin) | (found.p >= high - margin))
+    sought, on_bound = _sought_and_bound(phase, found)
     covariance = 2.0 / RATE * inverse_reduced_hessian(phase.control, found, on_bound.tolist())
     sd = np.sqrt(np.diag(covariance))
     reach = float(norm.ppf(0.5 + 0.5 * level))
-    best = found.p
+    best = corrected(phase, found, again)
     if again is not None:
-        sd, best = sd * again.widening, np.where(sought & ~on_bound, found.p - again.bias, found.p)
+        sd = sd * again.widening
     assumed = np.zeros(len(sd)) if held is None else assumed_shares(phase, found, held, on_bound.tolist()).sd
     sd = np.hypot(sd, assumed)
     numbers = []
@@ -123,6 +120,26 @@ def contact_numbers(
         numbers.append(ContactNumber(each.name, each.unit, value, low_end, high_end, before, after, verdict, own))
     kept = np.flatnonzero(sought & ~on_bound)
     return _together(tuple(numbers), [phase.parameters[k] for k in kept], covariance[np.ix_(kept, kept)])
+
+
+def corrected(phase: PhaseProblem, found: CollocationResult, again: Resampled | None) -> Float[np.ndarray, " p"]:
+    """What is searched less the bias that resampled trials show, within its bounds: tables and motions have these.
+
+    What is held, or on a bound, stays.
+    """
+    if again is None:
+        return found.p
+    sought, on_bound = _sought_and_bound(phase, found)
+    return np.asarray(np.where(sought & ~on_bound, np.clip(found.p - again.bias, *phase.control.p), found.p))
+
+
+def _sought_and_bound(
+    phase: PhaseProblem, found: CollocationResult
+) -> tuple[Bool[np.ndarray, " p"], Bool[np.ndarray, " p"]]:
+    """Which parameters are sought, and which of them are on a bound."""
+    low, high = phase.control.p
+    sought, margin = low < high, NEAR * (high - low)
+    return sought, sought & ((found.p <= low + margin) | (found.p >= high - margin))
 
 
 def held_covariance(of: ContactNumbers, parameters: Sequence[ContactParameter]) -> Float[np.ndarray, "p p"]:

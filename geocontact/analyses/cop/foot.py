@@ -122,6 +122,8 @@ def sole_law(record: Record, table: SphereTable, o: CopOptions) -> SoleLaw:
     file = LawFile() if o.law is None else read_law(o.law)
     if o.law is not None:
         record.add_input("law", o.law)
+    if file.foot is not None:
+        record.warn(f"{o.law}: [foot] is beside the standing trial of a prosthesis and has no effect here")
     _refuse_strange_zones(o, file, table)
     assumed: dict[str, float] = {}
     static, kinetic = (None, None) if o.friction is None else o.friction

@@ -50,7 +50,8 @@ class ProsthesisCalibrateOptions(Options):
     fulcrum
         Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
     law
-        Usual numbers of the sole (.toml), about which those of the person are sought; built in unless given.
+        Usual numbers of the sole (.toml), about which those of the person are sought; built in unless given. How the
+        foot is beside its standing trial is sought anew.
 
     Force plates
     ----------
@@ -64,8 +65,9 @@ class ProsthesisCalibrateOptions(Options):
     The search
     ----------
     full
-        Go on with the whole model of the stance from what was found along the recorded poses: with the leg's inertia,
-        the socket and the free pelvis. The trial needs the markers of pelvis and thigh too.
+        Go on with the whole model of the stance from what was found along the recorded poses, height and pitch of the
+        foot with it: with the leg's inertia, the socket and the free pelvis. The trial needs the markers of pelvis and
+        thigh too.
     starts
         Starts spread over the bounds, beside the usual numbers.
     seed

@@ -43,7 +43,7 @@ class ProsthesisCompareOptions(Options):
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
     machine_code
-        Compile the equations first: the first run takes half a minute longer, every one after it is faster.
+        Compile the equations first: the first run takes ten seconds longer, every one after it is faster.
     workers
         Processes; as many as there are cores by default. Results do not depend on it.
     """

@@ -52,7 +52,8 @@ class ProsthesisDesignOptions(Options):
     fulcrum
         Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
     law
-        Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in unless given.
+        Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in unless given. With them go height
+        and pitch of the foot beside its standing trial, where that is `static`.
     numbers
         Their intervals of 95 % (numbers.csv of `prosthesis calibrate`); what is believed of any sole unless given.
 
@@ -102,7 +103,7 @@ class ProsthesisDesignOptions(Options):
     marker_error
         Standard deviation of a marker's place along each axis [mm].
     pitch_error
-        Of the foot's pitch: how far it may not have stood flat.
+        Of the foot's pitch: how far it may not have stood flat. A law that knows the pitch better has its own.
     force_noise
         Of a component of the plate's force [N].
 

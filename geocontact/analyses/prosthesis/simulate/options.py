@@ -43,7 +43,8 @@ class ProsthesisSimulateOptions(Options):
     fulcrum
         Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
     law
-        Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in unless given.
+        Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in unless given. With them go height
+        and pitch of the foot beside its standing trial, where that is `static`.
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
 
@@ -72,7 +73,7 @@ class ProsthesisSimulateOptions(Options):
     gap_limit
         Longest time for which a coordinate may be unknown [s].
     machine_code
-        Compile the equations first: the first run takes half a minute longer, every one after it is faster.
+        Compile the equations first: the first run takes ten seconds longer, every one after it is faster.
     markers_map
         Names of recorded markers as they are called here: R_HIP=RASI, or a file with a pair in each line.
     axes

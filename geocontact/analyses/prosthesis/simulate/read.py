@@ -12,7 +12,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_errors import FAR, MOVING
-from geocontact.analyses.prosthesis.foot_law import foot_with_law
+from geocontact.analyses.prosthesis.foot_law import foot_with_law, offset_of_law
 from geocontact.analyses.prosthesis.plausible_plate import require_one_clock, require_weight
 from geocontact.analyses.prosthesis.recorded_files import right_markers
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
@@ -90,7 +90,8 @@ def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
     fulcrum = fulcrum_of(o.setting, "pinned") if o.fulcrum is None else o.fulcrum
     standing = right_markers(record, "`static`", cast(Path, o.static), o.side, o.axes, o.markers_map, o.c3d_unit)
     person = Person(cast(float, o.mass), o.sex, o.residual)
-    leg = standing_leg(standing, person, foot.keel, sole_numbers()["below"].value, _hip(o, standing, record))
+    stood = standing_leg(standing, person, foot.keel, sole_numbers()["below"].value, _hip(o, standing, record))
+    leg = stood.with_foot(offset_of_law(record, o.law, cast(Path, o.static)))
     seen = right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map, o.c3d_unit, o.time)
     found = walked(seen, leg, cutoff=None if o.cutoff == 0.0 else o.cutoff, gap_limit=o.gap_limit)
     plates = read_force_plates(cast(Path, o.plates), o.c3d_unit)
