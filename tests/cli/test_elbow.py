@@ -13,7 +13,7 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.misalignment.law_numbers import PER_SI
-from geocontact.analyses.misalignment.simulate.run import SEED, TRIALS, USUAL
+from geocontact.analyses.misalignment.simulate.result import SEED, TRIALS, USUAL
 from geocontact.axis_misalignment.synthetic import PAPER
 from tests.analyses.misalignment.trials import free, locked, quietly
 from tests.cli.calls import Call, call, done, inventory, written

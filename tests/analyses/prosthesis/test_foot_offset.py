@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.cop.law import sole_law
+from geocontact.analyses.cop.foot import sole_law
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.compare.read import read as read_study

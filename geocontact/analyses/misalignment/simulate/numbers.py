@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import pandas as pd
 
-from geocontact.analyses.misalignment.simulate.loaded_trial import LoadedTrial
+from geocontact.analyses.misalignment.simulate.trials import LoadedTrial
 from geocontact.axis_misalignment.synthetic import PAPER, Design
 from geocontact.data.sourced_number import Source
 
