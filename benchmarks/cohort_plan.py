@@ -150,8 +150,8 @@ def over_seeds(
 
 def a_trial() -> dict[str, float]:
     """CPU seconds, bytes and files of the shipped knee over its cycle, as a worker of a study evaluates it."""
-    from geocontact.analyses.area.job import area
     from geocontact.analyses.area.options import AreaOptions
+    from geocontact.analyses.area.result import area
     from geocontact.analyses.job import Call, execute
     from geocontact.analyses.listener import Listener
     from geocontact.analyses.table_forms import TableForms

@@ -22,9 +22,9 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.machine import as_json, stamp
-from geocontact.analyses.knee.settle import run as settle_run
+from geocontact.analyses.knee.settle import result as settle_run
+from geocontact.analyses.knee.settle.equilibrium import read
 from geocontact.analyses.knee.settle.options import SettleOptions
-from geocontact.analyses.knee.settle.read import read
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 

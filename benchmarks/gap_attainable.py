@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from geocontact.gap_benchmark.attainable import CLEAR
+from geocontact.gap_benchmark.confounding import CLEAR
 from geocontact.gap_benchmark.drawing import SYSTEMS
 
 HERE = Path(__file__).resolve().parent

@@ -128,8 +128,7 @@ def what_can_be_told(planted: Any) -> dict[str, Any]:
     """What candidates leave of a single effect; whether one imitates an effect outside the table."""
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.case.admission import admitted
-    from geocontact.gap_benchmark.attainable import left_by_effect
-    from geocontact.gap_benchmark.confounding import LEFT, confounding
+    from geocontact.gap_benchmark.confounding import LEFT, confounding, left_by_effect
     from geocontact.systems.catalogue import system_of
 
     label = planted.label
@@ -178,7 +177,7 @@ def report(o: argparse.Namespace, rows: Sequence[Worked]) -> dict[str, Any]:
 
 def line_of(row: Worked) -> dict[str, Any]:
     """What was planted and what was said."""
-    from geocontact.gap_benchmark.attainable import ahead_by
+    from geocontact.gap_benchmark.confounding import ahead_by
     from geocontact.gap_benchmark.score import confidently_wrong
 
     label, said = row.label or {}, row.answers["diagnosis"]

@@ -32,11 +32,11 @@ from geocontact.below_knee_prosthesis.both_sides.walk import (
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
-from geocontact.below_knee_prosthesis.synthetic.amputee import true_amputee
-from geocontact.below_knee_prosthesis.synthetic.amputee_walk import amputee_walk, amputee_walk_on_spheres
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, STANCE
 from geocontact.dynamics.recorded_inputs import recorded_inputs
 from geocontact.dynamics.rosenbrock import rosenbrock_step
+from meshes.amputee import true_amputee
+from meshes.amputee_walk import amputee_walk, amputee_walk_on_spheres
+from meshes.gait_persons import PARTICIPANTS, STANCE
 
 RUNS = ((1e-3, 1e-6), (2.5e-4, 1e-7))
 """Steps of the samples [s] and tolerances of both walks."""

@@ -37,10 +37,10 @@ from geocontact.below_knee_prosthesis.model.leg import Person
 from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
 from geocontact.below_knee_prosthesis.simulate import Push, Stance, simulate_stance
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance, StanceErrors, longest_stance, stance_errors
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, Walker
-from geocontact.below_knee_prosthesis.synthetic.trial import GaitTrial, synthetic_trial
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.identify.signals.agreement import agreement
+from meshes.gait_persons import PARTICIPANTS, Walker
+from meshes.gait_trial import GaitTrial, synthetic_trial
 
 SETTINGS, TRIALS = ("medium", "low", "high"), 3
 RESULTS = Path(__file__).resolve().parent / "results" / "prosthesis_calibration.json"

@@ -1,6 +1,6 @@
 """Transfer over the study's 34 trials: `python -m benchmarks.prosthesis_compare FOLDER [P1 ...] [--plain]`.
 
-Synthetic trials of the four participants (`below_knee_prosthesis.synthetic`) are written to FOLDER as files, the sole
+Synthetic trials of the four participants (`meshes.gait_trial`) are written to FOLDER as files, the sole
 of each is calibrated on medium_1 with `prosthesis calibrate`, and all are judged by `prosthesis compare`, as a user
 would. Like the study, the second participant lacks a medium and the fourth a high trial. Beside the study's table 3.
 """
@@ -14,9 +14,9 @@ from pathlib import Path
 
 import geocontact as gc
 from benchmarks.machine import write_results
-from geocontact.analyses.prosthesis.trial_files import trial_files
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, Walker
-from geocontact.below_knee_prosthesis.synthetic.trial import synthetic_trial
+from meshes.gait_persons import PARTICIPANTS, Walker
+from meshes.gait_trial import synthetic_trial
+from meshes.gait_trial_files import trial_files
 
 SETTINGS, TRIALS = ("medium", "low", "high"), 3
 MISSING = {"P2_medium_3", "P4_high_3"}

@@ -38,10 +38,10 @@ from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.below_knee_prosthesis.model.leg import Leg, Person
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance
-from geocontact.below_knee_prosthesis.synthetic.course import course, reactions
-from geocontact.below_knee_prosthesis.synthetic.persons import Walker, marker_places, true_leg
-from geocontact.below_knee_prosthesis.synthetic.trial import CAMERA_NOISE, FORCE_NOISE, OFFSET, standing_places
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from meshes.gait_course import course, reactions
+from meshes.gait_persons import Walker, marker_places, true_leg
+from meshes.gait_trial import CAMERA_NOISE, FORCE_NOISE, OFFSET, standing_places
 
 KNOWN = TrialErrors()
 BLIND = replace(KNOWN, pitch=np.radians(3.0))

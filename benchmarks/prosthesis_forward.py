@@ -26,9 +26,9 @@ from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import GATE, Stance, simulate_stance
-from geocontact.below_knee_prosthesis.synthetic.course import course
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, STANCE, true_leg
 from geocontact.loads.pose_rate import pose_rate
+from meshes.gait_course import course
+from meshes.gait_persons import PARTICIPANTS, STANCE, true_leg
 
 BELOW = sole_numbers()["below"].value
 OTHERS = (0.0661, 0.090, 0.1509)

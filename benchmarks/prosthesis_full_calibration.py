@@ -1,8 +1,9 @@
 """The sole on the whole model: `python -m benchmarks.prosthesis_full_calibration [P1 ...] [--samples N] [--trials N]`.
 
 From the numbers that `prosthesis_calibration` finds along recorded poses with a keel without inertia, damped
-Gauss-Newton steps on the simulated stance (inertia, socket, free pelvis) by exact derivatives. Both laws are judged by
-the simulation of all trials, the one that they were fitted to first. All data are synthetic, of a finer foot.
+Gauss-Newton steps on the simulated stance (inertia, socket, free pelvis) by exact derivatives, height and pitch of the
+foot sought on besides. Both laws are judged by the simulation of all trials, the one that they were fitted to first,
+the foot as each trial's own standing has it. All data are synthetic, of a finer foot.
 `--samples` draws that many random numbers between the bounds and takes the least cost. Participants that are run by
 themselves take the place of their own in benchmarks/results/prosthesis_full_calibration.json.
 """
@@ -34,8 +35,8 @@ from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedSta
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration, calibrate_whole
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, Walker
-from geocontact.below_knee_prosthesis.synthetic.trial import synthetic_trial
+from meshes.gait_persons import PARTICIPANTS, Walker
+from meshes.gait_trial import synthetic_trial
 
 FITTED = "medium_1"
 RESULTS = Path(__file__).resolve().parent / "results" / "prosthesis_full_calibration.json"
@@ -82,7 +83,7 @@ def participant(person: Walker, samples: int, trials: int) -> dict[str, Any]:
     still = calibrate([taken[FITTED].stance], foot)
     between = time.process_time()
     stance = [as_walked(taken[FITTED], still.foot)]
-    whole = calibrate_whole(stance, foot, still.logarithms)
+    whole = calibrate_whole(stance, foot, still.at)
     took = time.process_time() - between
     told: dict[str, Any] = {"seconds_along_poses": between - before, "seconds_whole": took}
     told |= {"begun": whole.begun, "cost": whole.cost, "simulated": whole.residuals.solved} | identifiable(whole)

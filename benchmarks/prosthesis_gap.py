@@ -47,8 +47,8 @@ from geocontact.analyses.prosthesis.simulate.plane_files import pose_table, reac
 from geocontact.below_knee_prosthesis.foot_in_plane import FootInPlane, in_plane, row_numbers
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.below_knee_prosthesis.stance_errors import longest_stance
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS
-from geocontact.below_knee_prosthesis.synthetic.trial import synthetic_trial
+from meshes.gait_persons import PARTICIPANTS
+from meshes.gait_trial import synthetic_trial
 
 ROOT = Path(__file__).resolve().parents[1]
 PERSON = PARTICIPANTS[0]

@@ -21,9 +21,9 @@ from benchmarks.machine import write_results
 from benchmarks.prosthesis_calibration import recorded
 from geocontact.below_knee_prosthesis.calibration.calibrate import ENOUGH, SoleCalibration, calibrate
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS
-from geocontact.below_knee_prosthesis.synthetic.trial import synthetic_trial
 from geocontact.identify.optimise.bounded_gauss_newton import least
+from meshes.gait_persons import PARTICIPANTS
+from meshes.gait_trial import synthetic_trial
 
 FITTED, ROUNDS = ("medium", 1), 6
 """The trial; evaluations in which the other numbers are found again, from where a linear model has them."""

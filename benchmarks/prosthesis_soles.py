@@ -28,9 +28,9 @@ from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, RECORDED
 from geocontact.below_knee_prosthesis.model.stance_model import FLOOR
 from geocontact.below_knee_prosthesis.simulate import Push, Stance, simulate_stance
-from geocontact.below_knee_prosthesis.synthetic.course import GaitCourse, course
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, STANCE, true_leg
 from geocontact.geometry.shapes import HalfSpace
+from meshes.gait_course import GaitCourse, course
+from meshes.gait_persons import PARTICIPANTS, STANCE, true_leg
 
 SOLES = {24: (1, 2), 48: (2, 2), 96: (2, 4), 192: (4, 4)}
 """Factor on the rows of each zone and spheres in a row, by how many spheres that makes; the last is the reference."""

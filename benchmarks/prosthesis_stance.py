@@ -2,7 +2,7 @@
 
     python -m benchmarks.prosthesis_stance [--settings low medium high] [--persons 0 1] [--plain]
 
-For each setting and person the invented course of `below_knee_prosthesis.synthetic` is simulated with the foot of 24
+For each setting and person the invented course of `meshes.gait_course` is simulated with the foot of 24
 spheres, at several tolerances; the reference is a tolerance a hundred times smaller than the smallest of them. Errors
 are of the resultant ground reaction at 500 Hz over body weight: root mean square and largest, where either carries 20
 N. Times are CPU seconds of `Stepper.simulate` alone, medians of `REPEATS`, with machine code and, with `--plain`,
@@ -23,8 +23,8 @@ from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
-from geocontact.below_knee_prosthesis.synthetic.course import GaitCourse, course
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, STANCE, true_leg
+from meshes.gait_course import GaitCourse, course
+from meshes.gait_persons import PARTICIPANTS, STANCE, true_leg
 
 TOLERANCES = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5)
 REFERENCE, REPEATS = 1e-7, 3

@@ -27,10 +27,10 @@ from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance, stance_errors
-from geocontact.below_knee_prosthesis.synthetic.course import GaitCourse, course
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, STANCE, true_leg
-from geocontact.below_knee_prosthesis.synthetic.trial import FORCE_NOISE, true_foot
 from geocontact.contact.bushing import SOCKET, Bushing
+from meshes.gait_course import GaitCourse, course
+from meshes.gait_persons import PARTICIPANTS, STANCE, true_leg
+from meshes.gait_trial import FORCE_NOISE, true_foot
 
 PERSON, SETTING, SEED = PARTICIPANTS[0], "low", 7
 PHASES = (-0.2, 0.1, 0.0, 0.25)

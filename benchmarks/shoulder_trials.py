@@ -20,7 +20,6 @@ import pandas as pd
 
 from benchmarks.shoulder_mat import lifting_force, readings, with_noise, write_mat
 from benchmarks.shoulder_truth import NOTHING, Measured, Truth, Withheld, measure
-from geocontact.analyses.shoulder.trial_files import trial_files
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
 from geocontact.shoulder_exoskeleton.device import Wearer
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import arm_motions
@@ -36,6 +35,7 @@ from geocontact.shoulder_exoskeleton.synthetic.design import (
     Participant,
 )
 from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial, synthetic_trial
+from meshes.overhead_files import trial_files
 
 WORN = tuple(each for each in CONDITIONS if each.level is not None)
 (BARE,) = (each for each in CONDITIONS if each.level is None)

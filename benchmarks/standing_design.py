@@ -54,12 +54,12 @@ def gain(options: argparse.Namespace) -> dict[str, Any]:
 
     import geocontact as gc
     from benchmarks.standing_truth import PLANTED, finer_study, padded_strap
-    from geocontact.analyses.sit_to_stand.synthetic_files import synthetic_files
     from geocontact.dynamics.collocation.solve import SolverOptions
     from geocontact.standing_up.assistance.assisted_model import SHARE, assisted_model
     from geocontact.standing_up.assistance.movement import Movements
     from geocontact.standing_up.judged import judged
     from geocontact.standing_up.phase import PhaseProblem
+    from meshes.standing_files import synthetic_files
 
     warnings.simplefilter("ignore", gc.InputWarning)
     made = finer_study(SEED)

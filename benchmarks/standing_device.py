@@ -10,7 +10,7 @@ from benchmarks.machine import write_results
 from geocontact.analyses.sit_to_stand.device.read import DeviceMotion
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton_torque import identified
-from geocontact.standing_up.synthetic_unloaded import RATE, TURN_NOISE, planted, synthetic_unloaded
+from meshes.standing_unloaded import RATE, TURN_NOISE, planted, synthetic_unloaded
 
 SEEDS, CUTOFF, REACH = 30, 6.0, 1.96
 

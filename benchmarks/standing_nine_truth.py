@@ -33,8 +33,8 @@ from geocontact.standing_up.judged import JudgedMotion, judged
 from geocontact.standing_up.phase import PhaseProblem
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite
-from geocontact.standing_up.synthetic_study import RATE, SEATED, SECONDS
 from geocontact.standing_up.trials import seen_in, standing_up
+from meshes.standing_study import RATE, SEATED, SECONDS
 
 BALL, BOTTOM = 0.125, 0.089
 """Of the toe joint ahead of the ankle, and of the sole below it [m]."""

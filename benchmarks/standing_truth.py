@@ -25,7 +25,8 @@ from geocontact.standing_up.exoskeleton import (
 )
 from geocontact.standing_up.feet import EVERY_PLANTED
 from geocontact.standing_up.strap_sites import STRAP_SITES, THIGH_STRAP, StrapSite
-from geocontact.standing_up.synthetic_study import (
+from geocontact.standing_up.trials import StandingNoise, StandingTrial, recorded, standing_up
+from meshes.standing_study import (
     ASSISTANCE,
     OTHER_SEATED,
     OTHER_SECONDS,
@@ -34,7 +35,6 @@ from geocontact.standing_up.synthetic_study import (
     SECONDS,
     SyntheticStudy,
 )
-from geocontact.standing_up.trials import StandingNoise, StandingTrial, recorded, standing_up
 
 PADS, LENGTH = 5, 0.10
 STIFFENS = 0.010

@@ -73,7 +73,7 @@ def coverage(options: argparse.Namespace) -> dict[str, Any]:
     import numpy as np
 
     from geocontact.standing_up.feet import SOUGHT
-    from geocontact.standing_up.synthetic_study import synthetic_study
+    from meshes.standing_study import synthetic_study
 
     found: dict[str, Any] = {"noises": options.noises, "resamples": options.resamples}
     studies = [synthetic_study(seed=noise + 1) for noise in range(options.noises)]
@@ -99,7 +99,7 @@ def coverage(options: argparse.Namespace) -> dict[str, Any]:
 
 def nodes(options: argparse.Namespace) -> dict[str, Any]:
     """The shipped study on three meshes."""
-    from geocontact.standing_up.synthetic_study import synthetic_study
+    from meshes.standing_study import synthetic_study
 
     study, rows = synthetic_study(), {}
     for count in NODES:
@@ -123,7 +123,7 @@ def starts(options: argparse.Namespace) -> dict[str, Any]:
 
     from geocontact.standing_up.contact_parameter import usual
     from geocontact.standing_up.feet import FOOT_PARAMETERS
-    from geocontact.standing_up.synthetic_study import synthetic_study
+    from meshes.standing_study import synthetic_study
 
     study, rng = synthetic_study(), np.random.default_rng(20)
     sd = np.array([each.sd for each in FOOT_PARAMETERS])
@@ -225,7 +225,7 @@ def freed(options: argparse.Namespace) -> dict[str, Any]:
     from geocontact.standing_up.feet import EVERY_PLANTED, SOUGHT, SOUGHT_WORN
     from geocontact.standing_up.phase_a import phase_a
     from geocontact.standing_up.phase_b import phase_b
-    from geocontact.standing_up.synthetic_study import synthetic_study
+    from meshes.standing_study import synthetic_study
 
     rows, alone = {}, synthetic_study()
     sets_a = {"A without radius": tuple(name for name in SOUGHT if name != "radius"), "A": SOUGHT}

@@ -60,10 +60,10 @@ sys.exit(code)
 """
 
 AREA = (
-    ("geocontact.analyses.area.read", "read_body_and_outer", "reading"),
-    ("geocontact.analyses.area.run", "area_evolution", "frames"),
-    ("geocontact.analyses.area.write", "save_both", "figures"),
-    ("geocontact.analyses.area.write", "_write_report", "page"),
+    ("geocontact.analyses.area.bodies", "read_body_and_outer", "reading"),
+    ("geocontact.analyses.area.result", "area_evolution", "frames"),
+    ("geocontact.analyses.figure_files", "save_both", "figures"),
+    ("geocontact.analyses.finished_page", "write_finished", "page"),
 )
 """What is timed of `area`: module, or module:class; function; what it is called."""
 

@@ -21,22 +21,22 @@ from geocontact.data.version import VERSION
 if TYPE_CHECKING:
     from geocontact import chain
     from geocontact.analyses import knee, misalignment, prosthesis, shoulder, sit_to_stand
-    from geocontact.analyses.area.job import area, pressure
-    from geocontact.analyses.cop.job import centre_of_pressure
+    from geocontact.analyses.area.result import area, pressure
+    from geocontact.analyses.cop.result import centre_of_pressure
     from geocontact.analyses.gap.diagnose.job import diagnose
     from geocontact.analyses.gap.discriminability.job import discriminability
     from geocontact.analyses.gap.gather.job import gather
     from geocontact.analyses.gap.inject.job import inject
-    from geocontact.analyses.loadcells.job import load_cells
-    from geocontact.analyses.mat.job import mat
-    from geocontact.analyses.modulus.job import modulus
-    from geocontact.analyses.motion.functional_joint.job import functional_joint
-    from geocontact.analyses.motion.inverse_dynamics.job import inverse_dynamics
-    from geocontact.analyses.motion.inverse_kinematics.job import inverse_kinematics
-    from geocontact.analyses.motion.scale.job import scale
-    from geocontact.analyses.motion.virtual_markers.job import virtual_markers
+    from geocontact.analyses.loadcells.result import load_cells
+    from geocontact.analyses.mat.result import mat
+    from geocontact.analyses.modulus.result import modulus
+    from geocontact.analyses.motion.functional_joint.result import functional_joint
+    from geocontact.analyses.motion.inverse_dynamics.result import inverse_dynamics
+    from geocontact.analyses.motion.inverse_kinematics.result import inverse_kinematics
+    from geocontact.analyses.motion.scale.result import scale
+    from geocontact.analyses.motion.virtual_markers.result import virtual_markers
     from geocontact.analyses.result import Result
-    from geocontact.analyses.shape.job import fit_shape
+    from geocontact.analyses.shape.result import fit_shape
     from geocontact.data.errors import InputError, InputWarning
     from geocontact.data.evolution import AreaEvolution
     from geocontact.data.motion import Motion
@@ -86,19 +86,19 @@ _PLACES = {
     "Tube": "geometry.shapes",
     "Axis": "geometry.sweep",
     "sweep": "geometry.sweep",
-    "area": "analyses.area.job",
-    "pressure": "analyses.area.job",
-    "centre_of_pressure": "analyses.cop.job",
-    "fit_shape": "analyses.shape.job",
-    "load_cells": "analyses.loadcells.job",
-    "modulus": "analyses.modulus.job",
+    "area": "analyses.area.result",
+    "pressure": "analyses.area.result",
+    "centre_of_pressure": "analyses.cop.result",
+    "fit_shape": "analyses.shape.result",
+    "load_cells": "analyses.loadcells.result",
+    "modulus": "analyses.modulus.result",
     "cohort": "study.job",
-    "mat": "analyses.mat.job",
-    "scale": "analyses.motion.scale.job",
-    "functional_joint": "analyses.motion.functional_joint.job",
-    "inverse_kinematics": "analyses.motion.inverse_kinematics.job",
-    "inverse_dynamics": "analyses.motion.inverse_dynamics.job",
-    "virtual_markers": "analyses.motion.virtual_markers.job",
+    "mat": "analyses.mat.result",
+    "scale": "analyses.motion.scale.result",
+    "functional_joint": "analyses.motion.functional_joint.result",
+    "inverse_kinematics": "analyses.motion.inverse_kinematics.result",
+    "inverse_dynamics": "analyses.motion.inverse_dynamics.result",
+    "virtual_markers": "analyses.motion.virtual_markers.result",
     "diagnose": "analyses.gap.diagnose.job",
     "discriminability": "analyses.gap.discriminability.job",
     "inject": "analyses.gap.inject.job",

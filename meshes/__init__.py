@@ -1,1 +1,1 @@
-"""Synthetic sample surfaces, a synthetic gait cycle and the scripts that make them (`python meshes/make.py`)."""
+"""Synthetic samples, surfaces, recordings and trials, and the scripts that make them (`python meshes/make.py`)."""

@@ -12,7 +12,6 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
 
-from geocontact.analyses.shoulder.trial_files import trial_files
 from geocontact.shoulder_exoskeleton.synthetic.design import condition, participant, task
 from geocontact.shoulder_exoskeleton.synthetic.trial import synthetic_trial
 from meshes.gait import synthetic_gait
@@ -20,6 +19,7 @@ from meshes.leg_files import leg_model, leg_swing
 from meshes.mat_files import recording_files
 from meshes.mat_recordings import recordings
 from meshes.motion_files import opensim_model, opensim_motion, pose_table
+from meshes.overhead_files import trial_files
 from meshes.segment_meshes import RINGS, segment_mesh
 from meshes.simple_shapes import SAMPLES
 from meshes.stl import snapped, stl_bytes

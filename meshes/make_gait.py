@@ -5,14 +5,17 @@ It takes two minutes, for the truth is a stance on a finer foot.
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
-from geocontact.analyses.prosthesis.trial_files import amputee_files, trial_files
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
+
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
-from geocontact.below_knee_prosthesis.synthetic.amputee import standing_trials
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS
-from geocontact.below_knee_prosthesis.synthetic.trial import synthetic_trial
+from meshes.amputee import standing_trials
+from meshes.gait_persons import PARTICIPANTS
+from meshes.gait_trial import synthetic_trial
+from meshes.gait_trial_files import amputee_files, trial_files
 
 PERSON = 0
 RECORDED = ("walking.trc", "plates.mot")

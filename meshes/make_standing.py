@@ -5,11 +5,14 @@ It takes some seconds, for the truth is a motion that is found by collocation.
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
-from geocontact.analyses.sit_to_stand.synthetic_files import synthetic_files, unloaded_files
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
+
 from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.synthetic_study import synthetic_study
+from meshes.standing_files import synthetic_files, unloaded_files
+from meshes.standing_study import synthetic_study
 
 FOLDERS = {
     "standing_up": {},

@@ -36,3 +36,13 @@ def undrawn() -> Iterator[None]:
     """Figures of commands are empty pictures."""
     with mock.patch("geocontact.analyses.figure_files.save", blank):
         yield
+
+
+@contextmanager
+def unwritten() -> Iterator[None]:
+    """Commands write neither figures nor pages, nor make the pages; figures are made, as long as nobody prevents it."""
+    with (
+        mock.patch("geocontact.analyses.figure_files.save_both", return_value=b""),
+        mock.patch("geocontact.analyses.result.Result._pages", return_value={}),
+    ):
+        yield

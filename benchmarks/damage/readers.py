@@ -67,7 +67,7 @@ def _case(path: Path) -> Any:
 
 
 def _population(path: Path) -> Any:
-    from geocontact.analyses.misalignment.population.read import UNITS
+    from geocontact.analyses.misalignment.population.drawn import UNITS
     from geocontact.io.recordings.population import read_population
 
     return read_population(path, UNITS)
@@ -110,7 +110,7 @@ def _forces_of(path: Path) -> Any:
 
 
 def _elbow_json(path: Path) -> Any:
-    from geocontact.analyses.misalignment.compare.read import _law
+    from geocontact.analyses.misalignment.compare.pairs import _law
 
     return _law(path)
 

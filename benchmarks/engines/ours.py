@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from benchmarks.engines.engine import Engine, Frame, Step
 from benchmarks.pairs import THRESHOLD, Pair
-from geocontact.analyses.area.read import BRIEF
+from geocontact.analyses.area.bodies import BRIEF
 from geocontact.geometry.contact_area.area import AS_GIVEN, Refinement, area_within
 from geocontact.geometry.contact_area.evolution import ContactPair, Settings
 from geocontact.geometry.contact_area.sampled import Distances, Sampled

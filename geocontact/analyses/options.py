@@ -106,6 +106,15 @@ class Needs:
 
 
 @dataclass(frozen=True)
+class ForFiles:
+    """The option has no effect unless one of the paths that are given ends so: that of such a file, or of one that
+    names it.
+    """
+
+    endings: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class Missing:
     """What is said of a path that leads nowhere, and the remedy; nothing is said where there is no `what`."""
 
@@ -116,6 +125,9 @@ class Missing:
 MeshUnit = Literal["m", "cm", "mm", "in"]
 ForceUnit = Literal["lbf", "N", "kN", "mN", "kgf"]
 AngleUnit = Literal["deg", "rad"]
+LengthUnit = Literal["m", "cm", "mm", "in", "um"]
+C3dUnit = Annotated[LengthUnit | None, ForFiles((".c3d", ".toml", ".xml"))]
+"""Of places in .c3d files whose own is empty."""
 CaseFolder = Annotated[Path, Missing("there is no such folder", "name the folder that holds case.toml")]
 Length = Annotated[float, Typed("m", "length", "gc.mm(4)", "mm unless a unit is written")]
 PartLength = Annotated[float, Typed("m", "length", "gc.mm(100)", "mm unless a unit is written")]
@@ -143,6 +155,8 @@ class Declared:
         Whether it may be None.
     range
         What its values can be.
+    endings
+        Of the files that it is for; empty where it is for any.
     missing
         What is said where it is a path that leads nowhere.
     words
@@ -161,6 +175,7 @@ class Declared:
     typed: Typed | None
     spelled: Spelled
     rules: tuple[Requires | Excludes | Needs, ...]
+    endings: tuple[str, ...]
     range: Range | None
     missing: Missing
     words: str
@@ -276,6 +291,9 @@ class Options:
             if self.given(one.name):
                 for rule in one.rules:
                     _refuse(one.name, rule, any(map(self.given, _others(rule))))
+                if one.endings and not any(path.suffix.lower() in one.endings for path, _ in self.paths()):
+                    what = f"has no effect without a {one.endings[0]} file"
+                    raise InputError("", f"`{one.name}`", what, "leave it out")
 
     def given(self, name: str) -> bool:
         """Whether an option was given: it is neither None, nor False, nor empty."""
@@ -357,6 +375,7 @@ def _declared(each: Field[Any], hint: Any, told: Documented) -> Declared:
         next((mark for mark in marks if isinstance(mark, Typed)), None),
         next((mark for mark in marks if isinstance(mark, Spelled)), Spelled()),
         tuple(mark for mark in marks if isinstance(mark, (Requires, Excludes, Needs))),
+        next((mark.endings for mark in marks if isinstance(mark, ForFiles)), ()),
         next((mark for mark in marks if isinstance(mark, (Plausible, ByPlace, ByName))), None),
         next((mark for mark in marks if isinstance(mark, Missing)), Missing()),
         told.words,

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from base64 import b64encode
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from html import escape
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record
@@ -19,13 +20,20 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+    from geocontact.analyses.finished_page import Thinned
+    from geocontact.view.page.content import Page
+
+REPORT = "report.html"
+"""Page of a folder of results."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Result(ABC):
     """Base of the results of all analyses.
 
     A notebook shows it as its sentences and its figure. Numbers in its fields are in SI; tables have the unit in each
-    column's name.
+    column's name. An analysis says what its tables, figures and pages are, by the names of their files, sub-folders
+    included ("walk/forces"); this class writes them.
 
     Parameters
     ----------
@@ -41,6 +49,9 @@ class Result(ABC):
     >>> sorted(file.name for file in result.write("out").iterdir())
     ['fit.json', 'fit.png', 'fit.svg', 'report.html', 'run.json']
     """
+
+    elsewhere: ClassVar[frozenset[str]] = frozenset()
+    """Tables that `write` leaves to another file of the analysis."""
 
     record: Record = field(repr=False)
 
@@ -80,17 +91,88 @@ class Result(ABC):
             raise KeyError(f"no table {name!r}; there are {', '.join(tables)}")
         return tables[name or next(iter(tables))]
 
+    def figures(self) -> dict[str, Figure]:
+        """Static figures by the name of their file, the main one first."""
+        return {}
+
     def figure(self) -> Figure | None:
         """The main figure; None where there is nothing to draw."""
+        return next(iter(self.figures().values()), None)
+
+    def pages(self, drawings: Mapping[str, bytes]) -> Mapping[str, Page | Thinned]:
+        """Pages by the name of their file; without any, figure and tables are shown on one.
+
+        Reservations, input files and options are added to each.
+
+        Parameters
+        ----------
+        drawings
+            Every figure (SVG) by its name in `figures`; one that is not asked for need not be drawn.
+        """
+        return {}
+
+    @property
+    def title(self) -> str:
+        """Heading of a page of figure and tables."""
+        return f"geocontact {self.record.command}"
+
+    def reservations(self, folder: str) -> tuple[str, ...]:
+        """Reservations on the pages of a sub-folder; all of them, unless some belong to one of several parts."""
+        return self.warnings
+
+    def units(self, table: str) -> Mapping[str, str]:
+        """Units that a table is written in by kind of quantity, as `io.text.written_units` names them."""
+        from geocontact.io.text.written_units import RESULTS
+
+        return RESULTS
+
+    def refers_to(self, table: str) -> Mapping[str, object] | None:
+        """What a table refers to, such as point and frame, for `run.json`."""
         return None
 
-    @abstractmethod
     def write_files(self, folder: Path) -> None:
-        """Write tables, figures and page into a folder that is there."""
+        """Write tables, figures and pages into a folder that is there; further files are written by who overrides it.
 
-    @abstractmethod
+        Pages come last: they show reservations that writing brought up.
+        """
+        from geocontact.analyses.figure_files import save_both  # late, like all that draws: --help needs no numpy
+        from geocontact.analyses.finished_page import write_finished
+        from geocontact.io.text.results import write_table
+
+        for name, table in self.tables().items():
+            if name in self.elsewhere:
+                continue
+            _make_room(folder / name)
+            write_table(table, folder, name, self.units(name))
+            if about := self.refers_to(name):
+                self.record.tables[f"{name}.csv"] = about
+        drawings = {}
+        for name, figure in self.figures().items():
+            _make_room(folder / name)
+            drawings[name] = save_both(figure, folder, name)
+        for name, page in self._pages(drawings).items():
+            _make_room(folder / name)
+            home = name.rpartition("/")[0]
+            write_finished(page, folder / name, self.record, home, self.reservations(home))
+
     def write_page(self, file: Path) -> None:
-        """Write the page, one file that needs no network."""
+        """Write the page of the whole, one file that needs no network; of several parts, their figure and tables."""
+        from geocontact.analyses.figure_files import Drawings
+        from geocontact.analyses.finished_page import write_finished
+
+        pages = self._pages(Drawings(self.figures))
+        if REPORT in pages:
+            write_finished(pages[REPORT], file, self.record, "", self.reservations(""))
+        else:
+            write_finished(self._plain_page(), file, self.record, "", self.warnings)
+
+    def _pages(self, drawings: Mapping[str, bytes]) -> Mapping[str, Page | Thinned]:
+        return self.pages(drawings) or {REPORT: self._plain_page()}
+
+    def _plain_page(self) -> Page:
+        from geocontact.analyses.finished_page import plain_page
+
+        return plain_page(self.title, self.record, self.figure(), self.tables())
 
     def put(self, draft: Path, forms: TableForms | None = None) -> list[str]:
         """Write everything into `draft`, `run.json` included; names of the files.
@@ -144,3 +226,7 @@ class Result(ABC):
             return text
         drawn, words = b64encode(png_of(figure)).decode("ascii"), escape("Figure: " + "".join(self.sentences[:1]))
         return f'{text}<img src="data:image/png;base64,{drawn}" alt="{words}"/>'
+
+
+def _make_room(file: Path) -> None:
+    file.parent.mkdir(parents=True, exist_ok=True)

@@ -9,7 +9,7 @@ table. Assumed throughout: the person adds an Ornstein-Uhlenbeck force. The true
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from jaxtyping import Float
@@ -60,6 +60,10 @@ class Design:
     pressures
         Range from which each trial's cuff pressure is drawn [Pa]; None where none is recorded. 10 to 60 mmHg in
         sec. III.B.
+    sines, amplitudes
+        Of the tracking signal, and the least and largest of their relative amplitudes.
+    full_scale
+        What the converter's steps divide, by channel [rad, N, m].
     """
 
     seconds: float = 60.0
@@ -71,6 +75,9 @@ class Design:
     donning: float = 0.0
     bits: int = 12
     pressures: tuple[float, float] | None = None
+    sines: int = SINES
+    amplitudes: tuple[float, float] = AMPLITUDES
+    full_scale: Mapping[str, float] = field(default_factory=lambda: dict(FULL_SCALE))
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,8 +90,9 @@ class SyntheticElbowTrial:
 
 def multisine(time: Float[np.ndarray, " t"], design: Design, rng: np.random.Generator) -> Float[np.ndarray, " t"]:
     """Angle of one trial [rad]: sines of random frequencies, amplitudes and phases, from end to end of the reach."""
-    frequency = rng.uniform(*design.band, SINES)
-    size, phase = rng.uniform(*AMPLITUDES, SINES), rng.uniform(0.0, 2.0 * np.pi, SINES)
+    count = design.sines
+    frequency = rng.uniform(*design.band, count)
+    size, phase = rng.uniform(*design.amplitudes, count), rng.uniform(0.0, 2.0 * np.pi, count)
     sum_of = size @ np.sin(2.0 * np.pi * frequency[:, None] * time + phase[:, None])
     low, high = float(sum_of.min()), float(sum_of.max())
     first, last = design.reach
@@ -125,9 +133,9 @@ def synthetic(
     recording = ElbowRecording(
         name,
         time,
-        _converted(beta, "beta", design.bits),
-        _converted(noisy, "force", design.bits),
-        None if stroke is None else _converted(joint, "displacement", design.bits),
+        _converted(beta, "beta", design),
+        _converted(noisy, "force", design),
+        None if stroke is None else _converted(joint, "displacement", design),
         None if pressure is None else np.full(len(time), pressure),
         None if torque is None else np.full(len(time), torque),
     )
@@ -215,9 +223,9 @@ def _remembered(count: int, design: Design, rng: np.random.Generator) -> Float[n
     return np.asarray(design.noise * lfilter([1.0], [1.0, -keep], new))
 
 
-def _converted(values: Float[np.ndarray, " t"], channel: str, bits: int) -> Float[np.ndarray, " t"]:
-    """What a converter of so many bits makes of it."""
-    if bits == 0:
+def _converted(values: Float[np.ndarray, " t"], channel: str, design: Design) -> Float[np.ndarray, " t"]:
+    """What the converter makes of it."""
+    if design.bits == 0:
         return values
-    step = FULL_SCALE[channel] / 2.0**bits
+    step = design.full_scale[channel] / 2.0**design.bits
     return np.asarray(np.round(values / step) * step)

@@ -12,4 +12,4 @@ as in contact when its signed distance to the other body is not above the thresh
 unsigned, and the table says so.
 """
 
-area = Command("geocontact.analyses.area.job:area", AreaOptions, HELP, rest="motion")
+area = Command("geocontact.analyses.area.result:area", AreaOptions, HELP, rest="motion")

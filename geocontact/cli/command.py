@@ -38,7 +38,7 @@ class Command:
     Parameters
     ----------
     job
-        Where the analysis is, "geocontact.analyses.cop.job:centre_of_pressure", or where it is for options that are
+        Where the analysis is, "geocontact.analyses.cop.result:centre_of_pressure", or where it is for options that are
         given; imported when it runs.
     options
         Its options.

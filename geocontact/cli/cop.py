@@ -10,4 +10,4 @@ HELP = """Centre of pressure, force and free moment of a foot that stands on sph
 Writes cop.csv, zones.csv, cop.png, cop.svg, report.html and run.json into OUT, and comparison.csv with `compare`.
 """
 
-cop = Command("geocontact.analyses.cop.job:centre_of_pressure", CopOptions, HELP)
+cop = Command("geocontact.analyses.cop.result:centre_of_pressure", CopOptions, HELP)

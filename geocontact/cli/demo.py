@@ -21,7 +21,7 @@ def demo(*, out: Path = Path("demo-result")) -> int:
     out
         Folder for the results.
     """
-    from geocontact.analyses.area.job import area  # numba and friends: not for --help
+    from geocontact.analyses.area.result import area  # numba and friends: not for --help
 
     meshes = sample_folder()
     print("synthetic total-knee pair, synthetic gait cycle of 101 frames; medial and lateral apart")

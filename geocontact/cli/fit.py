@@ -11,4 +11,4 @@ Writes fit.json, fit.png, fit.svg, report.html and run.json into OUT, and profil
 `profile`. Which faces count decides the radius: say it with `region`.
 """
 
-fit = Command("geocontact.analyses.shape.job:fit_shape", ShapeOptions, HELP)
+fit = Command("geocontact.analyses.shape.result:fit_shape", ShapeOptions, HELP)

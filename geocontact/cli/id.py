@@ -12,4 +12,4 @@ are known, report.html (a moving skeleton) and run.json into OUT. OpenSim's own 
 takes the place of inputs and options: --setup FILE; options that are typed beside it count instead of its own.
 """
 
-inverse_dynamics = Command("geocontact.analyses.motion.inverse_dynamics.job:inverse_dynamics", IdOptions, HELP)
+inverse_dynamics = Command("geocontact.analyses.motion.inverse_dynamics.result:inverse_dynamics", IdOptions, HELP)

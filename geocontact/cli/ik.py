@@ -13,4 +13,4 @@ OpenSim's own set-up file takes the place of inputs and options: --setup FILE; o
 instead of its own.
 """
 
-ik = Command("geocontact.analyses.motion.inverse_kinematics.job:inverse_kinematics", IkOptions, HELP)
+ik = Command("geocontact.analyses.motion.inverse_kinematics.result:inverse_kinematics", IkOptions, HELP)

@@ -10,4 +10,4 @@ HELP = """Centre or axis of a joint from how the markers of two segments move ag
 Writes joint.json, joint.csv, markers.trc [mm] with the joint as a marker, and run.json into OUT.
 """
 
-joint = Command("geocontact.analyses.motion.functional_joint.job:functional_joint", JointOptions, HELP)
+joint = Command("geocontact.analyses.motion.functional_joint.result:functional_joint", JointOptions, HELP)

@@ -11,4 +11,4 @@ Writes forces.csv, loadcells.png, loadcells.svg, report.html and run.json into O
 ensemble.csv, ensemble.png, ensemble.svg, and styles.csv where there are several gait styles.
 """
 
-loadcells = Command("geocontact.analyses.loadcells.job:load_cells", LoadcellOptions, HELP)
+loadcells = Command("geocontact.analyses.loadcells.result:load_cells", LoadcellOptions, HELP)

@@ -10,4 +10,4 @@ HELP = """Where the markers of a model are along a motion: virtual markers by fo
 Writes markers.trc [mm] and run.json into OUT.
 """
 
-markers = Command("geocontact.analyses.motion.virtual_markers.job:virtual_markers", MarkersOptions, HELP)
+markers = Command("geocontact.analyses.motion.virtual_markers.result:virtual_markers", MarkersOptions, HELP)

@@ -11,4 +11,4 @@ Writes wrench.csv, uncertainty.csv, cells.csv, frames_cells.csv, segments.csv wi
 `body_landmarks`, agreement.csv with `compare`, mat_on_surface.vtp, report.html, mat.png, mat.svg, run.json.
 """
 
-mat = Command("geocontact.analyses.mat.job:mat", MatOptions, HELP)
+mat = Command("geocontact.analyses.mat.result:mat", MatOptions, HELP)

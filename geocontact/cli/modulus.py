@@ -11,4 +11,4 @@ Writes modulus.json, curves.csv, sensitivity.csv, modulus.png, modulus.svg, repo
 prediction.csv with `predict_area`. Area and force give one number, E* = E/(1 - nu^2): E is told for a stated nu.
 """
 
-modulus = Command("geocontact.analyses.modulus.job:modulus", ModulusOptions, HELP)
+modulus = Command("geocontact.analyses.modulus.result:modulus", ModulusOptions, HELP)

@@ -12,4 +12,4 @@ OpenSim's own set-up file takes the place of inputs and options: --setup FILE; o
 instead of its own.
 """
 
-scale = Command("geocontact.analyses.motion.scale.job:scale", ScaleOptions, HELP)
+scale = Command("geocontact.analyses.motion.scale.result:scale", ScaleOptions, HELP)

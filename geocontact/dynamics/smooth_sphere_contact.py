@@ -80,19 +80,30 @@ class SmoothedSphereLaw:
 
 @dataclass(frozen=True)
 class OpenSimSphereLaw:
-    """The law of `contact.smooth_half_space` with OpenSim's constants; parameters as of `SmoothedSphereLaw`."""
+    """The law of `contact.smooth_half_space` with OpenSim's constants; parameters as of `SmoothedSphereLaw`.
+
+    Parameters
+    ----------
+    constant
+        `constant_contact_force`, as an area and as the square of a speed.
+    """
 
     modulus: SX | float
     c: SX | float
     radius: SX | float
     stribeck: StribeckFriction
-    still = CONSTANT**0.5
+    b_d: float = HERTZ_SMOOTHING
+    b_v: float = HUNT_CROSSLEY_SMOOTHING
+    constant: float = CONSTANT
+
+    @property
+    def still(self) -> float:
+        """Speed that is added to that of sliding, as squares [m/s]."""
+        return float(self.constant**0.5)
 
     def pressing(self, depth: SX, closing: SX) -> SX:
         """As `SmoothSphereHalfSpaceForce` has it [N]."""
-        force = half_space_force(
-            depth, closing, self.modulus, self.radius, self.c, HERTZ_SMOOTHING, HUNT_CROSSLEY_SMOOTHING, CONSTANT
-        )
+        force = half_space_force(depth, closing, self.modulus, self.radius, self.c, self.b_d, self.b_v, self.constant)
         return cast("SX", force)
 
     def friction(self, speed: SX) -> SX:

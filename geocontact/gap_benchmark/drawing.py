@@ -9,10 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic import KINDS, SyntheticCase, synthetic_case
+from geocontact.gap_benchmark.synthetic.catalogue import SCENES
 
 __all__ = ["ABROAD", "HOME", "KINDS", "SHARES", "SYSTEMS", "Lot", "SyntheticCase", "drawn", "lots", "shares"]
 
-SYSTEMS = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
+SYSTEMS = tuple(SCENES)
+"""Seeds of cases go by their place: a further one comes last."""
 SHARES = {"none": 100, "single": 70, "pair": 10, "outside": 10, "absorbed": 3, "fault": 4, "shift": 3}
 """Cases of each kind among 200: half without any effect, most others with one, so that about 60 can be seen."""
 

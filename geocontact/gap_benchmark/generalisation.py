@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from geocontact.gap_benchmark.answers import Plain, constant_answer, true_distribution
-from geocontact.gap_benchmark.attainable import clearly_ahead, one_law
+from geocontact.gap_benchmark.confounding import clearly_ahead, one_law
 from geocontact.gap_benchmark.rates import Rate
 from geocontact.gap_benchmark.score import answers, score, small_set, visible
 

@@ -16,7 +16,7 @@ from jaxtyping import Float
 Side = Literal["right", "left"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ArmMotion:
     """One upper arm in the LCS, frame by frame.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 from jaxtyping import Float
@@ -14,6 +15,11 @@ from geocontact.shoulder_exoskeleton.cuff_contact import Cuff
 MIRROR = np.array([-1.0, 1.0, 1.0])
 
 
+REMEMBERED = 64
+"""Motions whose mirror image and splines are kept: one is simulated under many profiles."""
+
+
+@lru_cache(REMEMBERED)
 def mirrored_arm(motion: ArmMotion) -> ArmMotion:
     """A left arm as a right one, which the equations are those of; a right one as it is."""
     if motion.side == "right":
@@ -38,11 +44,7 @@ def arm_inputs(
     Then the force that presses on a point, or the arm's line for a surface.
     """
     held = np.ones(len(motion.time)) if factor is None else np.asarray(factor, float)
-    found = (
-        recorded_inputs(motion.time, motion.interface, derivatives=1)
-        .beside(recorded_inputs(motion.time, motion.gravity_at_frames()))
-        .beside(stepped_inputs(motion.time, held[:-1, None]))
-    )
+    found = _placed(motion).beside(stepped_inputs(motion.time, held[:-1, None]))
     if cuff == "point":
         force = np.zeros(len(motion.time)) if pressed is None else np.asarray(pressed, float)
         return found.beside(linear_inputs(motion.time, force[:, None]))
@@ -51,3 +53,10 @@ def arm_inputs(
     line = motion.interface - motion.shoulder
     line = line / np.linalg.norm(line, axis=1, keepdims=True)
     return found.beside(recorded_inputs(motion.time, line, derivatives=1))
+
+
+@lru_cache(REMEMBERED)
+def _placed(motion: ArmMotion) -> RecordedInputs:
+    """Place and velocity of the sphere, and gravity."""
+    place = recorded_inputs(motion.time, motion.interface, derivatives=1)
+    return place.beside(recorded_inputs(motion.time, motion.gravity_at_frames()))

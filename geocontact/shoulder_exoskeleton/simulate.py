@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
+from geocontact.dynamics.simulate import SimulatedMotion
 from geocontact.shoulder_exoskeleton.arm_model import ArmModel, Told, arm_model, output_slices
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers
@@ -128,6 +129,98 @@ def simulate_arm(
     ArithmeticError where nothing rests in equilibrium at the start, or the motion cannot go on; `OutOfCuffError`, which
     is one, where it is for longer.
     """
+    moved = move_arm(
+        motion,
+        device,
+        wearer,
+        level,
+        factor=factor,
+        pressed=pressed,
+        tolerance=tolerance,
+        steps=steps,
+        machine_code=machine_code,
+        cuff=cuff,
+    )
+    return moved.simulation(most_lost)
+
+
+@dataclass(frozen=True, eq=False)
+class MovedArm:
+    """Motion of an exoskeleton's arm before forces and places are worked out.
+
+    Parameters
+    ----------
+    motion, device, wearer, level, cuff
+        As those of `ArmSimulation`.
+    model, numbers
+        The equations and their parameters.
+    recorded
+        Inputs of the equations at the recorded frames.
+    found
+        States over time.
+    """
+
+    motion: ArmMotion
+    device: Device
+    wearer: Wearer
+    level: float
+    cuff: Cuff
+    model: ArmModel
+    numbers: Float[np.ndarray, " p"]
+    recorded: Float[np.ndarray, "t w"]
+    found: SimulatedMotion
+
+    @property
+    def elevation(self) -> Float[np.ndarray, " t"]:
+        """Of the active joint [rad]."""
+        return self.found.q[:, JOINTS.index("elevation")]
+
+    def simulation(self, most_lost: float = MOST_LOST) -> ArmSimulation:
+        """The arm with its forces; `OutOfCuffError` as of `simulate_arm`."""
+        found, motion = self.found, self.motion
+        told = _told(self.model, found.q, found.u, found.z, self.recorded, self.numbers)
+        if motion.side == "left":
+            told["force"] = told["force"] * MIRROR
+            told["moment"] = -told["moment"] * MIRROR
+            told["joints"] = told["joints"] * np.tile(MIRROR, 4)
+        arm = ArmSimulation(
+            motion,
+            self.device,
+            self.wearer,
+            self.level,
+            self.cuff,
+            found.q,
+            found.u,
+            found.z[:, 0],
+            self.recorded,
+            told,
+            found.steps,
+            found.refused,
+        )
+        require_held(arm, most_lost)
+        return arm
+
+
+def require_held(arm: ArmSimulation, most_lost: float = MOST_LOST) -> None:
+    """`OutOfCuffError` where the sphere is far out of the cuff for more than this share of the time."""
+    hinge = arm.told["joints"].reshape(-1, 4, 3)[:, JOINTS.index("elevation")]
+    require_in_cuff(arm.motion, arm.device, arm.wearer, arm.told["place"][:, 0], hinge, most_lost)
+
+
+def move_arm(
+    motion: ArmMotion,
+    device: Device,
+    wearer: Wearer,
+    level: float,
+    *,
+    factor: Float[np.ndarray, " t"] | None = None,
+    pressed: Float[np.ndarray, " t"] | None = None,
+    tolerance: float = TOLERANCE,
+    steps: int | None = None,
+    machine_code: bool = True,
+    cuff: Cuff = "point",
+) -> MovedArm:
+    """Motion alone, of which a controller asks many times; parameters and errors as of `simulate_arm`."""
     model, p = arm_model(device, machine_code=machine_code, cuff=cuff), adjusted_numbers(device, wearer, level)
     mirrored = mirrored_arm(motion)
     inputs = arm_inputs(mirrored, factor, cuff, pressed)
@@ -135,16 +228,7 @@ def simulate_arm(
     found = model.stepper.simulate(
         start, motion.time, inputs=inputs, parameters=p, tolerance=tolerance, first=FIRST, steps=steps
     )
-    recorded = inputs.at(motion.time)
-    told = _told(model, found.q, found.u, found.z, recorded, p)
-    if motion.side == "left":
-        told["force"] = told["force"] * MIRROR
-        told["moment"] = -told["moment"] * MIRROR
-        told["joints"] = told["joints"] * np.tile(MIRROR, 4)
-    hinge = told["joints"].reshape(-1, 4, 3)[:, JOINTS.index("elevation")]
-    require_in_cuff(motion, device, wearer, told["place"][:, 0], hinge, most_lost)
-    state = found.q, found.u, found.z[:, 0]
-    return ArmSimulation(motion, device, wearer, level, cuff, *state, recorded, told, found.steps, found.refused)
+    return MovedArm(motion, device, wearer, level, cuff, model, p, inputs.at(motion.time), found)
 
 
 def _told(

@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from geocontact.dynamics.collocation.refinement import refined
 from geocontact.dynamics.collocation.solve import CollocationResult, Progress, SolverOptions, solve
-from geocontact.standing_up.contact_numbers import ContactNumbers, contact_numbers, unsettled_numbers
+from geocontact.standing_up.contact_numbers import ContactNumbers, contact_numbers, corrected, unsettled_numbers
 from geocontact.standing_up.contact_parameter import usual
 from geocontact.standing_up.cost_shares import cost_shares
 from geocontact.standing_up.judged import JudgedMotion, judged
@@ -66,9 +66,9 @@ class CalibratedPhase:
     name
         A or B.
     found
-        Motions and parameters that belong together: the corrected ones where there were resamples.
+        Motions and parameters that belong together: the corrected ones where there were resamples and intervals.
     numbers
-        What the trials tell of each parameter.
+        What the trials tell of each parameter; their values are those of `found`.
     motions
         Certificate and residual of each trial.
     shares
@@ -147,8 +147,8 @@ def calibrated_phase(
         if search.profiles:
             curves = profiles(phase, found, numbers, search.profiles, solved)
         numbers = beside_rivals(numbers, phase, at, others, search.level)
-        if again is not None:
-            p = np.clip(found.p - again.bias, *phase.control.p)
+        if again is not None and not doubt:
+            p = corrected(phase, found, again)
             phase = replace(phase, control=replace(phase.control, p=(p, p), guess_p=p))
             found = finer(phase, solved(phase, found))
     controlled = range(len(model.joints))

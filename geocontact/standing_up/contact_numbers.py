@@ -105,9 +105,9 @@ def contact_numbers(
     covariance = 2.0 / RATE * inverse_reduced_hessian(phase.control, found, on_bound.tolist())
     sd = np.sqrt(np.diag(covariance))
     reach = float(norm.ppf(0.5 + 0.5 * level))
-    best = found.p
+    best = corrected(phase, found, again)
     if again is not None:
-        sd, best = sd * again.widening, np.where(sought & ~on_bound, found.p - again.bias, found.p)
+        sd = sd * again.widening
     assumed = _assumed(phase, found, held, on_bound)
     sd = np.hypot(sd, assumed)
     numbers = []
@@ -151,6 +151,18 @@ def _assumed(
 def believed_covariance(parameters: Sequence[ContactParameter], names: Collection[str]) -> Float[np.ndarray, "p p"]:
     """Of what is searched, where a phase holds its numbers at what is believed: of `names`, the others exact."""
     return np.diag([each.sd**2 if each.name in names else 0.0 for each in parameters])
+
+
+def corrected(phase: PhaseProblem, found: CollocationResult, again: Resampled | None) -> Float[np.ndarray, " p"]:
+    """What is searched less the bias that resampled trials show, within its bounds: tables and motions have these.
+
+    What is held, or on a bound, stays.
+    """
+    if again is None:
+        return found.p
+    low, high = phase.control.p
+    sought, on_bound = low < high, on_their_bounds(phase, found.p)
+    return np.asarray(np.where(sought & ~on_bound, np.clip(found.p - again.bias, *phase.control.p), found.p))
 
 
 def held_covariance(of: ContactNumbers, parameters: Sequence[ContactParameter]) -> Float[np.ndarray, "p p"]:

@@ -12,7 +12,8 @@ import numpy as np
 
 from geocontact.data.multibody.model import Body, Multibody
 from geocontact.standing_up.chain import Subject, leg_chain
-from geocontact.standing_up.exoskeleton import SHIFT, two_chains
+from geocontact.standing_up.exoskeleton import two_chains
+from geocontact.standing_up.strap_sites import SHIFT
 
 CARRIES = {"shank": ("exo_shank", 0.0), "thigh": ("exo_thigh", SHIFT), "trunk": ("exo_module", 0.0)}
 """By segment: part of the exoskeleton, and its origin above the segment's [m]."""

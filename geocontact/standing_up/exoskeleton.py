@@ -26,21 +26,20 @@ from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.standing_up.chain import JOINTS, SHANK, THIGH, Subject, leg_chain
 from geocontact.standing_up.chair import COMPONENTS, chair_on_person
 from geocontact.standing_up.contact_parameter import ContactParameter, searched
-from geocontact.standing_up.feet import FOOT_PARAMETERS, ground_on_feet
+from geocontact.standing_up.feet import FOOT_PARAMETERS, GROUND_LAW, ground_on_feet
+from geocontact.standing_up.model_constants import ModelConstants
 from geocontact.standing_up.standing_model import StandingModel
-from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite
+from geocontact.standing_up.strap_sites import SHIFT, THIGH_STRAP, StrapSite
 
 if TYPE_CHECKING:
     from casadi import SX
 
 LEGS = THIGH_STRAP.count
 """Straps in parallel at the thigh."""
-DAMPING, TURNING_DAMPING = 10.0, 0.1
-"""Of one strap [N s/m], [N m s/rad]: the study's, held."""
+DAMPING, TURNING_DAMPING = THIGH_STRAP.damping, THIGH_STRAP.turning_damping
+"""Of one strap [N s/m], [N m s/rad]."""
 PLATE, LOWER, UPPER, MODULE = 2.0, 3.0, 4.0, 5.0
 """Masses of foot plates, shank and thigh parts of both sides and the module at the pelvis [kg]."""
-SHIFT = 0.01
-"""The exoskeleton's knee above the person's [m]."""
 HEIGHT = 0.25
 """Of the module [m]."""
 EXO_JOINTS = ("exo_ankle", "exo_knee", "exo_hip")
@@ -68,6 +67,8 @@ class Strap:
         Of the springs of all, without the normal ones, which a mat sees, and of those [J].
     elsewhere
         Normal force of one strap at each further site [N], by its name.
+    sites
+        Whose straps these are, where they are of sites.
     """
 
     loads: Wrenches
@@ -76,6 +77,7 @@ class Strap:
     energy: SX
     normal_energy: SX
     elsewhere: Mapping[str, SX] = field(default_factory=dict)
+    sites: tuple[StrapSite, ...] = ()
 
 
 StrapLaw = Callable[[Tree, "SX"], Strap]
@@ -152,7 +154,8 @@ def worn_model(
         Force and moment of a chair, given over time behind the other inputs.
     """
     feet = len(FOOT_PARAMETERS)
-    ground, strap = ground_on_feet(tree, p[:feet, :]), (law or thigh_strap)(tree, p[feet:, :])
+    ground = ground_on_feet(tree, p[:feet, :], GROUND_LAW)
+    strap = (law or thigh_strap)(tree, p[feet:, :])
     sat_on = [] if chair is None else [chair]
     loads = together(ground, strap.loads, *(chair_on_person(each) for each in sat_on))
     equations = equations_of_motion(tree, loads=loads, along=along, inputs=[inputs, *sat_on], parameters=[p])
@@ -168,6 +171,7 @@ def worn_model(
         strap.normal_energy,
         0 if chair is None else COMPONENTS,
         strap.elsewhere,
+        ModelConstants(tree.model, GROUND_LAW, strap.sites),
     )
 
 
@@ -195,6 +199,7 @@ def straps_at(sites: Sequence[StrapSite]) -> StrapLaw:
             energy,
             normal_energy,
             {site.name: strap.normal for site, strap in zip(sites[1:], others, strict=True)},
+            tuple(sites),
         )
 
     return law
@@ -212,20 +217,21 @@ def strap_at(tree: Tree, p: SX, site: StrapSite) -> Strap:
     normal, tangential, turning = (site.parameters[k].usual * exp(p[k]) for k in range(3))
     own = mtimes(person.rotation, vertcat(0.0, p[3], 0.0))
     # the same height over the person's hinge, so that nothing is displaced while all angles are 0
-    other = mtimes(device.rotation, vertcat(0.0, p[3] - (SHIFT if site.higher else 0.0), 0.0))
+    other = mtimes(device.rotation, vertcat(0.0, p[3] - site.above, 0.0))
     gap = device.place + other - person.place - own
     speed = device.speed + cross(device.spin, other) - person.speed - cross(person.spin, own)
     off = mtimes(person.rotation.T, gap)
     rate = mtimes(person.rotation.T, speed - cross(person.spin, gap))
     turn, turn_rate = _turn_between(tree, site.hinges)
-    across = bushing_force(off[0], rate[0], normal, DAMPING)
-    lengthwise = bushing_force(off[1], rate[1], tangential, DAMPING)
+    across = bushing_force(off[0], rate[0], normal, site.damping)
+    lengthwise = bushing_force(off[1], rate[1], tangential, site.damping)
     force = site.count * mtimes(person.rotation, vertcat(across, lengthwise, 0.0))
-    moment = site.count * vertcat(0.0, 0.0, bushing_force(turn, turn_rate, turning, TURNING_DAMPING))
+    moment = site.count * vertcat(0.0, 0.0, bushing_force(turn, turn_rate, turning, site.turning_damping))
     about = cross(device.place + other, force) + moment
     energy = 0.5 * site.count * (tangential * off[1] ** 2 + turning * turn**2)
     loads = {site.person: (force, about), site.device: (-force, -about)}
-    return Strap(loads, across, lengthwise, energy, 0.5 * site.count * normal * off[0] ** 2)
+    normal_energy = 0.5 * site.count * normal * off[0] ** 2
+    return Strap(loads, across, lengthwise, energy, normal_energy, sites=(site,))
 
 
 def _turn_between(tree: Tree, hinges: int) -> tuple[SX, SX]:

@@ -13,6 +13,7 @@ from geocontact.geometry.shapes import HalfSpace
 from geocontact.standing_up.chain import COORDINATES, JOINTS, Subject, leg_chain
 from geocontact.standing_up.chair import COMPONENTS, chair_on_person
 from geocontact.standing_up.contact_parameter import ContactParameter, searched
+from geocontact.standing_up.model_constants import GroundLaw, ModelConstants
 from geocontact.standing_up.standing_model import StandingModel
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
 FRICTION = StribeckFriction(0.2, 0.9, 0.7, 0.4)
 """The usual one; the factor `friction` multiplies both coefficients."""
+GROUND_LAW = GroundLaw(FRICTION)
 FOOT_PARAMETERS = (
     ContactParameter("stiffness", "Pa", 3e6, 1.0, 2.5e5, 6e7, logarithm=True),
     ContactParameter("heel", "m", -0.03, 0.02, -0.09, 0.02),
@@ -53,7 +55,8 @@ def feet_on_ground(subject: Subject, *, seated: bool = False) -> StandingModel:
     tree = tree_of(leg_chain(subject))
     p, torque = SX.sym("p", len(FOOT_PARAMETERS)), SX.sym("torque", len(JOINTS))
     chair = SX.sym("chair", COMPONENTS if seated else 0)
-    ground = ground_on_feet(tree, p)
+    law = GROUND_LAW
+    ground = ground_on_feet(tree, p, law)
     loads = together(ground, chair_on_person(chair)) if seated else ground
     along = {name: torque[k] for k, name in enumerate(JOINTS)}
     equations = equations_of_motion(tree, loads=loads, along=along, inputs=[torque, chair], parameters=[p])
@@ -61,17 +64,19 @@ def feet_on_ground(subject: Subject, *, seated: bool = False) -> StandingModel:
         raise ValueError(f"coordinates are {equations.names}")
     (force, moment), none = ground["foot"], SX(0, 1)
     seen = force[:2, :], moment[2] / force[1]
-    return StandingModel(equations, FOOT_PARAMETERS, *seen, none, none, SX(0), SX(0), chair.numel())
+    built = ModelConstants(tree.model, law)
+    return StandingModel(equations, FOOT_PARAMETERS, *seen, none, none, SX(0), SX(0), chair.numel(), constants=built)
 
 
-def ground_on_feet(tree: Tree, p: SX) -> Wrenches:
+def ground_on_feet(tree: Tree, p: SX, ground_law: GroundLaw = GROUND_LAW) -> Wrenches:
     """Force and moment on the foot from both spheres; `p` is what is searched of `FOOT_PARAMETERS`."""
     from casadi import exp, vertcat
 
-    factor = exp(p[6])
-    friction = StribeckFriction(FRICTION.v_t, FRICTION.mu_s * factor, FRICTION.mu_d * factor, FRICTION.mu_v)
+    factor, usual = exp(p[6]), ground_law.friction
+    friction = StribeckFriction(usual.v_t, usual.mu_s * factor, usual.mu_d * factor, usual.mu_v)
     stiffness, dissipation = (FOOT_PARAMETERS[k].usual * exp(p[k]) for k in (0, 5))
-    law = OpenSimSphereLaw(stiffness, dissipation, p[4], friction)
+    smoothing = ground_law.hertz, ground_law.hunt_crossley, ground_law.constant
+    law = OpenSimSphereLaw(stiffness, dissipation, p[4], friction, *smoothing)
     ground = HalfSpace(normal=(0.0, 1.0, 0.0))
     foot = tree.bodies["foot"]
     wrenches = [smooth_sphere_wrench(foot, vertcat(place, p[4] - p[3], 0.0), law, ground) for place in (p[1], p[2])]

@@ -18,7 +18,7 @@ from numpy.polynomial import Polynomial
 from scipy.interpolate import CubicSpline
 
 from geocontact.dynamics.collocation.multibody import jerk_controlled
-from geocontact.dynamics.collocation.problem import ControlProblem, Course
+from geocontact.dynamics.collocation.problem import Bounds, ControlProblem, Course
 from geocontact.dynamics.symbols import residual, scaled
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.contact_parameter import ContactParameter, bounds, usual
@@ -39,6 +39,28 @@ Smaller ones bend the motion and with it the parameters, larger ones let both fo
 
 
 @dataclass(frozen=True)
+class PhaseSizes:
+    """What the terms of a phase's cost are measured by.
+
+    Parameters
+    ----------
+    noise
+        Of one sample.
+    rate
+        Samples a second at which a deviation counts as itself [Hz].
+    jerk
+        Of the foot and of the joints [m/s^3, rad/s^3].
+    weights
+        Of what is kept small besides, by name.
+    """
+
+    noise: StandingNoise
+    rate: float
+    jerk: tuple[float, float]
+    weights: Mapping[str, float]
+
+
+@dataclass(frozen=True)
 class PhaseProblem:
     """A phase as a control problem, and what its cost consists of.
 
@@ -52,12 +74,15 @@ class PhaseProblem:
         All of them.
     free
         Names of those that are sought.
+    sizes
+        Of the terms; None where the cost is of another kind.
     """
 
     control: ControlProblem
     terms: Mapping[str, SX]
     parameters: tuple[ContactParameter, ...]
     free: tuple[str, ...]
+    sizes: PhaseSizes | None = None
 
 
 def standing_phase(
@@ -73,6 +98,7 @@ def standing_phase(
     start: Float[np.ndarray, " p"] | None = None,
     guess: Sequence[Course] | None = None,
     jerk_sizes: tuple[float, float] = (FOOT_JERK, JOINT_JERK),
+    weights: Mapping[str, float] | None = None,
 ) -> PhaseProblem:
     """The problem of all trials at once.
 
@@ -90,18 +116,14 @@ def standing_phase(
         Coordinates where the search of each motion starts, from its own start on; the recorded ones unless given.
     jerk_sizes
         Of the foot and of the joints [m/s^3, rad/s^3].
+    weights
+        Of `small`; 1 unless given.
     """
     from casadi import SX, sumsqr, vertcat
 
+    weight = dict.fromkeys(small, 1.0) | dict(weights or {})
     e, n = model.equations, model.count
-    channels = {
-        "coordinates": (e.q, model.per_coordinate(noise.length, noise.angle)),
-        "rates": (e.u, np.full(n, noise.rate)),
-        "force": (model.force, np.full(2, noise.force)),
-        "centre": (model.centre, np.array([noise.centre])),
-        "torque": (model.torques, np.full(n - 3, noise.torque)),
-        "strap": (model.straps, np.full(model.straps.numel(), noise.strap)),
-    }
+    channels = _channels(model, noise)
     width = {name: len(channels[name][1]) for name in tracks}
     recorded = SX.sym("recorded", width["strap"] if model.elsewhere and "strap" in tracks else 0)
     values, share, jerk = SX.sym("values", sum(width.values())), SX.sym("share"), SX.sym("jerk", n)
@@ -113,7 +135,7 @@ def standing_phase(
         at += width[name]
     seen = vertcat(values, recorded, share)
     sizes = np.r_[np.full(3, jerk_sizes[0]), np.full(n - 3, jerk_sizes[1])]
-    terms |= {**small, "jerk": sumsqr(scaled(jerk, sizes))}
+    terms |= {name: weight[name] * of for name, of in small.items()} | {"jerk": sumsqr(scaled(jerk, sizes))}
     system = jerk_controlled(
         e,
         controlled=range(n - 3),
@@ -124,10 +146,7 @@ def standing_phase(
         prior=belief(e.p, model.parameters, free),
         parameter_names=[each.name for each in model.parameters],
     )
-    low, high = bounds(model.parameters, free)
-    if held is not None:
-        fixed = np.array([each.name not in free for each in model.parameters])
-        low, high = np.where(fixed, held, low), np.where(fixed, held, high)
+    low, high = _bounds(model.parameters, free, held)
     smooth = [smooth_coordinates(trial) for trial in trials]
     begin = first_fit(model, trials, smooth, free, tracks, held) if start is None else start
     begin = np.clip(begin, low, high)
@@ -136,7 +155,32 @@ def standing_phase(
         for trial, course in zip(trials, guess or smooth, strict=True)
     )
     control = ControlProblem(system, made, (low, high), begin, *problem_scales(subject, n))
-    return PhaseProblem(control, terms, model.parameters, tuple(free))
+    measured = PhaseSizes(noise, RATE, jerk_sizes, weight)
+    return PhaseProblem(control, terms, model.parameters, tuple(free), measured)
+
+
+def _channels(model: StandingModel, noise: StandingNoise) -> dict[str, tuple[SX, Float[np.ndarray, " c"]]]:
+    """What may be tracked, and the noise of each entry."""
+    e, n = model.equations, model.count
+    return {
+        "coordinates": (e.q, model.per_coordinate(noise.length, noise.angle)),
+        "rates": (e.u, np.full(n, noise.rate)),
+        "force": (model.force, np.full(2, noise.force)),
+        "centre": (model.centre, np.array([noise.centre])),
+        "torque": (model.torques, np.full(n - 3, noise.torque)),
+        "strap": (model.straps, np.full(model.straps.numel(), noise.strap)),
+    }
+
+
+def _bounds(
+    parameters: Sequence[ContactParameter], free: Sequence[str], held: Float[np.ndarray, " p"] | None
+) -> Bounds:
+    """Of what is searched; what is not free keeps its usual value, or that of `held`."""
+    low, high = bounds(parameters, free)
+    if held is None:
+        return low, high
+    fixed = np.array([each.name not in free for each in parameters])
+    return np.where(fixed, held, low), np.where(fixed, held, high)
 
 
 def belief(p: SX, parameters: Sequence[ContactParameter], free: Sequence[str]) -> SX:
@@ -175,9 +219,11 @@ def _data(trial: StandingTrial, tracks: Sequence[str]) -> Course:
     return lambda time: np.column_stack([course(time), np.full(len(time), share)])
 
 
-def smooth_coordinates(trial: StandingTrial) -> Callable[[Float[np.ndarray, " t"]], Float[np.ndarray, "t n"]]:
-    """Polynomials of degree 7 through the coordinates: where the search starts, accelerations must not be noise."""
-    fits = [Polynomial.fit(trial.time - trial.time[0], q, 7) for q in trial.q.T]
+def smooth_coordinates(
+    trial: StandingTrial, degree: int = 7
+) -> Callable[[Float[np.ndarray, " t"]], Float[np.ndarray, "t n"]]:
+    """Polynomials through the coordinates: where the search starts, accelerations must not be noise."""
+    fits = [Polynomial.fit(trial.time - trial.time[0], q, degree) for q in trial.q.T]
 
     def coordinates(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t n"]:
         return np.column_stack([fit(time) for fit in fits])

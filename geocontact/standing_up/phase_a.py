@@ -43,7 +43,7 @@ def phase_a(
     """
     from casadi import sumsqr
 
-    small = {"torques": LITTLE_TORQUE * sumsqr(model.torques)}
+    small = {"torques": sumsqr(model.torques)}
     held = usual(model.parameters)
     springs = {name for site in STRAP_SITES for name in site.names[: len(SPRINGS)]}
     held[[each.name in springs for each in model.parameters]] = SLACK
@@ -58,4 +58,5 @@ def phase_a(
         held=held,
         start=start,
         jerk_sizes=jerk_sizes,
+        weights={"torques": LITTLE_TORQUE},
     )

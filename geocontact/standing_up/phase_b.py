@@ -45,5 +45,15 @@ def phase_b(
     """
     held = np.r_[feet, usual(model.parameters[len(feet) :])]
     begin = held if start is None else np.r_[feet, start]
-    small = {"energy": LITTLE_ENERGY * model.energy**2}
-    return standing_phase(model, subject, trials, noise, free=free, tracks=tracks, small=small, held=held, start=begin)
+    return standing_phase(
+        model,
+        subject,
+        trials,
+        noise,
+        free=free,
+        tracks=tracks,
+        small={"energy": model.energy**2},
+        held=held,
+        start=begin,
+        weights={"energy": LITTLE_ENERGY},
+    )

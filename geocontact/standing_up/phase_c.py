@@ -36,7 +36,6 @@ def phase_c(
 ) -> PhaseProblem:
     """The problem whose solution is the predicted motion; `p` is what is searched of all parameters."""
     course = smooth_coordinates(trial)
-    small = {"energy": LITTLE_ENERGY * (model.energy + model.normal_energy) ** 2}
     phase = standing_phase(
         model,
         subject,
@@ -44,9 +43,10 @@ def phase_c(
         noise,
         free=(),
         tracks=tracks,
-        small=small,
+        small={"energy": (model.energy + model.normal_energy) ** 2},
         held=p,
         start=p,
+        weights={"energy": LITTLE_ENERGY},
         guess=[_between(course, float(np.ptp(trial.time)))],
     )
     seconds = float(np.ptp(trial.time))

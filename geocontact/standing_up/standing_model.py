@@ -12,6 +12,7 @@ from jaxtyping import Float
 from geocontact.dynamics.equations import Equations
 from geocontact.dynamics.symbols import column
 from geocontact.standing_up.contact_parameter import ContactParameter
+from geocontact.standing_up.model_constants import ModelConstants
 
 if TYPE_CHECKING:
     from casadi import SX
@@ -37,6 +38,8 @@ class StandingModel:
         How many of the inputs, the last ones, are given over time.
     elsewhere
         Normal force of one strap at each further site on the person [N], by its name.
+    constants
+        What the equations were built of besides the parameters; None for a model of another kind.
     """
 
     equations: Equations
@@ -49,6 +52,7 @@ class StandingModel:
     normal_energy: SX
     given: int = 0
     elsewhere: Mapping[str, SX] = field(default_factory=dict)
+    constants: ModelConstants | None = None
 
     def __post_init__(self) -> None:
         """Keep all of it as CasADi's own columns, whatever a force law returned. ValueError for another shape."""

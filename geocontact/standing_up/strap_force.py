@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from geocontact.contact.bushing import bushing_force
 from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.exoskeleton import DAMPING, SHIFT, TURNING_DAMPING, two_chains
+from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.strap_motion import strap_motion
 from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite
 
@@ -49,12 +49,12 @@ def strap_force(
     rate = (after - before) / (2.0 * STEP)
     across, along, turning = (
         bushing_force(moved[:, k], rate[:, k], k_n, b)
-        for k, (k_n, b) in enumerate(zip(stiffness, (DAMPING, DAMPING, TURNING_DAMPING), strict=True))
+        for k, (k_n, b) in enumerate(zip(stiffness, (site.damping, site.damping, site.turning_damping), strict=True))
     )
     poses, none = two_chains(subject).poses(q), np.zeros(len(q))
     force = poses[site.person].rotation.apply(np.column_stack([across, along, none]))
     own = poses[site.person].apply(np.array([0.0, at, 0.0]))
-    place = poses[site.device].apply(np.array([0.0, at - (SHIFT if site.higher else 0.0), 0.0]))
+    place = poses[site.device].apply(np.array([0.0, at - site.above, 0.0]))
     return StrapForce(own, place, force, np.column_stack([none, none, turning]))
 
 

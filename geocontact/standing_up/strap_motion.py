@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.standing_up.chain import COORDINATES, JOINTS, Subject
-from geocontact.standing_up.exoskeleton import EXO_JOINTS, SHIFT, two_chains
+from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
 from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite
 
 
@@ -41,7 +41,7 @@ def strap_motion(
     names = (*COORDINATES, *EXO_JOINTS)
     poses = two_chains(subject).poses(q)
     own = poses[site.person].apply(np.array([0.0, place, 0.0]))
-    other = poses[site.device].apply(np.array([0.0, place - (SHIFT if site.higher else 0.0), 0.0]))
+    other = poses[site.device].apply(np.array([0.0, place - site.above, 0.0]))
     off = poses[site.person].rotation.inv().apply(other - own)
     below = (hinges[: site.hinges] for hinges in (JOINTS, EXO_JOINTS))
     person, device = (q[:, [names.index(each) for each in hinges]].sum(axis=1) for hinges in below)

@@ -14,6 +14,10 @@ from geocontact.standing_up.contact_parameter import ContactParameter
 
 LEGS, MODULES = 2, 1
 """Straps in parallel at thigh and shank, and at the pelvis."""
+DAMPING, TURNING_DAMPING = 10.0, 0.1
+"""Of one strap [N s/m], [N m s/rad]: the study's, held."""
+SHIFT = 0.01
+"""The exoskeleton's knee above the person's [m]."""
 SPRINGS = ("normal", "tangential", "turning")
 
 
@@ -33,6 +37,8 @@ class StrapSite:
         Straps in parallel between the chains.
     parameters
         Of one strap: stiffness across the segment, along it and in turning, and its distance from the person's hinge.
+    damping, turning_damping
+        Of one strap's dashpots [N s/m], [N m s/rad].
     """
 
     name: str
@@ -42,6 +48,13 @@ class StrapSite:
     higher: bool
     count: int
     parameters: tuple[ContactParameter, ...]
+    damping: float = DAMPING
+    turning_damping: float = TURNING_DAMPING
+
+    @property
+    def above(self) -> float:
+        """Height of the exoskeleton's hinge over the person's [m]: the strap is so much nearer to it."""
+        return SHIFT if self.higher else 0.0
 
     @property
     def names(self) -> tuple[str, ...]:

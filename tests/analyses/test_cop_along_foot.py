@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
 import geocontact as gc
-from geocontact.analyses.cop.filters import smoothed_motion
+from geocontact.analyses.cop.foot import smoothed_motion
 from geocontact.analyses.cop.page import cop_page
 from geocontact.analyses.cop.result import CopResult
 from geocontact.data.errors import InputError

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.analyses.motion.inverse_dynamics.feet_and_plates import warn_of_other_feet
+from geocontact.analyses.motion.inverse_dynamics.loads import warn_of_other_feet
 from geocontact.analyses.run_record import Record
 from geocontact.data.wrench import Wrench
 from geocontact.io.opensim.osim_multibody import read_multibody

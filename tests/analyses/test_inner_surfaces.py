@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from geocontact.analyses.bodies import read_body, read_surface
-from geocontact.analyses.cop.ground import ground_of
+from geocontact.analyses.cop.foot import ground_of
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputWarning

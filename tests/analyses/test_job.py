@@ -6,7 +6,7 @@ import json
 from base64 import b64decode
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import pandas as pd
 import pytest
@@ -16,7 +16,6 @@ import geocontact as gc
 from geocontact.analyses.job import Call, Job, execute
 from geocontact.analyses.listener import Listener
 from geocontact.analyses.options import Length, Options, Spelled
-from geocontact.analyses.plain_page import write_plain_page
 from geocontact.analyses.result import Result
 from geocontact.analyses.run_record import Record
 from geocontact.cli.command import Command
@@ -44,18 +43,17 @@ class DoubleOptions(Options):
 class Doubled(Result):
     """The length [m]."""
 
+    elsewhere: ClassVar[frozenset[str]] = frozenset({"none"})
+
     options: DoubleOptions
     length: float
 
     def tables(self) -> dict[str, pd.DataFrame]:
         return {"double": pd.DataFrame({"length [mm]": [self.length * 1e3]}), "none": pd.DataFrame()}
 
-    def write_files(self, folder: Path) -> None:
-        self.table().to_csv(folder / "double.csv", index=False)
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        write_plain_page(self, "Twice", file)
+    @property
+    def title(self) -> str:
+        return "Twice"
 
 
 def read_length(o: DoubleOptions, record: Record) -> float:

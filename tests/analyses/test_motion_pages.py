@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.analyses.motion.inverse_dynamics import page as id_page
+from geocontact.analyses.motion.inverse_dynamics import show as id_page
 from geocontact.analyses.motion.inverse_dynamics.forces import Forces
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.sides import stem_and_side

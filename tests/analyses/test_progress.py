@@ -10,10 +10,10 @@ import pytest
 
 from geocontact.analyses.job import Call, execute
 from geocontact.analyses.listener import Listener
-from geocontact.analyses.mat.job import mat
 from geocontact.analyses.mat.options import MatOptions
-from geocontact.analyses.shape.job import fit_shape
+from geocontact.analyses.mat.result import mat
 from geocontact.analyses.shape.options import ShapeOptions
+from geocontact.analyses.shape.result import fit_shape
 
 MESHES = Path(__file__).resolve().parents[2] / "meshes"
 

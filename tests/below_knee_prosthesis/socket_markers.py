@@ -16,10 +16,10 @@ from geocontact.below_knee_prosthesis.from_markers.standing import hip_by_regres
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg import Leg
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
-from geocontact.below_knee_prosthesis.synthetic.course import course
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, SPINES, marker_places, true_leg
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Marker
+from meshes.gait_course import course
+from meshes.gait_persons import PARTICIPANTS, SPINES, marker_places, true_leg
 
 BELOW, EVERY = 0.03, 5
 """m; of the keel's axis above the sole. Which sample of a stance at 500 Hz cameras take."""

@@ -98,7 +98,11 @@ def test_turns_end_where_the_force_no_longer_changes_and_where_a_turn_fails(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("fulcrum", "twice"), [(MEDIUM, 0.035), (HIGH, 0.045)], ids=["medium", "high"])
+@pytest.mark.parametrize(
+    ("fulcrum", "twice"),
+    [(MEDIUM, 0.035), pytest.param(HIGH, 0.045, marks=pytest.mark.long)],
+    ids=["medium", "high"],
+)
 def test_exact_markers_on_a_socket_leave_half_a_percent_of_body_weight(fulcrum: float, twice: float) -> None:
     """Vertically; counted twice its motion costs 4.2 and 5.1 %, and exact markers on the limb itself leave 0.3 %."""
     truth = planted_stance(fulcrum, 0.72)

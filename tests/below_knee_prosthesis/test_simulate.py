@@ -13,10 +13,10 @@ from benchmarks.prosthesis_soles import static_share
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, whole_tree
 from geocontact.below_knee_prosthesis.simulate import Stance, share_of_foot, simulate_stance
-from geocontact.below_knee_prosthesis.synthetic.course import course
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, true_leg
 from geocontact.dynamics.recorded_inputs import recorded_inputs
 from geocontact.geometry.shapes import HalfSpace
+from meshes.gait_course import course
+from meshes.gait_persons import PARTICIPANTS, true_leg
 
 FULCRUM, BELOW = 0.1174, 0.03
 

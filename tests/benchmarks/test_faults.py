@@ -9,6 +9,7 @@ import pytest
 
 @pytest.mark.skipif(sys.platform != "linux", reason="read-only folders and locales of Linux")
 @pytest.mark.slow
+@pytest.mark.long
 def test_a_machine_with_a_fault_gives_the_same_tables_or_one_line() -> None:
     from benchmarks.faults import run
 

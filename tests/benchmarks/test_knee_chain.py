@@ -121,6 +121,7 @@ def test_a_coupling_of_two_cells_is_found_where_it_is(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_the_case_on_disk_is_one_for_the_command(tmp_path: Path) -> None:
     """What the command finds in it is on the page docs/how-to/knee_chain.md, which runs."""
     courses = knee_chain.courses_of(KNEE, 3, 2, 21)

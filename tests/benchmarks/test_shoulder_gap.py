@@ -75,6 +75,7 @@ def test_every_planted_effect_has_a_term_in_the_model() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_dry_seals_in_the_full_model_are_named_by_the_base_model(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

@@ -30,6 +30,7 @@ def motion() -> ArmMotion:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_two_codes_agree_where_the_models_do(motion: ArmMotion) -> None:
     """All cells on one ring: no tilt; no friction, little damping of the interface: same forces within 0.1 N."""
     device = lucy().having(mu_s=0.0, mu_k=0.0, b=0.0, passive_1_damping=1.0, passive_2_damping=1.0)

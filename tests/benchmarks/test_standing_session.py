@@ -66,7 +66,7 @@ def test_markers_and_toes() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("scan", ["thigh", "torso"])
+@pytest.mark.parametrize("scan", ["thigh", pytest.param("torso", marks=pytest.mark.long)])
 def test_the_mat_pipeline_finds_the_strap(tmp_path: Path, scan: str) -> None:
     """Mats in front and behind, each registered to the segment by its landmarks: within 1 N of the strap's force."""
     time = np.linspace(0.0, 2.0, 201)

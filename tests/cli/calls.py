@@ -19,6 +19,7 @@ from scipy.spatial.transform import Rotation
 
 from geocontact.cli.main import run
 from meshes.stl import FACET
+from tests.drawing import unwritten
 
 ROOT = Path(__file__).resolve().parents[2]
 MESHES = ROOT / "meshes"
@@ -93,8 +94,9 @@ def area(
 def unpictured() -> Iterator[None]:
     """Neither figure nor page are made."""
     with ExitStack() as stack:
-        for name in ("area_figure", "pressure_figure", "save_both", "write_report"):
-            stack.enter_context(mock.patch(f"geocontact.analyses.area.write.{name}", return_value=b""))
+        for name in ("area_figure", "pressure_figure"):
+            stack.enter_context(mock.patch(f"geocontact.analyses.area.result.{name}", return_value=b""))
+        stack.enter_context(unwritten())
         yield
 
 

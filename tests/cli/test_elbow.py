@@ -13,7 +13,7 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.misalignment.law_numbers import PER_SI
-from geocontact.analyses.misalignment.simulate.run import SEED, TRIALS, USUAL
+from geocontact.analyses.misalignment.simulate.result import SEED, TRIALS, USUAL
 from geocontact.axis_misalignment.synthetic import PAPER
 from tests.analyses.misalignment.trials import free, locked, quietly
 from tests.cli.calls import Call, call, done, inventory, written
@@ -54,6 +54,7 @@ def test_simulated_trials_say_what_they_are(made: Path) -> None:
     assert {p.name for p in made.glob("*.csv")} == {
         *(f"{kind}_{k}.csv" for kind in ("locked", "free") for k in (1, 2, 3)),
         "surfaces.csv",
+        "numbers.csv",
     }
     record = json.loads((made / "run.json").read_text(encoding="utf-8"))
     for file in (*locked(made), *free(made)):
@@ -66,7 +67,7 @@ def test_simulated_trials_say_what_they_are(made: Path) -> None:
 @pytest.mark.slow
 def test_a_simulation_with_its_figure_and_page(tmp_path: Path) -> None:
     result = done(elbow("simulate", tmp_path, *QUICK, "--stroke-mm=-10:60", "--parquet", picture=True))
-    trials = {f"{kind}_{k}" for kind in ("locked", "free") for k in (1, 2, 3)} | {"surfaces"}
+    trials = {f"{kind}_{k}" for kind in ("locked", "free") for k in (1, 2, 3)} | {"surfaces", "numbers"}
     tables = {f"{name}.{ending}" for name in trials for ending in ("csv", "parquet")}
     assert set(inventory(tmp_path)) == tables | {
         "truth.json",
@@ -87,7 +88,7 @@ def test_python_simulates_as_the_command_does(tmp_path: Path, made: Path) -> Non
     options: dict[str, Any] = {"seconds": 20.0, "rate": 50.0, "noise": 0.2, "memory": 0.1, "trials": 3}
     result = gc.misalignment.simulate(**options, stroke=gc.mm(-10, 60), pressure=gc.mmHg(10, 60))
     with unpictured():
-        assert len(same_csv(result.write(tmp_path), made)) == 7
+        assert len(same_csv(result.write(tmp_path), made)) == 8
 
 
 def test_python_identifies_as_the_command_does(tmp_path: Path, made: Path, fitted: Call) -> None:

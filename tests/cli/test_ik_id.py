@@ -594,9 +594,7 @@ def test_plates_of_a_laboratory_whose_z_is_up(tmp_path: Path, monkeypatch: pytes
     wrench = plate.wrench
     turned = Wrench(lab.apply(wrench.force), lab.apply(wrench.moment), lab.apply(wrench.origin), LABORATORY_FRAME)
     there = replace(plate, name="plate 1", wrench=turned, point=lab.apply(plate.point), normal=lab.apply(plate.normal))
-    monkeypatch.setattr(
-        "geocontact.analyses.motion.inverse_dynamics.external_loads.read_force_plates", lambda _: (there,)
-    )
+    monkeypatch.setattr("geocontact.analyses.motion.inverse_dynamics.loads.read_force_plates", lambda _, __: (there,))
     options = ("--plates", tmp_path / "grf.mot", "--plate", "1=foot_r")
     found = read_table(done(id_(tmp_path, motion, *options, "--axes", "x,z,-y")).folder / "id.sto")
     np.testing.assert_allclose(found.column("ty_force"), 0.0, atol=1e-6)

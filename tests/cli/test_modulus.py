@@ -13,6 +13,7 @@ import pytest
 import geocontact as gc
 from tests.analyses.modulus.synthetic_step import areas, forces
 from tests.cli.calls import Call, call, done, inventory, written
+from tests.drawing import unwritten
 from tests.identify.synthetic_contact import TRUE
 
 TABLES = {"curves", "sensitivity", "prediction"}
@@ -41,9 +42,7 @@ def modulus(
 @contextmanager
 def unpictured() -> Iterator[None]:
     """Neither figure nor page are made."""
-    with ExitStack() as stack:
-        for name in ("modulus_figure", "save_both", "write_modulus_report"):
-            stack.enter_context(mock.patch(f"geocontact.analyses.modulus.result.{name}", return_value=b""))
+    with mock.patch("geocontact.analyses.modulus.result.modulus_figure", return_value=None), unwritten():
         yield
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from geocontact.analyses import results_folder
-from geocontact.analyses.area import run as area_analysis
+from geocontact.analyses.area import result as area_analysis
 from geocontact.analyses.area.distance_file import DistanceMaps
 from geocontact.cli import main, show
 from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, ROOT, SPHERE, area, done, gait, inventory, poses, process

@@ -43,12 +43,12 @@ def everything(tmp_path_factory: pytest.TempPathFactory) -> tuple[Call, mock.Moc
         "--bounds",
         "1e-9",
     )
-    patched = "geocontact.analyses.area.scene"
+    patched = "geocontact.analyses.area.figure"
     with (
         mock.patch(f"{patched}.draw_stills", return_value=(Still(Path("x.png"), "matplotlib", NOTE),)) as stills,
         mock.patch(f"{patched}.write_vtp_series") as series,
-        mock.patch("geocontact.analyses.area.run.FRAMES", 1),
-        mock.patch("geocontact.analyses.area.read.PATIENT", 1),
+        mock.patch("geocontact.analyses.area.result.FRAMES", 1),
+        mock.patch("geocontact.analyses.area.bodies.PATIENT", 1),
     ):
         result = done(
             area(folder / "out", *options, "--stills", "--paraview", moving=FEMUR, fixed=INSERT,
@@ -124,7 +124,7 @@ def test_series_for_paraview_needs_pyvista_before_anything_is_computed(tmp_path:
     motion = poses(tmp_path, (0, 20, 0))
     with (
         mock.patch.dict(sys.modules, {"pyvista": None}),
-        mock.patch("geocontact.analyses.area.run.area_evolution") as computed,
+        mock.patch("geocontact.analyses.area.result.area_evolution") as computed,
     ):
         result = area(tmp_path / "out", "--paraview", moving=SPHERE, fixed=PLATE, motion=motion)
     assert result.code == 2 and len(result.complaints) == 1 and "pyvista" in result.err
@@ -135,7 +135,7 @@ def test_long_motions_write_a_page_of_few_frames(tmp_path: Path) -> None:
     """The frame of most contact is the 4th of 9; the page shows it and counts as the table does."""
     heights = (22.0, 24.0, 23.0, 20.5, 26.0, 21.0, 22.0, 23.0, 30.0)
     motion = poses(tmp_path, *((0, height, 0) for height in heights))
-    with mock.patch("geocontact.analyses.area.run.FRAMES", 3), mock.patch("geocontact.analyses.area.page.FRAMES", 3):
+    with mock.patch("geocontact.analyses.area.result.FRAMES", 3), mock.patch("geocontact.analyses.area.page.FRAMES", 3):
         result = done(area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=motion, picture=True))
     said = text(result)
     assert "4 mm of sphere_r20, at 3 s" in said and "of 9 frames" in said

@@ -279,8 +279,13 @@ def test_both_ways_of_evaluation_agree(tmp_path: Path, monkeypatch: pytest.Monke
         (library,) = tmp_path.glob("*.so")
         made = library.stat().st_mtime_ns
         assert Stepper(equations).compiled and library.stat().st_mtime_ns == made
-        both = [each.simulate(start, time, steps=300) for each in (fast, slow)]
-        np.testing.assert_allclose(both[0].q, both[1].q, rtol=1e-12)
+        assert code.flags("x") == ("-O1", "-fPIC", "-shared") and code.flags("x" * code.LONG + "x")[0] == "-O0"
+        monkeypatch.setattr(code, "LONG", 0)
+        unoptimised = Stepper(equations)
+        assert unoptimised.compiled and len(list(tmp_path.glob("*.so"))) == 2  # flags are part of what it is found by
+        runs = [each.simulate(start, time, steps=300) for each in (slow, fast, unoptimised)]
+        for each in runs[1:]:
+            np.testing.assert_allclose(each.q, runs[0].q, rtol=1e-12)
     monkeypatch.setattr(code, "compiler", lambda: None)
     assert not Stepper(equations).compiled
     monkeypatch.setattr(code, "compiler", lambda: "/nowhere/cc")

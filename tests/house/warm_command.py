@@ -35,8 +35,7 @@ with socket.socket(socket.AF_UNIX) as line:
 """
 LOADED = (
     "geocontact.cli.main",
-    "geocontact.analyses.area.run",
-    "geocontact.analyses.area.write",
+    "geocontact.analyses.area.result",
     "geocontact.dynamics.equations",
     "geocontact.view.page.write",
     "matplotlib.backends.backend_agg",

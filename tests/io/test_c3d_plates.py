@@ -174,9 +174,13 @@ def test_channels_in_volts_are_said(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("here")
-def test_an_empty_unit_of_points_is_said(tmp_path: Path) -> None:
-    with pytest.warns(InputWarning, match="POINT:UNITS is empty; its places are taken to be in mm"):
-        require_true(only(plate_file(tmp_path / "a.c3d", channels(stance()), ("", "N", "Nmm"))), stance(), 1e-5)
+def test_an_empty_unit_of_points_is_refused_unless_it_is_stated(tmp_path: Path) -> None:
+    """It was taken as mm, which is a thousand times too small where it is m."""
+    file = plate_file(tmp_path / "a.c3d", channels(stance()), ("", "N", "Nm"), 1.0, 1.0)
+    with pytest.raises(InputError, match=r"POINT:UNITS: is empty: .* is not known; state it with `c3d_unit` m, cm, mm"):
+        read_force_plates(file)
+    (plate,) = read_force_plates(file, "m")
+    require_true(plate, stance(), 1e-5)
 
 
 @pytest.mark.usefixtures("here")
@@ -303,12 +307,3 @@ def test_plates_at_fault_leave_the_markers(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"its force plates cannot be worked out \(.*\); the rest of the file is read"):
         read_force_plates(file)
     np.testing.assert_allclose(read_c3d_markers(file).positions[0, 0], [0.3, 0.2, 0.1], atol=1e-6)
-
-
-@pytest.mark.parametrize("reader", [read_force_plates, read_c3d_markers])
-def test_the_byte_order_of_mips_is_named(reader: object, tmp_path: Path) -> None:
-    data = bytearray(plate_file(tmp_path / "a.c3d", channels(stance())).read_bytes())
-    data[512 * (data[0] - 1) + 3] = 86
-    (tmp_path / "a.c3d").write_bytes(data)
-    with pytest.raises(InputError, match=r"byte order of MIPS \(SGI\) computers, .* may be sound; save it for PC"):
-        reader(tmp_path / "a.c3d")  # type: ignore[operator]

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from geocontact.analyses.misalignment.compare.read import _law
+from geocontact.analyses.misalignment.compare.pairs import _law
 from geocontact.analyses.quantities import axis
 from geocontact.analyses.run_again import read_run
 from geocontact.data.errors import InputError

@@ -11,7 +11,9 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.mats.units import length_unit as mat_length
 from geocontact.io.mocap.c3d_markers import read_c3d_markers
 from geocontact.io.mocap.csv_markers import read_csv_markers
+from geocontact.io.mocap.markers import read_markers
 from geocontact.io.mocap.trc import read_trc
+from geocontact.io.motion.poses import motion_from_csv
 from geocontact.io.recordings.spheres import read_spheres
 from geocontact.io.text.csv_text import open_csv
 from geocontact.io.text.units import LENGTH, length_unit, si_unit
@@ -96,11 +98,23 @@ def test_markers_of_a_c3d_file_in_words(word: str, tmp_path: Path) -> None:
     np.testing.assert_allclose(seen.positions[1, 0], WORDS[word] * np.array([1.0, 2.0, 4.0]), rtol=1e-6)
 
 
-@pytest.mark.parametrize("unit", ["", None])
-def test_a_c3d_file_without_a_unit_is_said_to_be_taken_in_mm(unit: str | None, tmp_path: Path) -> None:
-    with pytest.warns(InputWarning, match="POINT:UNITS is empty; its markers are taken to be in mm"):
-        seen = read_c3d_markers(c3d(tmp_path, unit))
-    np.testing.assert_allclose(seen.positions[1, 0], [1e-3, 2e-3, 4e-3], rtol=1e-6)
+@pytest.mark.parametrize("unit", ["", "  ", None])
+def test_a_c3d_file_without_a_unit_is_refused_unless_it_is_stated(unit: str | None, tmp_path: Path) -> None:
+    """It was taken as mm."""
+    file = c3d(tmp_path, unit)
+    with pytest.raises(InputError, match=r"POINT:UNITS: is empty: .* not known; state it with `c3d_unit` m, cm, mm"):
+        read_c3d_markers(file)
+    for stated in ("mm", "m", "in"):
+        seen = read_markers(file, stated)
+        np.testing.assert_allclose(seen.positions[1, 0], LENGTH[stated] * np.array([1.0, 2.0, 4.0]), rtol=1e-6)
+
+
+def test_a_stated_unit_does_not_count_where_the_file_has_its_own(tmp_path: Path) -> None:
+    file = c3d(tmp_path, "cm")
+    with pytest.warns(InputWarning, match="POINT:UNITS is 'cm', which counts; `c3d_unit` mm is for files"):
+        seen = read_markers(file, "mm")
+    np.testing.assert_allclose(seen.positions[1, 0], [0.01, 0.02, 0.04], rtol=1e-6)
+    np.testing.assert_allclose(read_markers(file, "cm").positions[1, 0], [0.01, 0.02, 0.04], rtol=1e-6)
 
 
 def test_a_c3d_file_in_feet_is_refused(tmp_path: Path) -> None:
@@ -119,6 +133,20 @@ def test_an_empty_unit_of_a_trc_file_is_refused_as_such(tmp_path: Path) -> None:
     file.write_text(TRC.format(""), encoding="utf-8")
     with pytest.raises(InputError, match="line 3: unit is ''; expected one of m, cm, mm"):
         read_trc(file)
+
+
+def test_columns_of_places_without_a_unit_are_refused(tmp_path: Path) -> None:
+    """Of markers, of spheres, of poses."""
+    file = tmp_path / "a.csv"
+    file.write_text("time [s],A_x,A_y,A_z\n0,1,2,4\n1,1,2,4\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"column 'A_x': unit is ''; write one of m, cm, mm, in, um in square"):
+        read_csv_markers(file)
+    file.write_text("px,py,pz,radius,zone\n0.1,0.2,0.3,0.02,heel\n", encoding="utf-8")
+    with pytest.raises(InputError, match="write"):
+        read_spheres(file)
+    file.write_text("time [s],tx,ty,tz,qw,qx,qy,qz\n0,1,2,3,1,0,0,0\n1,1,2,3,1,0,0,0\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"'tx' has no unit; write e\.g\. `tx \[mm\]`"):
+        motion_from_csv(file, None, None)
 
 
 def test_words_in_a_table_of_spheres_and_in_a_csv_header(tmp_path: Path) -> None:

@@ -252,6 +252,7 @@ def test_motion_finds_the_angles_and_the_marker_that_is_off(run, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.filterwarnings("default")  # of the notebook machinery itself
 def test_shoulder_says_what_the_commands_say(run, tmp_path):
     said = run(ROOT / "notebooks" / "shoulder.ipynb")

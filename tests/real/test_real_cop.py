@@ -11,6 +11,7 @@ import pandas as pd
 import pytest
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.io.mocap.c3d_markers import read_c3d_markers
 from geocontact.io.mocap.force_plates import ForcePlate, read_force_plates
 from geocontact.io.motion.motion import read_motion
 from geocontact.io.text.tables import read_table
@@ -113,11 +114,18 @@ def test_plates_with_an_offset_are_empty_where_nobody_stands(data_dir: Path) -> 
         assert plate.outside() < -0.1
 
 
-def test_a_file_of_a_mips_computer_is_not_called_damaged(data_dir: Path) -> None:
-    with pytest.raises(
-        InputError, match=r"MIPS \(SGI\) computers, which ezc3d does not read; the file itself may be sound"
-    ):
-        read_force_plates(data_dir / "c3d_variety" / "sgi_real.c3d")
+def test_a_file_of_mips_reads_as_its_subject_walks(data_dir: Path) -> None:
+    """c3d.org's sample 2: 70.62 kg by its own SUBJECT:WEIGHT; each plate is loaded once, and on its own surface."""
+    pytest.importorskip("ezc3d", reason="the extra `mocap` is not installed")
+    file = data_dir / "c3d_variety" / "sgi_real.c3d"
+    weight = 70.62 * 9.80665
+    for plate in read_force_plates(file):
+        load = plate.wrench.force @ plate.normal
+        assert 1.05 * weight < load.max() < 1.35 * weight
+        assert plate.outside() < -0.2
+    seen = read_c3d_markers(file)
+    assert (len(seen.time), seen.names[:3]) == (89, ("RFT1", "RFT2", "RFT3"))
+    assert np.nanmax(seen.positions[:, :, 2]) == pytest.approx(1.427, abs=1e-3)
 
 
 @pytest.mark.slow

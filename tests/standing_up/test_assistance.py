@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from casadi import Function
 
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
@@ -50,6 +51,9 @@ def test_every_set_of_parameters_has_its_own_limit() -> None:
     class Lines(Movements):
         def __init__(self) -> None: ...
 
+        def refine(self, movements: object) -> bool:
+            return False  # no motion is behind these lines, and no mesh
+
         def at(self, p: np.ndarray, *, slopes: bool = True) -> Movement:
             of = np.zeros((4, len(p)))
             of[STRAP, share], of[KNEE, share] = 50.0, -100.0
@@ -64,6 +68,34 @@ def test_every_set_of_parameters_has_its_own_limit() -> None:
     assert best.met and max(knees) == pytest.approx(80.0, abs=0.02)
     np.testing.assert_allclose(best.p[:, share], 0.203, atol=2e-4)
     assert best.price == pytest.approx(0.5, rel=0.1)
+
+
+def test_intervals_that_leave_too_much_are_halved_down_to_a_sixteenth(movements: Movements) -> None:
+    """Three intervals a second of two points each: the balance by NumPy on even places says which; the others stay."""
+    options = SolverOptions("radau", 2, 1, 1e-9)
+    coarse = Movements(movements.model, movements.subject, movements.trials, options, 3.0)
+    first, even = coarse.at(P, slopes=False), coarse.meshes[0]
+    (motion,) = first.found.motions
+    at = motion.sampled(51)
+    e, n = movements.model.standing.equations, 9
+    balance = Function("balance", [e.q, e.u, e.a, e.w, e.p], [e.balance])
+    part = (at.time - at.time[0]) / np.ptp(at.time)
+    given = np.column_stack([part, at.control[:, n:]])
+    left = np.zeros((len(at.time), n))
+    for a in (at.state[:, 2 * n :], at.rate[:, n : 2 * n]):
+        of = [balance(x[:n], x[n : 2 * n], b, w, P).full().ravel() for x, b, w in zip(at.state, a, given, strict=True)]
+        left = np.maximum(left, np.abs(of))
+    over = (left > np.r_[5.0, 5.0, np.ones(7)]).any(axis=1).reshape(len(even) - 1, 51).any(axis=1)
+    assert over.any()
+    assert coarse.refine([first])
+    middle = 0.5 * (even[:-1] + even[1:])
+    np.testing.assert_allclose(coarse.meshes[0], np.sort(np.r_[even, middle[over]]), rtol=1e-14)
+    found = coarse.finely_at(P)
+    shortest = np.diff(coarse.meshes[0]).min() * (len(even) - 1)
+    assert 1.0 / 16.0 - 1e-12 <= shortest < 0.3
+    np.testing.assert_array_equal(found.found.meshes[0], coarse.meshes[0])
+    coarse.shortest = (float(np.diff(coarse.meshes[0]).max()),)
+    assert not coarse.refine([first])  # of its own, coarse mesh: all are as short as they may be
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from geocontact.analyses.misalignment.simulate.displacement_surfaces import surfaces
+from geocontact.analyses.misalignment.simulate.trials import surfaces
 from geocontact.axis_misalignment.compensation import taken_up
 from geocontact.axis_misalignment.deflection import ELBOW_GEOMETRY
 from geocontact.axis_misalignment.explicit import Offsets, constraint_force, displacement, pole_angles

@@ -44,7 +44,8 @@ class Entry:
     def module(self) -> ModuleType:
         """Where it is defined; of a job, where it is put together."""
         if isinstance(self.thing, Job):
-            return sys.modules[self.thing.read.__module__.rpartition(".")[0] + ".job"]
+            home = self.thing.run.__module__
+            return sys.modules.get(home.rpartition(".")[0] + ".job", sys.modules[home])
         if isinstance(self.thing, LawParameters):
             return import_module(f"{chain.__name__}.{self.name.rpartition('.')[2].lower()}")
         return sys.modules[Unit.__module__ if self.group == UNITS else _home(self.thing)]

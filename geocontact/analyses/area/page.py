@@ -1,16 +1,15 @@
-"""What the page of a contact-area analysis shows: where, how much, in which frame, and how far to trust it."""
+"""The page of a contact-area analysis: answer, bodies, curves, numbers, and the words that a reviewer looks for."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Int
 
-from geocontact.analyses.area.congruence.along import CongruenceEvolution
-from geocontact.analyses.area.meshes_table import meshes_table
-from geocontact.analyses.area.page_answer import facts, headline
+from geocontact.analyses.area import pressure_page as pressure
+from geocontact.analyses.area.bodies import Compared
+from geocontact.analyses.area.congruence import CongruenceEvolution
 from geocontact.analyses.area.page_sections import (
     Told,
     area_curves,
@@ -22,26 +21,199 @@ from geocontact.analyses.area.page_sections import (
     strip,
     uncertainty_curves,
 )
-from geocontact.analyses.area.pose_error.along import AreaUncertainty
-from geocontact.analyses.area.pressure.page import Pressures, pressure_sections, pressure_words
-from geocontact.analyses.area.reference_areas import Compared
-from geocontact.analyses.area.words import reviewers_words
-from geocontact.analyses.page_words import counted
-from geocontact.data.evolution import AreaEvolution
+from geocontact.analyses.area.pose_error import AreaUncertainty
+from geocontact.analyses.area.pressure_page import Pressures, pressure_sections, pressure_words
+from geocontact.analyses.finished_page import INPUTS, OPTIONS, Thinned
+from geocontact.analyses.page_words import NOT_A_DEVICE, counted, rounded
+from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
+from geocontact.geometry.contact_area.rules import CLIP, REFINED
 from geocontact.geometry.surface import Surface
 from geocontact.view.page.content import Choices, Page, PageChoice, Readout, Section, Table, Words
-from geocontact.view.page.write import write_page
+
+HEADER = ("body", "vertices", "faces", "edge, median [mm]", "edge, longest [mm]", "size [mm]", "closed")
+
+
+def meshes_table(moving: Surface, fixed: Surface) -> Table:
+    """What the areas rest on."""
+    return Table("The two surfaces", HEADER, [_row("moving", moving), _row("fixed", fixed)])
+
+
+def _row(role: str, body: Surface) -> tuple[str, ...]:
+    used = body.vertices[body.used]
+    size = np.ptp(used, axis=0) * MM
+    edges = body.edge_length * MM
+    return (
+        f"{role}: {body.name}",
+        f"{len(used)}",
+        f"{len(body.faces)}",
+        f"{np.median(edges):.2f}",
+        f"{edges.max():.2f}",
+        " × ".join(f"{length:.1f}" for length in size),
+        "yes" if body.topology.closed else ("assumed" if body.closed else "no: distances to it are unsigned"),
+    )
+
+
+def reviewers_words(
+    moving: Surface,
+    fixed: Surface,
+    settings: Settings,
+    e: AreaEvolution,
+    main: int,
+    shown: int,
+    pressed: bool = False,
+) -> list[Words]:
+    """Question, context of use, numerical error, and what was not checked."""
+    return [
+        Words("Question", [_question(moving, fixed, settings, e, main)]),
+        Words("Context of use", [_context(e, pressed), NOT_A_DEVICE]),
+        Words("Numerical error", _error(settings, e, main)),
+        Words("What the numbers do not contain", _missing(len(e.time), shown)),
+    ]
+
+
+def _question(moving: Surface, fixed: Surface, settings: Settings, e: AreaEvolution, main: int) -> str:
+    said = (
+        f"How much of the surface of {fixed.name} (fixed) lies within {e.thresholds[main] * MM:g} mm of {moving.name} "
+        f"(moving), where, and how does it change over the motion? Parts that overlap count as contact."
+    )
+    for body, faces in ((fixed, settings.fixed_faces), (moving, settings.moving_faces)):
+        if faces is not None:
+            said += f" Of {body.name} only {int(faces.sum())} of {len(faces)} faces count; the others are left grey."
+    return said
+
+
+def _context(e: AreaEvolution, pressed: bool) -> str:
+    signs = {
+        "both": "Both surfaces are closed, so distances carry a sign and overlap is known on both.",
+        "fixed": "The moving surface is closed, the fixed one is not: overlap is known on the fixed surface only.",
+        "moving": "The fixed surface is closed, the moving one is not: overlap is known on the moving surface only.",
+        "none": "Neither surface is closed: distances are unsigned and overlap cannot be told from closeness.",
+    }
+    forces = (
+        "areas and distances are those of undeformed bodies, and pressures those of a layer that they overlap in. "
+        if pressed
+        else "nothing deforms, no force is computed. "
+    )
+    return (
+        f"Geometric contact of two rigid triangulated surfaces in given poses: {forces}"
+        "An area within a threshold is a measure of congruence; it is the area that carries load only as far as the "
+        f"threshold stands for the deformation. {signs[e.signed]}"
+    )
+
+
+def _error(settings: Settings, e: AreaEvolution, main: int) -> list[str]:
+    area, lower, upper = (values[:, main] * MM2 for values in (e.fixed.area, e.fixed.lower, e.fixed.upper))
+    widest = int(np.argmax(upper - lower))
+    bounds = (
+        f"The true area of the two triangulated surfaces lies between the bounds shown in every frame; they are "
+        f"{upper[widest] - lower[widest]:.1f} mm² apart at most (frame {widest + 1}, area {area[widest]:.1f} mm²). "
+        "They follow from the 1-Lipschitz property of the distance. "
+    )
+    if settings.rule == REFINED:
+        bounds += (
+            f"Triangles in doubt were divided; the estimated error of the area is "
+            f"{e.fixed.error[:, main].max() * MM2:.2g} mm² at most."
+        )
+    elif settings.rule == CLIP:
+        bounds += "Triangles were cut once where the distance, taken as linear between corners, is the threshold."
+    else:
+        bounds += (
+            f"The areas themselves were counted in whole triangles (rule {settings.rule}): they may lie outside the "
+            "bounds, and they change with the mesh in the first order of its edges."
+        )
+    sides = f"Up to {int(e.undecided.max(initial=0))} points per frame have no decidable side and count as outside."
+    picture = (
+        "The colours and the threshold contour on the picture interpolate 8-bit distances between vertices; the "
+        "numbers do not come from the picture."
+    )
+    return [bounds, sides, picture] if e.undecided.any() else [bounds, picture]
+
+
+def _missing(frames: int, shown: int) -> list[str]:
+    inputs = (
+        "How well the triangles resemble the parts, how well the parts resemble worn or loaded ones, and how well the "
+        "motion was measured: tenths of a millimetre there matter more than all of the above. Repeat with another mesh "
+        "resolution and see the strip of thresholds before concluding."
+    )
+    validation = (
+        "Validation against measured contact areas is not part of this page unless a comparison table is shown."
+    )
+    thinned = f"The page shows {shown} of {frames} frames; the table file holds all of them."
+    return [inputs, validation, thinned] if shown < frames else [inputs, validation]
+
+
+def part(name: str) -> str:
+    """What a body is called in a sentence: the name of its file without the ending."""
+    return name.rsplit(".", 1)[0] or name
+
+
+def headline(told: Told, k: int) -> list[str]:
+    """How much of FIXED is in contact within threshold `k`, or how hard it is pressed; measured areas beside it."""
+    said = [_contact(told, k)]
+    if told.pressures is not None:
+        moving, fixed = part(told.moving.name), part(told.fixed.name)
+        said.insert(0, pressure.sentence(told.pressures, told.motion.course, moving, fixed))
+    if told.compared is not None:
+        said.append(_compared(told.compared))
+    return said
+
+
+def _contact(told: Told, k: int) -> str:
+    e, course = told.evolution, told.motion.course
+    area = e.fixed.area[:, k] * MM2
+    most, nearest = int(np.argmax(area)), int(np.argmin(e.min_distance))
+    fixed = part(told.fixed.name)
+    within = f"within {in_mm(e, k)} of {part(told.moving.name)}"
+    if not area[most] > 0.0:
+        least = f"{e.min_distance[nearest] * MM:.3g} mm away, at {course.at(nearest)}"
+        return f"{fixed} never comes {within}: at its nearest it is {least}."
+    largest = f"Up to {rounded(area[most])} mm² of {fixed} lie {within}, at {course.at(most)}"
+    return largest + (f"; the least is {rounded(area.min())} mm²." if len(area) > 1 else ".")
+
+
+def _compared(compared: Compared) -> str:
+    verdict = "within" if compared.accepted else "beyond"
+    return (
+        f"Beside {counted(len(compared.rows), 'measured area')} the largest difference is {compared.largest:.1%}, "
+        f"{verdict} the tolerance of {compared.tolerance:.1%}."
+    )
+
+
+def facts(told: Told, k: int) -> list[tuple[str, str]]:
+    """How much, when, where."""
+    e, course = told.evolution, told.motion.course
+    area = e.fixed.area[:, k] * MM2
+    largest, nearest = int(np.argmax(area)), int(np.argmin(e.min_distance))
+
+    lines = [] if told.pressures is None else pressure.facts(told.pressures, course)
+    lines.append(("Largest contact area on the fixed body", f"{area[largest]:.0f} mm² at {course.at(largest)}"))
+    if told.pressures is None:
+        span = f"{area.min():.0f} … {area.max():.0f} mm² (mean {area.mean():.0f} mm²)"
+        lines.append(("Range over the motion", span))
+        if area[largest] > 0.0:
+            lines.append(("Where, in that frame", _where(told, largest, k)))
+    word = "Deepest overlap" if e.min_distance[nearest] < 0.0 else "Smallest distance"
+    lines.append((word, f"{abs(e.min_distance[nearest]) * MM:.2f} mm at {course.at(nearest)}"))
+    return lines
+
+
+def _where(told: Told, frame: int, k: int) -> str:
+    e = told.evolution
+    x, y, z = e.fixed.centroid[frame, k] * MM
+    where = f"centroid x {x:.1f}, y {y:.1f}, z {z:.1f} mm"
+    if e.medial_side:
+        medial = e.medial[frame, k] / e.fixed.area[frame, k]
+        where += f"; {medial:.0%} medial, {1.0 - medial:.0%} lateral"
+    return where
+
 
 FRAMES = 201  # frames that the page animates at most; longer motions are thinned out, and the page says so
-FEWEST = 21  # frames below which a page is not thinned any further
-LARGEST_FILE = 5_000_000  # bytes; larger pages are thinned out until they fit
 
 
-def write_report(
-    path: Path,
+def thinned_page(
     moving: Surface,
     fixed: Surface,
     motion: Motion,
@@ -49,19 +221,15 @@ def write_report(
     evolution: AreaEvolution,
     maps: DistanceMaps,
     title: str = "",
-    provenance: Sequence[Table] = (),
-    warnings: Sequence[str] = (),
     pressures: Pressures | None = None,
     compared: Compared | None = None,
     uncertainty: AreaUncertainty | None = None,
     congruence: CongruenceEvolution | None = None,
-) -> int:
-    """Write the self-contained page of one contact-area analysis; returns its size in bytes.
+) -> Thinned:
+    """The page of one contact-area analysis, of as many frames as its file holds.
 
     Parameters
     ----------
-    path
-        HTML file to write.
     moving, fixed, motion, settings
         What was analysed, and how.
     evolution
@@ -70,10 +238,6 @@ def write_report(
         Distance maps gathered by the same call (`each=maps.add`).
     title
         Heading of the page; the names of the bodies if not given.
-    provenance
-        Further tables: inputs with hashes, options, versions.
-    warnings
-        Reservations that came up on the way.
     pressures
         Pressures on FIXED; the page then opens with their map, in the frame with the largest force.
     compared
@@ -85,16 +249,15 @@ def write_report(
     """
     if not maps.frames:
         raise ValueError("the distance maps hold no frame; gather them with area_evolution(..., each=maps.add)")
-    most = FRAMES
-    while True:
+
+    def of(most: int) -> Page:
         shown = shown_frames(maps, most, () if pressures is None else (pressures.heaviest,))
         told = Told(
             moving, fixed, motion, settings, evolution, maps, shown, pressures, compared, uncertainty, congruence
         )
-        size = write_page(contact_page(told, title, provenance, warnings), Path(path))
-        most = min(most, len(told.kept)) // 2
-        if size <= LARGEST_FILE or most < FEWEST:
-            return size
+        return contact_page(told, title)
+
+    return Thinned(of, FRAMES)
 
 
 def shown_frames(maps: DistanceMaps, most: int, also: Sequence[int] = ()) -> Int[np.ndarray, " k"]:
@@ -108,18 +271,13 @@ def shown_frames(maps: DistanceMaps, most: int, also: Sequence[int] = ()) -> Int
     return places
 
 
-def contact_page(
-    told: Told,
-    title: str,
-    provenance: Sequence[Table],
-    warnings: Sequence[str],
-) -> Page:
+def contact_page(told: Told, title: str) -> Page:
     """The page before it becomes a file: about the largest threshold, the others to be chosen."""
     e, frames, main, pressures = told.evolution, told.frames, told.main, told.pressures
     course = told.motion.course
     before = [scene(told)]
     shared = [strip(told)] if e.sensitivity_thresholds else []
-    after = [meshes_table(told.moving, told.fixed), *comparison_tables(told), *provenance]
+    after = [meshes_table(told.moving, told.fixed), *comparison_tables(told), INPUTS, OPTIONS]
     pressed = [] if pressures is None else pressure_sections(pressures, frames)
     distance = distance_curve(e, frames)
     foundation = [] if pressures is None else [pressure_words(pressures)]
@@ -149,7 +307,6 @@ def contact_page(
         time_label=course.label,
         headline=headline(told, main),
         facts=facts(told, main),
-        reservations=tuple(warnings),
         start_frame=int(
             np.argmax(e.fixed.area[frames, main] if pressures is None else pressures.force["total"][frames])
         ),

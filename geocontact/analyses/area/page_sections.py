@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from geocontact.analyses.area.colours import colour_span
-from geocontact.analyses.area.congruence.along import CongruenceEvolution
-from geocontact.analyses.area.pose_error.along import NORMAL, AreaUncertainty
-from geocontact.analyses.area.pressure.page import Pressures, face_map, pressure_rows
-from geocontact.analyses.area.reference_areas import Compared
+from geocontact.analyses.area.bodies import Compared
+from geocontact.analyses.area.congruence import CongruenceEvolution
+from geocontact.analyses.area.figure import colour_span
+from geocontact.analyses.area.pose_error import NORMAL, AreaUncertainty
+from geocontact.analyses.area.pressure_page import Pressures, face_map, pressure_rows
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.evolution import Settings

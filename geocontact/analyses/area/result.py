@@ -1,23 +1,156 @@
-"""What an area analysis finds: areas, pressures and comparisons of every motion, with figure and page."""
+"""The area analysis, and the same analysis called for its pressures.
+
+>>> import geocontact as gc
+>>> femoral, insert = "meshes/femoral_component_right_coarse.stl", "meshes/tibial_insert_right_coarse.stl"
+>>> result = gc.area(femoral, insert, unit="mm", motion="meshes/gait.csv", threshold=gc.mm(4), rule="clip")
+>>> result
+area of FIXED within 4 mm: 1773.3 … 2484.0 mm^2
+least distance -0.047 mm in frame 55 of 101, 0.54 s (signed: negative is overlap)
+>>> result.table()[["time [s]", "area_fixed [mm^2]"]].head(2).round(2)
+   time [s]  area_fixed [mm^2]
+0      0.00            2397.72
+1      0.01            2396.87
+
+>>> import geocontact as gc
+>>> femoral, insert = "meshes/femoral_component_right_coarse.stl", "meshes/tibial_insert_right_coarse.stl"
+>>> layer = {"modulus": gc.MPa(500), "poisson": 0.46, "piece": gc.mm(1)}
+>>> result = gc.pressure(femoral, insert, unit="mm", motion="meshes/gait.csv", rule="clip", **layer)
+>>> result.sentences[-1]
+'linear foundation: force up to 47.5 N, pressure up to 8.00 MPa'
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pandas as pd
 
-from geocontact.analyses.area.motion_result import MotionResult
+from geocontact.analyses.area.bodies import Bodies, Compared, Reference, compared, largest_difference, read
+from geocontact.analyses.area.congruence import congruence_evolution
+from geocontact.analyses.area.contact import (
+    MotionResult,
+    least_distance,
+    refuse_strangers,
+    say_inner_area,
+    tables_of,
+    warn_of_lift_off,
+    warn_of_no_contact,
+    warn_of_overlap,
+)
+from geocontact.analyses.area.distance_file import FILE, write_maps
+from geocontact.analyses.area.figure import area_figure, colour_span, write_paraview, write_stills
 from geocontact.analyses.area.options import AreaOptions, PressureOptions
-from geocontact.analyses.area.read import Bodies
-from geocontact.analyses.area.tables import tables_of
-from geocontact.analyses.area.write import figure_of, pressure_figure_of, write_motion, write_page_of
-from geocontact.analyses.plain_page import write_plain_page
-from geocontact.analyses.result import Result
+from geocontact.analyses.area.page import FRAMES, thinned_page
+from geocontact.analyses.area.pose_error import ENDS, AreaUncertainty, area_uncertainty
+from geocontact.analyses.area.pressure import PressureEvolution, pressure_evolution
+from geocontact.analyses.area.pressure_page import shown_pressures
+from geocontact.analyses.contact_loads import write_contact_loads
+from geocontact.analyses.finished_page import Thinned
+from geocontact.analyses.job import Job
+from geocontact.analyses.pressure_figure import PressureMap, pressure_figure
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.data.evolution import MM2, AreaEvolution
+from geocontact.data.motion import Motion
+from geocontact.geometry.contact_area.evolution import FrameContact, Settings, area_evolution
+from geocontact.geometry.contact_area.maps import DistanceMaps
+from geocontact.geometry.contact_area.rules import REFINED
+from geocontact.geometry.contact_area.warm_up import warm_up
+from geocontact.geometry.surface import Surface
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+PARAVIEW = "paraview"
+"""Folder of the series for ParaView."""
+
+PRESSURE_MAPS = "pressure.npz"
+
+
+def write_further(o: AreaOptions, bodies: Bodies, one: MotionResult, folder: Path) -> list[str]:
+    """What was asked for beside tables, figures and page of one motion, into its folder; what is to be said of it."""
+    folder.mkdir(exist_ok=True)
+    if one.pressure is not None and o.bodies is not None:
+        loads = one.pressure.parts or {"total": one.pressure.loads}
+        write_contact_loads(folder, one.motion.time, loads, *o.bodies)
+    _write_maps(o, bodies, one, folder)
+    return write_stills(folder, bodies, one, heading(bodies, one)) if o.stills else []
+
+
+def heading(bodies: Bodies, one: MotionResult) -> str:
+    """Title of figures and page."""
+    return bodies.title + (f", {one.name}" if one.name else "")
+
+
+def figure_of(bodies: Bodies, one: MotionResult) -> Figure:
+    """Areas and separation over the motion, and FIXED in the frame with the largest area."""
+    fixed, maps = bodies.fixed, one.maps
+    return area_figure(
+        one.evolution,
+        fixed.vertices,
+        fixed.faces,
+        maps.fixed_at_largest,
+        maps.largest,
+        heading(bodies, one),
+        one.motion.course,
+        colour_span(one.evolution),
+    )
+
+
+def pressure_figure_of(bodies: Bodies, one: MotionResult, e: PressureEvolution) -> Figure:
+    """Force and largest pressure over the motion, and FIXED in the frame with the largest force."""
+    force = {side: np.array([load.pressing for load in loads]) for side, loads in e.sides.items()}
+    peak, centre = (np.array([getattr(load, name) for load in e.loads]) for name in ("peak", "centre"))
+    at = PressureMap(
+        bodies.fixed.vertices, bodies.fixed.faces, e.maps[e.heaviest], centre, e.heaviest, float(e.pressure.max())
+    )
+    return pressure_figure(one.motion.course, force, peak, at)
+
+
+def _write_maps(o: AreaOptions, bodies: Bodies, one: MotionResult, folder: Path) -> None:
+    if o.save_map:
+        write_maps(folder / FILE, bodies.moving, bodies.fixed, one.motion, one.evolution, one.maps)
+        if one.pressure is not None:
+            _write_pressure_maps(folder / PRESSURE_MAPS, bodies.fixed, one, one.pressure)
+    if o.paraview:
+        write_paraview(folder / PARAVIEW, bodies, one)
+
+
+def _write_pressure_maps(file: Path, fixed: Surface, one: MotionResult, e: PressureEvolution) -> None:
+    np.savez_compressed(
+        file,
+        allow_pickle=False,
+        frames=np.array(e.frames),
+        time=one.motion.time[e.frames],
+        pressure=e.pressure,
+        vertices=fixed.vertices,
+        faces=fixed.faces,
+    )
+
+
+def page_of(bodies: Bodies, one: MotionResult) -> Thinned:
+    """The page of one motion."""
+    reference, compared = bodies.reference, None
+    if one.comparison is not None and reference is not None:
+        compared = Compared(one.comparison, reference.tolerance)
+    return thinned_page(
+        bodies.moving,
+        bodies.fixed,
+        one.motion,
+        bodies.settings,
+        one.evolution,
+        one.maps,
+        heading(bodies, one),
+        None if one.pressure is None else shown_pressures(one.pressure, bodies.fixed),
+        compared,
+        one.uncertainty,
+        one.congruence,
+    )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -30,11 +163,14 @@ class AreaResult(Result):
         The bodies and how their contact was counted.
     motions
         What was found over each motion.
+    notes
+        What is to be said of the pictures of a motion, by its name, once they are drawn.
     """
 
     options: AreaOptions
     bodies: Bodies
     motions: tuple[MotionResult, ...]
+    notes: dict[str, list[str]] = field(default_factory=dict)
 
     @property
     def accepted(self) -> bool:
@@ -49,15 +185,18 @@ class AreaResult(Result):
         """The folder itself, and one for each of several motions."""
         return ("", *(one.name for one in self.motions if one.name))
 
+    @property
+    def title(self) -> str:
+        """The bodies."""
+        return self.bodies.title
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`area`, `pressure` and `comparison`; of several motions "name/area" and so on.
 
         The main table is `pressure` where the analysis was called for that.
         """
         found = {
-            f"{one.name}/{name}" if one.name else name: table
-            for one in self.motions
-            for name, table in tables_of(one, self.options).items()
+            _named(one, name): table for one in self.motions for name, table in tables_of(one, self.options).items()
         }
         if not isinstance(self.options, PressureOptions):
             return found
@@ -70,14 +209,165 @@ class AreaResult(Result):
             return pressure_figure_of(self.bodies, one, one.pressure)
         return figure_of(self.bodies, one)
 
-    def write_files(self, folder: Path) -> None:
-        """Everything of each motion; several have a sub-folder each."""
+    def figures(self) -> dict[str, Figure]:
+        """`area` of each motion, and `pressure` where it was asked for."""
+        found = {}
         for one in self.motions:
-            write_motion(self.record, self.options, self.bodies, one, folder / one.name)
+            found[_named(one, "area")] = figure_of(self.bodies, one)
+            if one.pressure is not None:
+                found[_named(one, "pressure")] = pressure_figure_of(self.bodies, one, one.pressure)
+        return found
 
-    def write_page(self, file: Path) -> None:
-        """Bodies, curves and numbers of a motion over time; of several motions figure and numbers only."""
-        if len(self.motions) == 1:
-            write_page_of(self.record, self.bodies, self.motions[0], file)
-        else:
-            write_plain_page(self, self.bodies.title, file)
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Thinned]:
+        """Bodies, curves and numbers of each motion over time."""
+        return {_named(one, REPORT): page_of(self.bodies, one) for one in self.motions}
+
+    def reservations(self, folder: str) -> tuple[str, ...]:
+        """Those of one motion, and what is to be said of its pictures."""
+        own = {one.name: one.reservations for one in self.motions}
+        return (*own[folder], *self.notes.get(folder, ()))
+
+    def write_files(self, folder: Path) -> None:
+        """Maps, series for ParaView, stills and loads for OpenSim besides, as asked for."""
+        for one in self.motions:
+            self.notes[one.name] = write_further(self.options, self.bodies, one, folder / one.name)
+            for note in self.notes[one.name]:
+                self.record.warn(note)
+        super().write_files(folder)
+
+
+def _named(one: MotionResult, file: str) -> str:
+    """A file of one motion, in the sub-folder that it has among several."""
+    return f"{one.name}/{file}" if one.name else file
+
+
+def run(bodies: Bodies, o: AreaOptions, record: Record) -> AreaResult:
+    """Every motion after the other."""
+    with record.listener.preparing():
+        warm_up()
+    shared = tuple(record.warnings)
+    motions = tuple(_over(record, bodies, o, name, motion, shared) for name, motion in bodies.motions)
+    return AreaResult(record=record, options=o, bodies=bodies, motions=motions)
+
+
+def _over(
+    record: Record, bodies: Bodies, o: AreaOptions, name: str, motion: Motion, shared: tuple[str, ...]
+) -> MotionResult:
+    """One motion; `shared` are the reservations that hold for all of them."""
+    before = len(record.warnings)
+    evolution, maps = _evaluated(record, bodies, o, name, motion)
+    pressure = pressure_evolution(record, bodies, o, name, motion, maps.frames) if o.pressure else None
+    say_inner_area(record, bodies, o, name, motion, evolution)
+    comparison = None if bodies.reference is None else _compared(record, evolution, bodies.reference)
+    uncertainty = _uncertain(record, bodies, o, name, motion, evolution)
+    alike = None if o.congruence is None else congruence_evolution(record, bodies, o.congruence, name, motion)
+    reservations = (*shared, *record.warnings[before:])
+    return MotionResult(name, motion, evolution, maps, pressure, comparison, uncertainty, alike, reservations)
+
+
+def _evaluated(
+    record: Record, bodies: Bodies, o: AreaOptions, name: str, motion: Motion
+) -> tuple[AreaEvolution, DistanceMaps]:
+    every = 1 if o.save_map or o.paraview else -(-len(motion) // FRAMES)
+    maps = DistanceMaps(bodies.moving, bodies.fixed, every)
+    with record.listener.progress(name or "frames", len(motion)) as step:
+
+        def each(frame: int, contact: FrameContact) -> None:
+            maps.add(frame, contact)
+            step()
+
+        evolution = area_evolution(bodies.moving, bodies.fixed, motion, bodies.settings, o.workers, each)
+    refuse_strangers(evolution, motion, o)
+    warn_of_no_contact(record, evolution, motion, name)
+    warn_of_lift_off(record, evolution, motion, name)
+    warn_of_overlap(record, evolution, motion, name)
+    _warn_of_doubts(record, evolution, bodies.settings, o.bounds is not None)
+    _summarise(record, evolution, name)
+    record.say(least_distance(evolution, motion, name))
+    return evolution, maps
+
+
+def _uncertain(
+    record: Record, bodies: Bodies, o: AreaOptions, name: str, motion: Motion, evolution: AreaEvolution
+) -> AreaUncertainty | None:
+    if bodies.error is None:
+        return None
+    with record.listener.progress(f"{name or 'frames'}, error of the pose", len(motion)) as step:
+        found = area_uncertainty(
+            bodies.moving, bodies.fixed, motion, bodies.settings, evolution, bodies.error, o.workers, step
+        )
+    summary: dict[str, object] = {}
+    record.results[f"{name} pose_error".lstrip()] = summary
+    for k, threshold in enumerate(evolution.thresholds):
+        lower, upper = found.interval(k) * MM2
+        odd = sum(found.verdict(frame, k) != "yes" for frame in range(len(motion)))
+        peak = np.quantile(found.drawn(k).max(axis=0), ENDS) * MM2
+        known = found.deviation(k) * MM2
+        worst = int(np.argmax(known[0]))
+        summary[f"at_{threshold * 1e3:g}_mm"] = {
+            "draws": len(bodies.error.draws),
+            "widest_interval_mm2": round(float((upper - lower).max()), 3),
+            "largest_area_ci95_mm2": [round(float(end), 3) for end in peak],
+            "largest_sd_mm2": round(float(known[0, worst]), 3),
+            "largest_sd_ci95_mm2": [round(float(end), 3) for end in known[1:, worst]],
+            "frames_where_first_order_disagrees": odd,
+        }
+        record.say(
+            f"error of the pose: largest area within {threshold * 1e3:g} mm is {peak[0]:.1f} … {peak[1]:.1f} mm^2 "
+            f"(95 %); first order agrees with the draws in {len(motion) - odd} of {len(motion)} frames"
+        )
+        record.say(
+            f"largest standard deviation of the area {known[0, worst]:.3g} mm^2, in frame {worst + 1} of "
+            f"{len(motion)}: {len(bodies.error.draws)} draws know it to "
+            f"{known[1, worst]:.3g} … {known[2, worst]:.3g} mm^2 (95 %)"
+        )
+        if odd:
+            record.warn(
+                f"first order and draws of the pose disagree in {odd} frames at {threshold * 1e3:g} mm: "
+                "trust the draws there (column agree of pose_error.csv)"
+            )
+    return found
+
+
+def _warn_of_doubts(record: Record, e: AreaEvolution, settings: Settings, asked: bool) -> None:
+    if e.undecided.any():
+        worst = int(e.undecided.max())
+        record.warn(f"up to {worst} points per frame have no side (winding number near 0.5); they count as outside")
+    wanted = settings.refinement.bounds
+    if settings.rule == REFINED or asked:
+        for side, name in ((e.fixed, "area_fixed"), (e.moving, "area_moving")):
+            with np.errstate(invalid="ignore"):
+                width = np.nan_to_num((side.upper - side.lower) / side.upper)
+            if (width > wanted).any():
+                line = f"bounds of {name} stay {width.max():.1%} apart in the worst frame; asked for {wanted:.1%}"
+                record.warn(line if asked else f"{line} (`bounds` {wanted:.0%} divides triangles longer)")
+
+
+def _summarise(record: Record, e: AreaEvolution, name: str) -> None:
+    lines: dict[str, object] = {
+        "frames": len(e.time),
+        "signed": e.signed,
+        "min_distance_mm": round(float(e.min_distance.min()) * 1e3, 6),
+    }
+    for k, threshold in enumerate(e.thresholds):
+        areas = e.fixed.area[:, k] * 1e6
+        lines[f"area_fixed_mm2_at_{threshold * 1e3:g}_mm"] = [
+            round(float(areas.min()), 3),
+            round(float(areas.max()), 3),
+        ]
+        label = f"{name}: " if name else ""
+        record.say(f"{label}area of FIXED within {threshold * 1e3:g} mm: {areas.min():.1f} … {areas.max():.1f} mm^2")
+    record.results[name or "motion"] = lines
+
+
+def _compared(record: Record, evolution: AreaEvolution, reference: Reference) -> pd.DataFrame:
+    rows = compared(evolution.table(), reference.table, reference.path)
+    worst = largest_difference(rows)
+    record.say(rows.to_string(index=False, max_rows=40))
+    verdict = "within" if reference.accepts(rows) else "beyond"
+    record.say(f"largest relative difference {worst:.2%}, {verdict} the tolerance of {reference.tolerance:.2%}")
+    return rows
+
+
+area = Job("area", AreaOptions, read, run)
+pressure = Job("area", PressureOptions, read, run)

@@ -1,4 +1,4 @@
-"""The static figure of a centre of pressure: forces, centre and free moment over time, and the path seen from above."""
+"""Static figures of a centre of pressure: forces, centre, free moment and path over time, and the stances."""
 
 from __future__ import annotations
 
@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.cop.loads import NAMES, SHARE, FootLoads, loads_table, stance_table, stances
+from geocontact.analyses.figure_files import drawing
 from geocontact.view.curves.sheet import sheet
+from geocontact.view.page.content import Picture
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -80,3 +83,30 @@ def _path(axes: Axes, curves: LoadCurves, right: int, ahead: int) -> None:
     dots = axes.scatter(x, y, c=curves.time[found], s=9, cmap="viridis", zorder=2)
     axes.figure.colorbar(dots, ax=axes, label="time [s]", shrink=0.7)
     axes.set_aspect("equal", adjustable="datalim")
+
+
+PERCENT = 100.0
+STANCES = (
+    "Every complete stance as a line, from where the normal force reaches the gate until it falls below: 0 to 100 % of "
+    "its own duration. stances.csv has the values."
+)
+
+
+def stance_pictures(r: FootLoads) -> list[Picture]:
+    """Normal force, and the centre along the foot where that is known, over the stance; none without a stance."""
+    if not r.options.stances or not stances(r):
+        return []
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    table = stance_table(r, loads_table(r))
+    panels = [("normal [N]", "normal force [N]", 1.0)]
+    if r.axis is not None:
+        panels.append((f"{NAMES[r.options.point]}{SHARE}", "centre from the heel [% of foot length]", PERCENT))
+    figure = sheet(4.6 * len(panels), 3.2)
+    FigureCanvasAgg(figure)
+    for axes, (name, label, factor) in zip(np.ravel(figure.subplots(1, len(panels))), panels, strict=True):
+        for _, one in table.groupby("stance [-]"):
+            axes.plot(one["cycle [%]"], one[name] * factor, lw=1.0)
+        axes.set_xlabel("stance [%]")
+        axes.set_ylabel(label)
+    return [Picture("Over the stance", STANCES, drawing(figure), wide=len(panels) > 1)]

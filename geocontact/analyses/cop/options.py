@@ -8,6 +8,7 @@ from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import (
     AngleUnit,
+    C3dUnit,
     Excludes,
     Expression,
     Length,
@@ -108,6 +109,8 @@ class CopOptions(Options):
         Ground reactions of force plates (.mot .sto .c3d) to put beside ours.
     plate
         Name or number of the plate; needed when there are several.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     plate_pose
         File with the 4x4 pose of the plates' frame in ours (translation in m), as for a laboratory with z up.
 
@@ -151,6 +154,7 @@ class CopOptions(Options):
     threshold_speed: Annotated[float | None, SPEED] = None
     compare: Path | None = None
     plate: Annotated[str | None, Requires("compare", "name the file of force plates")] = None
+    c3d_unit: C3dUnit = None
     plate_pose: Annotated[Path | None, Requires("compare", "name the file of force plates")] = None
     osim: Path | None = None
     joint: str | None = None

@@ -2,21 +2,247 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 from jaxtyping import Float, Int
+from scipy.spatial import ConvexHull
 
-from geocontact.analyses.cop.foot_loads import FootLoads
-from geocontact.analyses.cop.page_answer import NO_MOMENT, facts, headline
-from geocontact.analyses.cop.page_plans import MM, butterfly, foot_plan
-from geocontact.analyses.cop.page_stances import foot_curves, stance_pictures
-from geocontact.analyses.options_table import options_table
+from geocontact.analyses.cop.figure import PERCENT, stance_pictures
+from geocontact.analyses.cop.foot import root_mean_squares
+from geocontact.analyses.cop.loads import SHARE, FootLoads, along_foot
 from geocontact.analyses.page_frames import thinned
-from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Table, Words
-from geocontact.view.page.tables import inputs_table
-from geocontact.view.page.write import write_page
+from geocontact.analyses.page_words import NOT_A_DEVICE, counted, rounded
+from geocontact.data.seconds import seconds
+from geocontact.view.page.content import (
+    Curve,
+    Curves,
+    Mark,
+    Page,
+    Plan,
+    Readout,
+    Row,
+    Section,
+    Table,
+    Track,
+    Words,
+)
+
+MM = 1e3
+ROUND = np.linspace(0.0, 2.0 * np.pi, 49)
+VECTORS = 60  # forces drawn at most
+TALL = 0.6  # of the ground's length, how high the largest force is drawn
+LEAST = 0.1  # m; a path may be shorter than the drawing
+ZONES = 5  # named at most
+FOOT = "Seen from above, in the foot's frame: spheres that stand for the sole, their outline, and the path."
+
+
+def axis_name(axis: int, sign: float = 1.0) -> str:
+    """ "x", "−z"."""
+    return ("" if sign > 0.0 else "−") + "xyz"[axis]
+
+
+def foot_plan(r: FootLoads, shown: Int[np.ndarray, " k"]) -> Plan:
+    """Spheres, their outline and the path, seen against the ground's normal: the longer way lies across."""
+    sole = r.foot.sole
+    across, up, sign = _seen(r)
+
+    def flat(points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:
+        return points[:, [across, up]] * (1.0, sign) * MM
+
+    middle, radius = flat(sole.centre), sole.radius * MM
+    circles = middle[:, None] + radius[:, None, None] * np.column_stack([np.cos(ROUND), np.sin(ROUND)])
+    corners = circles.reshape(-1, 2)
+    edge = ConvexHull(corners).vertices
+    zones = list(sole.zones.items())
+    marks = [Mark(name, _edge(circles[which])) for name, which in zones] if len(zones) <= ZONES else []
+    tracks = [Track("centre of pressure", flat(_in_foot(r, r.centre.centre))[shown])]
+    if r.plate is not None:
+        there = np.full_like(r.centre.centre, np.nan)
+        there[r.plate.frames] = r.plate.centre
+        tracks.append(Track("force plate", flat(_in_foot(r, there))[shown]))
+    outline = corners[[*edge, edge[0]]]
+    return Plan(
+        "Path under the foot",
+        "mm",
+        axis_name(across),
+        axis_name(up, sign),
+        [outline, *circles],
+        tracks,
+        marks,
+        words=FOOT,
+    )
+
+
+def butterfly(r: FootLoads, shown: Int[np.ndarray, " k"]) -> Plan | None:
+    """Forces on the foot, each from its centre of pressure, seen across the way that the centre takes (Pedotti).
+
+    None where there is no centre of pressure.
+    """
+    c = r.centre
+    found = np.isfinite(c.centre[:, 0])
+    if not found.any():
+        return None
+    normal = _mean(c.normal[found])
+    upward = int(np.argmax(np.abs(normal)))
+    along = _along(c.centre[found], upward)
+    plane = [along, upward]
+    start, force = c.centre[:, plane] * MM, c.wrench.force[:, plane]
+    sizes = np.linalg.norm(force, axis=1)
+    most = float(sizes[found].max())
+    scale = _round_scale(TALL * max(float(np.ptp(start[found][:, 0])), LEAST * MM) / most)  # mm for 1 N
+    tip = start + scale * force
+    some = np.flatnonzero(found)
+    some = some[np.unique(np.linspace(0, len(some) - 1, VECTORS).astype(int))]
+    words = f"Each line is the force in one frame, from its centre of pressure: 100 N are {100.0 * scale:g} mm long."
+    return Plan(
+        "Forces along the path (butterfly diagram)",
+        "mm",
+        axis_name(along),
+        axis_name(upward),
+        [np.array([start[k], tip[k]]) for k in some],
+        [
+            Track("centre of pressure", start[shown]),
+            Track("force", np.where(found[:, None], tip, np.nan)[shown], [f"{size:.0f} N" for size in sizes[shown]]),
+        ],
+        words=words,
+    )
+
+
+def travel(r: FootLoads) -> tuple[float, str]:
+    """How far the centre of pressure goes on the ground [m], and along which axis it goes the most."""
+    found = np.isfinite(r.centre.centre[:, 0])
+    centre = r.centre.centre[found]
+    upward = int(np.argmax(np.abs(_mean(r.centre.normal[found]))))
+    along = _along(centre, upward)
+    return float(np.ptp(centre[:, along])), axis_name(along)
+
+
+def path_length(centre: Float[np.ndarray, "t 3"]) -> float:
+    """Length of the path [m], without the ways across frames that have no centre."""
+    return float(np.nansum(np.linalg.norm(np.diff(centre, axis=0), axis=1)))
+
+
+def _along(centre: Float[np.ndarray, "t 3"], upward: int) -> int:
+    """The axis of the ground along which a path is longest."""
+    reach = np.ptp(centre, axis=0)
+    reach[upward] = -1.0
+    return int(np.argmax(reach))
+
+
+def _in_foot(r: FootLoads, points: Float[np.ndarray, "t 3"]) -> Float[np.ndarray, "t 3"]:
+    matrices = r.foot.motion.poses.inv().as_matrix().reshape(-1, 4, 4)
+    return np.asarray(np.einsum("tij,tj->ti", matrices[:, :3, :3], points) + matrices[:, :3, 3])
+
+
+def _seen(r: FootLoads) -> tuple[int, int, float]:
+    """Axes of the foot to the right and upwards in the drawing, and the sign of the latter, for a view from above."""
+    turned = r.foot.motion.poses.rotation.inv().as_matrix().reshape(-1, 3, 3)
+    known = np.isfinite(r.centre.normal[:, 0])
+    if known.any():
+        normal = _mean(np.einsum("tij,tj->ti", turned[known], r.centre.normal[known]))
+    else:
+        normal = -np.ptp(r.foot.sole.centre, axis=0) + np.ptp(r.foot.sole.centre)  # the thinnest way
+    above = int(np.argmax(np.abs(normal)))
+    sides = [(above + 1) % 3, (above + 2) % 3]
+    reach = np.ptp(r.foot.sole.centre, axis=0)
+    across, up = sorted(sides, key=lambda axis: -float(reach[axis]))
+    right_handed = 1.0 if (across + 1) % 3 == up else -1.0
+    return across, up, right_handed * (1.0 if normal[above] >= 0.0 else -1.0)
+
+
+def _mean(normals: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " 3"]:
+    return np.asarray(normals.mean(axis=0))
+
+
+def _edge(circles: Float[np.ndarray, "n c 2"]) -> tuple[float, float]:
+    """Above the middle of a zone, where its name does not cover the path."""
+    points = circles.reshape(-1, 2)
+    middle = circles.mean(axis=(0, 1))
+    return float(middle[0]), float(points[:, 1].max())
+
+
+def _round_scale(scale: float) -> float:
+    """The largest of 1, 2, 5 times a power of ten that is not above `scale`."""
+    power = 10.0 ** np.floor(np.log10(scale))
+    return float(power * max(step for step in (1.0, 2.0, 5.0) if step <= scale / power * (1.0 + 1e-9)))
+
+
+AXES = "xyz"
+NO_MOMENT = 1e-6  # N m; less is what rounding leaves
+
+
+def headline(r: FootLoads) -> list[str]:
+    """Largest force and way of the centre; in how many frames there is one; the plate's difference."""
+    time, c = r.foot.motion.time, r.centre
+    found = np.isfinite(c.centre[:, 0])
+    if not c.pressing.any():
+        return ["No sphere touches the ground: there is no force and no centre of pressure."]
+    k = int(np.argmax(c.pressing))
+    said = f"The ground presses on the foot with up to {rounded(c.pressing[k], 3)} N, at {_at(time[k])}"
+    if not found.any():
+        return [f"{said}: too little for a centre of pressure, which asks for {r.options.gate:g} N."]
+    way, along = travel(r)
+    lines = [f"{said}; its centre of pressure goes {way * MM:.0f} mm along {along}."]
+    if not found.all():
+        lines.append(
+            f"There is a centre of pressure in {found.sum()} of {counted(len(found), 'frame')}; "
+            f"in the others the normal force is below {r.options.gate:g} N."
+        )
+    return lines + _beside(r)
+
+
+def _beside(r: FootLoads) -> list[str]:
+    """Difference to the plate as one distance and one force."""
+    if r.comparison is None:
+        return []
+    rms = root_mean_squares(r.comparison)
+    force = [rms[f"rms_force_{axis} [N]"] for axis in AXES]
+    centre = [rms[f"rms_cop_{axis} [m]"] for axis in AXES]
+    told = [f"the force differs by {_length(force):.3g} N"]
+    if None not in centre:
+        told.append(f"the centre of pressure by {_length(centre) * MM:.3g} mm")
+    return [f"Beside the force plate {' and '.join(told)} (root mean square)."]
+
+
+def _at(time: float) -> str:
+    return f"{seconds(round(float(time), 3))} s"
+
+
+def _length(parts: list[float | None]) -> float:
+    return float(np.sqrt(sum(part**2 for part in parts if part is not None)))
+
+
+def facts(r: FootLoads) -> list[tuple[str, str]]:
+    """How much, for how long, under what, how far, and how it turns."""
+    time, c = r.foot.motion.time, r.centre
+    found, touching = np.isfinite(c.centre[:, 0]), c.pressing > 0.0
+    k = int(np.argmax(c.pressing))
+    lines = [("Largest normal force", f"{c.pressing[k]:.0f} N at {_at(time[k])}")]
+    if touching.any():
+        first, last = time[np.flatnonzero(touching)[[0, -1]]]
+        lines.append(("On the ground", f"{_at(first)} to {_at(last)}"))
+        zones = {name: float(force.sum()) for name, force in r.zones.items()}
+        most = max(zones, key=lambda name: zones[name])
+        lines.append(("Zone that bears most", f"{most}, {zones[most] / sum(zones.values()):.0%} of all force"))
+    if found.any():
+        lines.append(("Length of the path", f"{path_length(c.centre) * MM:.0f} mm"))
+        turn = c.free_moment[found]
+        if np.abs(turn).max() > NO_MOMENT:
+            lines.append(("Free moment", f"{turn.min():.2g} … {turn.max():.2g} N m"))
+    return lines
+
+
+def foot_curves(r: FootLoads, shown: Int[np.ndarray, " k"]) -> list[Curves]:
+    """Place of each centre from the heel [% of the foot's length]."""
+    within = along_foot(r)
+    if within is None:
+        return []
+    shares = [str(name) for name in within.columns if str(name).endswith(SHARE)]
+    curves = [
+        Curve(name.removesuffix(SHARE).replace("_", " "), within[name].to_numpy(float)[shown] * PERCENT)
+        for name in shares
+    ]
+    return [Curves("Centre of pressure along the foot, from the heel", "% of foot length", curves)]
+
 
 SPHERES, PLATE = "spheres", "force plate"
 LAW = (
@@ -24,11 +250,6 @@ LAW = (
     "is a large part of that depth: sizes of forces are as good as motion and stiffness, the place of the centre "
     "depends on them less."
 )
-
-
-def write_cop_report(r: FootLoads, file: Path) -> int:
-    """Write the self-contained page; returns its size in bytes."""
-    return write_page(cop_page(r), file)
 
 
 def cop_page(r: FootLoads) -> Page:
@@ -45,12 +266,8 @@ def cop_page(r: FootLoads) -> Page:
         *stance_pictures(r),
         *_comparison(r),
         Words("What the numbers rest on", [LAW, NOT_A_DEVICE]),
-        inputs_table(r.record.inputs),
-        options_table(r.record),
     ]
-    warnings = list(r.warnings)
-    if len(shown) < len(time):
-        warnings.append(f"the page shows {len(shown)} of {len(time)} frames; cop.csv has them all")
+    part = f"the page shows {len(shown)} of {len(time)} frames; cop.csv has them all"
     return Page(
         title=f"Centre of pressure of {r.foot.name}",
         subtitle=f"{len(r.foot.sole)} spheres on the ground, motion {r.options.motion.name}",
@@ -58,7 +275,7 @@ def cop_page(r: FootLoads) -> Page:
         time_label="time [s]",
         headline=headline(r),
         facts=facts(r),
-        reservations=tuple(warnings),
+        reservations=(part,) if len(shown) < len(time) else (),
         start_frame=int(np.argmax(c.pressing[shown])),
         sections=tuple(sections),
         numbers=shown + 1,
@@ -94,8 +311,8 @@ def _curves(r: FootLoads, shown: Int[np.ndarray, " k"]) -> list[Curves]:
             Curves("Free moment", "N m", [Curve("free moment", _plain(c.free_moment[shown]))]),
         ]
     else:
-        moments = c.free_moment, _at(r, plate.free_moment[:, None])[:, 0]
-        theirs = _at(r, plate.force)[shown], _at(r, plate.centre)[shown] * MM
+        moments = c.free_moment, _plate_at(r, plate.free_moment[:, None])[:, 0]
+        theirs = _plate_at(r, plate.force)[shown], _plate_at(r, plate.centre)[shown] * MM
 
         def both(ours: Float[np.ndarray, " k"], plates: Float[np.ndarray, " k"]) -> list[Curve]:
             return [Curve(SPHERES, ours), Curve(PLATE, plates)]
@@ -120,7 +337,7 @@ def _curves(r: FootLoads, shown: Int[np.ndarray, " k"]) -> list[Curves]:
     return [*panels, *([Curves("Normal force of each zone", "N", of_zones)] if len(zones) > 1 else []), *after]
 
 
-def _at(r: FootLoads, values: Float[np.ndarray, "f n"]) -> Float[np.ndarray, "t n"]:
+def _plate_at(r: FootLoads, values: Float[np.ndarray, "f n"]) -> Float[np.ndarray, "t n"]:
     """What a plate shows at all of our frames; NaN beyond its recording."""
     frames = np.empty(0, int) if r.plate is None else r.plate.frames
     found = np.full((len(r.foot.motion), values.shape[1]), np.nan)

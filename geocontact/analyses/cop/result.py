@@ -1,22 +1,49 @@
-"""What a centre of pressure is found to be: tables, figure, page."""
+"""Centre of pressure, force and free moment of a foot on spheres: `geocontact cop`, `gc.centre_of_pressure`.
+
+>>> import geocontact as gc, pandas as pd
+>>> heel, ball = (0.0, 0.012, 0.0, 0.012, "heel"), (0.16, 0.012, 0.0, 0.012, "ball")
+>>> columns = ["px [m]", "py [m]", "pz [m]", "radius [m]", "zone"]
+>>> pd.DataFrame([heel, ball], columns=columns).to_csv("spheres.csv", index=False)
+>>> fall = {"time [s]": [0.0, 0.1, 0.2], "tx [mm]": 0, "ty [mm]": [-2, -3, -4], "tz [mm]": 0}
+>>> turn = {"rx [deg]": 0, "ry [deg]": 0, "rz [deg]": [0.5, 0.0, -0.5]}
+>>> pd.DataFrame(fall | turn).to_csv("foot.csv", index=False)
+>>> result = gc.centre_of_pressure("spheres.csv", motion="foot.csv", order="XYZ", stiffness=8e4, damping=0.0)
+>>> result
+normal force up to 258.0 N; a centre of pressure in 3 of 3 frames
+warning: numbers of the force law that were not given are assumed: n = 1.2, mu_s = 0.9, mu_k = 0.7, v_th =
+0.25 m/s
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
-from geocontact.analyses.cop.along_foot import along_foot, stance_table
 from geocontact.analyses.cop.figure import LoadCurves, cop_figure
-from geocontact.analyses.cop.foot_loads import FootLoads, loads_table
-from geocontact.analyses.cop.page import write_cop_report
-from geocontact.analyses.figure_files import save_both
-from geocontact.io.text.results import write_table
+from geocontact.analyses.cop.foot import Foot, comparison_table, low_passed, plate_curves, read, root_mean_squares
+from geocontact.analyses.cop.loads import NAMES, SHARE, FootLoads, along_foot, loads_table, stance_table, stances
+from geocontact.analyses.cop.options import CopOptions
+from geocontact.analyses.cop.page import cop_page
+from geocontact.analyses.job import Job
+from geocontact.analyses.result import REPORT
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.loads.along_foot import FootAxis, axis_of_sole
+from geocontact.loads.centre_of_pressure import POINTS
+from geocontact.loads.centre_of_pressure import centre_of_pressure as centre_of
+from geocontact.loads.pose_rate import pose_rate
+from geocontact.loads.sphere_loads import SphereLoads, sphere_loads
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
+
 
 FRAME = "ground"
 WORDS = "the frame in which the motion gives the foot's pose; forces are those on the foot"
@@ -40,31 +67,163 @@ class CopResult(FootLoads):
             found["stances"] = stance_table(self, found["cop"])
         return found
 
-    def figure(self) -> Figure:
-        """Forces, centre and free moment over time, and the path seen from above."""
+    def figures(self) -> dict[str, Figure]:
+        """`cop`: forces, centre and free moment over time, and the path seen from above."""
         time, c = self.foot.motion.time, self.centre
         ours, theirs = LoadCurves(time, c.wrench.force, c.centre, c.free_moment), None
         if self.plate is not None:
             p = self.plate
             theirs = LoadCurves(time[p.frames], p.force, p.centre, p.free_moment)
-        return cop_figure(ours, theirs, c.normal, f"{self.foot.name} on the ground, {self.options.motion.name}")
+        return {
+            "cop": cop_figure(ours, theirs, c.normal, f"{self.foot.name} on the ground, {self.options.motion.name}")
+        }
 
-    def write_files(self, folder: Path) -> None:
-        """Tables, figure and page."""
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
-            told = {"frame": FRAME, "words": WORDS, "cop": CENTRES[self.options.point]}
-            if name == "along_foot":
-                told = {"frame": "foot", "words": FOOT_WORDS}
-            self.record.tables[f"{name}.csv"] = told
-        save_both(self.figure(), folder, "cop")
-        write_cop_report(self, folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The path under the foot, the forces along it, and their numbers in every frame."""
-        write_cop_report(self, file)
+        return {REPORT: cop_page(self)}
+
+    def refers_to(self, table: str) -> Mapping[str, object]:
+        """The frame, and which centre is meant."""
+        if table == "along_foot":
+            return {"frame": "foot", "words": FOOT_WORDS}
+        return {"frame": FRAME, "words": WORDS, "cop": CENTRES[self.options.point]}
 
     def _zones_table(self) -> pd.DataFrame:
         """Normal force of every zone."""
         forces = {f"{name} [N]": force for name, force in self.zones.items()}
         return pd.DataFrame({"time [s]": self.foot.motion.time, **forces})
+
+
+NEAR = 20e-3  # m; a foot that never comes this close is a mistake in the input
+REMEDY = "check the frame, the unit and which way is up; see `ground`"
+
+
+def run(foot: Foot, o: CopOptions, record: Record) -> CopResult:
+    """Load of every frame, and the plate's beside it."""
+    loads = _loads(record, foot, o)
+    time = foot.motion.time
+
+    def smooth(values: Float[np.ndarray, "t k"]) -> Float[np.ndarray, "t k"]:
+        if not o.force_cutoff:
+            return values
+        return low_passed(time, values, o.force_cutoff, o.motion, "`force_cutoff`")
+
+    found = {point: centre_of(loads, point, o.gate, smooth if o.force_cutoff else None) for point in POINTS}
+    centre = found[o.point]
+    curves = None if foot.plate is None else plate_curves(foot.plate, time, centre, o)
+    comparison = None if curves is None else comparison_table(time, centre, curves)
+    result = CopResult(
+        record=record,
+        options=o,
+        foot=foot,
+        loads=loads,
+        centre=centre,
+        centres={point: each.centre for point, each in found.items()},
+        axis=None if o.toe is None else _axis(foot, o.toe, o.foot_length),
+        zones={zone: smooth(loads.pressing[:, own]).sum(axis=1) for zone, own in foot.sole.zones.items()},
+        plate=curves,
+        comparison=comparison,
+    )
+    _summarise(result)
+    return result
+
+
+def _axis(foot: Foot, toe: str, length: float | None) -> FootAxis:
+    """`toe` is an axis with its sign: x, -z."""
+    direction = np.eye(3)["xyz".index(toe[-1])] * (-1.0 if toe.startswith("-") else 1.0)
+    return axis_of_sole(foot.sole, direction, length)
+
+
+def _loads(record: Record, foot: Foot, o: CopOptions) -> SphereLoads:
+    if len(foot.motion) == 1 and foot.law.needs_velocity:
+        record.warn(f"{o.motion} has one frame: the foot is taken to stand still")
+    rate = pose_rate(foot.motion.time, foot.motion.poses)
+    try:
+        with record.listener.preparing():
+            loads = sphere_loads(foot.sole, foot.law, foot.motion.poses, rate, foot.ground)
+    except ValueError as error:
+        raise InputError(o.motion, "", str(error), REMEDY) from error
+    _say_what_is_odd(record, foot, loads, o)
+    return loads
+
+
+def _say_what_is_odd(record: Record, foot: Foot, loads: SphereLoads, o: CopOptions) -> None:
+    touching = loads.depth > 0.0
+    if not touching.any():
+        distance = foot.ground.proximity(loads.centre.reshape(-1, 3)).distance.reshape(loads.depth.shape)
+        gap = float((distance - foot.sole.radius).min())
+        if gap > NEAR:
+            what = f"the foot stays {gap * 1e3:.0f} mm above the ground in every frame"
+            raise InputError(o.motion, "", what, REMEDY)
+        record.warn(f"no sphere touches the ground; the nearest comes within {gap * 1e3:.2f} mm")
+    beneath = (loads.depth > foot.sole.radius).any(axis=1)
+    if beneath.any():
+        record.warn(f"centres of spheres are under the ground in {int(beneath.sum())} frames: too soft, or misplaced")
+
+
+def _summarise(r: CopResult) -> None:
+    record, c, law = r.record, r.centre, r.foot.law
+    found = np.isfinite(c.centre[:, 0])
+    if c.pressing.any() and not found.any():
+        record.warn(f"no centre of pressure: the normal force stays below the gate of {r.options.gate:g} N")
+    record.results["cop"] = {
+        "frames": len(r.foot.motion),
+        "frames_with_cop": int(found.sum()),
+        "peak_normal_N": round(float(c.pressing.max()), 6),
+        "point": r.options.point,
+        "law": {
+            "k": sorted(set(law.stiffness.tolist())),
+            "b": sorted(set(law.damping.tolist())),
+            "n": law.exponent,
+            "delta_full_m": law.full_depth,
+            "mu_s": _one_or_all(law.static),
+            "mu_k": _one_or_all(law.kinetic),
+            "v_th_m_per_s": law.threshold_speed,
+        },
+    }
+    record.say(
+        f"normal force up to {c.pressing.max():.1f} N; a centre of pressure in {found.sum()} of {len(found)} frames"
+    )
+    _tell_foot(r)
+    if r.comparison is not None:
+        _tell_comparison(r, root_mean_squares(r.comparison))
+
+
+def _tell_foot(r: CopResult) -> None:
+    """Length of the foot and where the centre goes along it; how many stances are complete."""
+    within = along_foot(r)
+    if within is not None and r.axis is not None:
+        told: dict[str, float | None] = {"length_mm": round(r.axis.length * 1e3, 6)}
+        for name in within.columns:
+            if str(name).endswith(SHARE):
+                known = within[name].dropna()
+                for end, value in (("from", known.min()), ("to", known.max())):
+                    told[f"{str(name).removesuffix(SHARE)}_{end}"] = round(float(value), 9) if len(known) else None
+        r.record.results["along_foot"] = told
+        least, most = (told[f"{NAMES[r.options.point]}_{end}"] for end in ("from", "to"))
+        if least is not None and most is not None:
+            length = f"foot of {r.axis.length * 1e3:.0f} mm"
+            r.record.say(f"centre of pressure at {least:.0%} to {most:.0%} of the {length}, from the heel")
+    if r.options.stances:
+        count = len(stances(r))
+        r.record.results["stances"] = count
+        if not count:
+            r.record.warn(
+                f"no complete stance: the normal force does not rise through {r.options.gate:g} N and fall again"
+            )
+
+
+def _one_or_all(values: Float[np.ndarray, " n"]) -> float | list[float]:
+    """The value that all spheres share, else all that occur."""
+    found = sorted(set(values.tolist()))
+    return found[0] if len(found) == 1 else found
+
+
+def _tell_comparison(r: CopResult, differences: dict[str, float | None]) -> None:
+    rows = 0 if r.comparison is None else len(r.comparison)
+    r.record.results["comparison"] = {"rows": rows, **differences}
+    shown = ", ".join(f"{name[4:]} {value:.4g}" for name, value in differences.items() if value is not None)
+    r.record.say(f"root mean square difference to the plate: {shown or 'nothing to compare above the gate'}")
+
+
+centre_of_pressure = Job("cop", CopOptions, read, run)

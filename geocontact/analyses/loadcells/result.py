@@ -1,33 +1,63 @@
-"""What load cells tell: forces of the compartments, the mean over cycles, figures and a page for each recording."""
+"""Contact forces from the load cells of an implant: `geocontact loadcells`, `gc.load_cells`.
+
+>>> import geocontact as gc, numpy as np, pandas as pd
+>>> time = np.linspace(0.0, 1.0, 101)
+>>> cells = {name: 300.0 * np.sin(np.pi * time) for name in ("PM [N]", "AM [N]", "AL [N]", "PL [N]")}
+>>> pd.DataFrame({"time [s]": time} | cells).to_csv("cells.csv", index=False)
+>>> result = gc.load_cells("cells.csv")
+>>> result
+largest forces: medial 604.6 N, lateral 595.4 N, total 1200.0 N (total at 0.5 s)
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
-from geocontact.analyses.loadcells.cycles import SIDES, Cut, stacked
-from geocontact.analyses.loadcells.figure import ensemble_figure, loadcell_figure
+from geocontact.analyses.figure_files import drawing
+from geocontact.analyses.job import Job
+from geocontact.analyses.loadcells.forces import (
+    SIDES,
+    Cut,
+    LoadCellInputs,
+    RecordedCells,
+    cuts_asked_for,
+    cycle_table,
+    ensemble_table,
+    read,
+    recorded_forces,
+    say_cycles,
+    shift_table,
+    stacked,
+    style_table,
+)
 from geocontact.analyses.loadcells.options import LoadcellOptions
-from geocontact.analyses.loadcells.page import CYCLES, NEWTON, SHIFTS, STYLES, ForceUnit, loadcell_page
-from geocontact.analyses.loadcells.recorded import RecordedCells
-from geocontact.analyses.loadcells.tables import cycle_table, ensemble_table, shift_table, style_table
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.plain_page import write_plain_page
+from geocontact.analyses.loadcells.show import (
+    CYCLES,
+    NEWTON,
+    SHIFTS,
+    STYLES,
+    ForceUnit,
+    ensemble_figure,
+    loadcell_figure,
+    loadcell_page,
+)
 from geocontact.analyses.result import Result
+from geocontact.analyses.run_record import Record
 from geocontact.data.cell_regression import CellRegression
-from geocontact.io.text.results import write_table
 from geocontact.view.curves.given import SERIES
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
+from geocontact.view.page.tables import frame_table
 
 ROWS = 100  # cycles that the page lists; cycles.csv has all
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -54,37 +84,38 @@ class LoadcellResult(Result):
         """A sub-folder for each of several recordings."""
         return tuple(each.folder for each in self.recordings)
 
+    @property
+    def title(self) -> str:
+        """How many recordings there are."""
+        return f"Load cells of {len(self.recordings)} recordings"
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`forces`, of several recordings `NAME/forces` each; with cycles `cycles`, `ensemble`, and
         of several styles `styles` and `shifts`.
         """
-        found = {(Path(each.folder) / "forces").as_posix(): each.table() for each in self.recordings}
+        found = {_named(each, "forces"): each.table() for each in self.recordings}
         return {**found, **self._over_cycles()}
 
-    def figure(self) -> Figure:
-        """The mean over the cycle, where cycles are asked for; else cells and compartments of the first recording."""
-        return self._ensemble() or self._over_time(self.recordings[0])
+    def figures(self) -> dict[str, Figure]:
+        """`ensemble`, the mean over the cycle, where cycles are asked for; `loadcells` of each recording over time."""
+        mean = self._ensemble()
+        each = {_named(one, "loadcells"): self._over_time(one) for one in self.recordings}
+        return each if mean is None else {"ensemble": mean, **each}
 
-    def write_files(self, folder: Path) -> None:
-        """Cycles of all recordings; forces, figure and page of each."""
-        for name, table in self._over_cycles().items():
-            write_table(table, folder, name)
-        figure = self._ensemble()
-        if figure is not None:
-            save_both(figure, folder, "ensemble")
-        for each in self.recordings:
-            own = folder / each.folder
-            own.mkdir(exist_ok=True)
-            write_table(each.table(), own, "forces")
-            save_both(self._over_time(each), own, "loadcells")
-            self._write_report(own / "report.html", each)
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """One for each recording."""
+        found, titles = self._over_cycles(), {"cycles": CYCLES, "styles": STYLES, "shifts": SHIFTS}
+        tables = [frame_table(title, found[name], 5, ROWS) for name, title in titles.items() if name in found]
 
-    def write_page(self, file: Path) -> None:
-        """The page of the recording; of several all their tables."""
-        if len(self.recordings) > 1:
-            write_plain_page(self, f"Load cells of {len(self.recordings)} recordings", file)
-            return
-        self._write_report(file, self.recordings[0])
+        def drawn(unit: ForceUnit) -> bytes | None:
+            return drawings.get("ensemble") if unit is NEWTON else self._drawn(unit)
+
+        return {
+            _named(one, "report.html"): loadcell_page(
+                one, self.regression, self.cuts, drawn, self.options.body_weight, tables
+            )
+            for one in self.recordings
+        }
 
     def _over_cycles(self) -> dict[str, pd.DataFrame]:
         if not self.cuts:
@@ -111,20 +142,18 @@ class LoadcellResult(Result):
         mine = tuple(cut.span for cut in self.cuts if cut.recording == each.file.stem)
         return loadcell_figure(each.forces.time, each.by_cell(self.regression), each.forces.curves, mine)
 
-    def _write_report(self, file: Path, each: RecordedCells) -> None:
-        found, titles = self._over_cycles(), {"cycles": CYCLES, "styles": STYLES, "shifts": SHIFTS}
-        shown = [frame_table(title, found[name], 5, ROWS) for name, title in titles.items() if name in found]
-        own = each.folder or "."
-        inputs = [entry for entry in self.record.inputs if entry.get("folder", own) == own]
-        provenance = [inputs_table(inputs), options_table(self.record)]
-        page = loadcell_page(
-            each,
-            self.regression,
-            self.cuts,
-            self._drawn,
-            self.options.body_weight,
-            shown,
-            provenance,
-            self.warnings,
-        )
-        write_page(page, file)
+
+def _named(one: RecordedCells, file: str) -> str:
+    """A file of one recording, in the sub-folder that it has among several."""
+    return (Path(one.folder) / file).as_posix()
+
+
+def run(given: LoadCellInputs, o: LoadcellOptions, record: Record) -> LoadcellResult:
+    """Forces of every recording, and the cycles of all of them."""
+    recordings = recorded_forces(given, o, record)
+    cuts = cuts_asked_for(record, {each.file: each.forces for each in recordings}, given.cycles, o)
+    say_cycles(record, cuts)
+    return LoadcellResult(record=record, options=o, regression=given.regression, recordings=recordings, cuts=cuts)
+
+
+load_cells = Job("loadcells", LoadcellOptions, read, run)

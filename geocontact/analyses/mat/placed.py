@@ -1,19 +1,33 @@
-"""A mat on its surface: registered, laid, and mapped onto the faces under it."""
+"""The mat on its surface: what is read, the surface under the mat and its named parts, the mat as it lies."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Bool, Float
 
+from geocontact.analyses.bodies import chosen_faces, read_surface
+from geocontact.analyses.mat.comparison import ModelForces, Phase, read_model, read_phases
 from geocontact.analyses.mat.options import MatOptions
-from geocontact.analyses.mat.placement.belt import open_belt, say_how_it_closes
-from geocontact.analyses.mat.placement.registration import registered
-from geocontact.analyses.mat.placement.second_scan import marks_found
-from geocontact.analyses.mat.placement.sides import outwards, say_which_side
-from geocontact.analyses.mat.read import MatInputs
+from geocontact.analyses.mat.placement import (
+    BodyModel,
+    SecondScan,
+    marks_found,
+    open_belt,
+    outwards,
+    read_body_model,
+    read_second_scan,
+    registered,
+    say_how_it_closes,
+    say_which_side,
+)
+from geocontact.analyses.mat.recording import read_recording, read_segment_motion
+from geocontact.analyses.quantities import centre, named_file
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
+from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.belt import NotAroundError
 from geocontact.geometry.drape.cells import Drape
@@ -23,9 +37,114 @@ from geocontact.geometry.drape.lay import lay
 from geocontact.geometry.drape.mat import Marks, Mat
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.surface import Surface
-from geocontact.io.recordings.mat_landmarks import MatLandmarks
+from geocontact.io.recordings.mat_landmarks import MatLandmarks, read_mat_landmarks
 from geocontact.io.text.units import LENGTH
+from geocontact.loads.mat.load import MatLoad, mat_load
 from geocontact.loads.mat.map import MatMap, mat_map
+
+Parts = Mapping[str, str | Bool[np.ndarray, " f"]]
+
+
+def read_segments(record: Record, scan: Surface, o: MatOptions) -> Parts:
+    """Expression of each part, or the faces that a file lists."""
+    found: dict[str, str | Bool[np.ndarray, " f"]] = {}
+    for text in o.segment:
+        name, sign, expression = (part.strip() for part in text.partition("="))
+        if not sign or not name.replace("_", "").replace("-", "").isalnum() or name in found:
+            raise InputError("", "`segment`", f"{text!r} has no name of its own", 'write for example "upper=y > 20"')
+        faces = None if named_file(expression) is None else chosen_faces(record, "`segment`", expression, scan, o.unit)
+        found[name] = expression if faces is None else faces
+    return found
+
+
+def cells_of(
+    record: Record, parts: Parts, surface: Surface, placed: MatMap, o: MatOptions
+) -> dict[str, Bool[np.ndarray, " n"]]:
+    """Cells of each part: those that lie for the most part on its faces, which are chosen in the frame of `surface`."""
+    found: dict[str, Bool[np.ndarray, " n"]] = {}
+    for name, part in parts.items():
+        faces = chosen_faces(record, "`segment`", part, surface, o.unit) if isinstance(part, str) else part
+        found[name] = np.asarray(placed.share.T @ np.asarray(faces, float) >= 0.5)
+        if not found[name].any():
+            raise InputError("", "`segment`", f"no cell lies on '{name}'", "check the expression and the frame")
+    if found:
+        counted = np.sum(list(found.values()), axis=0)
+        for what, cells in (("in no segment", counted == 0), ("in more than one segment", counted > 1)):
+            if cells.any():
+                record.warn(f"{int(cells.sum())} cells are {what}: segments do not add up to the whole")
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class MatInputs:
+    """Everything that was read; None for what was not asked for.
+
+    Parameters
+    ----------
+    recorded
+        Frames of the mat as they were read.
+    listed_dead
+        Row and column of cells that the layout lists as dead.
+    motion
+        Poses of the segment that carries the mat.
+    scan
+        Surface that the mat lies on, its faces as the file has them.
+    landmarks
+        Places of the mat and their points of the scan [m].
+    second_scan
+        Instead of landmarks: the scan with the mat on.
+    point
+        That moments refer to [m], in the frame of the results.
+    body
+        Body model that the scan is registered to.
+    segments
+        Expression of each named part, or the faces that belong to it where a file names them.
+    phases
+        Of the recording, for a comparison.
+    model
+        Forces to compare with.
+    """
+
+    recorded: PressureFrames
+    listed_dead: tuple[tuple[int, int], ...]
+    motion: Motion | None
+    scan: Surface
+    landmarks: MatLandmarks | None
+    second_scan: SecondScan | None
+    point: Float[np.ndarray, " 3"]
+    body: BodyModel | None
+    segments: Mapping[str, str | Bool[np.ndarray, " f"]]
+    phases: tuple[Phase, ...] | None
+    model: ModelForces | None
+
+
+def read(o: MatOptions, record: Record) -> MatInputs:
+    """Everything the options name."""
+    recorded, listed_dead = read_recording(record, o)
+    motion = read_segment_motion(record, o)
+    scan = read_surface(record, "surface", o.surface, o.unit, None)
+    return MatInputs(
+        recorded,
+        listed_dead,
+        motion,
+        scan,
+        _landmarks(record, recorded, o),
+        read_second_scan(record, o),
+        np.zeros(3) if o.point is None else np.array(centre(o.point, o.unit, "`point`")),
+        read_body_model(record, o),
+        read_segments(record, scan, o),
+        read_phases(record, o),
+        read_model(record, o),
+    )
+
+
+def _landmarks(record: Record, frames: PressureFrames, o: MatOptions) -> MatLandmarks | None:
+    if o.landmarks is None:
+        return None
+    marks = read_mat_landmarks(o.landmarks, frames.rows, frames.columns)
+    record.add_input("`landmarks`", o.landmarks, landmarks=len(marks.name))
+    return marks
+
 
 LOST = 3.0  # times the pitch; a mat that misses a landmark by more does not lie there
 FAR = 0.25  # of the mat's pitch; landmarks that miss their points by more deserve a word
@@ -133,3 +252,75 @@ def _mapped(surface: Surface, laid: Drape, frames: PressureFrames) -> MatMap:
         return mat_map(surface, laid.nodes, frames.valid & laid.covered, frames.cell_area)
     except ValueError as error:
         raise InputError("", "`landmarks`", str(error), "check the landmarks and the unit of the scan") from error
+
+
+MM = 1e3
+HERE = "closest_point_projection"
+
+
+@dataclass(frozen=True, eq=False)
+class ClosestPoint:
+    """The same mat as the closest points would have laid it.
+
+    Parameters
+    ----------
+    drape
+        Cells on their closest points.
+    used, projected
+        Loads of the mat as it is laid, and of this one; both about the origin of the scan, in its axes.
+    """
+
+    drape: Drape
+    used: MatLoad
+    projected: MatLoad
+
+    @property
+    def frame(self) -> int:
+        """Where the ways are put beside each other: the frame with the largest force."""
+        return int(np.argmax(self.used.pressing))
+
+    @property
+    def distortion(self) -> Float[np.ndarray, "r c"]:
+        """Area of each cell of the grid over that of the flat cell, minus 1; so -1 where it is not on the scan."""
+        return np.where(self.drape.covered, self.drape.distortion, -1.0)
+
+
+def closest_point(record: Record, p: PlacedMat, frames: PressureFrames, o: MatOptions) -> ClosestPoint | None:
+    """The same marks and pressures on a mat that is pushed down flat; how it differs goes to the record.
+
+    None where the mat is laid that way, or where it cannot be: two marks do not place a flat mat.
+    """
+    if o.lay == "closest":
+        return None
+    mat, marks = mat_and_marks(frames, p.landmarks, o)
+    try:
+        flat = project(Geodesics(p.surface), mat, marks)
+        there = mat_map(p.surface, flat.nodes, frames.valid & flat.covered, frames.cell_area)
+    except ValueError as error:
+        record.results[HERE] = {"not_possible": str(error)}
+        return None
+    used, projected = (_load(p, each, frames, o) for each in (p.cells, there))
+    found = ClosestPoint(flat, used, projected)
+    _tell(record, found, frames)
+    return found
+
+
+def _load(p: PlacedMat, cells: MatMap, frames: PressureFrames, o: MatOptions) -> MatLoad:
+    """In the frame of the scan, about its origin: differences are the same in any frame."""
+    return mat_load(cells, cells.of(frames.pressure), np.zeros(3), p.surface.name, o.gate)
+
+
+def _tell(record: Record, found: ClosestPoint, frames: PressureFrames) -> None:
+    at, flat = found.frame, found.drape
+    force = np.linalg.norm(found.projected.wrench.force - found.used.wrench.force, axis=1)
+    centre = np.linalg.norm(found.projected.centre - found.used.centre, axis=1) * MM
+    known = np.abs(flat.distortion[flat.covered & frames.valid])
+    record.results[HERE] = {
+        "area_distortion_largest": float(known.max()),
+        "area_distortion_rms": float(np.sqrt(np.mean(known**2))),
+        "uncovered_cells": int((frames.valid & ~flat.covered).sum()),
+        "force_differs_N": float(force[at]),
+        "force_differs_at_most_N": float(force.max()),
+        "centre_of_pressure_differs_mm": float(centre[at]) if np.isfinite(centre[at]) else None,
+        "centre_of_pressure_differs_at_most_mm": float(np.nanmax(centre)) if np.isfinite(centre).any() else None,
+    }

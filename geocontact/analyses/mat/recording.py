@@ -1,23 +1,160 @@
-"""What a mat recorded, made ready: read, freed of what an unloaded mat reads, smoothed, flagged."""
+"""The mat's recording made ready: frames read, dead cells seen to, motion of the segment that carries it."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from jaxtyping import Bool, Float
+from scipy.spatial.transform import RigidTransform
 
-from geocontact.analyses.mat.dead_cells import treated
+from geocontact.analyses.body_motion import read_body_motion
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
+from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames
+from geocontact.geometry.register.moving import poses_at
 from geocontact.identify.signals.zero_lag import zero_lag
 from geocontact.io.mats.catalogue import read_mat
 from geocontact.io.mats.layout import read_layout
-from geocontact.loads.mat.fill import Hole
+from geocontact.loads.mat.dead_cells import dead_cells
+from geocontact.loads.mat.fill import Hole, filled, holes
+from geocontact.loads.mat.load import MatLoad
+from geocontact.loads.mat.moving import covariance_in, load_in
 from geocontact.loads.mat.offset import Unloaded, unloaded
+
+NAMED = 8  # cells in a warning; run.json has them all
+MM2 = 1e6
+
+Way = Literal["warn", "mask", "fill"]
+
+
+@dataclass(frozen=True, eq=False)
+class Treated:
+    """Pressures after dead cells were seen to.
+
+    Parameters
+    ----------
+    pressure
+        [Pa]
+    valid
+        Cells that count.
+    declared
+        Cells that the layout lists as dead.
+    gaps
+        What was filled; empty unless asked for.
+    """
+
+    pressure: Float[np.ndarray, "t r c"]
+    valid: Bool[np.ndarray, "r c"]
+    declared: Bool[np.ndarray, "r c"]
+    gaps: tuple[Hole, ...] = ()
+
+    @property
+    def guessed(self) -> Bool[np.ndarray, "r c"]:
+        """Cells that were filled."""
+        found = np.zeros(self.valid.shape, bool)
+        for hole in self.gaps:
+            found[hole.cell[:, 0], hole.cell[:, 1]] = True
+        return found
+
+
+def treated(
+    record: Record,
+    read: PressureFrames,
+    pressure: Float[np.ndarray, "t r c"],
+    declared: tuple[tuple[int, int], ...],
+    way: Way,
+    touched: float,
+) -> Treated:
+    """Dead cells by `way`: found in `read`, or `declared` in the layout, which leaves those out of `read` already.
+
+    Only found ones are warned of; declared ones are filled too where that is asked for. `touched` [Pa] is the pressure
+    from which a cell counts as loaded.
+    """
+    found = dead_cells(read, touched)
+    listed = np.zeros_like(found)
+    for row, column in declared:
+        listed[row, column] = True
+    if not (found | listed).any():
+        return Treated(pressure, read.valid, listed)
+    dead = found | listed
+    gaps = holes(pressure, read.valid, dead, read.pitch)
+    result = _by(way, read, pressure, found, listed, gaps)
+    _tell(record, read, pressure, found, result, gaps, way)
+    _warn(record, read, found, result, way)
+    return result
+
+
+def _by(
+    way: Way,
+    read: PressureFrames,
+    pressure: Float[np.ndarray, "t r c"],
+    found: Bool[np.ndarray, "r c"],
+    listed: Bool[np.ndarray, "r c"],
+    gaps: tuple[Hole, ...],
+) -> Treated:
+    if way == "warn":
+        return Treated(pressure, read.valid, listed)
+    if way == "mask":
+        return Treated(pressure, read.valid & ~found, listed)
+    whole = Treated(filled(pressure, gaps), read.valid & ~found, listed, gaps)
+    return replace(whole, valid=whole.valid | whole.guessed)
+
+
+def _tell(
+    record: Record,
+    read: PressureFrames,
+    pressure: Float[np.ndarray, "t r c"],
+    found: Bool[np.ndarray, "r c"],
+    result: Treated,
+    gaps: tuple[Hole, ...],
+    way: Way,
+) -> None:
+    """run.json has every cell, and what the cells would have carried in the frame with the largest force."""
+    whole = filled(pressure, gaps)
+    heaviest = int(np.argmax((whole * read.cell_area).sum(axis=(1, 2))))
+    dead = np.argwhere(found | result.declared).tolist()
+    record.results["dead_cells"] = {
+        "way": way,
+        "cells": [
+            {
+                "row": r,
+                "column": c,
+                "known_by": "its readings" if found[r, c] else "the layout",
+                "reads_kPa": float(read.pressure[0, r, c]) * 1e-3 if found[r, c] else None,
+                "filled": bool(result.guessed[r, c]),
+            }
+            for r, c in dead
+        ],
+        "area_left_out_mm2": float(read.cell_area[(found | result.declared) & ~result.valid].sum()) * MM2,
+        "force_by_filling_N": sum(float(whole[heaviest, r, c] * read.cell_area[r, c]) for r, c in dead),
+        "force_as_read_N": sum(float(pressure[heaviest, r, c] * read.cell_area[r, c]) for r, c in dead),
+        "filling_is_off_by_share": [round(hole.share, 6) for hole in gaps],
+    }
+
+
+def _warn(record: Record, read: PressureFrames, found: Bool[np.ndarray, "r c"], result: Treated, way: Way) -> None:
+    alone = (found | result.declared) & ~result.guessed
+    if way == "fill" and alone.any():
+        record.warn(f"{int(alone.sum())} dead cells have no working cell beside them and are left out")
+    if not found.any():
+        return
+    cells = [f"row {r} column {c} ({read.pressure[0, r, c] * 1e-3:g} kPa)" for r, c in np.argwhere(found)]
+    named = ", ".join(cells[:NAMED]) + (f" and {len(cells) - NAMED} more" if len(cells) > NAMED else "")
+    lost, whole = (float(read.cell_area[which].sum()) * MM2 for which in (found, read.valid))
+    done = {
+        "warn": "used as they read; `dead` mask leaves them out, `dead` fill takes them from their neighbours",
+        "mask": f"left out, {lost:.0f} of {whole:.0f} mm²",
+        "fill": "filled from their neighbours",
+    }[way]
+    record.warn(f"cells that never change while those around them do seem dead: {named}; {done}")
+
 
 UNEVEN = 0.6  # of a step that a frame may come early or late, as clocks are rounded; a lost frame is off by one
 RESTING = 0.05  # of the largest force; a mat that never reads less has an offset, or was never unloaded
@@ -152,3 +289,76 @@ def _say_what_is_negative(record: Record, frames: PressureFrames) -> None:
     record.results["below_zero"] = {"lowest_Pa": lowest, "largest_force_N": -least}
     if -least > RESTING * float(np.abs(frames.force).max(initial=0.0)):
         record.warn(f"cells that read below 0 sum to {least:.1f} N in one frame: check `unloaded` and the offset")
+
+
+TOUCH = 1e-6  # s; a frame so far beyond the motion is at its end, as times are rounded
+
+
+@dataclass(frozen=True, eq=False)
+class Travel:
+    """Poses X_GB of the segment at the mat's frames, and the name of G."""
+
+    poses: RigidTransform
+    frame: str
+
+    def carried(
+        self,
+        whole: MatLoad,
+        parts: Mapping[str, MatLoad],
+        covariance: Float[np.ndarray, "t six six"],
+        point: Float[np.ndarray, " 3"],
+    ) -> tuple[MatLoad, dict[str, MatLoad], Float[np.ndarray, "t six six"]]:
+        """Loads about one point of the segment as loads about `point` of G [m]."""
+        origin = whole.wrench.origin[0]
+        return (
+            load_in(whole, self.poses, point, self.frame),
+            {name: load_in(part, self.poses, point, self.frame) for name, part in parts.items()},
+            covariance_in(covariance, origin, self.poses, point),
+        )
+
+
+def read_segment_motion(record: Record, o: MatOptions) -> Motion | None:
+    """Poses of the segment over time; None where it is not said to move."""
+    if o.motion is None:
+        return None
+    motion = read_body_motion(record, o.motion, o)
+    if len(motion) < 2:
+        raise InputError("", "`motion`", f"{o.motion} holds one pose", "two are needed")
+    return motion
+
+
+def followed(
+    record: Record, seen: PreparedFrames, motion: Motion | None, o: MatOptions
+) -> tuple[PreparedFrames, Travel | None]:
+    """The frames for which there is a pose, and the poses; all frames and None where nothing moves."""
+    if motion is None:
+        return seen, None
+    time, low, high = seen.frames.time, float(motion.time[0]), float(motion.time[-1])
+    inside = (time >= low - TOUCH) & (time <= high + TOUCH)
+    span = f"the mat has frames from {time[0]:g} to {time[-1]:g} s and the motion poses from {low:g} to {high:g} s"
+    if not inside.any():
+        raise InputError(o.motion or "", "", f"no frame has a pose: {span}", "bring both to one clock")
+    left_out = int((~inside).sum())
+    if left_out:
+        record.warn(f"{left_out} of {len(time)} frames are left out, they have no pose: {span}")
+    poses = poses_at(motion.time, motion.poses, np.clip(time[inside], low, high))
+    frame = o.frame or _name(o)
+    record.results["motion"] = {
+        "source": motion.source,
+        "frame": frame,
+        "poses": len(motion),
+        "frames_left_out": left_out,
+    }
+    chosen = replace(seen, frames=_only(seen.frames, inside), read=_only(seen.read, inside))
+    return chosen, Travel(poses, frame)
+
+
+def _name(o: MatOptions) -> str:
+    """What the motion leads to, in words."""
+    if o.joint is not None:
+        return f"of the {'child' if o.moving_body == 'parent' else 'parent'} body of joint {o.joint}"
+    return f"that {Path(str(o.motion)).name} leads to"
+
+
+def _only(frames: PressureFrames, chosen: Bool[np.ndarray, " t"]) -> PressureFrames:
+    return replace(frames, time=frames.time[chosen], pressure=frames.pressure[chosen])

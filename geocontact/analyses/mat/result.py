@@ -1,7 +1,16 @@
-"""A mat on a body: tables, a surface for ParaView, figure, page."""
+"""A pressure mat on a body scan: `geocontact mat`, `gc.mat`.
+
+>>> import geocontact as gc
+>>> mat = "meshes/mat_thigh_16x8/"
+>>> given = {"layout": mat + "layout.toml", "landmarks": mat + "landmarks.csv", "cutoff": 0.0}
+>>> result = gc.mat(mat + "frames.csv", surface="meshes/thigh.stl", unit="mm", **given)
+>>> result
+force up to 79.6 N at 1.1 s, pressure up to 29.1 kPa, area up to 76 cm²
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,19 +18,24 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
-from geocontact.analyses.mat.figure import mat_figure
-from geocontact.analyses.mat.findings import MatFindings
-from geocontact.analyses.mat.page import write_mat_report
-from geocontact.analyses.mat.tables import mat_tables
+from geocontact.analyses.finished_page import Thinned
+from geocontact.analyses.job import Job
+from geocontact.analyses.mat.comparison import compared
+from geocontact.analyses.mat.loads import MatFindings, loads, mat_tables
+from geocontact.analyses.mat.options import MatOptions
+from geocontact.analyses.mat.placed import MatInputs, closest_point, placed, read
+from geocontact.analyses.mat.recording import followed, made_ready
+from geocontact.analyses.mat.show import FRAMES, mat_figure, mat_page, shown_frames
+from geocontact.analyses.result import REPORT
+from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
-from geocontact.io.text.results import write_table
-from geocontact.io.text.written_units import CASES, RESULTS
+from geocontact.io.text.written_units import CASES
 from geocontact.view.surfaces.mat_vtp import write_mat_vtp
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
 
 MM = 1e3
 REFERRED = ("wrench", "uncertainty", "segments")
@@ -39,33 +53,31 @@ class MatResult(MatFindings):
         """`wrench`, `uncertainty`, `cells`, `frames_cells`; and `segments`, `registration`, `agreement` if any."""
         return mat_tables(self)
 
-    def figure(self) -> Figure:
-        """Force, pressure and area over time, and the cells with their largest pressure."""
+    def figures(self) -> dict[str, Figure]:
+        """`mat`: force, pressure and area over time, and the cells with their largest pressure."""
         largest = float(self.on_faces.max())
-        return mat_figure(self.frames.time, self.loads, self.drape, self.pressure, self.cells, largest)
+        return {"mat": mat_figure(self.frames.time, self.loads, self.drape, self.pressure, self.cells, largest)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Thinned]:
+        """The animated page."""
+        return {REPORT: Thinned(lambda most: mat_page(self, shown_frames(self, most), drawings["mat"]), FRAMES)}
+
+    def units(self, table: str) -> Mapping[str, str]:
+        """Those of gap cases for cells, which such cases hold."""
+        return CASES if table in OF_A_CASE else super().units(table)
+
+    def refers_to(self, table: str) -> Mapping[str, object] | None:
+        """Point and frame of loads."""
+        return self._point_and_frame() if table in REFERRED else None
 
     def write_files(self, folder: Path) -> None:
-        """Tables, surface, figure and page."""
-        for name, table in self.tables().items():
-            units = CASES if name in OF_A_CASE else RESULTS
-            write_table(table, folder, name, units)
-            if name in REFERRED:
-                self.record.tables[f"{name}.csv"] = self._point_and_frame()
+        """A surface for ParaView besides."""
+        named, s = f"geocontact {VERSION}", self.surface
         try:
-            write_mat_vtp(
-                folder / "mat_on_surface.vtp",
-                self.surface.vertices,
-                self.surface.faces,
-                self._on_faces(),
-                f"geocontact {VERSION}",
-            )
+            write_mat_vtp(folder / "mat_on_surface.vtp", s.vertices, s.faces, self._on_faces(), named)
         except InputError as error:
             self.record.warn(str(error))
-        write_mat_report(folder / "report.html", self, save_both(self.figure(), folder, "mat"))
-
-    def write_page(self, file: Path) -> None:
-        """The animated page."""
-        write_mat_report(file, self, drawing(self.figure()))
+        super().write_files(folder)
 
     def _point_and_frame(self) -> dict[str, object]:
         wrench = self.loads.wrench
@@ -84,3 +96,46 @@ class MatResult(MatFindings):
             f"pressure, {name} [Pa]": self.cells.face_pressure(values[None], self.surface.face_area)[0]
             for name, values in chosen.items()
         }
+
+
+def run(given: MatInputs, o: MatOptions, record: Record) -> MatResult:
+    """Loads of every frame that has a pose, or of every frame where nothing moves."""
+    with record.listener.stages(o.frames.name) as at:
+        return _evaluated(given, o, record, at)
+
+
+def _evaluated(given: MatInputs, o: MatOptions, record: Record, at: Callable[[str], None]) -> MatResult:
+    at("recording made ready")
+    seen, travel = followed(record, made_ready(record, given.recorded, given.listed_dead, o), given.motion, o)
+    frames = seen.frames
+    at("mat laid on its surface")
+    with record.listener.preparing():
+        there = placed(record, given, frames, o)
+    at(f"loads of {len(frames.time)} frames")
+    found = loads(record, given, there, seen, travel, o)
+    model, agreement = given.model, None
+    if model is not None:
+        at("comparison with the model")
+        agreement = compared(record, model, given.phases, found.whole, frames.time, o)
+    return MatResult(
+        record=record,
+        options=o,
+        frames=frames,
+        saturated=seen.saturated,
+        surface=there.surface,
+        landmarks=there.landmarks,
+        drape=there.drape,
+        cells=there.cells,
+        pressure=found.pressure,
+        loads=found.whole,
+        segments=found.segments,
+        uncertainty=found.covariance,
+        errors=found.errors,
+        home=found.home,
+        registration=there.registration,
+        closest_point=closest_point(record, there, frames, o),
+        agreement=agreement,
+    )
+
+
+mat = Job("mat", MatOptions, read, run)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
@@ -11,7 +10,6 @@ from jaxtyping import Float
 from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.analyses.run_record import Record
 from geocontact.view.page.content import Page, Section, Words
-from geocontact.view.page.write import write_page
 
 FACTS = 5  # at most
 FRAMES = 601  # samples that a page shows at most
@@ -24,8 +22,7 @@ LAW = (
 NOT_IN_THE_NUMBERS = Words("What the numbers do not contain", [LAW, NOT_A_DEVICE])
 
 
-def write_elbow_page(
-    path: Path,
+def elbow_page(
     title: str,
     subtitle: str,
     time: Float[np.ndarray, " t"],
@@ -35,21 +32,19 @@ def write_elbow_page(
     sections: Sequence[Section],
     record: Record,
     start_frame: int | None = None,
-) -> int:
-    """Write the page with the answer and the reservations of `record`; returns its size in bytes.
+) -> Page:
+    """The page with the answer, in the words of `record`.
 
     `start_frame` is that of bins of the angle; None where the frames run in time, from the first.
     """
-    page = Page(
+    return Page(
         title,
         subtitle,
         time,
         label,
         headline=[record.spell(line) for line in answer],
         facts=facts[:FACTS],
-        reservations=tuple(record.warnings),
         sections=tuple(sections),
         start_frame=start_frame or 0,
         plays=start_frame is None,
     )
-    return write_page(page, path)

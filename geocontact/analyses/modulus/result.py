@@ -1,4 +1,15 @@
-"""What areas and forces tell of E*: numbers with intervals, curves, what they depend on, figure and page."""
+"""E* of a contact from its area and its force: `geocontact modulus`, `gc.modulus`.
+
+>>> import geocontact as gc, numpy as np, pandas as pd
+>>> time, area = np.linspace(0.0, 1.0, 11), np.linspace(100.0, 200.0, 11)
+>>> areas = {"time [s]": time, "threshold [mm]": 1.0, "area_fixed [mm^2]": area}
+>>> pd.DataFrame(areas).to_csv("area.csv", index=False)
+>>> force = 4 / 3 * gc.MPa(2) * (area * 1e-6 / np.pi) ** 1.5 / gc.mm(34)
+>>> pd.DataFrame({"time [s]": time, "total [N]": force}).to_csv("forces.csv", index=False)
+>>> gc.modulus("area.csv", "forces.csv", radius=gc.mm(34))
+total: E* 2 MPa (95 % 2 … 2), RMSE 0 N, R² 1.00
+E and ν are one number here: area and force tell E* = E/(1 - ν²), and E only for a stated ν
+"""
 
 from __future__ import annotations
 
@@ -6,27 +17,38 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
-from geocontact.analyses.modulus.figure import modulus_figure
-from geocontact.analyses.modulus.identified import Identified
-from geocontact.analyses.modulus.numbers import describe
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.job import Job
+from geocontact.analyses.modulus.identified import Identified, constant, predictions, sensitivity
+from geocontact.analyses.modulus.inputs import ModulusInputs, model_of, read, threshold_given, unknowns
+from geocontact.analyses.modulus.numbers import (
+    curve_table,
+    describe,
+    modulus_table,
+    prediction_table,
+    sensitivity_table,
+)
 from geocontact.analyses.modulus.options import ModulusOptions
-from geocontact.analyses.modulus.page import write_modulus_report
-from geocontact.analyses.modulus.page_tables import moduli, told_apart
-from geocontact.analyses.modulus.tables import curve_table, modulus_table, prediction_table, sensitivity_table
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.result import Result
+from geocontact.analyses.modulus.show import moduli, modulus_figure, modulus_page, told_apart
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.data.parameter import Parameter
+from geocontact.data.seconds import seconds
 from geocontact.elastic_modulus.area_force import MODULUS
-from geocontact.elastic_modulus.identify import Identification
-from geocontact.io.text.results import write_table
-from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.elastic_modulus.identify import Identification, agreement, identify
+from geocontact.elastic_modulus.threshold_calibration import Calibration, calibrated
+from geocontact.identify.signals.gaps import gaps
+from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -38,6 +60,8 @@ class ModulusResult(Result):
     found
         Identification of each side, sensitivity, calibration, predictions.
     """
+
+    elsewhere: ClassVar[frozenset[str]] = frozenset({"modulus"})
 
     options: ModulusOptions
     found: Identified
@@ -69,26 +93,136 @@ class ModulusResult(Result):
         found = {"modulus": modulus_table(f), "curves": curve_table(f), "sensitivity": sensitivity_table(f)}
         return {**found, "prediction": prediction_table(f)} if f.predictions else found
 
-    def figure(self) -> Figure:
-        """Force measured and by the law, and how well E* is known."""
-        return modulus_figure(self.found.curves(), {side: i.profiles[MODULUS] for side, i in self.sides.items()})
+    def figures(self) -> dict[str, Figure]:
+        """`modulus`: force measured and by the law, and how well E* is known."""
+        profiles = {side: i.profiles[MODULUS] for side, i in self.sides.items()}
+        return {"modulus": modulus_figure(self.found.curves(), profiles)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """How well the law meets the forces, what it tells, and what it cannot tell."""
+        sensitivity = frame_table("Threshold and reading: what E* depends on", self.table("sensitivity"))
+        tables = [moduli(self.found), told_apart(self.found), sensitivity, INPUTS, OPTIONS]
+        title = f"E* from {self.options.area[0].name} and {self.options.force.name}"
+        return {REPORT: modulus_page(title, self.found, drawings["modulus"], tables)}
 
     def write_files(self, folder: Path) -> None:
-        """modulus.json, tables, figure, page."""
+        """modulus.json besides."""
         text = json.dumps(describe(self.found), indent=2, ensure_ascii=False, allow_nan=False)
         (folder / "modulus.json").write_text(text + "\n", encoding="utf-8")
-        for name, table in self.tables().items():
-            if name != "modulus":  # which modulus.json holds
-                write_table(table, folder, name)
-        self._write_report(folder / "report.html", save_both(self.figure(), folder, "modulus"))
+        super().write_files(folder)
 
-    def write_page(self, file: Path) -> None:
-        """How well the law meets the forces, what it tells, and what it cannot tell."""
-        self._write_report(file, drawing(self.figure()))
 
-    def _write_report(self, file: Path, figure: bytes) -> None:
-        sensitivity = frame_table("Threshold and reading: what E* depends on", self.table("sensitivity"))
-        provenance = [inputs_table(self.record.inputs), options_table(self.record)]
-        tables = [moduli(self.found), told_apart(self.found), sensitivity, *provenance]
-        title = f"E* from {self.options.area[0].name} and {self.options.force.name}"
-        write_modulus_report(file, title, self.found, figure, tables, self.warnings)
+FEW_BLOCKS = 5
+STRAYED = 0.3  # rms of the calibration's relative differences beyond which the table is not met
+
+
+def run(inputs: ModulusInputs, o: ModulusOptions, record: Record) -> ModulusResult:
+    """E* of every side, with what it depends on, and the forces of a trial that was not used."""
+    calibration = _calibrated(record, inputs, o.calibrate)
+    threshold = threshold_given(o, inputs.table) if calibration is None else calibration.threshold
+    others = unknowns(o, inputs, threshold)
+    _doubt(record, inputs)
+    sides = _sides(record, inputs, threshold, others, o)
+    found = Identified(sides, sensitivity(sides), calibration, predictions(inputs, sides), o.poisson)
+    record.results["modulus"] = describe(found)
+    _tell(record, found)
+    return ModulusResult(record=record, options=o, found=found)
+
+
+def _identified(
+    record: Record, inputs: ModulusInputs, side: str, threshold: float, others: tuple[Parameter, ...], o: ModulusOptions
+) -> Identification:
+    model, measured = model_of(inputs, side, threshold, others)
+    if not model.per_modulus({}).any():
+        what = f"{side}: reading '{o.reading}' sees no contact at {threshold * 1e3:g} mm in any frame"
+        raise InputError(inputs.table.file, "", what, "give a larger `threshold` or another `reading`")
+    if not (measured > 0.0).any():
+        what = f"{side}: the force is never above 0 N in the frames that are used"
+        raise InputError(inputs.forces.file, "", what, "is the right column named? see `map`; compression is positive")
+    try:
+        found = identify(model, measured, others, o.bootstrap)
+    except ValueError as error:
+        remedy = "leave it out of `free`" if others else "check that areas and forces belong together"
+        raise InputError(inputs.table.file, "", f"{side}: {error}", remedy) from error
+    _reserve(record, side, found)
+    return found
+
+
+def _sides(
+    record: Record, inputs: ModulusInputs, threshold: float, others: tuple[Parameter, ...], o: ModulusOptions
+) -> dict[str, Identification]:
+    """Every side that tells something; the others are told. InputError where none does."""
+    found, untold = {}, []
+    for side in inputs.sides:
+        try:
+            found[side] = _identified(record, inputs, side, threshold, others, o)
+        except InputError as error:
+            untold.append(error)
+    if not found:
+        raise untold[0]
+    for each in untold:
+        record.warn(f"{each.what}: this side is left out")
+    return found
+
+
+def _doubt(record: Record, inputs: ModulusInputs) -> None:
+    """What is odd about the inputs before anything is fitted."""
+    for each in gaps(inputs.forces.time):
+        span = f"{seconds(each.start)} to {seconds(each.end)} s"
+        record.warn(f"{inputs.forces.file}: no samples from {span}: frames of the area in there are not used")
+    areas = next(iter(inputs.table.areas.values()))
+    if areas.shape[1] > 1 and (areas == areas[:, :1]).all():
+        record.warn(f"{inputs.table.file}: areas are the same at every threshold: nothing depends on it here")
+
+
+def _calibrated(record: Record, inputs: ModulusInputs, path: Path | None) -> Calibration | None:
+    """Threshold with which the areas of the whole are those of the table at the same force."""
+    if path is None or inputs.measured_areas is None:
+        return None
+    side = next(iter(inputs.evolutions))
+    model, measured = model_of(inputs, side, float(inputs.table.thresholds[0]), ())
+    try:
+        found = calibrated(inputs.evolutions[side], model.frames, measured, *inputs.measured_areas)
+    except ValueError as error:
+        raise InputError(path, "", str(error), "give areas at forces of the trial") from error
+    if found.on_end:
+        record.warn(f"{path.name}: the best threshold is an end of those evaluated, {found.threshold * 1e3:g} mm")
+    if found.rms > STRAYED:
+        record.warn(f"{path.name}: areas differ by {found.rms:.0%} (rms) even at the best threshold")
+    return found
+
+
+def _reserve(record: Record, side: str, each: Identification) -> None:
+    """What has to be said about one side."""
+    _, r2 = agreement(each.measured, each.predicted)
+    if constant(each):
+        record.warn(f"{side}: the area is the same in every frame: nothing tells whether the law holds")
+    if r2 < 0.0:
+        record.warn(f"{side}: R² is {r2:.2f}, a constant force would do better than the law")
+    for name in each.on_bound:
+        record.warn(f"{side}: the data set no limit to {name} within its bounds on one side or both")
+    drawn = each.replicates
+    if drawn is not None and drawn.blocks < FEW_BLOCKS:
+        record.warn(f"{side}: {drawn.blocks} blocks of {drawn.block:.2g} s are few for a bootstrap")
+    if drawn is not None and drawn.block < each.memory.typical:
+        what = f"the residual remembers for about {each.memory.typical:.2g} s of {len(each.measured)} frames"
+        record.warn(f"{side}: {what}, longer than a block: the law misses something, and intervals are rough")
+    free = each.told_apart.get("free")
+    if free is not None and free.verdict != "told apart":
+        record.warn(f"{side}: {', '.join(free.names)} are {free.verdict} (condition {free.condition:.3g})")
+
+
+def _tell(record: Record, found: Identified) -> None:
+    for side, each in found.sides.items():
+        p = each.profiles[MODULUS]
+        rmse, r2 = agreement(each.measured, each.predicted)
+        span = f"{p.lower * 1e-6:.4g} … {p.upper * 1e-6:.4g}"
+        sticks = "" if each.model.adhesion is None else f", {each.model.adhesion.words}"
+        record.say(f"{side}: E* {each.modulus * 1e-6:.4g} MPa (95 % {span}), RMSE {rmse:.0f} N, R² {r2:.2f}{sticks}")
+    record.say("E and ν are one number here: area and force tell E* = E/(1 - ν²), and E only for a stated ν")
+    for told in found.predictions:
+        if told.measured is not None:
+            record.say(f"{told.side}, trial not used: RMSE {told.rmse:.0f} N, R² {told.r2:.2f}")
+
+
+modulus = Job("modulus", ModulusOptions, read, run)

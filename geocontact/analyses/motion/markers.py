@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from geocontact.analyses.options import LengthUnit
 from geocontact.analyses.quantities import named_file, turned_axes
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
@@ -20,9 +21,11 @@ LARGEST, SMALLEST, FEW = 20.0, 0.05, 5
 """Span of the markers in a frame [m] beyond which the unit is another, from so many markers on below."""
 
 
-def markers_given(file: Path, axes: str | None, time: tuple[float, float] | None) -> MarkerTrajectories:
-    """Markers of a file in the model's axes, between two times [s]."""
-    seen = read_markers(file)
+def markers_given(
+    file: Path, axes: str | None, time: tuple[float, float] | None, c3d_unit: str | None
+) -> MarkerTrajectories:
+    """Markers of a file in the model's axes, between two times [s]; `c3d_unit` is that of a .c3d that has none."""
+    seen = read_markers(file, c3d_unit)
     _refuse_absurd(seen)
     if axes is not None:
         seen = seen.turned(turned_axes(axes, "`axes`"))
@@ -34,6 +37,11 @@ def markers_given(file: Path, axes: str | None, time: tuple[float, float] | None
         what = f"no frame between {first:g} and {last:g} s"
         raise InputError(seen.source, "`time`", what, f"the recording is from {seen.time[0]:g} to {seen.time[-1]:g} s")
     return part
+
+
+def unit_of_c3d(stated: LengthUnit | None, *files: Path | None) -> LengthUnit | None:
+    """What was stated for a study's .c3d files, of one trial; None where it has no such file."""
+    return stated if any(file is not None and file.suffix.lower() == ".c3d" for file in files) else None
 
 
 def _refuse_absurd(seen: MarkerTrajectories) -> None:

@@ -1,4 +1,4 @@
-"""The law of a sole from a file, such as a calibration leaves one."""
+"""The law of a sole from a file, such as a calibration leaves one, and how its foot is beside its standing trial."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from geocontact.analyses.run_record import Record
+from geocontact.analyses.stale_results import digest
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.model.foot_offset import AS_STOOD, FootOffset
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.spheres import read_law
 from geocontact.loads.sphere_set import SoleLaw
@@ -41,3 +43,22 @@ def foot_with_law(record: Record, foot: VariableStiffnessFoot, file: Path | None
     except ValueError as error:
         raise InputError(file, "force law", str(error), "correct the number") from error
     return replace(foot, law=new)
+
+
+def offset_of_law(record: Record, file: Path | None, standing: Path) -> FootOffset:
+    """How the foot is beside a standing trial; none where the file does not say, or says it of another trial."""
+    told = None if file is None else read_law(file).foot
+    if told is None:
+        return AS_STOOD
+    if told.standing is not None and told.standing != digest(standing):
+        record.warn(
+            f"{file}: [foot] was found beside another standing trial than `static`, and is left out: height and pitch "
+            "are errors of that trial (if it is the same in another file, take the line `standing` out of the law)"
+        )
+        return AS_STOOD
+    return FootOffset(told.height, told.pitch, told.height_sd, told.pitch_sd)
+
+
+def offset_words(offset: FootOffset) -> str:
+    """What was taken over, in a sentence."""
+    return f"the foot is {offset.words} beside where its standing trial has it, as the law's file says"

@@ -27,16 +27,23 @@ def right_markers(
     side: Side,
     axes: str | None,
     markers_map: str | None,
+    c3d_unit: str | None,
     time: tuple[float, float] | None = None,
 ) -> MarkerTrajectories:
     """Markers of a file by the names used here, mirrored where the prosthesis is on the left."""
-    seen = renamed_as_told(record, markers_given(file, axes, time), markers_map)
+    seen = renamed_as_told(record, markers_given(file, axes, time, c3d_unit), markers_map)
     record.add_input(role, file, frames=len(seen), markers=len(seen.names))
     return as_right(seen, side)
 
 
 def plate_under_foot(
-    record: Record, file: Path, name: str | None, side: Side, mass: float, option: str = "plate"
+    record: Record,
+    file: Path,
+    name: str | None,
+    side: Side,
+    mass: float,
+    c3d_unit: str | None,
+    option: str = "plate",
 ) -> tuple[PlateStance, str]:
     """Force and centre of pressure of one plate of a file, and its name; InputError where nobody of that mass stands.
 
@@ -44,10 +51,12 @@ def plate_under_foot(
     ----------
     mass
         Of the person [kg].
+    c3d_unit
+        Of a .c3d file whose own is empty.
     option
         By which the plate is named.
     """
-    plate = plate_named(read_force_plates(file), name, file, f"`{option}`")
+    plate = plate_named(read_force_plates(file, c3d_unit), name, file, f"`{option}`")
     record.add_input(f"`{option}s`", file, plate=plate.name)
     force = of_side(np.nan_to_num(plate.wrench.force), side)
     require_weight(file, f"`{option}`", plate.name, force[:, 1], mass * GRAVITY)

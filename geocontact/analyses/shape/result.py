@@ -1,34 +1,55 @@
-"""What the fit of a shape finds: shape with interval, residuals, radius over flexion, figures and page."""
+"""Cylinder, sphere or plane fitted to a surface: `geocontact fit`, `gc.fit_shape`.
+
+>>> import geocontact as gc
+>>> result = gc.fit_shape("meshes/sphere_r20.stl", shape="sphere", unit="mm")
+>>> result
+sphere_r20.stl: sphere, radius 20.000 mm (95 % 20.000 … 20.000), rms 0.000 mm over 1442 points, 1442 of them
+inliers
+>>> round(result.fit.radius, 6)
+0.02
+"""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
+import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
-from geocontact.analyses.figure_files import drawing, save_both
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.result import Result
-from geocontact.analyses.shape.figure import fit_figure
-from geocontact.analyses.shape.fitting import Fitting
-from geocontact.analyses.shape.numbers import describe
+from geocontact.analyses.job import Job
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.shape.fitting import (
+    Fitting,
+    Patch,
+    ShapeInputs,
+    describe,
+    fit_table,
+    profile_table,
+    read,
+    sagittal_about,
+)
 from geocontact.analyses.shape.options import ShapeOptions
-from geocontact.analyses.shape.page import write_fit_report
-from geocontact.analyses.shape.profile_figure import profile_figure
-from geocontact.analyses.shape.tables import fit_table, profile_table
+from geocontact.analyses.shape.show import fit_figure, fit_page, profile_figure
+from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
+from geocontact.geometry.fit.catalogue import SHAPES
+from geocontact.geometry.fit.circle import fit_cylinder_along
 from geocontact.geometry.fit.found import ShapeFit
-from geocontact.geometry.fit.profile import SagittalProfile
-from geocontact.io.text.results import write_table
-from geocontact.view.page.tables import inputs_table
+from geocontact.geometry.fit.profile import SagittalProfile, sagittal_profile
+from geocontact.geometry.plane import Plane
+from geocontact.geometry.sweep import Axis
 from geocontact.view.surfaces.fit_vtp import write_fit_vtp
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -40,6 +61,8 @@ class ShapeResult(Result):
     fitting
         Patch, shape of the whole and of its sides, profiles.
     """
+
+    elsewhere: ClassVar[frozenset[str]] = frozenset({"fit"})
 
     options: ShapeOptions
     fitting: Fitting
@@ -71,35 +94,116 @@ class ShapeResult(Result):
         found = {"fit": fit_table(self.fitting)}
         return {**found, "profile": profile_table(self.profiles)} if self.profiles else found
 
-    def figure(self) -> Figure:
-        """Radius over flexion where it is asked for; else the section and the residuals."""
-        return profile_figure(self.profiles, self.fit) if self.profiles else self._fit_figure()
+    def figures(self) -> dict[str, Figure]:
+        """`profile`, radius over flexion, where it is asked for; `fit`, the section and the residuals."""
+        fit = {"fit": fit_figure(self.fit, self.fitting.patch.points, self.title)}
+        return {"profile": profile_figure(self.profiles, self.fit), **fit} if self.profiles else fit
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """The surface coloured by its distance to the shape, the numbers, and what they depend on."""
+        return {REPORT: fit_page(self.fitting, drawings, self.title, self.sentences)}
 
     def write_files(self, folder: Path) -> None:
-        """fit.json, profile, figures, residuals for ParaView, page."""
+        """fit.json besides, and residuals for ParaView."""
         f = self.fitting
         text = json.dumps(describe(f, self.options), indent=2, ensure_ascii=False, allow_nan=False)
         (folder / "fit.json").write_text(text + "\n", encoding="utf-8")
-        if self.profiles:
-            write_table(self.table("profile"), folder, "profile")
-        drawings = {name: save_both(figure, folder, name) for name, figure in self._figures().items()}
         if self.options.paraview:
             s = f.patch.surface
             write_fit_vtp(folder / "fit.vtp", s.vertices, s.faces, f.residual, f.patch.faces, f"geocontact {VERSION}")
-        self._write_report(folder / "report.html", drawings)
+        super().write_files(folder)
 
-    def write_page(self, file: Path) -> None:
-        """The surface coloured by its distance to the shape, the numbers, and what they depend on."""
-        self._write_report(file, {name: drawing(figure) for name, figure in self._figures().items()})
 
-    def _fit_figure(self) -> Figure:
-        return fit_figure(self.fit, self.fitting.patch.points, self.title)
+FLATTEST = np.radians(60.0)  # arc below which a radius is hardly determined
+WINDOW = np.radians(30.0)
+POOR = 0.1  # of the radius, that the rms of the points may be
 
-    def _figures(self) -> dict[str, Figure]:
-        """All figures by the name of their files."""
-        found = {"fit": self._fit_figure()}
-        return {**found, "profile": self.figure()} if self.profiles else found
 
-    def _write_report(self, file: Path, drawings: Mapping[str, bytes]) -> None:
-        provenance = [inputs_table(self.record.inputs), options_table(self.record)]
-        write_fit_report(file, self.fitting, drawings, self.title, provenance, self.warnings, self.sentences)
+def run(given: ShapeInputs, o: ShapeOptions, record: Record) -> ShapeResult:
+    """Fit the whole, then each side along the axis of the whole."""
+    patch = given.patch
+    along = np.asarray(given.axis.direction, float) if given.axis is not None and o.hold_axis else None
+    with record.listener.stages(patch.surface.name) as at:
+        at(f"{o.shape} through {len(patch.points)} points")
+        whole = _fitted(record, patch.surface.name, patch.points, along, o)
+        sides = {}
+        for name, (plane, side) in patch.sides.items():
+            at(f"{o.shape} through the {name} points")
+            own = patch.points[plane.height(patch.points) * side >= 0.0]
+            sides[name] = _fitted(record, name, own, whole.axis, o)
+        fitting = Fitting(patch, whole, sides, _profiles(patch, given.axis, whole, o, at))
+    record.results["fit"] = describe(fitting, o)
+    return ShapeResult(record=record, options=o, fitting=fitting)
+
+
+def _fitted(
+    record: Record, name: str, points: Float[np.ndarray, "n 3"], along: Float[np.ndarray, " 3"] | None, o: ShapeOptions
+) -> ShapeFit:
+    """Shape through the points; a cylinder parallel to `along` where that is given."""
+    try:
+        if o.shape == "cylinder" and along is not None:
+            fit = fit_cylinder_along(points, along, o.robust)
+        else:
+            fit = SHAPES[o.shape](np.ascontiguousarray(points), o.robust)
+    except ValueError as error:
+        raise InputError("", f"`shape` {o.shape}", f"{name}: {error}", "choose more faces with `region`") from error
+    _warn_of_doubts(record, name, fit)
+    q = fit.quality
+    radius = "" if fit.radius is None else f"radius {fit.radius * 1e3:.3f} mm{_interval(fit)}, "
+    rms = f"rms {fit.rms * 1e3:.3f} mm"
+    record.say(f"{name}: {o.shape}, {radius}{rms} over {len(points)} points, {int(q.inlier.sum())} of them inliers")
+    return fit
+
+
+def _interval(fit: ShapeFit) -> str:
+    if fit.radius_interval is None:
+        return ""
+    low, high = (length * 1e3 for length in fit.radius_interval)
+    return f" (95 % {low:.3f} … {high:.3f})"
+
+
+def _warn_of_doubts(record: Record, name: str, fit: ShapeFit) -> None:
+    if not fit.quality.converged:
+        record.warn(f"{name}: the search did not end by itself; the fit may not be the best")
+    if fit.shape == "cylinder" and fit.arc < FLATTEST:
+        record.warn(
+            f"{name}: the points cover {np.degrees(fit.arc):.0f} degrees about the axis; "
+            "below 60 radius and axis are hardly determined"
+        )
+    if fit.radius is not None and fit.rms > POOR * fit.radius:
+        record.warn(
+            f"{name}: rms {fit.rms * 1e3:.2f} mm is {fit.rms / fit.radius:.0%} of the radius: "
+            f"a {fit.shape} does not describe this patch; another shape, or fewer faces with `region`?"
+        )
+    share = float(fit.quality.inlier.mean())
+    if fit.radius is not None and fit.exact_in_part:
+        record.warn(
+            f"{name}: {share:.0%} of the points lie on the {fit.shape} exactly, the others {fit.rms * 1e3:.2f} mm off, "
+            "root mean square over all: no interval of the radius, which is that of a part; choose it with `region`"
+        )
+    if share < 0.7:
+        record.warn(f"{name}: {1.0 - share:.0%} of the points are outliers; is it a {fit.shape}, and the right patch?")
+
+
+def _profiles(
+    patch: Patch, axis: Axis | None, whole: ShapeFit, o: ShapeOptions, at: Callable[[str], None]
+) -> dict[str, SagittalProfile]:
+    """Profile of each side, or of the whole patch where it is not split."""
+    if o.profile is None:
+        return {}
+    sagittal = sagittal_about(axis or whole.line, o)
+    start, stop, step = o.profile
+    angle = start + step * np.arange(round((stop - start) / step) + 1)
+    window = WINDOW if o.window is None else o.window
+    parts: dict[str, tuple[Plane, int] | None] = {**patch.sides} or {"whole": None}
+    found = {}
+    for name, s in parts.items():
+        at(f"profile of the {name}, {len(angle)} angles")
+        found[name] = sagittal_profile(patch.surface, patch.faces, sagittal, angle, window, s)
+    for name, profile in found.items():
+        if not np.isfinite(profile.radius).any():
+            raise InputError("", "`profile`", f"{name}: no face of the patch lies there", "check `sagittal` and `axis`")
+    return found
+
+
+fit_shape = Job("fit", ShapeOptions, read, run)

@@ -16,7 +16,7 @@ import numpy as np
 from geocontact.io.opensim.osim_contact_forces import bushing_force_between, smooth_sphere_force, torque_along
 from geocontact.io.opensim.osim_writer import ContactBall, write_osim
 from geocontact.standing_up.chain import Subject, leg_chain
-from geocontact.standing_up.exoskeleton import DAMPING, SHIFT, TURNING_DAMPING, two_chains
+from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.feet import FRICTION
 from geocontact.standing_up.strap_sites import StrapSite, sites_of
 
@@ -48,8 +48,8 @@ def _bushing(site: StrapSite, values: Mapping[str, float]) -> Element:
     """Of all straps of a site; called strap at the thigh, and shank_strap, pelvis_strap."""
     normal, tangential, turning, place = (values[name] for name in site.names)
     there = np.array([0.0, place, 0.0])
-    ends = [(site.person, there), (site.device, there - [0.0, SHIFT if site.higher else 0.0, 0.0])]
+    ends = [(site.person, there), (site.device, there - [0.0, site.above, 0.0])]
     turns, moves = np.array([0.0, 0.0, site.count]), np.array([site.count, site.count, 0.0])
     stiff = turns * turning, moves * [normal, tangential, 0.0]
     name = site.names[0].removesuffix(" normal").replace(" ", "_")
-    return bushing_force_between(name, ends, stiff, (turns * TURNING_DAMPING, moves * DAMPING))
+    return bushing_force_between(name, ends, stiff, (turns * site.turning_damping, moves * site.damping))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import KW_ONLY, dataclass
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.options import Options
+from geocontact.analyses.options import C3dUnit, Options
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import PLAIN, Plausible
 
@@ -22,13 +22,15 @@ class StandingSearchOptions(Options):
     The search
     ----------
     nodes
-        Intervals in a second to begin with; `calibrate` and `predict` halve those that leave too much.
+        Intervals in a second to begin with; those that leave too much of the balance are halved.
     degree
         Collocation points in an interval (Radau).
     iterations
         At most so many.
     time_limit
         CPU time after which a search ends [s].
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     """
 
     over_time: ClassVar[bool] = True
@@ -38,6 +40,7 @@ class StandingSearchOptions(Options):
     degree: int = 4
     iterations: int = 300
     time_limit: float = 300.0
+    c3d_unit: C3dUnit = None
 
     def refuse_impossible(self) -> None:
         """Numbers without a search."""

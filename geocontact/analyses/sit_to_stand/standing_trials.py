@@ -50,8 +50,8 @@ class StandingUpTrials:
         return any(trial.chair is not None for trial in self.trials)
 
 
-def standing_trials(file: Path, role: str, record: Record) -> StandingUpTrials:
-    """Everything in the study."""
+def standing_trials(file: Path, role: str, record: Record, c3d_unit: str | None = None) -> StandingUpTrials:
+    """Everything in the study; `c3d_unit` is that of .c3d files that have none."""
     study = read_standing_study(file)
     record.add_input(role, file, trials=len(study.trials))
     subject = Subject(study.mass, study.height)
@@ -66,7 +66,7 @@ def standing_trials(file: Path, role: str, record: Record) -> StandingUpTrials:
     chain = two_chains(subject) if study.exoskeleton else leg_chain(subject)
     sites = strap_sites(tuple(site for each in study.trials for site in each.elsewhere))
     names = tuple(site.name for site in sites[1:])
-    trials = with_chairs([channels_of(each, chain, tracks, file, record, names) for each in study.trials])
+    trials = with_chairs([channels_of(each, chain, tracks, file, record, names, c3d_unit) for each in study.trials])
     return StandingUpTrials(subject, StandingNoise(**study.noise), trials, study.exoskeleton, free, tracks, sites)
 
 

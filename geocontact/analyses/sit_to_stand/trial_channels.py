@@ -45,6 +45,7 @@ def channels_of(
     study: Path,
     record: Record,
     sites: tuple[str, ...] = (),
+    c3d_unit: str | None = None,
 ) -> StandingTrial:
     """The trial; InputError where a channel that is tracked is missing, or where clocks or models are not the same.
 
@@ -52,6 +53,8 @@ def channels_of(
     ----------
     sites
         Names of the further straps that the model has.
+    c3d_unit
+        Of plates in a .c3d file whose own is empty.
     """
     place = f"[[trials]] {files.name}"
     for channel, file, key in (
@@ -67,7 +70,7 @@ def channels_of(
     time, q = _motion(files.coordinates, chain, record, f"{files.name} coordinates")
     off, feet, chair = time >= time[0], None, None
     if files.plates is not None:
-        plates = read_force_plates(files.plates)
+        plates = read_force_plates(files.plates, c3d_unit)
         record.add_input(f"{files.name} plates", files.plates, plates=len(plates))
         feet = plate_named(plates, files.feet, files.plates, f"{place} feet")
         _require_one_clock(files.plates, feet, time)

@@ -91,6 +91,6 @@ class Amputee:
         stands = "de Leva 1996; upright, arms hanging; heights after Drillis & Contini 1966"
         for k, axis in enumerate("xyz"):
             own[f"pelvis centre_{axis}"] = Number(float(centre[k]), "derived", stands)
-        for k, axis in enumerate("xyz"):
-            own[f"pelvis I{axis}{axis}"] = Number(float(inertia[k, k]), "derived", stands)
+        for k, l in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)):
+            own[f"pelvis I{'xyz'[k]}{'xyz'[l]}"] = Number(float(inertia[k, l]), "derived", stands)
         return own

@@ -22,6 +22,7 @@ from geocontact.below_knee_prosthesis.calibration.linear_turn import bounded_fit
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResiduals
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.model.foot_offset import FootOffset
 from geocontact.identify.optimise.bounded_gauss_newton import least
 from geocontact.identify.optimise.quasi_newton import spread_starts
 from geocontact.loads.sphere_set import SoleLaw
@@ -46,8 +47,6 @@ class SoleCalibration:
         The foot's law with the numbers.
     logarithms
         Of the numbers over the usual ones.
-    errors
-        Of height [m] and pitch [rad] of the foot in each stance.
     at
         Everything that was sought: the logarithms, then height and pitch in standard deviations.
     cost
@@ -63,12 +62,16 @@ class SoleCalibration:
     residuals: SoleResiduals
     law: SoleLaw
     logarithms: Float[np.ndarray, " p"]
-    errors: tuple[tuple[float, float], ...]
     at: Float[np.ndarray, " q"]
     cost: float
     costs: tuple[float, ...]
     converged: bool
     knowledge: Knowledge
+
+    @property
+    def offsets(self) -> tuple[FootOffset, ...]:
+        """Of the foot in each stance, beside its standing trial."""
+        return self.knowledge.offsets
 
     @property
     def solved(self) -> int:
@@ -113,7 +116,6 @@ def calibrate(
         residuals,
         zones.law(residuals.values(found.x)),
         found.x[: len(usual)],
-        tuple(residuals.errors(found.x, place) for place in range(len(stances))),
         found.x,
         found.cost,
         tuple(cost for _, cost in begun),

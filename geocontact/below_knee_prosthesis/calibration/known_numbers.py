@@ -1,9 +1,11 @@
 """What stances tell of each number of the zones: known within an interval, not identified, or unknown.
 
 Residuals of a model that is not quite right remember from frame to frame. So the covariance is that of least squares
-under noise with a memory (`noise.autocorrelation`), the prior standing in as one more measurement of each number. Of
-a number that is not identified an interval would be the prior's and the model's doing, and planted numbers were outside
-of it: it has none.
+under noise with a memory (`noise.autocorrelation`), the prior standing in as one more measurement of each number, with
+its own standard deviation whatever the residuals are. Residuals that are smaller than the noise that is stated do not
+make a number better known: errors of poses that are the same all through a stance do not show in them. So no variance
+is less than that of least squares under the stated noise, without memory. Of a number that is not identified an
+interval would be the prior's and the model's doing, and planted numbers were outside of it: it has none.
 """
 
 from __future__ import annotations
@@ -20,8 +22,9 @@ from geocontact.below_knee_prosthesis.calibration.recorded_stance import Recorde
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import PAUSE
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion
+from geocontact.below_knee_prosthesis.model.foot_offset import FootOffset
 from geocontact.identify.identifiability import Identifiability, identifiability
-from geocontact.identify.noise.autocorrelation import Autocorrelation, autocorrelation_of, sandwich
+from geocontact.identify.noise.autocorrelation import Autocorrelation, autocorrelation_of, sandwich, spread
 
 Verdict = Literal["known", "not identified", "unknown"]
 HALF = 0.5
@@ -70,12 +73,27 @@ class Knowledge:
         Of the residuals.
     half
         Half the interval of each number's logarithm; infinite where it has no effect.
+    beside
+        Height [m] and pitch [rad] of the foot beside its standing trial, stance by stance, where they were sought.
+    beside_sd
+        Their standard deviations.
     """
 
     numbers: tuple[KnownNumber, ...]
     told_apart: Identifiability
     memory: Autocorrelation
     half: Float[np.ndarray, " p"]
+    beside: tuple[KnownNumber, ...] = ()
+    beside_sd: tuple[float, ...] = ()
+
+    @property
+    def offsets(self) -> tuple[FootOffset, ...]:
+        """Of the foot in each stance, beside its standing trial."""
+        pairs = [(each.value, sd) for each, sd in zip(self.beside, self.beside_sd, strict=True)]
+        return tuple(
+            FootOffset(height, pitch, height_sd, pitch_sd)
+            for (height, height_sd), (pitch, pitch_sd) in zip(pairs[::2], pairs[1::2], strict=True)
+        )
 
 
 @runtime_checkable
@@ -85,6 +103,10 @@ class StanceResiduals(Protocol):
     @property
     def sd(self) -> Float[np.ndarray, " p"]:
         """Of everything that is sought, beforehand."""
+
+    @property
+    def sizes(self) -> Float[np.ndarray, " a"]:
+        """One standard deviation of height [m] and pitch [rad] beforehand, stance by stance."""
 
     @property
     def zones(self) -> ZoneParameters:
@@ -114,7 +136,7 @@ def knowledge(residuals: StanceResiduals, z: Float[np.ndarray, " p"], level: flo
     size = np.linalg.norm(slope, axis=0)
     alive = size > DEAD * max(float(size.max()), DEAD)
     time, order = residuals.channel_by_channel()
-    memory, covariance = _remembering(time, off[order], slope[order][:, alive], z[alive], residuals.sd[: len(z)][alive])
+    memory, covariance = with_memory(time, off[order], slope[order][:, alive], z[alive], residuals.sd[: len(z)][alive])
     half = np.full(len(z), np.inf)
     half[alive] = [memory.half_width(np.sqrt(covariance[:, k, k]), level) for k in range(int(alive.sum()))]
     sd = np.full(len(z), np.inf)
@@ -133,7 +155,22 @@ def knowledge(residuals: StanceResiduals, z: Float[np.ndarray, " p"], level: flo
         rows.append(KnownNumber(each.name, each.unit, *found, verdict, (float(prior[0]), float(prior[1]))))
     count = len(zones.names)
     names = [name for name, on in zip(zones.names, alive[:count], strict=True) if on]
-    return Knowledge(tuple(rows), identifiability(names, slope[:, :count][:, alive[:count]]), memory, half[:count])
+    told_apart = identifiability(names, slope[:, :count][:, alive[:count]])
+    sizes = residuals.sizes[: len(z) - count]
+    besides = zip(z[count:], sd[count:], half[count:], sizes, strict=True)
+    beside = tuple(_beside(k, *each, level) for k, each in enumerate(besides))
+    beside_sd = tuple((sizes * np.minimum(sd[count:], 1.0)).tolist())
+    return Knowledge(tuple(rows), told_apart, memory, half[:count], beside, beside_sd)
+
+
+def _beside(place: int, z: float, sd: float, half: float, size: float, level: float) -> KnownNumber:
+    """Height or pitch of the foot beside its standing trial, from what was sought in standard deviations."""
+    name, unit = (("foot.height", "m"), ("foot.pitch", "rad"))[place % 2]
+    name += f".{place // 2 + 1}" if place > 1 else ""
+    known, wide = sd <= HALF, size * float(norm.ppf(0.5 + 0.5 * level))
+    ends = (size * (z - half), size * (z + half)) if known else (np.nan, np.nan)
+    verdict: Verdict = "known" if known else "not identified" if np.isfinite(sd) else "unknown"
+    return KnownNumber(name, unit, float(size * z), float(ends[0]), float(ends[1]), verdict, (-wide, wide))
 
 
 def slipping_zones(residuals: StanceResiduals, z: Float[np.ndarray, " p"]) -> Bool[np.ndarray, " zones"]:
@@ -151,16 +188,24 @@ def slipping_zones(residuals: StanceResiduals, z: Float[np.ndarray, " p"]) -> Bo
     return lasting >= LASTING
 
 
-def _remembering(
+def with_memory(
     time: Float[np.ndarray, " n"],
     off: Float[np.ndarray, " n"],
     slope: Float[np.ndarray, "n p"],
     z: Float[np.ndarray, " p"],
     sd: Float[np.ndarray, " p"],
 ) -> tuple[Autocorrelation, Float[np.ndarray, "g p p"]]:
-    """Memory of the residuals and covariance of the numbers with each of its times, priors as measurements far off."""
+    """Memory of the residuals and covariance of the numbers with each of its times, priors as measurements far off.
+
+    Those of the residuals have the variance that the residuals show, the priors their own; variances are at least those
+    of the stated noise.
+    """
     far = time[-1] * (2.0 + np.arange(len(z))) + PAUSE
     at = np.concatenate([time, far])
     both = np.vstack([slope, np.diag(1.0 / sd)])
     memory = autocorrelation_of(at, np.concatenate([off, z / sd]), both)
-    return memory, sandwich(memory, at, both)
+    stated = spread(both)
+    of_priors = (stated / sd**2) @ stated
+    covariance = sandwich(memory, at, both) + (1.0 - memory.variance)[:, None, None] * of_priors
+    at_least = np.maximum(np.diag(stated) - np.einsum("gkk->gk", covariance), 0.0)
+    return memory, covariance + at_least[:, :, None] * np.eye(len(z))

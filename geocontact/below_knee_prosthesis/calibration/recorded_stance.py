@@ -9,6 +9,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
+from geocontact.below_knee_prosthesis.model.foot_offset import MIDDLE
 from geocontact.below_knee_prosthesis.simulate import share_of_foot
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.centre_of_pressure import GROUND_POINT, centre_of_pressure
@@ -17,10 +18,6 @@ FLOOR = HalfSpace()
 """Level ground, y up."""
 CHANNELS = ("forward", "upward", "sideways", "centre")
 """Force on the foot in the ground's frame [N], and centre of pressure from the heel as a share of the keel's length."""
-
-
-MIDDLE = np.array([0.11, 0.0, 0.0])
-"""m; of the keel, about which an error of pitch turns it."""
 
 
 @dataclass(frozen=True)

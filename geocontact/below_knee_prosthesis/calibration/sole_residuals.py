@@ -17,8 +17,8 @@ from geocontact.identify.optimise.least_squares import divided
 
 STEP = 1e-5
 """Of a logarithm, for differences."""
-FIRST, AGAIN = 6, 2
-"""Turns of the search for the slip, to begin with and at other numbers."""
+FIRST, AGAIN = 6, 4
+"""Turns of the search for the slip: at the usual numbers, and from there at any others."""
 FARTHEST = 5.0
 """Standard deviations that height and pitch may be off."""
 NO_BALANCE = 100.0
@@ -34,13 +34,14 @@ class SoleResiduals:
 
     That is the logarithms of the numbers over the usual ones, then of each stance the errors of the foot's height and
     of its pitch in standard deviations (`Errors`); where the latter are left out, poses are as recorded.
+    Every search for a slip starts from that of the usual numbers, so that residuals hang on nothing but their argument.
 
     Parameters
     ----------
     noise
         Of each stance, in the channels' units, the two of the slip last.
     slips
-        Correction of each stance's speed along the floor at the last numbers that were asked for [m/s].
+        Correction of each stance's speed along the floor at the usual numbers [m/s].
     solved
         How often the keel was solved along a stance.
     """
@@ -67,6 +68,11 @@ class SoleResiduals:
     def sd(self) -> Float[np.ndarray, " p"]:
         """Of everything that is sought, beforehand."""
         return np.concatenate([self.zones.sd, np.ones(2 * len(self.stances))])
+
+    @property
+    def sizes(self) -> Float[np.ndarray, " a"]:
+        """One standard deviation of height [m] and pitch [rad] beforehand, stance by stance."""
+        return np.array([[each.errors.standing, each.errors.pitch] for each in self.stances]).ravel()
 
     @property
     def reach(self) -> Float[np.ndarray, " p"]:
@@ -102,11 +108,7 @@ class SoleResiduals:
 
     def of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
         """Predicted less measured over the noise, stance by stance, frame by frame."""
-        return self._of_data(z)[0]
-
-    def _of_data(self, z: Float[np.ndarray, " p"]) -> tuple[Float[np.ndarray, " n"], list[Float[np.ndarray, "_ 2"]]]:
-        """The same, and the slips."""
-        parts, slips = [], []
+        parts = []
         for place, noise in enumerate(self.noise):
             stance = self.stance(z, place)
             measured = self.measured(place) / noise
@@ -114,12 +116,10 @@ class SoleResiduals:
                 motion, slip = self.motion(z, place)
             except ArithmeticError:
                 parts.append(np.full(int(np.isfinite(measured).sum()), NO_BALANCE))
-                slips.append(self.slips[place])
                 continue
             predicted = np.hstack([stance.predicted(self.keel(z, stance), motion), slip]) / noise
             parts.append(divided(predicted, measured, np.ones(noise.shape[1])))
-            slips.append(slip)
-        return np.concatenate(parts), slips
+        return np.concatenate(parts)
 
     def measured(self, place: int) -> Float[np.ndarray, "t c"]:
         """Channels of one stance, no slip last."""
@@ -128,8 +128,7 @@ class SoleResiduals:
 
     def __call__(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " m"]:
         """Those of the data, then what everything differs from the usual in standard deviations beforehand."""
-        data, self.slips = self._of_data(z)
-        return np.concatenate([data, z / self.sd[: len(z)]])
+        return np.concatenate([self.of_data(z), z / self.sd[: len(z)]])
 
     def slope(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "m p"]:
         """Derivatives of `__call__` by the logarithms."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.below_knee_prosthesis.model.foot_offset import FootOffset
 from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion, driving_inputs
 from geocontact.below_knee_prosthesis.model.leg_tree import HIP, KNEE, PELVIS, RECORDED
 from geocontact.below_knee_prosthesis.simulate import Push
@@ -56,6 +57,10 @@ class WalkedStance:
     def inputs(self) -> RecordedInputs:
         """Of the equations."""
         return driving_inputs(self.motion, self.push.at(self.motion.time))
+
+    def with_foot(self, offset: FootOffset) -> WalkedStance:
+        """With the foot beside its standing trial; the recorded poses stay as they are."""
+        return replace(self, motion=replace(self.motion, leg=self.motion.leg.with_foot(offset)))
 
     def moved(self) -> Iterator[WalkedStance]:
         """By one standard deviation of each error of the motion: height, speed, each turn of hip and knee."""

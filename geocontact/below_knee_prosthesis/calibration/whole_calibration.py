@@ -2,7 +2,7 @@
 
 Socket, inertia and the pelvis' free place act here, so that the force is what the simulation shows of the stance rather
 than what the recorded poses press. Damped Gauss-Newton steps from the calibration along recorded poses, with the same
-priors.
+priors; height and pitch of the foot beside its standing trial are sought on, from what that calibration found.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from geocontact.below_knee_prosthesis.calibration.known_numbers import Knowledge
 from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedStance
 from geocontact.below_knee_prosthesis.calibration.whole_residuals import WholeResiduals
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.model.foot_offset import FootOffset
 from geocontact.identify.optimise.bounded_gauss_newton import least
 from geocontact.loads.sphere_set import SoleLaw
 
@@ -36,6 +37,8 @@ class WholeCalibration:
         With the law that was found.
     logarithms
         Of the numbers over the usual ones.
+    at
+        Everything that was sought: the logarithms, then height and pitch in standard deviations.
     begun, cost
         Half the sum of squares at the numbers that it began with and at those found, priors included.
     converged
@@ -45,10 +48,16 @@ class WholeCalibration:
     residuals: WholeResiduals
     foot: VariableStiffnessFoot
     logarithms: Float[np.ndarray, " p"]
+    at: Float[np.ndarray, " q"]
     begun: float
     cost: float
     converged: bool
     knowledge: Knowledge
+
+    @property
+    def offsets(self) -> tuple[FootOffset, ...]:
+        """Of the foot in each stance, beside its standing trial; none where they were not sought."""
+        return self.knowledge.offsets
 
     @property
     def law(self) -> SoleLaw:
@@ -64,16 +73,23 @@ def calibrate_whole(
     level: float = 0.95,
     machine_code: bool = True,
 ) -> WholeCalibration:
-    """Around the law of `foot`, from the logarithms that a calibration along the recorded poses found about it.
+    """Around the law of `foot`, from what a calibration along the recorded poses found about it.
+
+    Parameters
+    ----------
+    begun
+        The logarithms, and height and pitch in standard deviations (`SoleCalibration.at`). Without these the foot stays
+        as its standing trial has it.
 
     ArithmeticError where the stances cannot be simulated with these.
     """
     residuals = WholeResiduals(stances, foot, begun, machine_code=machine_code)
-    reach, off = residuals.zones.reach, residuals(begun)
+    reach, off = residuals.reach[: len(begun)], residuals(begun)
     search = least(residuals, residuals.slope, begun, -reach, reach, ROUNDS, WORTH)
     return WholeCalibration(
         residuals,
         residuals.at(search.x),
+        search.x[: len(residuals.zones.names)],
         search.x,
         0.5 * float(off @ off),
         search.cost,

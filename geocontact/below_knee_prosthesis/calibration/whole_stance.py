@@ -71,7 +71,7 @@ class WholeStance:
         tolerance: float = TOLERANCE,
         machine_code: bool = True,
     ) -> None:
-        self.stance, self.foot, self.tolerance = stance, foot, tolerance
+        self.stance, self.foot, self.tolerance, self.machine_code = stance, foot, tolerance, machine_code
         self.model = stance_model(foot, machine_code=machine_code)
         self.tools = _tools(self.model, sole_places(foot.keel), machine_code)
         self.inputs = stance.inputs()

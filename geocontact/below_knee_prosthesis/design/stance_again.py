@@ -12,14 +12,13 @@ from geocontact.below_knee_prosthesis.calibration.stance_from_markers import hip
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask, foot_task
 from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
 from geocontact.below_knee_prosthesis.keel.keel import Keel
-from geocontact.below_knee_prosthesis.model.leg import Person
+from geocontact.below_knee_prosthesis.model.foot_offset import AS_STOOD, MIDDLE, FootOffset
+from geocontact.below_knee_prosthesis.model.leg import Leg, Person
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 
 SLOW = 0.1
 """s; over which the slow half of a marker's error changes."""
-MIDDLE = 0.11
-"""m; of the keel, about which a pitch error turns it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +31,8 @@ class RecordedTrial:
         From the sole up to the keel's axis [m].
     cutoff
         Of a zero-lag low-pass of the markers [Hz]; None for none.
+    offset
+        Of the foot beside the standing trial.
     """
 
     standing: MarkerTrajectories
@@ -43,13 +44,19 @@ class RecordedTrial:
     below: float
     cutoff: float | None
     gap_limit: float
+    offset: FootOffset = AS_STOOD
+
+    @property
+    def leg(self) -> Leg:
+        """By the standing trial, with the foot beside it; InputError where markers cannot tell it."""
+        return standing_leg(self.standing, self.person, self.keel, self.below).with_foot(self.offset)
 
     def task(self, tilt: float = 0.0) -> FootTask:
         """What the foot carries; InputError where markers or plate cannot tell it.
 
         `tilt` is an error of the foot's pitch [rad], constant over the stance.
         """
-        leg = standing_leg(self.standing, self.person, self.keel, self.below)
+        leg = self.leg
         stance = stance_from_markers(
             self.walking,
             leg,
@@ -60,8 +67,7 @@ class RecordedTrial:
             gap_limit=self.gap_limit,
         )
         turn = Rotation.from_euler("z", tilt)
-        middle = np.array([MIDDLE, 0.0, 0.0])
-        poses = stance.poses * RigidTransform.from_components(middle - turn.apply(middle), turn)
+        poses = stance.poses * RigidTransform.from_components(MIDDLE - turn.apply(MIDDLE), turn)
         hip = hip_centres(self.walking, leg, stance.time, self.cutoff, self.gap_limit)
         return foot_task(replace(stance, poses=poses), hip, leg, self.keel, self.below)
 

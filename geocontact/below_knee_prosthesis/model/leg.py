@@ -6,13 +6,14 @@ Always a right leg: a left one is its mirror image. Frames are right-handed, x f
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from geocontact.below_knee_prosthesis.model.foot_offset import AS_STOOD, MIDDLE, FootOffset
 from geocontact.below_knee_prosthesis.model.frustum import Frustum, taper
 from geocontact.data.body_segments import SEGMENTS, Sex
 from geocontact.data.multibody.model import Marker
@@ -85,6 +86,8 @@ class Leg:
         R_SK: turns components in K into components in the shank's frame S.
     markers
         On the bodies `pelvis`, `thigh` and `shank`, which the socket is fixed to as long as it does not give.
+    offset
+        Of the foot beside its standing trial; `keel` and `turn` have it.
     """
 
     person: Person
@@ -95,6 +98,16 @@ class Leg:
     keel: Vector
     turn: Rotation
     markers: tuple[Marker, ...] = field(default=())
+    offset: FootOffset = AS_STOOD
+
+    def with_foot(self, offset: FootOffset) -> Leg:
+        """With its foot raised and turned on the socket; ValueError where that was done before."""
+        if self.offset.given:
+            raise ValueError("the foot is already beside its standing trial")
+        turn = self.turn * Rotation.from_euler("z", offset.pitch)
+        raised = MIDDLE + np.array([0.0, offset.height, 0.0])
+        keel = self.keel + self.turn.apply(raised) - turn.apply(MIDDLE)
+        return replace(self, keel=keel, turn=turn, offset=offset)
 
     @property
     def bushing(self) -> Vector:
@@ -170,6 +183,7 @@ class Leg:
             **_places("ankle", self.ankle, f"in the shank's frame, {measured}"),
             **_places("keel", self.keel, f"origin of the keel's frame K in the shank's, {measured}"),
             **_places("turn", self.turn.as_rotvec(), f"of K in the shank's frame as a rotation vector, {measured}"),
+            **_offset(self.offset),
             "thigh_mass": Number(thigh[0], "derived", leva),
             "thigh_centre": Number(float(-thigh[1][1]), "derived", "of its mass, below the hip; de Leva 1996"),
             "residual_share": Number(self.person.residual, "invented", "of the shank; the study does not tell it"),
@@ -189,6 +203,18 @@ class Leg:
 
 def _places(name: str, values: Vector, note: str) -> dict[str, Number]:
     return {f"{name}_{axis}": Number(float(each), "derived", note) for axis, each in zip("xyz", values, strict=True)}
+
+
+def _offset(of: FootOffset) -> dict[str, Number]:
+    """Of the foot beside its standing trial."""
+    whose = "as the law's file has it; in leg keel and leg turn already" if of.given else "none: as it stood"
+    words = {
+        "height": f"of the foot's middle, raised beside its standing trial, {whose}",
+        "height_sd": "standard deviation of that height",
+        "pitch": f"of the foot, toes up, beside its standing trial, {whose}",
+        "pitch_sd": "standard deviation of that pitch",
+    }
+    return {f"foot_{name}": Number(getattr(of, name), "derived", note) for name, note in words.items()}
 
 
 def _prosthesis(mass: float, centre: Vector, inertia: Float[np.ndarray, "3 3"]) -> dict[str, Number]:

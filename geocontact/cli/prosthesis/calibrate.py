@@ -8,7 +8,8 @@ from geocontact.cli.command import Command
 HELP = """Stiffness, damping and friction of five zones of a variable-stiffness foot from one recorded stance.
 
 Writes numbers.csv (value, interval, and whether the stance tells it), stance.csv (plate and model), law.toml (the
-calibrated force law, as `geocontact cop` reads it), a figure, report.html and run.json into OUT.
+calibrated force law, as `geocontact cop` reads it, and how the foot is beside its standing trial), a figure,
+report.html and run.json into OUT.
 """
 
 calibrate = Command("geocontact.analyses.prosthesis.calibrate.job:calibrate", ProsthesisCalibrateOptions, HELP)

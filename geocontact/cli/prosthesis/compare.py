@@ -8,7 +8,8 @@ from geocontact.cli.command import Command
 HELP = """Stances of a study, simulated, beside their force plates and beside two predictors without a model.
 
 Writes summary.csv (means by setting), trials.csv (length, peaks, outliers and what is seen in them), errors.csv,
-ensembles.csv, coordinates, external loads and spheres of each stance, a figure, report.html and run.json into OUT.
+ensembles.csv, coordinates, external loads, spheres and numbers of each stance, a figure, report.html and run.json into
+OUT.
 """
 
 compare = Command("geocontact.analyses.prosthesis.compare.job:compare", ProsthesisCompareOptions, HELP)

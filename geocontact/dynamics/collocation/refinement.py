@@ -54,12 +54,21 @@ def halved(
     found: CollocationResult,
     turning: Sequence[bool],
     limits: CertificateLimits | None = None,
+    shortest: Sequence[float] | None = None,
 ) -> tuple[Mesh, ...]:
-    """Meshes with every interval halved that somewhere leaves more of the balance than the limits let pass."""
+    """Meshes with every interval halved that somewhere leaves more of the balance than the limits let pass.
+
+    Parameters
+    ----------
+    shortest
+        Of each trial, in parts of it: intervals are not halved to less.
+    """
     limit, finer = limits or CertificateLimits(), []
-    for trial, motion, mesh in zip(problem.trials, found.motions, found.meshes, strict=True):
+    least = shortest or [0.0] * len(found.meshes)
+    for trial, motion, mesh, part in zip(problem.trials, found.motions, found.meshes, least, strict=True):
         left = fine_residual(problem.system, trial, motion, found.p, turning)
         force, moment = (of.reshape(len(mesh) - 1, -1).max(axis=1) for of in (left.force, left.moment))
         middle = 0.5 * (mesh[:-1] + mesh[1:])
-        finer.append(np.sort(np.r_[mesh, middle[(force > limit.force) | (moment > limit.moment)]]))
+        coarse = np.diff(mesh) > 1.5 * part  # halved once more, lengths are parts or twice them, but for rounding
+        finer.append(np.sort(np.r_[mesh, middle[coarse & ((force > limit.force) | (moment > limit.moment))]]))
     return tuple(finer)

@@ -6,7 +6,7 @@ effect follows another equation than the candidate that is to find it (each plan
 """
 
 from geocontact.gap_benchmark.synthetic.cases import synthetic_case
+from geocontact.gap_benchmark.synthetic.catalogue import LABORATORIES
 from geocontact.gap_benchmark.synthetic.label import KINDS, Kind, Label, SyntheticCase
-from geocontact.gap_benchmark.synthetic.laboratories.catalogue import LABORATORIES
 
 __all__ = ["KINDS", "LABORATORIES", "Kind", "Label", "SyntheticCase", "synthetic_case"]

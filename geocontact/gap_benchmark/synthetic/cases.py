@@ -10,29 +10,32 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.base_fit import refit, starts
-from geocontact.gap_benchmark.synthetic.catalogue import CONFOUNDED, NO_GAP, plans
+from geocontact.gap_benchmark.synthetic.catalogue import (
+    CONFOUNDED,
+    LABORATORIES,
+    NO_GAP,
+    SCENES,
+    plans,
+    unknown_effects,
+)
 from geocontact.gap_benchmark.synthetic.course import Path
 from geocontact.gap_benchmark.synthetic.data_errors import draw_data_error
 from geocontact.gap_benchmark.synthetic.data_errors import words as fault_words
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.ideal import ideal
-from geocontact.gap_benchmark.synthetic.label import KINDS, Kind, Label, SyntheticCase
-from geocontact.gap_benchmark.synthetic.laboratories.catalogue import LABORATORIES
+from geocontact.gap_benchmark.synthetic.label import KINDS, Kind, Label, SyntheticCase, ideal
 from geocontact.gap_benchmark.synthetic.laboratories.placement import placed_as_usual
+from geocontact.gap_benchmark.synthetic.laboratories.unseen import slightly_wrong
 from geocontact.gap_benchmark.synthetic.magnitudes import magnitudes_of
-from geocontact.gap_benchmark.synthetic.outside.catalogue import unknown_effects
 from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, NotFoundError, SyntheticMagnitudes
 from geocontact.gap_benchmark.synthetic.reach import Reach, reach
-from geocontact.gap_benchmark.synthetic.recorded_case import case_of
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
-from geocontact.gap_benchmark.synthetic.scenes import SCENES
-from geocontact.gap_benchmark.synthetic.slight import slightly_wrong
 from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError
 from geocontact.gap_benchmark.synthetic.trials import (
     NO_DATA_ERROR,
     SyntheticDataError,
     SyntheticTrial,
     as_measured,
+    case_of,
     fine_enough,
     record,
     truth,

@@ -1,34 +1,63 @@
-"""Every injected effect of the vocabulary; mistakes in the data are exact and stand in `data_errors`."""
+"""Scenes by system, laboratories, and every injected effect; mistakes in the data are exact, in `data_errors`."""
 
 from __future__ import annotations
 
-from geocontact.gap_benchmark.synthetic.effects.measurement.crosstalk import CROSSTALK
-from geocontact.gap_benchmark.synthetic.effects.measurement.filter_lag import FILTER_LAG
-from geocontact.gap_benchmark.synthetic.effects.measurement.saturation import SATURATION
-from geocontact.gap_benchmark.synthetic.effects.measurement.sensor_drift import SENSOR_DRIFT
-from geocontact.gap_benchmark.synthetic.effects.measurement.sensor_gain import SENSOR_GAIN
-from geocontact.gap_benchmark.synthetic.effects.measurement.sensor_offset import SENSOR_OFFSET
-from geocontact.gap_benchmark.synthetic.effects.measurement.time_shift import TIME_SHIFT
-from geocontact.gap_benchmark.synthetic.effects.mechanical.asymmetry import ASYMMETRY
-from geocontact.gap_benchmark.synthetic.effects.mechanical.axis_migration import AXIS_MIGRATION
-from geocontact.gap_benchmark.synthetic.effects.mechanical.contact_loss import CONTACT_LOSS
-from geocontact.gap_benchmark.synthetic.effects.mechanical.damping import DAMPING
-from geocontact.gap_benchmark.synthetic.effects.mechanical.dead_zone import DEAD_ZONE
-from geocontact.gap_benchmark.synthetic.effects.mechanical.dry_friction import DRY_FRICTION
-from geocontact.gap_benchmark.synthetic.effects.mechanical.end_stop import END_STOP
-from geocontact.gap_benchmark.synthetic.effects.mechanical.event_load import EVENT_LOAD
-from geocontact.gap_benchmark.synthetic.effects.mechanical.gravity_load import GRAVITY_LOAD
-from geocontact.gap_benchmark.synthetic.effects.mechanical.inertia_load import INERTIA_LOAD
-from geocontact.gap_benchmark.synthetic.effects.mechanical.motion_offset import MOTION_OFFSET
-from geocontact.gap_benchmark.synthetic.effects.mechanical.preload import PRELOAD
-from geocontact.gap_benchmark.synthetic.effects.mechanical.relaxation import RELAXATION
-from geocontact.gap_benchmark.synthetic.effects.mechanical.series_compliance import SERIES_COMPLIANCE
-from geocontact.gap_benchmark.synthetic.effects.mechanical.slip import SLIP
-from geocontact.gap_benchmark.synthetic.effects.mechanical.stiffening import STIFFENING
-from geocontact.gap_benchmark.synthetic.effects.second.measurement import AVERAGING, LEANING, ONE_SIDED, SMALL_LOADS
-from geocontact.gap_benchmark.synthetic.effects.second.mechanical import CREEPING, LOCKING, STICKING, THINNING
-from geocontact.gap_benchmark.synthetic.equipment.laboratory import Forms
-from geocontact.gap_benchmark.synthetic.plan import InjectionPlan
+from collections.abc import Callable, Mapping
+from functools import partial
+
+from geocontact.gap_benchmark.synthetic.effects.attachment import CONTACT_LOSS, DEAD_ZONE, SERIES_COMPLIANCE, SLIP
+from geocontact.gap_benchmark.synthetic.effects.delays import AVERAGING, FILTER_LAG, TIME_SHIFT
+from geocontact.gap_benchmark.synthetic.effects.dissipation import DAMPING, DRY_FRICTION, STICKING, THINNING
+from geocontact.gap_benchmark.synthetic.effects.elasticity import (
+    ASYMMETRY,
+    CREEPING,
+    END_STOP,
+    LOCKING,
+    PRELOAD,
+    RELAXATION,
+    STIFFENING,
+)
+from geocontact.gap_benchmark.synthetic.effects.loads import EVENT_LOAD, GRAVITY_LOAD, INERTIA_LOAD
+from geocontact.gap_benchmark.synthetic.effects.motion import AXIS_MIGRATION, MOTION_OFFSET
+from geocontact.gap_benchmark.synthetic.effects.sensors import (
+    CROSSTALK,
+    LEANING,
+    ONE_SIDED,
+    SATURATION,
+    SENSOR_DRIFT,
+    SENSOR_GAIN,
+    SENSOR_OFFSET,
+    SMALL_LOADS,
+)
+from geocontact.gap_benchmark.synthetic.effects.unknown import UNKNOWN
+from geocontact.gap_benchmark.synthetic.laboratories.inputs import inputs_laboratory
+from geocontact.gap_benchmark.synthetic.laboratories.kinds import LABORATORY_KINDS, laboratory_of_kind
+from geocontact.gap_benchmark.synthetic.laboratories.placement import placement_laboratory
+from geocontact.gap_benchmark.synthetic.laboratories.recorder import recorder_laboratory
+from geocontact.gap_benchmark.synthetic.laboratory import Forms
+from geocontact.gap_benchmark.synthetic.plan import EffectNumbers, InjectionPlan
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
+from geocontact.gap_benchmark.synthetic.systems import elbow, foot, knee, shoulder, sit_to_stand
+
+SCENES: Mapping[str, Callable[..., SyntheticScene]] = {
+    "elbow": elbow.elbow_scene,
+    "foot": foot.foot_scene,
+    "shoulder": shoulder.shoulder_scene,
+    "knee": knee.knee_scene,
+    "sit_to_stand": sit_to_stand.sit_to_stand_scene,
+}
+NUMBERS: Mapping[str, EffectNumbers] = {
+    "elbow": elbow.EFFECTS,
+    "foot": foot.EFFECTS,
+    "shoulder": shoulder.EFFECTS,
+    "knee": knee.EFFECTS,
+    "sit_to_stand": sit_to_stand.EFFECTS,
+}
+"""What effects ask of each."""
+CONFOUNDED = {system: one.confounded for system, one in NUMBERS.items()}
+"""Effects that base parameters reproduce nearly, if they are of a plain form."""
+NO_GAP = {system: one.no_gap for system, one in NUMBERS.items() if one.no_gap}
+"""Those that leave no visible gap of their own kind at all: never planted as a single one or in a pair."""
 
 PLANS: tuple[InjectionPlan, ...] = (
     TIME_SHIFT,
@@ -55,33 +84,24 @@ PLANS: tuple[InjectionPlan, ...] = (
     SATURATION,
     CROSSTALK,
 )
-
-CONFOUNDED = {
-    "elbow": (
-        "series_compliance",
-        "preload",
-        "gravity_load",
-        "axis_migration",
-        "motion_offset",
-        "sensor_gain",
-        "sensor_offset",
-    ),
-    "foot": ("sensor_gain",),
-    "shoulder": ("damping", "gravity_load", "series_compliance"),
-    "knee": ("sensor_gain",),
-    "sit_to_stand": ("sensor_gain", "series_compliance"),
-}
-"""Effects that base parameters reproduce nearly, if they are of a plain form."""
-
-NO_GAP = {"elbow": CONFOUNDED["elbow"], "sit_to_stand": ("sensor_gain",)}
-"""Those that leave no visible gap of their own kind at all: never planted as a single one or in a pair."""
-
-
 SECOND = {one.name: one for one in (AVERAGING, LEANING, ONE_SIDED, SMALL_LOADS, CREEPING, LOCKING, STICKING, THINNING)}
 """Effects that have a second family of equations; the others are of the first in either."""
 
+LABORATORIES: Mapping[str, Callable[[Rng, SyntheticScene], SyntheticScene]] = {
+    "home": lambda _, scene: scene,
+    "recorder": recorder_laboratory,
+    "placement": placement_laboratory,
+    "inputs": inputs_laboratory,
+    **{name: partial(laboratory_of_kind, kind=kind) for name, kind in LABORATORY_KINDS.items()},
+}
+
 
 def plans(system: str, forms: Forms = "first") -> tuple[InjectionPlan, ...]:
-    """Those that apply to a system, in one family of equations."""
+    """Those of the vocabulary that apply to a system, in one family of equations."""
     known = PLANS if forms == "first" else tuple(SECOND.get(one.name, one) for one in PLANS)
-    return tuple(one for one in known if system in one.systems)
+    return tuple(one for one in known if one.name in NUMBERS[system].names)
+
+
+def unknown_effects(system: str) -> tuple[InjectionPlan, ...]:
+    """Those outside of the vocabulary that a system may have."""
+    return tuple(one for one in UNKNOWN if one.name in NUMBERS[system].unknown)

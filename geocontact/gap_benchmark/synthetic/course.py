@@ -1,4 +1,7 @@
-"""Inputs as functions of time: prescribed ones exactly, measured ones by a cubic spline through the samples."""
+"""Inputs as functions of time: prescribed ones exactly, measured ones by a cubic spline through the samples.
+
+And what prescribed movements are made of: rounded polylines, steps.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float
 from scipy.interpolate import CubicSpline
+
+KNOTS = 0.002
+"""Spacing of the nodes through which prescribed but not closed-form movements run [s]."""
 
 
 @dataclass(frozen=True)
@@ -45,3 +51,24 @@ def through(
         return InputCourse(grid, spline(grid), spline(grid, 1), spline(grid, 2), duration, phase, setting or {})
 
     return along
+
+
+def logistic(u: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
+    """1/(1 + exp(-u))."""
+    return np.asarray(0.5 * (1.0 + np.tanh(0.5 * u)))
+
+
+def smoothed(
+    nodes: Float[np.ndarray, " n"], values: Float[np.ndarray, " n"], at: Float[np.ndarray, " t"], width: float
+) -> Float[np.ndarray, " t"]:
+    """Polyline with its corners rounded: the mean of it over a bell of `width`."""
+    bell = np.linspace(-2.5, 2.5, 21)
+    weight = np.exp(-0.5 * bell**2)
+    lines = np.interp(at[:, None] + width * bell, nodes, values)
+    return np.asarray(lines @ weight / weight.sum())
+
+
+def reached(share: Float[np.ndarray, " t"], begin: float, end: float) -> Float[np.ndarray, " t"]:
+    """0 before, 1 after, and least jerk between."""
+    u = np.clip((share - begin) / (end - begin), 0.0, 1.0)
+    return np.asarray(u**3 * (10.0 - 15.0 * u + 6.0 * u * u))

@@ -25,7 +25,7 @@ def magnitudes_of(scene: SyntheticScene, trials: Sequence[WhitenedTrial], depart
     begin, end = ends(courses, 0)
     acceleration = np.concatenate([course.acceleration[0] for course in courses])
     whole = SyntheticMagnitudes(
-        scene.system,
+        scene.body.effects,
         max(most[scene.outputs[row]] for row in scene.body.normal),
         stroke,
         low,

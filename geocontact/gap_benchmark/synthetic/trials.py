@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.data.gap.case import GapCase
+from geocontact.data.motion import Signals
+from geocontact.data.trial import Trial as CaseTrial
 from geocontact.gap_benchmark.synthetic.course import InputCourse, Path, through
-from geocontact.gap_benchmark.synthetic.equipment.placement import IN_PLACE, Placement
-from geocontact.gap_benchmark.synthetic.equipment.sampler import AT_ONCE, Sampler
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Outputs, written_down
+from geocontact.gap_benchmark.synthetic.laboratory import IN_PLACE, Placement
 from geocontact.gap_benchmark.synthetic.noise import smooth_noise
+from geocontact.gap_benchmark.synthetic.recording import AT_ONCE, Sampler
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError
 
@@ -204,3 +207,35 @@ def predicted(scene: SyntheticScene, recording: SyntheticTrial, hooks: Hooks, fi
     count = int(recording.rows[-1]) + 1
     outputs = truth(scene, path, count, scene.theta, hooks, fine, recording.late[:count])[:, recording.rows]
     return recording.data_error.outputs(scene, outputs)
+
+
+def case_of(
+    rng: Rng, scene: SyntheticScene, recordings: Sequence[SyntheticTrial], learn: int, name: str
+) -> tuple[GapCase, tuple[str, ...]]:
+    """The recordings as a case that does not tell what was injected."""
+    trials = []
+    for i, one in enumerate(recordings):
+        outputs = one.outputs.copy()
+        for row in scene.body.patchy:
+            if rng.random() < 0.1:
+                outputs[row, rng.random(outputs.shape[1]) < 0.02] = np.nan
+        values = np.column_stack([*one.inputs, *outputs])
+        signals = Signals(one.time, values, (*scene.inputs, *scene.outputs), scene.units)
+        trials.append(CaseTrial(f"t{i + 1:02d}", signals, one.setting))
+    known = {c: noise.sd for c, noise in zip(scene.outputs, scene.noise, strict=True)}
+    lot = rng.random()
+    if lot < 0.25:
+        known = {}
+    elif lot < 0.4:
+        known = {c: sd for c, sd in known.items() if rng.random() < 0.5}
+    case = GapCase(
+        name,
+        scene.system,
+        tuple(trials[:learn]),
+        tuple(trials[learn:]),
+        scene.parameters,
+        scene.constants,
+        known,
+        scene.tables,
+    )
+    return case, tuple(one.name for one in trials)

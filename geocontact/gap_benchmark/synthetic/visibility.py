@@ -10,11 +10,10 @@ from jaxtyping import Bool, Float
 from scipy.linalg import cho_factor, cho_solve, solve_triangular
 
 from geocontact.gap_benchmark.synthetic.base_fit import Model, jacobian, refit
-from geocontact.gap_benchmark.synthetic.body import Numbers
 from geocontact.gap_benchmark.synthetic.course import InputCourse, Path
 from geocontact.gap_benchmark.synthetic.hooks import Outputs, Values
 from geocontact.gap_benchmark.synthetic.noise import NoiseFilter, smooth_covariance
-from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
+from geocontact.gap_benchmark.synthetic.scene import Numbers, SyntheticScene
 from geocontact.gap_benchmark.synthetic.trials import samples
 
 FAINT = 1e-7

@@ -17,7 +17,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.io.cases.case_cells import AREA, PLACE, cells_file, channel_name
 from geocontact.io.cases.case_folder import SETTINGS, TRIALS
-from geocontact.io.text.late_times import with_microseconds
+from geocontact.io.text.results import with_microseconds
 from geocontact.io.text.units import si_unit
 
 DIGITS = 9

@@ -15,12 +15,12 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.io.mocap.c3d_plates import Arrays, read_apart
+from geocontact.io.mocap.c3d_units import point_metre
 from geocontact.io.mocap.subject import without_subject
-from geocontact.io.text.units import LENGTH, length_unit
 
 
-def read_c3d_markers(path: str | PathLike[str]) -> MarkerTrajectories:
-    """Markers in metres in the laboratory's axes.
+def read_c3d_markers(path: str | PathLike[str], c3d_unit: str | None = None) -> MarkerTrajectories:
+    """Markers in metres in the laboratory's axes; `c3d_unit` is that of a file whose own is empty.
 
     What stands before a colon in a label is the subject; it is left out where that leaves no two names alike. Of
     markers with one label the one that is seen in most frames is taken, with a warning. Markers without a label, or
@@ -28,7 +28,7 @@ def read_c3d_markers(path: str | PathLike[str]) -> MarkerTrajectories:
     """
     file = fspath(path)
     arrays = read_apart(path, __name__, analogs=False)
-    unit, rate = _unit(file, str(arrays["unit"])), float(arrays["rate"])
+    metre, rate = point_metre(file, str(arrays["unit"]), c3d_unit), float(arrays["rate"])
     positions = np.asarray(arrays["positions"], float)
     positions = np.where(np.all(positions == 0.0, axis=2, keepdims=True), np.nan, positions)
     names, kept = _named(file, [str(name) for name in arrays["names"]], positions)
@@ -39,18 +39,7 @@ def read_c3d_markers(path: str | PathLike[str]) -> MarkerTrajectories:
         raise InputError(file, "POINT:RATE", f"is {rate:g} Hz", "is the file complete?")
     lost = np.any(~np.isfinite(positions), axis=2)
     time = float(arrays["start"]) + np.arange(len(positions)) / rate
-    return MarkerTrajectories(time, np.where(lost[..., None], np.nan, LENGTH[unit] * positions), names, file)
-
-
-def _unit(file: str, written: str) -> str:
-    """Unit of places; an empty one is taken as mm, which the format's own programs write, and this is said."""
-    if not written:
-        warnings.warn(InputWarning(f"{file}: POINT:UNITS is empty; its markers are taken to be in mm"), stacklevel=4)
-        return "mm"
-    unit = length_unit(written)
-    if unit is None:
-        raise InputError(file, "POINT:UNITS", f"is '{written[:20]}'", f"expected one of {', '.join(LENGTH)}")
-    return unit
+    return MarkerTrajectories(time, np.where(lost[..., None], np.nan, metre * positions), names, file)
 
 
 def _named(file: str, labels: list[str], positions: Float[np.ndarray, "t m 3"]) -> tuple[tuple[str, ...], list[int]]:

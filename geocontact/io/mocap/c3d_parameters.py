@@ -1,7 +1,8 @@
-"""Parameter section of a .c3d file, read for what makes ezc3d refuse a sound file.
+"""C3dParameter section of a .c3d file, mended where ezc3d refuses a sound file for how its numbers are written.
 
 Layout as c3d.org's user guide has it: four bytes, then groups and parameters one after another, each with its name, how
-far it is to the next, and numbers of one, two or four bytes, the last of them real.
+far it is to the next, and numbers of one, two or four bytes, the last of them real. ezc3d takes counts as whole numbers
+only, and rates, scales and places as real ones only.
 """
 
 from __future__ import annotations
@@ -14,22 +15,31 @@ from math import prod
 from geocontact.data.errors import InputError
 
 INTEL, MIPS = 84, 86
-"""Processor types in the parameter section; integers of the second have the high byte first."""
+"""Processor types in the parameter section; numbers of the second have the high byte first."""
 
 COUNTS = {
     "POINT": ("USED", "FRAMES", "DATA_START"),
     "ANALOG": ("USED", "OFFSET"),
     "FORCE_PLATFORM": ("USED", "TYPE", "CHANNEL", "ZERO"),
 }
-"""Parameters that are whole numbers, which some programs write as real ones; ezc3d takes whole ones only."""
+"""Parameters that are whole numbers, which some programs write as real ones."""
+
+REALS = {
+    "POINT": ("RATE", "SCALE"),
+    "ANALOG": ("RATE", "SCALE", "GEN_SCALE"),
+    "FORCE_PLATFORM": ("CORNERS", "ORIGIN", "CAL_MATRIX"),
+}
+"""Parameters that are real numbers, which some programs write as whole ones."""
 
 _WHOLE, _REAL = 2, 4
 _LARGEST = 0x7FFF
 _BLOCK = 512
+_DATA_START = 16  # in the header, the first block of data
+_CLOSING = 4  # bytes of nothing behind the last parameter: its description's length, and an end
 
 
 @dataclass(frozen=True)
-class _Parameter:
+class C3dParameter:
     """Its names, kind of number (bytes), how many there are, and where kind and numbers stand in the file."""
 
     group: str
@@ -55,7 +65,7 @@ def with_whole_counts(data: bytes, file: str, analogs: bool) -> bytes | None:
     if processor(data) != INTEL:
         return None
     try:
-        found = [p for p in _parameters(data) if p.kind == _REAL and p.name in COUNTS.get(p.group, ())]
+        found = [p for p in parameters(data) if p.kind == _REAL and p.name in COUNTS.get(p.group, ())]
         numbers = [struct.unpack_from(f"<{p.count}f", data, p.numbers_at) for p in found]
     except (IndexError, struct.error):  # a damaged section is for ezc3d to judge
         return None
@@ -69,7 +79,7 @@ def with_whole_counts(data: bytes, file: str, analogs: bool) -> bytes | None:
     return bytes(out)
 
 
-def _require_whole(file: str, parameter: _Parameter, values: tuple[float, ...], analogs: bool) -> None:
+def _require_whole(file: str, parameter: C3dParameter, values: tuple[float, ...], analogs: bool) -> None:
     for value in values:
         if abs(value) <= _LARGEST and (value == round(value) or not analogs):
             continue
@@ -77,7 +87,7 @@ def _require_whole(file: str, parameter: _Parameter, values: tuple[float, ...], 
         raise InputError(file, f"{parameter.group}:{parameter.name}", what, "save it with whole numbers")
 
 
-def _shorten(out: bytearray, parameter: _Parameter, values: list[int], end: int) -> None:
+def _shorten(out: bytearray, parameter: C3dParameter, values: list[int], end: int) -> None:
     """Numbers of two bytes for those of four; what follows in the section moves up."""
     at, spared = parameter.numbers_at, 2 * parameter.count
     (ahead,) = struct.unpack_from("<h", out, parameter.kind_at - 2)
@@ -87,22 +97,78 @@ def _shorten(out: bytearray, parameter: _Parameter, values: list[int], end: int)
     out[at:end] = struct.pack(f"<{len(values)}h", *values) + out[at + 2 * spared : end] + bytes(spared)
 
 
-def _parameters(data: bytes) -> Iterator[_Parameter]:
-    """All parameters, as far as the section can be followed; groups come before theirs or after."""
-    at, groups = (data[0] - 1) * _BLOCK + 4, dict[int, str]()
-    places: list[tuple[int, int, str, int]] = []
-    while at < len(data) and data[at] != 0:
-        letters, group = struct.unpack_from("<bb", data, at)
-        name = data[at + 2 : at + 2 + abs(letters)].decode("latin-1")
-        ahead_at = at + 2 + abs(letters)
-        (ahead,) = struct.unpack_from("<h", data, ahead_at)
+def with_real_numbers(data: bytes) -> bytes | None:
+    """The file with rates, scales and places as real numbers; None where there is nothing to change.
+
+    The section grows by blocks where it must, and what follows it moves.
+    """
+    if processor(data) != INTEL:
+        return None
+    try:
+        found = [p for p in parameters(data) if p.kind == _WHOLE and p.name in REALS.get(p.group, ())]
+        numbers = [struct.unpack_from(f"<{p.count}h", data, p.numbers_at) for p in found]
+        start = (data[0] - 1) * _BLOCK
+        end = start + _BLOCK * data[start + 2]
+        out = bytearray(data)
+        for parameter, values in zip(reversed(found), reversed(numbers), strict=True):
+            _widen(out, parameter, values)
+        return _in_blocks(out, start, end, len(out) - len(data)) if found else None
+    except (IndexError, struct.error):
+        return None
+
+
+def _widen(out: bytearray, parameter: C3dParameter, values: tuple[int, ...]) -> None:
+    """Numbers of four bytes for those of two; all that follows in the file moves down."""
+    (ahead,) = struct.unpack_from("<h", out, parameter.kind_at - 2)
+    if ahead:
+        struct.pack_into("<h", out, parameter.kind_at - 2, ahead + 2 * len(values))
+    out[parameter.kind_at] = _REAL
+    at = parameter.numbers_at
+    out[at : at + 2 * len(values)] = struct.pack(f"<{len(values)}f", *values)
+
+
+def _in_blocks(out: bytearray, start: int, end: int, grown: int) -> bytes:
+    """The file with its section, which was to end at `end` and has grown, in whole blocks, and its data after them."""
+    before = (end - start) // _BLOCK
+    used = len(out[start : end + grown].rstrip(b"\0")) + _CLOSING
+    after = max(before, -(-used // _BLOCK))
+    section = bytes(out[start : end + grown])[: after * _BLOCK].ljust(after * _BLOCK, b"\0")
+    out[start : end + grown] = section
+    out[start + 2] = after
+    places = [_DATA_START, *(p.numbers_at for p in parameters(out) if (p.group, p.name) == ("POINT", "DATA_START"))]
+    for place in places:
+        (data_start,) = struct.unpack_from("<H", out, place)
+        struct.pack_into("<H", out, place, data_start + after - before)
+    return bytes(out)
+
+
+def parameters(data: bytes | bytearray, order: str = "<") -> Iterator[C3dParameter]:
+    """All parameters, as far as the section can be followed; groups come before theirs or after.
+
+    `order` of the bytes is that of `struct`.
+    """
+    groups: dict[int, str] = {}
+    places: list[tuple[int, str, int]] = []
+    for group, name, ahead_at in entries(data, order):
         if group < 0:
-            groups[-group] = name.upper()
+            groups[-group] = name
         else:
-            places.append((group, struct.unpack_from("<b", data, ahead_at + 2)[0], name.upper(), ahead_at + 2))
+            places.append((group, name, ahead_at + 2))
+    for group, name, kind_at in places:
+        (kind,) = struct.unpack_from("<b", data, kind_at)
+        sizes = data[kind_at + 2 : kind_at + 2 + data[kind_at + 1]]
+        yield C3dParameter(groups.get(group, ""), name, kind, prod(sizes), kind_at, kind_at + 2 + len(sizes))
+
+
+def entries(data: bytes | bytearray, order: str = "<") -> Iterator[tuple[int, str, int]]:
+    """Number (negative of a group), name, and where it says how far it is to the next, of groups and parameters."""
+    at = (data[0] - 1) * _BLOCK + 4
+    end = min(at - 4 + _BLOCK * (data[at - 2] or len(data)), len(data))  # some programs do not count the blocks
+    while at < end and data[at] != 0:
+        letters, group = struct.unpack_from("<bb", data, at)
+        ahead_at = at + 2 + abs(letters)
+        (ahead,) = struct.unpack_from(f"{order}h", data, ahead_at)
+        yield group, data[at + 2 : ahead_at].decode("latin-1").upper(), ahead_at
         if ahead <= 0:
             break
         at = ahead_at + ahead
-    for group, kind, name, kind_at in places:
-        sizes = data[kind_at + 2 : kind_at + 2 + data[kind_at + 1]]
-        yield _Parameter(groups.get(group, ""), name, kind, prod(sizes), kind_at, kind_at + 2 + len(sizes))

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import os
+import struct
 import subprocess
 import sys
 import tempfile
@@ -20,7 +21,8 @@ import numpy as np
 from geocontact.data.errors import InputError
 from geocontact.data.magnitude import too_large
 from geocontact.data.plausible import TOO_LARGE
-from geocontact.io.mocap.c3d_parameters import MIPS, processor, with_whole_counts
+from geocontact.io.mocap.c3d_byte_order import as_intel
+from geocontact.io.mocap.c3d_parameters import MIPS, processor, with_real_numbers, with_whole_counts
 from geocontact.io.mocap.clipped import clipped_runs
 from geocontact.io.text.file_preflight import read_bytes
 
@@ -62,25 +64,34 @@ def read_apart(path: str | PathLike[str], module: str, analogs: bool = True) -> 
         raise InputError(file, "", "is not a .c3d file although its name says so", "export or download it again")
     if len(data) > LARGEST:
         raise InputError(file, "", f"{len(data) / 1e6:.0f} MB is more than the {LARGEST / 1e6:.0f} MB limit", "cut it")
-    if processor(data) == MIPS:
-        what = "is in the byte order of MIPS (SGI) computers, which ezc3d does not read; the file itself may be sound"
-        raise InputError(file, "", what, "save it for PC (Intel) with the program that made it, or with Mokka")
     patience = (PATIENCE[0] + PATIENCE[1] * len(data)) * _waiting()
-    digestible = with_whole_counts(data, file, analogs)
-    if digestible is None:
+    digestible = _digestible(data, file, analogs)
+    if digestible is data:
         arrays = _run(file, module, file, patience)
     else:
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(folder) / "copy.c3d"
             copy.write_bytes(digestible)
             arrays = _run(file, module, str(copy), patience)
-    declared, found = _frames_declared(data), int(arrays["frames"])
+    declared, found = _frames_declared(digestible), int(arrays["frames"])
     if found < declared:  # ezc3d passes over what is missing without a word
         raise InputError(file, "", f"holds {found} of the {declared} frames it declares", "is it complete?")
     for name, values in arrays.items():
         if values.dtype.kind == "f" and too_large(values).any():
             raise InputError(file, "", f"holds a number in {name.partition('_')[0]} that {TOO_LARGE}", "is it damaged?")
     return arrays
+
+
+def _digestible(data: bytes, file: str, analogs: bool) -> bytes:
+    """The file as ezc3d takes it: for PC, counts as whole numbers, rates, scales and places as real ones."""
+    if processor(data) == MIPS:
+        try:
+            data = as_intel(data)
+        except (IndexError, struct.error) as error:
+            what = "is in the byte order of MIPS (SGI) computers, and its parameters cannot be followed"
+            raise InputError(file, "", what, "is the file damaged?") from error
+    data = with_whole_counts(data, file, analogs) or data
+    return with_real_numbers(data) or data
 
 
 def _run(file: str, module: str, copy: str, patience: float) -> Arrays:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from geocontact.data.errors import InputError
+from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.text.units import LENGTH, length_unit, si_unit
 
 _POUND_FORCE = 4.4482216152605
@@ -35,16 +36,36 @@ class PlateUnits:
     doubt: str = ""
 
 
-def plate_units(file: str, place: str, kind: int, points: str, channels: Sequence[str]) -> PlateUnits:
+def point_metre(file: str, written: str, stated: str | None) -> float:
+    """Metres per unit of places, from POINT:UNITS, or as the user states it where that is empty.
+
+    InputError where neither says it, and for what is no unit of length; a warning where they contradict each other.
+    """
+    if not written.strip():
+        if stated is None:
+            raise InputError(file, "POINT:UNITS", "is empty: the unit of its places is not known", _STATE_IT)
+        return LENGTH[stated]
+    unit = length_unit(written)
+    if unit is None:
+        raise InputError(file, "POINT:UNITS", f"is '{written[:20]}'", f"expected one of {', '.join(LENGTH)}")
+    if stated not in (None, unit):
+        what = f"POINT:UNITS is '{written[:20]}', which counts; `c3d_unit` {stated} is for files whose own is empty"
+        warnings.warn(InputWarning(f"{file}: {what}"), stacklevel=4)
+    return LENGTH[unit]
+
+
+_STATE_IT = f"state it with `c3d_unit` {', '.join([*LENGTH][:-1])} or {[*LENGTH][-1]}"
+
+
+def plate_units(
+    file: str, place: str, kind: int, points: str, channels: Sequence[str], stated: str | None = None
+) -> PlateUnits:
     """Units of a plate of a type from POINT:UNITS and ANALOG:UNITS of its channels.
 
-    Channels without a unit of force or moment are in N and in N times the unit of points, as ezc3d has it.
+    Channels without a unit of force or moment are in N and in N times the unit of points, as ezc3d has it. `stated` is
+    the unit of points where the file says none.
     """
-    unit = length_unit(points) if points else "mm"
-    doubt = "" if points else "POINT:UNITS is empty; its places are taken to be in mm"
-    if unit is None:
-        raise InputError(file, "POINT:UNITS", f"is '{points[:20]}'", f"expected one of {', '.join(LENGTH)}")
-    metre = LENGTH[unit]
+    metre, doubt = point_metre(file, points, stated), ""
     pushing = channels[:3] if kind in (*MOMENTS_LAST, _CENTRE) else channels
     newton = _one(file, place, "forces", pushing, [_force(each) for each in pushing]) or 1.0
     if kind in MOMENTS_LAST:
@@ -55,7 +76,7 @@ def plate_units(file: str, place: str, kind: int, points: str, channels: Sequenc
         _require_of_points(file, place, kind, channels, points, metre)
     odd = next((each for each in channels if _strange(each)), None)
     if odd is not None and not (kind == _CALIBRATED and _electric(odd)):
-        doubt = f"ANALOG:UNITS of its channels is '{odd[:20]}'; they are taken to be in N and N{unit}"
+        doubt = f"ANALOG:UNITS of its channels is '{odd[:20]}'; they are taken to be in N and N{_name(metre)}"
     return PlateUnits(newton, metre, moment, doubt)
 
 
@@ -93,6 +114,10 @@ def _moment(written: str) -> float | None:
     match = _MOMENT.fullmatch(written.strip())
     unit = length_unit(match["length"]) if match else None
     return None if match is None or unit is None else _FORCE[match["force"].lower()] * LENGTH[unit]
+
+
+def _name(metre: float) -> str:
+    return next(name for name, size in LENGTH.items() if size == metre)
 
 
 def _electric(written: str) -> bool:

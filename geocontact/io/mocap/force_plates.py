@@ -24,6 +24,10 @@ LABORATORY_FRAME = "laboratory of the .c3d"
 LOADED = 20.0
 """Load [N] from which a sample tells in which direction a plate is loaded."""
 
+WORN = 0.4
+"""Share of the body's weight that a force may press down with as a device that is worn: of a plate the wrong way round
+half of it and more, by one of two feet that stand."""
+
 RETURNS = 10.0
 """Load [N] below which a plate has returned to nothing."""
 
@@ -84,34 +88,68 @@ class ForcePlate:
         return lengths_outside(self.centre_of_pressure(), load, self.corners, LOADED)
 
 
-def read_force_plates(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
-    """All force plates of a .mot, .sto or .c3d file, in its order; forces are those on the foot."""
+def read_force_plates(path: str | PathLike[str], c3d_unit: str | None = None) -> tuple[ForcePlate, ...]:
+    """All force plates of a .mot, .sto or .c3d file, in its order; forces are those on the foot.
+
+    `c3d_unit` is the unit of places in a .c3d file whose own is empty.
+    """
     suffix = Path(fspath(path)).suffix.lower()
     if suffix == ".c3d":
-        return _from_c3d(path)
+        return _from_c3d(path, c3d_unit)
     if suffix in (".mot", ".sto"):
         return _from_table(read_table(path))
     raise InputError(path, "", f"'{suffix}' is not a file of ground reactions", "give a .mot, .sto or .c3d file")
 
 
-def plate_named(plates: tuple[ForcePlate, ...], name: str | None, path: Path, option: str) -> ForcePlate:
+def plate_named(
+    plates: tuple[ForcePlate, ...],
+    name: str | None,
+    path: Path,
+    option: str,
+    weight: float = 0.0,
+    in_ground: bool = True,
+) -> ForcePlate:
     """The plate of this name or number, counted from 1; the only one where none is named.
 
-    `option` is how the user names one, for messages. A plate that pulls at the foot is refused: its file holds the
-    forces on the plate. A force whose opposite is there too is none of a plate, but between two bodies. One whose
-    centre of pressure lies off its own surface by more than a plate's length is refused too.
+    A plate that pulls at the foot is refused: its file holds the forces on the plate. A force whose opposite is there
+    too is none of a plate, but between two bodies. One whose centre of pressure lies off its own surface by more than a
+    plate's length is refused too.
+
+    Parameters
+    ----------
+    option
+        How the user names a plate, for messages.
+    weight
+        Of the body [N], where the force may be that of a device worn on it: up to `WORN` of that it may press down,
+        which is said.
+    in_ground
+        Whether the force is in the axes of the ground; in those of a body nothing is known of up and down.
     """
     plate = _named(plates, name, path, option)
     if plate.outside() > FAR:
         raise InputError(path, plate.name, _off(plate), _OFF_REMEDY)
+    if in_ground:
+        _require_up(plate, plates, path, weight)
+    return plate
+
+
+def _require_up(plate: ForcePlate, plates: tuple[ForcePlate, ...], path: Path, weight: float) -> None:
+    """Of the usual force under load: InputError where it presses down, a warning where a device may do so."""
     pushing = plate.wrench.force @ plate.normal
     loaded = pushing[np.abs(pushing) >= LOADED]
     usual = float(np.median(loaded)) if len(loaded) else 0.0
-    if usual < 0.0 and not any(np.array_equal(other.wrench.force, -plate.wrench.force) for other in plates):
-        up = "xyz"[int(np.argmax(np.abs(plate.normal)))]
-        what = f"its force along {up}, which is up, is {usual:.4g} N under load: that is the force on the plate"
-        raise InputError(path, plate.name, what, "give the force on the foot: turn the sign of forces and torques")
-    return plate
+    if usual >= 0.0 or any(np.array_equal(other.wrench.force, -plate.wrench.force) for other in plates):
+        return
+    up = "xyz"[int(np.argmax(np.abs(plate.normal)))]
+    what = f"its force along {up}, which is up, is {usual:.4g} N under load"
+    if -usual > WORN * weight:
+        remedy = "give the force on the foot: turn the sign of forces and torques"
+        raise InputError(path, plate.name, f"{what}: that is the force on the plate", remedy)
+    part = f"{-usual / weight:.0%} of the model's weight"
+    warnings.warn(
+        InputWarning(f"{path} {plate.name}: {what}, {part}: it presses down, as a device does that is worn"),
+        stacklevel=4,
+    )
 
 
 def _named(plates: tuple[ForcePlate, ...], name: str | None, path: Path, option: str) -> ForcePlate:
@@ -173,7 +211,7 @@ def _three(table: TextTable, stem: str) -> Float[np.ndarray, "t 3"]:
     return values
 
 
-def _from_c3d(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
+def _from_c3d(path: str | PathLike[str], c3d_unit: str | None) -> tuple[ForcePlate, ...]:
     """Plates as ezc3d calibrates and turns them into the laboratory: moment about the middle of the surface."""
     file = fspath(path)
     arrays = read_c3d_plates(path)
@@ -187,7 +225,7 @@ def _from_c3d(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
     if bool(arrays["polynomial"]):
         what = "FORCE_PLATFORM:FPCOPPOLY, Kistler's correction of the centre of pressure, is not applied"
         warnings.warn(InputWarning(f"{file}: {what}"), stacklevel=4)
-    return tuple(_c3d_plate(file, arrays, k) for k in range(count))
+    return tuple(_c3d_plate(file, arrays, k, c3d_unit) for k in range(count))
 
 
 _OFF_REMEDY = "check POINT:UNITS, ANALOG:UNITS, and ORIGIN, CORNERS and CHANNEL of FORCE_PLATFORM"
@@ -197,9 +235,10 @@ def _off(plate: ForcePlate) -> str:
     return f"under load its centre of pressure lies {plate.outside():.2g} plate's lengths outside of it (median)"
 
 
-def _c3d_plate(file: str, arrays: Arrays, k: int) -> ForcePlate:
+def _c3d_plate(file: str, arrays: Arrays, k: int, c3d_unit: str | None) -> ForcePlate:
     name = f"plate {k + 1}"
-    units = plate_units(file, name, int(arrays[f"type_{k}"]), str(arrays["unit"]), list(map(str, arrays[f"units_{k}"])))
+    channels = list(map(str, arrays[f"units_{k}"]))
+    units = plate_units(file, name, int(arrays[f"type_{k}"]), str(arrays["unit"]), channels, c3d_unit)
     corners = arrays[f"corners_{k}"] * units.metre
     with np.errstate(over="ignore", invalid="ignore"):
         down = np.cross(corners[0] - corners[1], corners[0] - corners[3])

@@ -12,13 +12,16 @@ from geocontact.io.mocap.csv_markers import read_csv_markers
 from geocontact.io.mocap.trc import read_trc
 
 
-def read_markers(path: str | PathLike[str]) -> MarkerTrajectories:
-    """Marker trajectories of a .trc, .c3d or .csv file in metres, in the file's own axes."""
+def read_markers(path: str | PathLike[str], c3d_unit: str | None = None) -> MarkerTrajectories:
+    """Marker trajectories of a .trc, .c3d or .csv file in metres, in the file's own axes.
+
+    `c3d_unit` is that of a .c3d file whose own is empty.
+    """
     suffix = Path(fspath(path)).suffix.lower()
     if suffix == ".trc":
         return read_trc(path)
     if suffix == ".c3d":
-        return read_c3d_markers(path)
+        return read_c3d_markers(path, c3d_unit)
     if suffix == ".csv":
         return read_csv_markers(path)
     raise InputError(path, "", f"'{suffix}' is not a file of markers", "give a .trc, .c3d or .csv file")

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 from jaxtyping import Bool, Float
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.magnitude import too_large
@@ -24,6 +24,9 @@ from geocontact.io.text.units import LENGTH, length_unit, split_header
 
 LARGEST_TABLE = 16_000_000
 """Bytes; some hundred thousand spheres."""
+
+FARTHEST_FOOT = 0.05, 0.35
+"""Height [m] and pitch [rad] that a foot may be beside its standing trial; 0.35 rad are 20 degrees."""
 
 PLAUSIBLE = 0.5e-3, 0.5
 """Radii [m] that spheres under a foot have: from a stud of a shoe to the rocker of a prosthesis."""
@@ -65,8 +68,32 @@ class ZoneLaw(BaseModel):
     mu_k: float | None = None
 
 
+class FootLaw(BaseModel):
+    """Where a prosthetic foot is on its socket beside a standing trial, as a calibration found it with the law.
+
+    Parameters
+    ----------
+    height, height_sd
+        By which its middle is raised, and the standard deviation of that [m].
+    pitch, pitch_sd
+        By which it is turned, the toes up, and the standard deviation of that [rad].
+    standing
+        SHA-256 of the standing trial.
+    """
+
+    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+    height: float = Field(default=0.0, ge=-FARTHEST_FOOT[0], le=FARTHEST_FOOT[0])
+    height_sd: float = Field(default=0.0, ge=0.0, le=FARTHEST_FOOT[0])
+    pitch: float = Field(default=0.0, ge=-FARTHEST_FOOT[1], le=FARTHEST_FOOT[1])
+    pitch_sd: float = Field(default=0.0, ge=0.0, le=FARTHEST_FOOT[1])
+    standing: str | None = Field(default=None, pattern=r"^[0-9a-f]{64}$")
+
+
 class LawFile(BaseModel):
-    """Numbers of a force law, each optional: for all spheres at the top, for one zone in `[zone.NAME]`."""
+    """Numbers of a force law, each optional: for all spheres at the top, for one zone in `[zone.NAME]`.
+
+    `[foot]` is no part of the law, but was found with it; a file without it has a foot as its standing trial has it.
+    """
 
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
     k: float | None = None
@@ -77,6 +104,7 @@ class LawFile(BaseModel):
     mu_k: float | None = None
     v_th: float | None = None
     zone: dict[str, ZoneLaw] = {}
+    foot: FootLaw | None = None
 
 
 def read_spheres(path: str | PathLike[str]) -> SphereTable:
@@ -106,7 +134,10 @@ def read_spheres(path: str | PathLike[str]) -> SphereTable:
 
 
 def read_law(path: str | PathLike[str]) -> LawFile:
-    """Numbers of a force law in a .toml: k, b, n, delta_full, mu_s, mu_k, v_th (SI), and k, b, mu_s, mu_k of zones."""
+    """Numbers of a force law in a .toml: k, b, n, delta_full, mu_s, mu_k, v_th (SI), and k, b, mu_s, mu_k of zones.
+
+    Beside them `[foot]` as `FootLaw` has it.
+    """
     file = fspath(path)
     content = toml_of(Path(path), LARGEST_TABLE)
     if not content:
@@ -118,6 +149,8 @@ def read_law(path: str | PathLike[str]) -> LawFile:
         place = ".".join(map(str, first["loc"]))
         what = "is not known here" if first["type"] == "extra_forbidden" else first["msg"].lower()
         remedy = "known are k, b, n, delta_full, mu_s, mu_k, v_th, and k, b, mu_s, mu_k in [zone.NAME]"
+        if place.startswith("foot"):
+            remedy = "[foot] has height, height_sd [m], pitch, pitch_sd [rad] and standing, a SHA-256"
         raise InputError(file, place, what, remedy) from error
 
 

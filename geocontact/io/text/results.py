@@ -6,11 +6,22 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pandas as pd
+from pandas.api.types import is_float_dtype
 
-from geocontact.io.text.late_times import with_microseconds
+from geocontact.data.seconds import is_late, seconds
 from geocontact.io.text.written_units import RESULTS, misfits
 
 DIGITS = 12
+
+
+def with_microseconds(table: pd.DataFrame, digits: int) -> pd.DataFrame:
+    """The table with its columns in seconds as text, as far as so many digits would lose microseconds."""
+    texts = {
+        name: ["" if pd.isna(each) else seconds(each, digits) for each in table[name]]
+        for name in table.columns
+        if str(name).endswith("[s]") and is_float_dtype(table[name]) and is_late(table[name].abs().max(), digits)
+    }
+    return table.assign(**texts)
 
 
 def write_table(table: pd.DataFrame, folder: Path, name: str = "area", units: Mapping[str, str] = RESULTS) -> None:

@@ -17,7 +17,7 @@ from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.cuff_contact import Cuff
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
 from geocontact.shoulder_exoskeleton.in_cuff import MOST_LOST
-from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
+from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, move_arm
 from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds, detected
 from geocontact.shoulder_exoskeleton.support.sensing import Sensing, sensed
 
@@ -91,9 +91,9 @@ def controlled_arm(
     phase = controller.phases(motion.time, motion.elevation) if guess is None else guess
     for _ in range(PASSES):
         factor = controller.factors[phase]
-        found = simulate_arm(motion, device, wearer, level, factor=factor, cuff=cuff, most_lost=most_lost)
-        seen = controller.phases(motion.time, found.elevation)
+        moved = move_arm(motion, device, wearer, level, factor=factor, cuff=cuff)
+        seen = controller.phases(motion.time, moved.elevation)
         if np.array_equal(seen, phase):
-            return ControlledArm(found, phase, factor)
+            return ControlledArm(moved.simulation(most_lost), phase, factor)
         phase = seen
     raise ArithmeticError(f"the controller's phases have not settled after {PASSES} simulations")

@@ -182,17 +182,24 @@ def _reached(rows: Float[np.ndarray, "m k"], most: Float[np.ndarray, " m"]) -> R
 def _steepest(steep: Float[np.ndarray, "m k"], order: Int[np.ndarray, " m"]) -> Int[np.ndarray, " b"]:
     """Rows beside which no other is at least as large in every column; of equal ones the first."""
     kept = np.empty(len(order), np.int64)
-    count = 0
+    count, last = 0, 0  # what the row before was beside is asked first
     for row in order:
-        new = True
-        for other in kept[:count]:
-            beyond = False
-            for column in range(steep.shape[1]):
-                beyond = beyond or steep[row, column] > steep[other, column]
-            if not beyond:
-                new = False
-                break
+        new = count == 0 or not _beside(steep, kept[last], row)
+        if new:
+            for place in range(count):
+                if _beside(steep, kept[place], row):
+                    new, last = False, place
+                    break
         if new:
             kept[count] = row
             count += 1
     return kept[:count]
+
+
+@kernel
+def _beside(steep: Float[np.ndarray, "m k"], one: int, other: int) -> bool:
+    """Whether a row is at least as large as another in every column."""
+    for column in range(steep.shape[1]):  # noqa: SIM110 - compiled code has no `all` of a generator
+        if steep[other, column] > steep[one, column]:
+            return False
+    return True

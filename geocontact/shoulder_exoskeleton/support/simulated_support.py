@@ -14,7 +14,7 @@ from jaxtyping import Float, Int
 
 from geocontact.shoulder_exoskeleton.device import Device
 from geocontact.shoulder_exoskeleton.in_cuff import OutOfCuffError
-from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
+from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, require_held
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial
 from geocontact.shoulder_exoskeleton.support.controlled_arm import ControlledArm, Controller, controlled_arm
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome, outcome_of
@@ -76,14 +76,14 @@ def simulated_support(
     keys = [FactorKey(trial.task, trial.hand, phase) for phase in PHASES]
     shares = np.array([factors.get(key, 0.0) for key in keys])
     control = Controller(shares, trial.current, Thresholds(), sensing, seed)
+    arm, lost = controlled_arm(trial.motion, device, trial.wearer, 1.0, control, guess=guess, most_lost=1.0), False
+    found = arm.simulation
     try:
-        arm, lost = controlled_arm(trial.motion, device, trial.wearer, 1.0, control, guess=guess), False
+        require_held(found)
     except OutOfCuffError:
         if strict:
             raise
-        arm = controlled_arm(trial.motion, device, trial.wearer, 1.0, control, guess=guess, most_lost=1.0)
         lost = True
-    found = arm.simulation
     torque = raising_torque(found)
     rate = float(np.abs(np.diff(torque) / np.diff(found.motion.time)).max())
     force = np.linalg.norm(found.told["force"], axis=1)

@@ -50,10 +50,13 @@ class AssistedModel:
         Its equations have the part of the movement as their first input, then `TORQUES`.
     help
         Of `standing`'s inputs and parameters: torque of the exoskeleton's knee [N m].
+    width
+        Of the help, in parts of the movement.
     """
 
     standing: StandingModel
     help: SX
+    width: float
 
     @property
     def controlled(self) -> range:
@@ -61,15 +64,16 @@ class AssistedModel:
         return range(1, 1 + len(TORQUES))
 
 
-def assisted_model(subject: Subject, strap: StrapLaw | None = None) -> AssistedModel:
+def assisted_model(subject: Subject, strap: StrapLaw | None = None, width: float = WIDTH) -> AssistedModel:
     """Of a person who wears the exoskeleton, with the strap that is calibrated unless another is given."""
     from casadi import SX, exp, vertcat
 
     p, part, torque = SX.sym("p", len(ASSISTED_PARAMETERS)), SX.sym("part"), SX.sym("torque", len(TORQUES))
-    helped = p[SHARE] * exp(-0.5 * ((part - p[TIMING]) / WIDTH) ** 2) * torque[KNEE]
+    helped = p[SHARE] * exp(-0.5 * ((part - p[TIMING]) / width) ** 2) * torque[KNEE]
     along = {name: torque[k] for k, name in enumerate(("ankle", "knee", "hip", "exo_hip"))} | {"exo_knee": helped}
     tree = tree_of(two_chains(subject))
-    return AssistedModel(worn_model(tree, p, along, vertcat(part, torque), ASSISTED_PARAMETERS, strap), helped)
+    standing = worn_model(tree, p, along, vertcat(part, torque), ASSISTED_PARAMETERS, strap)
+    return AssistedModel(standing, helped, width)
 
 
 def seen_assisted(

@@ -14,7 +14,7 @@ limit as -Σ λ_s.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -114,7 +114,8 @@ class HelpDesign:
 def designed(movements: Movements, sets: Float[np.ndarray, "s p"], task: HelpTask, iterations: int = 60) -> HelpDesign:
     """For all sets of parameters at once: the aim is the smooth worst of them, the limit holds for each.
 
-    Ctrl-C keeps the last iterate.
+    Where a movement of the best leaves too much of the balance its intervals are halved, and the search goes on from
+    there. Ctrl-C keeps the last iterate.
 
     Parameters
     ----------
@@ -123,6 +124,17 @@ def designed(movements: Movements, sets: Float[np.ndarray, "s p"], task: HelpTas
 
     ArithmeticError where no movement is found, StoppedByHandError where Ctrl-C came before the first one.
     """
+    best = _on_one_mesh(movements, sets, task, iterations)
+    while not best.stopped and movements.refine(best.movements):
+        try:
+            best = _on_one_mesh(movements, best.p, task, iterations)
+        except StoppedByHandError:
+            best = replace(best, met=False, stopped=True, ending=STOPPED)
+    return best
+
+
+def _on_one_mesh(movements: Movements, sets: Float[np.ndarray, "s p"], task: HelpTask, iterations: int) -> HelpDesign:
+    """The best on the meshes that the movements have."""
     from scipy.optimize import minimize
 
     low, high = task.ends

@@ -48,6 +48,8 @@ class Asked:
         The person's knee torque at all places [N m].
     knee_slopes
         Its derivatives by what is searched of each parameter.
+    order, places
+        Of the norm that smooths; of an interval, where true peaks are looked for.
     """
 
     sizes: Float[np.ndarray, " k"]
@@ -55,32 +57,42 @@ class Asked:
     largest: Float[np.ndarray, " k"]
     knee: Float[np.ndarray, " t"]
     knee_slopes: Float[np.ndarray, "t p"]
+    order: int
+    places: int
 
 
-def asked(model: AssistedModel, problem: ControlProblem, found: CollocationResult, *, slopes: bool = True) -> Asked:
+def asked(
+    model: AssistedModel,
+    problem: ControlProblem,
+    found: CollocationResult,
+    *,
+    slopes: bool = True,
+    order: int = ORDER,
+    places: int = PLACES,
+) -> Asked:
     """Of all trials of a solved `habit` together; derivatives are not numbers where they are not wanted."""
     parts = [_over_points(model, problem, found, k) for k in range(len(found.motions))]
     weights = np.concatenate([each.weights for each in parts]) / len(parts)
     values = np.concatenate([each.values for each in parts], axis=1)
     size = np.abs(values).max(axis=1)
     scaled = np.abs(values) / size[:, None]
-    peaks = size * (scaled**ORDER @ weights) ** (1.0 / ORDER)
+    peaks = size * (scaled**order @ weights) ** (1.0 / order)
     energy, knee = MEASURES.index("energy"), MEASURES.index("knee")
     peaks[energy] = values[energy] @ weights
-    places = [_at_places(model, problem, found, k) for k in range(len(found.motions))]
-    everywhere = np.concatenate([each[0] for each in places], axis=1)
+    there = [_at_places(model, problem, found, k, places) for k in range(len(found.motions))]
+    everywhere = np.concatenate([each[0] for each in there], axis=1)
     by, of_knee = np.full((len(MEASURES), len(found.p)), np.nan), np.full((everywhere.shape[1], len(found.p)), np.nan)
     if slopes:
         along = responses(problem, found)
         changes = np.concatenate([each.followed(one) for each, one in zip(parts, along, strict=True)], axis=2)
         # of the norm by one value: w |F|^(r-1) sign(F) / norm^(r-1)
-        pull = weights * np.sign(values) * (np.abs(values) / peaks[:, None]) ** (ORDER - 1)
+        pull = weights * np.sign(values) * (np.abs(values) / peaks[:, None]) ** (order - 1)
         pull[energy] = weights
         by = np.einsum("kt,kpt->kp", pull, changes)
         of_knee = np.concatenate(
-            [_knee_slopes(model, one.controls, each[1]) for one, each in zip(along, places, strict=True)]
+            [_knee_slopes(model, one.controls, each[1]) for one, each in zip(along, there, strict=True)]
         )
-    return Asked(peaks, by, np.abs(everywhere).max(axis=1), everywhere[knee], of_knee)
+    return Asked(peaks, by, np.abs(everywhere).max(axis=1), everywhere[knee], of_knee, order, places)
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,13 +139,13 @@ def _seen(model: AssistedModel, problem: ControlProblem) -> SX:
 
 
 def _at_places(
-    model: AssistedModel, problem: ControlProblem, found: CollocationResult, k: int
+    model: AssistedModel, problem: ControlProblem, found: CollocationResult, k: int, places: int
 ) -> tuple[Float[np.ndarray, "k t"], Float[np.ndarray, "s d"]]:
     """Values at the places of all intervals of a trial, and the weights of an interval's controls at its places."""
     from casadi import Function
 
     system, motion = problem.system, found.motions[k]
-    where = np.unique(np.r_[np.linspace(0.0, 1.0, PLACES), motion.scheme.points])
+    where = np.unique(np.r_[np.linspace(0.0, 1.0, places), motion.scheme.points])
     of_controls = motion.scheme.of_controls(where)
     x = np.einsum("sd,mdx->msx", motion.scheme.of_states(where), motion.states).reshape(-1, motion.states.shape[2])
     u = np.einsum("sd,mdu->msu", of_controls, motion.controls).reshape(-1, motion.controls.shape[2])

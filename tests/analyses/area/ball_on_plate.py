@@ -56,7 +56,7 @@ def told(*args, **kwargs):
 def page(*args, **kwargs):
     """The page before it becomes HTML, and the areas."""
     here = told(*args, **kwargs)
-    return contact_page.contact_page(here, "", (), ("a reservation",)), here.evolution
+    return contact_page.contact_page(here, ""), here.evolution
 
 
 def section(found, kind, n=0):

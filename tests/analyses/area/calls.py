@@ -6,9 +6,8 @@ import warnings
 from pathlib import Path
 from typing import Any
 
-from geocontact.analyses.area.job import area as analysis
-from geocontact.analyses.area.job import pressure
-from geocontact.analyses.area.result import AreaResult
+from geocontact.analyses.area.result import AreaResult, pressure
+from geocontact.analyses.area.result import area as analysis
 from geocontact.data.errors import InputWarning
 from tests.cli.calls import FEMUR, INSERT
 

@@ -5,14 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from geocontact.analyses import finished_page
 from geocontact.analyses.area import page as contact_page
-from geocontact.analyses.area.page import write_report
+from geocontact.analyses.area.page import thinned_page
 from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.run_record import Record
 from geocontact.geometry.contact_area.area import AS_GIVEN, Refinement
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.view.page.content import Curves, Readout, Scene, Strip, Table, Words
 from geocontact.view.page.tables import inputs_table
+from geocontact.view.page.write import page_html
 from geocontact.view.surfaces.directions import camera_directions
 from meshes.simple_shapes import sphere
 from tests.analyses.area.ball_on_plate import MM, WIDE, R, T, analysed, moved, page, section, swept, told
@@ -98,7 +101,6 @@ def test_words_hold_what_a_reviewer_looks_for():
     assert "plate (fixed) lies within 4 mm of ball" in words["Question"]
     width = ((evolution.fixed.upper - evolution.fixed.lower)[:, 1] * 1e6).max()
     assert f"{width:.1f} mm² apart at most" in words["Numerical error"]
-    assert found.reservations == ("a reservation",)
 
 
 def test_mesh_statistics():
@@ -110,14 +112,12 @@ def test_mesh_statistics():
     assert ball["size [mm]"] == "40.0 × 40.0 × 40.0"
 
 
-def test_long_motions_are_thinned_and_keep_the_frames_that_answer(tmp_path, monkeypatch):
+def test_long_motions_are_thinned_and_keep_the_frames_that_answer(monkeypatch):
     """Most contact and smallest distance are in frame 4 of 9, which no stride would show."""
-    seen = []
-    monkeypatch.setattr(contact_page, "write_page", lambda p, path: seen.append(p) or 1)
     monkeypatch.setattr(contact_page, "FRAMES", 3)
     here = analysed((22.0, 24.0, 23.0, 20.5, 26.0, 20.8, 22.0, 23.0, 30.0), every=2)
-    write_report(tmp_path / "r.html", *here)
-    (found,) = seen
+    thinned = thinned_page(*here)
+    found = thinned.of(thinned.most)
     frames = [k - 1 for k in found.numbers]
     assert 3 in frames and len(frames) <= 4 and found.total == 9 and frames[found.start_frame] == 3
     assert list(found.time) == pytest.approx([0.1 * k for k in frames])
@@ -136,17 +136,17 @@ def test_long_motions_are_thinned_and_keep_the_frames_that_answer(tmp_path, monk
 
 def test_a_page_that_would_be_too_large_is_thinned_until_it_fits(tmp_path, monkeypatch):
     sizes = []
-    monkeypatch.setattr(contact_page, "LARGEST_FILE", 1000)
-    monkeypatch.setattr(contact_page, "FEWEST", 2)
-    monkeypatch.setattr(contact_page, "write_page", lambda p, path: sizes.append(200 * len(p.time)) or sizes[-1])
-    size = write_report(tmp_path / "r.html", *analysed(tuple(np.linspace(20.5, 24.0, 12))))
-    assert sizes[0] == 2400 and sizes == sorted(sizes, reverse=True) and size == sizes[-1] <= 1000
+    monkeypatch.setattr(finished_page, "LARGEST_FILE", 1000)
+    monkeypatch.setattr(finished_page, "write_page", lambda p, path: sizes.append(200 * len(p.time)) or sizes[-1])
+    page = replace(thinned_page(*analysed(tuple(np.linspace(20.5, 24.0, 12)))), fewest=2)
+    finished_page.write_finished(page, tmp_path / "r.html", Record("area", {}), "", ())
+    assert sizes[0] == 2400 and sizes == sorted(sizes, reverse=True) and sizes[-1] <= 1000
 
 
-def test_without_maps_there_is_no_page(tmp_path):
+def test_without_maps_there_is_no_page():
     *known, _ = analysed()
     with pytest.raises(ValueError, match=r"each=maps\.add"):
-        write_report(tmp_path / "r.html", *known, DistanceMaps(*known[:2]))
+        thinned_page(*known, DistanceMaps(*known[:2]))
 
 
 def test_maps_keep_every_so_many_frames_and_those_that_answer():
@@ -219,20 +219,20 @@ def test_strip_holds_the_refined_area_where_it_has_one():
 def test_each_body_says_whether_its_distances_carry_a_sign(signed, bodies):
     here = told((20.5,))
     here = replace(here, evolution=replace(here.evolution, signed=signed))
-    scene = section(contact_page.contact_page(here, "", (), ()), Scene)
+    scene = section(contact_page.contact_page(here, ""), Scene)
     assert [body.signed for body in scene.bodies] == [bool(b) for b in bodies]
     assert (scene.span[0] == 0.0) == (signed == "none")
     assert scene.value_name == ("distance" if signed == "none" else "signed distance") + " to the other body"
 
 
-def test_a_threshold_of_zero_has_a_page(tmp_path):
+def test_a_threshold_of_zero_has_a_page():
     settings = Settings((0.0,), refinement=AS_GIVEN, sensitivity=(0.0, 5e-4, 1e-3))
     found, _ = page((19.5, 22.0), settings=settings)
     assert section(found, Scene).span[0] < 0.0 < section(found, Scene).span[1]
-    assert write_report(tmp_path / "r.html", *analysed((19.5, 22.0), settings=settings)) > 1000
+    assert len(page_html(thinned_page(*analysed((19.5, 22.0), settings=settings)).of(201))) > 1000
     unsigned = told((22.0,), settings=settings)
     unsigned = replace(unsigned, evolution=replace(unsigned.evolution, signed="none"))
-    assert contact_page.contact_page(unsigned, "", (), ()).total == 1
+    assert contact_page.contact_page(unsigned, "").total == 1
 
 
 def test_a_crude_rule_is_named_and_not_called_certified():

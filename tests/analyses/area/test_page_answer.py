@@ -8,9 +8,8 @@ import pandas as pd
 import pytest
 
 from geocontact.analyses.area import page as contact_page
-from geocontact.analyses.area.colours import colour_span
-from geocontact.analyses.area.figure import area_figure
-from geocontact.analyses.area.reference_areas import Compared, compared
+from geocontact.analyses.area.bodies import Compared, compared
+from geocontact.analyses.area.figure import area_figure, colour_span
 from geocontact.geometry.contact_area.area import AS_GIVEN
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.view.page.content import Curves, Readout, Scene, Words
@@ -46,7 +45,7 @@ def test_measured_areas_stand_in_headline_and_curve():
     ours = here.evolution.table()
     reference = pd.DataFrame({"time [s]": [0.05, 0.2], "area_fixed [mm^2]": [100.0, 110.0]})
     rows = compared(ours, reference, Path("measured.csv"))
-    found = contact_page.contact_page(replace(here, compared=Compared(rows, 0.02)), "", (), ())
+    found = contact_page.contact_page(replace(here, compared=Compared(rows, 0.02)), "")
     worst = rows["relative [-]"].abs().max()
     said = f"Beside 2 measured areas the largest difference is {worst:.1%}, beyond the tolerance of 2.0%."
     assert found.headline[1] == said

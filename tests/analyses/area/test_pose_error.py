@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.analyses.area.pose_error.along import agreement, known_deviation
+from geocontact.analyses.area.pose_error import agreement, known_deviation
 from geocontact.data.errors import InputError
 from geocontact.geometry.contact_area.pose_error import ErrorOfArea
 from tests.analyses.area.calls import area

@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.area.pressure.page import facts, pressure_sections, sentence, shown_pressures
+from geocontact.analyses.area.pressure_page import facts, pressure_sections, sentence, shown_pressures
 from geocontact.analyses.area.result import AreaResult
 from geocontact.contact.elasticity import layer_modulus
 from geocontact.view.page.content import Plan

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.analyses.area import read
-from geocontact.analyses.area.job import area as analysis
+from geocontact.analyses.area import bodies
+from geocontact.analyses.area.result import area as analysis
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from tests.analyses.area.calls import area
@@ -57,16 +57,16 @@ def test_zero_counts_what_is_inside(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("given", "pieces"),
     [
-        ({"threshold": 0.0}, read.FEW),
-        ({"threshold": 1e-5}, read.FEW),
-        ({"threshold": 1e-4}, read.BRIEF),
-        ({"threshold": 0.0, "bounds": 0.05}, read.PATIENT),
+        ({"threshold": 0.0}, bodies.FEW),
+        ({"threshold": 1e-5}, bodies.FEW),
+        ({"threshold": 1e-4}, bodies.BRIEF),
+        ({"threshold": 0.0, "bounds": 0.05}, bodies.PATIENT),
     ],
 )
 def test_thresholds_finer_than_triangles_are_not_divided_for_long(tmp_path: Path, given: dict, pieces: int) -> None:
     given["threshold"] = (given["threshold"],)
     options = analysis.options(FEMUR, INSERT, unit="mm", motion=str(gait(tmp_path)), **given)
-    assert read.read(options, Record("area", {}, {})).settings.refinement.pieces == pieces
+    assert bodies.read(options, Record("area", {}, {})).settings.refinement.pieces == pieces
 
 
 def test_bounds_that_stay_wide_say_how_to_narrow_them(tmp_path: Path) -> None:

@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.analyses.area.job import area as analysis
 from geocontact.analyses.area.result import AreaResult
+from geocontact.analyses.area.result import area as analysis
 from geocontact.data.errors import InputWarning
 from tests.analyses.area.calls import area
 from tests.cli.calls import (

@@ -8,8 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.analyses.loadcells.job import load_cells
-from geocontact.analyses.loadcells.result import LoadcellResult
+from geocontact.analyses.loadcells.result import LoadcellResult, load_cells
 from geocontact.data.errors import InputError, InputWarning
 from tests.analyses.loadcells.synthetic_walk import HEAD, LBF, PERIOD, gait, recorded, sides
 

@@ -8,12 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from geocontact.analyses.loadcells.figure import CYCLES, some_cycles
-from geocontact.analyses.loadcells.job import load_cells
-from geocontact.analyses.loadcells.page import loadcell_page
-from geocontact.analyses.loadcells.page_samples import samples
-from geocontact.analyses.loadcells.page_tray import tray_plan
-from geocontact.analyses.loadcells.result import ROWS
+from geocontact.analyses.loadcells.result import ROWS, load_cells
+from geocontact.analyses.loadcells.show import SINGLE, loadcell_page, samples, some_cycles, tray_plan
 from geocontact.data.errors import InputError
 from geocontact.view.page.content import Curves, Page, Plan
 from geocontact.view.page.tables import frame_table
@@ -112,5 +108,5 @@ def test_the_page_of_a_long_recording_stays_below_a_megabyte(tmp_path: Path) -> 
 def test_of_many_cycles_the_highest_and_the_lowest_are_drawn() -> None:
     trials = np.sin(np.linspace(0.0, np.pi, 101)) * np.random.default_rng(3).permutation(np.arange(1.0, 101.0))[:, None]
     drawn = some_cycles(trials)
-    assert len(drawn) == CYCLES and drawn.max() == 100.0 and drawn.max(axis=1).min() == pytest.approx(1.0)
+    assert len(drawn) == SINGLE and drawn.max() == 100.0 and drawn.max(axis=1).min() == pytest.approx(1.0)
     assert some_cycles(trials[:3]) is not None and len(some_cycles(trials[:3])) == 3

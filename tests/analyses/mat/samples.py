@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import warnings
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -14,10 +14,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.analyses.mat.job import mat
-from geocontact.analyses.mat.result import MatResult
+from geocontact.analyses.mat.result import MatResult, mat
 from geocontact.data.errors import InputError
 from tests.cli.calls import MESHES, written
+from tests.drawing import unwritten
 
 ROWS, COLS, PITCH = 4, 3, 10.0
 """A mat of 40 × 30 mm on a plate of 100 × 100 mm, its first corner at (20, 30)."""
@@ -98,7 +98,5 @@ def refusal(said: str) -> Any:
 @contextmanager
 def unpictured() -> Iterator[None]:
     """Neither figure nor page are made."""
-    with ExitStack() as stack:
-        for name, made in (("mat_figure", None), ("save_both", b""), ("write_mat_report", 0)):
-            stack.enter_context(mock.patch(f"geocontact.analyses.mat.result.{name}", return_value=made))
+    with mock.patch("geocontact.analyses.mat.result.mat_figure", return_value=None), unwritten():
         yield

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
-from geocontact.analyses.mat.page import mat_page
 from geocontact.analyses.mat.result import MatResult
+from geocontact.analyses.mat.show import mat_page
 from meshes.segments import TORSO
 from tests.analyses.mat.samples import FORCE, MOMENT, called, frames, refusal
 from tests.cli.calls import MESHES, written

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.analyses.mat.page import mat_page
+from geocontact.analyses.mat.show import mat_page
 from geocontact.io.recordings.mat_results import read_mat_result
 from tests.analyses.mat.samples import CENTRE, FORCE, called, flat, frames, shipped, uniform, unpictured
 from tests.cli.calls import written

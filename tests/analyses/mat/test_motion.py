@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.analyses.mat.page import mat_page
+from geocontact.analyses.mat.show import mat_page
 from tests.analyses.mat.samples import CENTRE, FORCE, MOMENT, refusal, shipped
 from tests.cli.calls import MESHES, written
 

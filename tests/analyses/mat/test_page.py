@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.analyses.mat.page import mat_page
+from geocontact.analyses.mat.show import mat_page
 from geocontact.view.page.content import Scene
 from geocontact.view.page.write import page_html
 from tests.analyses.mat.samples import COLS, ROWS, flat

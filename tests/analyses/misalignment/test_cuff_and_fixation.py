@@ -13,8 +13,7 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.misalignment.identify.fitted import Fitted
-from geocontact.analyses.misalignment.identify.reservations import reserve
-from geocontact.analyses.misalignment.identify.sentences import fixation_words
+from geocontact.analyses.misalignment.identify.sentences import fixation_words, reserve
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.least_squares import Prior
 from geocontact.axis_misalignment.uncertainty import Separability

@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.misalignment import page as elbow_page
-from geocontact.analyses.misalignment.design import page as design_page
-from geocontact.analyses.misalignment.identify.arm_drawing import arm_drawing
-from geocontact.analyses.misalignment.population import page as population_page
-from geocontact.analyses.misalignment.simulate import page as simulate_page
+from geocontact.analyses.figure_files import Drawings
+from geocontact.analyses.misalignment.identify.show import arm_drawing
+from geocontact.analyses.misalignment.population import show as population_page
+from geocontact.analyses.misalignment.simulate import show as simulate_page
 from geocontact.view.page.content import Curves, Intervals, Page, Picture
 from tests.analyses.misalignment.test_population import described, population
 from tests.analyses.misalignment.trials import KNOWN, PAPER, QUICK, STROKE, changed, locked, quietly
@@ -20,12 +19,11 @@ from tests.analyses.misalignment.trials import KNOWN, PAPER, QUICK, STROKE, chan
 DESIGN = {"k": 222.43, "l": gc.mm(169), "z": gc.mm(127), "range": gc.deg(0, 120), "offset": gc.mm(48, 59)}
 
 
-def written(monkeypatch: pytest.MonkeyPatch, module: object, result: gc.Result, folder: Path) -> Page:
+def page_of(result: gc.Result) -> Page:
     """The page of a result before it becomes a file."""
-    pages: list[Page] = []
-    monkeypatch.setattr(module, "write_page", lambda page, path: pages.append(page) or 0)
-    result.write_page(folder / "page.html")
-    return pages[0]
+    (page,) = result.pages(Drawings(result.figures)).values()
+    assert isinstance(page, Page)
+    return page
 
 
 def test_the_arm_is_drawn_to_scale(made: Path) -> None:
@@ -63,24 +61,22 @@ def test_both_shares_stand_side_by_side(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("limit", "verb", "lines"), [(5.0, "exceeds", 2), (9.0, "keeps", 2), (90.0, "keeps", 0)])
-def test_a_design_opens_with_the_map_and_draws_the_limit(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, limit: float, verb: str, lines: int
-) -> None:
+def test_a_design_opens_with_the_map_and_draws_the_limit(limit: float, verb: str, lines: int) -> None:
     """A limit that is far from the force would flatten its curve."""
     options = DESIGN | {"stroke": gc.mm(0, 60), "limit": limit, "map": gc.mm(20)}
     result = quietly(lambda _, **given: gc.misalignment.design(**given), **options)
-    page = written(monkeypatch, design_page, result, tmp_path)
+    page = page_of(result)
     assert f"the force reaches 8.64 N and {verb} the limit of {limit:g} N" in page.headline[0]
     assert page.leads and isinstance(page.sections[page.leads[0]], Picture)
     force = next(each for each in page.sections if isinstance(each, Curves))
     assert [each.value for each in force.limits] == [limit, -limit][:lines]
 
 
-def test_errors_are_the_answer_of_a_comparison(tmp_path: Path, made: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_errors_are_the_answer_of_a_comparison(tmp_path: Path, made: Path) -> None:
     """The worst trial is drawn, and both errors of every trial as bars."""
     off = changed(locked(made)[1], tmp_path, force=lambda t: t["force [N]"] + 3.0)
     result = quietly(gc.misalignment.compare, locked(made)[0], off, simulated=locked(made)[:2])
-    page = written(monkeypatch, elbow_page, result, tmp_path)
+    page = page_of(result)
     first, worst = (p.trial for p in result.pairs)
     assert page.headline[0].startswith(f"The model misses the constraint force by 0 N root mean square in {first}")
     assert f"and by 3 N in {worst}" in page.headline[0]

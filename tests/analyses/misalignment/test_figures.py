@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.analyses.misalignment.identify.figure import Boxes, conditions_figure, told_figure
-from geocontact.analyses.misalignment.simulate.displacement_surfaces import surfaces
-from geocontact.analyses.misalignment.simulate.figure import surface_figure
+from geocontact.analyses.misalignment.simulate.show import surface_figure
+from geocontact.analyses.misalignment.simulate.trials import surfaces
 from geocontact.axis_misalignment.end_stop import BinMeans, RecordedStroke
 from geocontact.axis_misalignment.uncertainty import Direction
 from geocontact.identify.intervals.profile_likelihood import Profile

@@ -15,7 +15,8 @@ simulate = gc.misalignment.simulate
 
 def test_trials_are_as_asked_and_the_truth_is_told() -> None:
     result = simulate(**QUICK, stroke=STROKE, pressure=gc.mmHg(10, 60))
-    assert list(result.tables()) == [f"{kind}_{k}" for kind in ("locked", "free") for k in (1, 2, 3)] + ["surfaces"]
+    trials = [f"{kind}_{k}" for kind in ("locked", "free") for k in (1, 2, 3)]
+    assert list(result.tables()) == [*trials, "surfaces", "numbers"]
     table = result.table("free_1")
     recorded = ["time [s]", "beta [deg]", "force [N]", "displacement [mm]", "pressure [mmHg]"]
     assert list(table) == [*recorded, "gamma [deg]", "cuff_moment [N m]"]

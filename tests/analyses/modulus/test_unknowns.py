@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.analyses.modulus.job import modulus
 from geocontact.analyses.modulus.numbers import describe
+from geocontact.analyses.modulus.result import modulus
 from geocontact.data.errors import InputError, InputWarning
 from tests.analyses.modulus.synthetic_step import areas, forces, pressed, tilted, written
 from tests.identify.synthetic_contact import DURATION, TRUE

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.analyses.modulus.job import modulus
+from geocontact.analyses.modulus.result import modulus
 from geocontact.data.errors import InputError, InputWarning
 from tests.analyses.modulus.synthetic_step import LATERAL, MEDIAL, WHOLE, areas, forces
 from tests.identify.synthetic_contact import TRUE

@@ -43,7 +43,7 @@ def known_step(folder: Path, late: float = 0.0, away: float = 0.0) -> KnownStep:
 
     `late` is by how much the plate's clock is off [s], `away` how far the plate's points are behind [m].
     """
-    leg = standing_intact_leg(markers_given(STANDING, None, None), Person(MASS))
+    leg = standing_intact_leg(markers_given(STANDING, None, None, None), Person(MASS))
     time = np.arange(-0.15, LENGTH + 0.15, 1.0 / RATE)
     lean = np.interp(time, [0.0, LENGTH], np.radians([-16.0, 26.0]))
     ahead, side = (Rotation.from_euler("y", TOE_OUT).apply(axis) for axis in np.eye(3)[::2])

@@ -5,6 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from geocontact.below_knee_prosthesis.from_markers.marker_names import FOOT
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.io.mocap.trc import read_trc
+from geocontact.io.mocap.trc_writer import trc_text
 from tests.cli.calls import MESHES
 
 TRIAL = MESHES / "gait_P1_medium_1"
@@ -51,4 +58,19 @@ def in_metres(folder: Path, name: str) -> Path:
     """A `.trc` of the trial whose head says m where millimetres stand."""
     file = folder / name
     file.write_text((TRIAL / name).read_text().replace("\tmm\t", "\tm\t", 1))
+    return file
+
+
+def out_of_flat(folder: Path, angle: float) -> Path:
+    """The standing trial with the whole person, markers and all, turned about the floor below the foot's middle [rad].
+
+    Counterclockwise seen from the right: the foot's toes are up by that, and the trial takes it for flat.
+    """
+    stood = read_trc(TRIAL / "standing.trc")
+    heel, toe = (np.nanmedian(stood.of((name,)), axis=0)[0] for name in FOOT)
+    middle = np.array([0.5 * (heel[0] + toe[0]), 0.0, 0.0])
+    turn = Rotation.from_euler("z", angle).as_matrix()
+    places = (stood.positions - middle) @ turn.T + middle
+    file = folder / "standing.trc"
+    file.write_text(trc_text("out of flat", MarkerTrajectories(stood.time, places, stood.names, ""), 3))
     return file

@@ -17,8 +17,8 @@ from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.clocks import clock_offset
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
-from geocontact.below_knee_prosthesis.synthetic.course import course
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, true_leg
+from meshes.gait_course import course
+from meshes.gait_persons import PARTICIPANTS, true_leg
 from tests.analyses.prosthesis.spoilt_trial import TRIAL, delayed_plates, in_metres, renamed_markers, spoilt_plates
 from tests.cli.calls import call
 

@@ -97,3 +97,20 @@ def test_shipped_stances_from_markers_to_files(tmp_path: Path) -> None:
     np.testing.assert_allclose(panels["low"][3].values, found.stances[1].measured("vertical"))
     found.write(tmp_path / "out")
     assert (tmp_path / "out" / "trials" / "P1_high_1" / "ground_reaction.xml").is_file()
+
+
+@pytest.mark.slow
+def test_the_foot_beside_its_standing_trial_is_said_and_written(tmp_path: Path) -> None:
+    law = tmp_path / "law.toml"
+    law.write_text("[foot]\nheight = 0.4e-3\npitch = -0.012\n")
+    study = written(tmp_path, "low", changed=("[persons.P1]\n", f'[persons.P1]\nlaw = "{law}"\n'))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        found = gc.prosthesis.compare(study, workers=1, socket_turns=0)
+    assert any(each.endswith("are taken from the law on 1 of 1 stances") for each in found.sentences)
+    row = found.table("trials").iloc[0]
+    assert (row["foot height [mm]"], row["foot pitch [deg]"]) == pytest.approx((0.4, np.degrees(-0.012)))
+    found.write(tmp_path / "out")
+    lines = (tmp_path / "out" / "trials" / "P1_low_1" / "numbers.csv").read_text().splitlines()
+    (pitch,) = [line.split(",")[1] for line in lines if line.startswith("leg foot_pitch,")]
+    assert float(pitch) == -0.012

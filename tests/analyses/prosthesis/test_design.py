@@ -88,6 +88,10 @@ def test_shipped_trial_to_files(tmp_path: Path) -> None:
     alone = straight.loc[(0.0, "angles kept", "energy"), "median"].to_numpy(float)
     recorded = np.median(found.sweep.drawn[:, 0, :, AIMS.index("energy")], axis=0)  # pairs keep the recorded load
     np.testing.assert_allclose(alone, recorded, rtol=1e-6)
+    numbers_now = found.table("numbers").set_index("number")["value"]
+    assert numbers_now["leg foot_pitch"] == 0.0 and numbers_now["sole forefoot_stiffness"] == pytest.approx(
+        38547.0, abs=1
+    )
     found.write(tmp_path / "out")
     assert (tmp_path / "out" / "report.html").is_file() and (tmp_path / "out" / "pairs.csv").is_file()
     assert (tmp_path / "out" / "intact.csv").is_file()

@@ -28,8 +28,8 @@ def found_step(folder: Path, late: float = 0.0, away: float = 0.0, **changed: An
     given: dict[str, Any] = {"static": STANDING, "mass": MASS, "plates": TRIAL / "plates.mot", "plate": "own_force"}
     given |= {"intact": made.markers, "intact_plates": made.plates}
     o = ProsthesisDesignOptions(TRIAL / "walking.trc", **(given | changed))
-    standing = right_markers(record, "`static`", o.static, o.side, None, None)
-    plate, _ = plate_under_foot(record, o.plates, o.plate, o.side, o.mass)
+    standing = right_markers(record, "`static`", o.static, o.side, None, None, None)
+    plate, _ = plate_under_foot(record, o.plates, o.plate, o.side, o.mass, None)
     trial = RecordedTrial(standing, standing, plate, Person(o.mass), vsf_keel(), 0.117, 0.05, 15.0, 0.2)
     return intact_side(o, trial, record)
 

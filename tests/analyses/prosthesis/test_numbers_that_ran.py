@@ -40,6 +40,12 @@ mu_k = 0.55
 [zone.heel_back]
 k = 21e3
 """
+FOOT = """
+[foot]
+height = 0.7e-3
+pitch = -0.0131
+pitch_sd = 0.002
+"""
 ZONES = ("heel_back", "heel_middle", "heel_front", "midfoot", "forefoot")
 SIX = [f"socket_{kind}{axis}" for kind in "rt" for axis in "xyz"]
 
@@ -115,13 +121,14 @@ def walk_and_table(folder: Path, **options: Any) -> tuple[Walk, ProsthesisSimula
     return walk, o, read_back(folder)
 
 
-@pytest.mark.parametrize("changed", ["built in", "law", "socket", "setting"])
+@pytest.mark.parametrize("changed", ["built in", "law", "foot", "socket", "setting"])
 def test_the_table_alone_gives_the_equations_their_numbers(tmp_path: Path, changed: str) -> None:
     """EI 22.74 and 46 000 N/m stood there for 19.74 and 38 547, and the built-in sole under `law`."""
-    (tmp_path / "law.toml").write_text(LAW)
+    (tmp_path / "law.toml").write_text(LAW + FOOT * (changed == "foot"))
     options: dict[str, Any] = {
         "built in": {},
         "law": {"law": tmp_path / "law.toml"},
+        "foot": {"law": tmp_path / "law.toml"},
         "socket": {"socket": "as_printed"},
         "setting": {"setting": "high"},
     }[changed]
@@ -142,15 +149,25 @@ def test_the_table_alone_gives_the_equations_their_numbers(tmp_path: Path, chang
     if changed == "built in":
         assert told["keel bending"] == pytest.approx(19.74, abs=0.005)
         assert told["sole forefoot_stiffness"] == pytest.approx(38547.0, abs=1.0)
-    if changed == "law":
+    if changed == "foot":
+        assert (told["leg foot_height"], told["leg foot_pitch"], told["leg foot_pitch_sd"]) == (0.7e-3, -0.0131, 0.002)
+        without = walk_and_table(tmp_path, law=None)[2]
+        turned = leg_of(without).turn.inv() * leg.turn
+        assert turned.as_rotvec() == pytest.approx([0.0, 0.0, -0.0131], abs=1e-9)
+    else:
+        assert (told["leg foot_height"], told["leg foot_pitch"]) == (0.0, 0.0)
+    if changed in ("law", "foot"):
         assert (told["sole forefoot_stiffness"], told["sole heel_back_stiffness"]) == (61e3, 21e3)
         assert told["sole exponent"] == 1.2
 
 
 @pytest.mark.slow
 def test_the_table_alone_gives_the_same_curves(tmp_path: Path) -> None:
-    """Touch-down and loading, under a law from a file; what stood in the table before was 102 N (rms) off."""
-    (tmp_path / "law.toml").write_text(LAW.replace("n = 1.2", ""))
+    """Touch-down and loading, under a law from a file; what stood in the table before was 102 N (rms) off.
+
+    The foot is beside its standing trial, by more than half a degree.
+    """
+    (tmp_path / "law.toml").write_text(LAW.replace("n = 1.2", "") + FOOT)
     walk, _, told = walk_and_table(tmp_path, law=tmp_path / "law.toml")
     motion = walk.walked.motion
     span = (float(motion.time[5]), float(motion.time[5]) + 0.35)
@@ -166,8 +183,9 @@ def test_the_table_alone_gives_the_same_curves(tmp_path: Path) -> None:
         machine_code=False,
     )
     assert ran.force[:, 1].max() > 300.0
-    # 0.073 N fore and aft (rms 0.008), 0.017 and 0.015 N else, around 0.2 s where spheres creep; the same walk with its
-    # angles changed in the 13th digit is 0.085, 0.017 and 0.015 N off, so that rounding makes all of it.
-    np.testing.assert_allclose(again.force, ran.force, atol=0.2)
-    assert np.sqrt(np.mean((again.force - ran.force) ** 2, axis=0)).max() < 0.03
+    # 0.253 N fore and aft (rms 0.020), 0.008 and 0.025 N else, around 0.2 s where spheres creep; the same walk with its
+    # angles changed in the 13th digit is 0.244 (rms 0.025), 0.013 and 0.020 N off, so that rounding makes all of it. As
+    # its foot stood it was 0.085 N, and 0.2 and 0.03 N were allowed.
+    np.testing.assert_allclose(again.force, ran.force, atol=0.5)
+    assert np.sqrt(np.mean((again.force - ran.force) ** 2, axis=0)).max() < 0.05
     np.testing.assert_allclose(again.keel_angles, ran.keel_angles, atol=1e-6)  # 5e-8

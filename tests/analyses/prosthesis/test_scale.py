@@ -97,7 +97,8 @@ def test_numbers_are_those_of_the_written_model(made: ProsthesisScaleResult, tmp
     for body, name in pairs.items():
         assert told[name] == pytest.approx(mass[body].mass, rel=1e-10), name
     for k, axis in enumerate("xyz"):
-        assert told[f"pelvis I{axis}{axis}"] == pytest.approx(mass["pelvis"].inertia[k, k], rel=1e-10)
+        for other, name in enumerate("xyz"[k:], start=k):
+            assert told[f"pelvis I{axis}{name}"] == pytest.approx(mass["pelvis"].inertia[k, other], rel=1e-10)
         assert told[f"pelvis centre_{axis}"] == pytest.approx(mass["pelvis"].centre[k], abs=1e-11)
     text = (tmp_path / "out" / FREE).read_text()
     names = {f"keel_{k}_r": f"keel stiffness_{k}" for k in range(1, 9)} | {"socket_ty_r": "socket_ty stiffness"}
@@ -105,6 +106,19 @@ def test_numbers_are_those_of_the_written_model(made: ProsthesisScaleResult, tmp
         spring = text.split(f"<coordinate>{coordinate}</coordinate>")[1]
         stiffness = float(spring.split("<stiffness>")[1].split("</stiffness>")[0])
         assert told[name] == pytest.approx(stiffness, rel=1e-10), name
+        viscosity = float(spring.split("<viscosity>")[1].split("</viscosity>")[0])
+        damped = told["keel retardation"] * stiffness if name.startswith("keel") else told["socket_ty damping"]
+        assert damped == pytest.approx(viscosity, rel=1e-10), name
+    places = {joint.name: joint.parent_offset.translation for joint in read_multibody(tmp_path / "out" / FREE).joints}
+    hip = [told[f"prosthetic hip_{axis}"] for axis in "xyz"]
+    np.testing.assert_allclose(places["hip_r"], hip, atol=1e-11)
+    for joint, name in (("knee_r", "prosthetic thigh_length"), ("knee_l", "intact thigh_length")):
+        assert -places[joint][1] == pytest.approx(told[name], rel=1e-10)
+    each = (told["keel length"] - told["keel posterior"]) / told["keel joints"]
+    assert places["keel_2_r"][0] == pytest.approx(each, rel=1e-10)
+    of_keel = told["keel density"] * told["keel width"] * told["keel thickness"]
+    assert mass["keel_3_r"].mass == pytest.approx(of_keel * each, rel=1e-10)
+    assert mass["calcn_r"].mass == pytest.approx(of_keel * told["keel posterior"], rel=1e-10)
     assert told["keel bending"] == pytest.approx(19.74, abs=0.005)
 
 

@@ -5,10 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.analyses.shape.figure import fit_figure
-from geocontact.analyses.shape.fitting import Fitting
-from geocontact.analyses.shape.page import drawn, fit_page
-from geocontact.analyses.shape.patch import Patch
+from geocontact.analyses.shape.fitting import Fitting, Patch
+from geocontact.analyses.shape.show import drawn, fit_figure, fit_page
 from geocontact.geometry.fit.catalogue import SHAPES
 from geocontact.view.page.content import Scene
 from meshes.simple_shapes import block, cylinder, sphere

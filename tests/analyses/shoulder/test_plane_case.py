@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.shoulder.trial_files import trial_files
 from geocontact.shoulder_exoskeleton.synthetic.design import condition, participant, task
 from geocontact.shoulder_exoskeleton.synthetic.trial import synthetic_trial
+from meshes.overhead_files import trial_files
 from tests.analyses.shoulder.test_simulate import simulated
 
 pytestmark = pytest.mark.slow

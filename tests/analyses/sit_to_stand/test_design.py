@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,7 @@ from geocontact.analyses.sit_to_stand.design.options import StandingDesignOption
 from geocontact.analyses.sit_to_stand.design.read import read
 from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult
 from geocontact.analyses.sit_to_stand.design.run import run
+from geocontact.analyses.sit_to_stand.design.words import doubt
 from tests.analyses.sit_to_stand.ctrl_c import Interrupting
 from tests.cli.calls import MESHES
 
@@ -49,6 +51,38 @@ def test_an_interval_without_room_is_refused(tmp_path: Path) -> None:
 def test_a_person_without_an_exoskeleton_is_refused() -> None:
     with pytest.raises(gc.InputError, match="is not of a person with an exoskeleton"):
         gc.sit_to_stand.design(ALONE, parameters=TRUTH)
+
+
+@pytest.fixture(scope="module")
+def refined() -> StandingDesignResult:
+    """From seven even intervals of three points on: 6.4 N and 1.2 N m are left there, 5 N and 1 N m are let pass."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        return gc.sit_to_stand.design(HELD_OUT, parameters=TRUTH, vary="share", nodes=5, degree=3)
+
+
+@pytest.mark.slow
+def test_a_mesh_is_refined_until_every_motion_is_certified(refined: StandingDesignResult) -> None:
+    assert refined.accepted, refined.warnings
+    mesh = refined.table("certificate")
+    assert (mesh["residual [N]"] <= 5.0).all() and (mesh["residual [N m]"] <= 1.0).all()
+    assert (mesh["intervals [-]"] > 7).all() and (mesh["intervals [-]"] < 28).all()
+    rows = refined.table("designs").set_index("design")
+    assert rows.loc["chosen", "knee of without help [-]"] == pytest.approx(0.8, rel=1e-4)
+
+
+@pytest.mark.slow
+def test_what_is_not_certified_is_told_with_its_mesh(refined: StandingDesignResult) -> None:
+    worn = refined.designs[0]
+    (trial,) = worn.trials
+    assert trial.judged.certificate is not None
+    failed = replace(trial.judged.certificate, converged=False, failed=("residual between the points 6.4 N",))
+    spoilt = replace(worn, trials=(replace(trial, judged=replace(trial.judged, certificate=failed)),))
+    record = Record("sit-to-stand design", {})
+    doubt(replace(refined, record=record, designs=(spoilt, *refined.designs[1:])), stopped=False)
+    (line,) = record.warnings
+    assert line.startswith("P1 without help is not certified: residual between the points 6.4 N; on ")
+    assert "each halved 4 times at most" in line
 
 
 @pytest.mark.slow

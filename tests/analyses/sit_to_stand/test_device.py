@@ -11,7 +11,7 @@ import pytest
 import geocontact as gc
 from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.synthetic_unloaded import planted
+from meshes.standing_unloaded import planted
 from tests.cli.calls import MESHES, call
 
 ANGLES, MOTORS = (MESHES / "standing_up_exoskeleton" / f"unloaded_{what}.sto" for what in ("coordinates", "motors"))

@@ -17,14 +17,14 @@ from geocontact.below_knee_prosthesis.from_markers.sides import MIRROR
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
-from geocontact.below_knee_prosthesis.synthetic.amputee import StandingTrials, standing_trials, true_amputee
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS
 from geocontact.data.body_segments import SEGMENTS
 from geocontact.data.errors import InputError
 from geocontact.dynamics.inverse_dynamics import generalised_forces
 from geocontact.dynamics.tree import tree_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.opensim.osim_writer import ContactBall, write_osim
+from meshes.amputee import StandingTrials, standing_trials, true_amputee
+from meshes.gait_persons import PARTICIPANTS
 from tests import opensim_oracle
 from tests.elsewhere import another_process
 

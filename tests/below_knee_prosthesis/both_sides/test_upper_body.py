@@ -11,12 +11,12 @@ from geocontact.below_knee_prosthesis.both_sides.standing import standing_ampute
 from geocontact.below_knee_prosthesis.both_sides.upper_body import share_of_body, upper_body
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
-from geocontact.below_knee_prosthesis.synthetic.amputee import (
+from meshes.amputee import (
     standing_trials,
     standing_values,
     true_amputee,
 )
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS
+from meshes.gait_persons import PARTICIPANTS
 
 MEN = {  # de Leva 1996, table 4: length [m], mass, centre, radii of gyration sagittal, transverse, long
     "head": (0.2033, 0.0694, 0.5976, (0.362, 0.376, 0.312)),

@@ -24,15 +24,15 @@ from geocontact.below_knee_prosthesis.both_sides.walk import (
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
-from geocontact.below_knee_prosthesis.synthetic.amputee import true_amputee
-from geocontact.below_knee_prosthesis.synthetic.amputee_walk import amputee_walk
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.forces_along import forces_along
 from geocontact.dynamics.recorded_inputs import recorded_inputs
 from geocontact.dynamics.tree import tree_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.opensim.osim_writer import write_osim
+from meshes.amputee import true_amputee
+from meshes.amputee_walk import amputee_walk
+from meshes.gait_persons import PARTICIPANTS
 
 WEIGHT = 77.3 * GRAVITY
 

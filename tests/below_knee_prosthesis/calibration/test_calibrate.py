@@ -41,6 +41,19 @@ def test_a_zone_that_is_never_loaded_is_unknown() -> None:
     assert unknown.prior == pytest.approx((unknown.value / factor, unknown.value * factor), rel=1e-6)
 
 
+def test_a_cost_hangs_on_nothing_but_its_argument() -> None:
+    """A, B, A: before, the search for the slips went on from those of the call before, and A cost another amount."""
+    stance, few = recorded(), slice(20, 32)
+    names = ("time", "poses", "rate", "force", "centre")
+    residuals = SoleResiduals.of([replace(stance, **{name: getattr(stance, name)[few] for name in names})], vsf_foot())
+    rng = np.random.default_rng(5)
+    a, b = (np.concatenate([0.4 * rng.standard_normal(15), rng.standard_normal(2)]) for _ in range(2))
+    first, between, again = (residuals(z) for z in (a, b, a))
+    assert float(again @ again) == pytest.approx(float(first @ first), rel=1e-12)
+    np.testing.assert_allclose(again, first, rtol=1e-12, atol=1e-12)
+    assert abs(float(between @ between) / float(first @ first) - 1.0) > 0.01
+
+
 @pytest.fixture(scope="module")
 def calibrated() -> SoleCalibration:
     return calibrate([recorded()], vsf_foot(), starts=4, finished=1)
@@ -58,9 +71,6 @@ def test_planted_numbers_lie_in_their_intervals(calibrated: SoleCalibration) -> 
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(
-    strict=True, reason="11.5 % of the worst of them: inside its interval, but farther than was hoped for"
-)
 def test_stiffness_that_is_loaded_most_is_within_a_tenth(calibrated: SoleCalibration) -> None:
     zones, values = planted()
     near = np.abs(np.log(zones.values_of(calibrated.law) / values))
@@ -71,10 +81,10 @@ def test_stiffness_that_is_loaded_most_is_within_a_tenth(calibrated: SoleCalibra
 def test_cost_is_no_more_than_at_the_planted_numbers(calibrated: SoleCalibration) -> None:
     zones, values = planted()
     residuals = calibrated.residuals
+    again = residuals(calibrated.at)
+    assert 0.5 * float(again @ again) == pytest.approx(calibrated.cost, rel=1e-12)
     off = residuals(np.log(values / zones.values_of(zones.usual)))
-    # 77.0 and 75.5: a cost hangs on the slips of the call before, which two turns do not settle, so that one minimum is
-    # as good as the other within some percent; with the smaller errors of height and pitch before, it was below
-    assert calibrated.cost < 1.05 * 0.5 * float(off @ off)
+    assert calibrated.cost < 0.5 * float(off @ off)  # 14.4 and 15.2
 
 
 TRIAL = MESHES / "gait_P1_medium_1"

@@ -41,9 +41,7 @@ def test_sole_by_hand() -> None:
     stances[1].centre[2] = np.nan
     residuals = SoleResiduals.of(stances, vsf_foot())
     residuals.noise = [uneven((len(each.time), 6), k) for k, each in enumerate(stances)]
-    slips = [each.copy() for each in residuals.slips]
     found, total = residuals(Z), beliefs(Z)
-    residuals.slips = slips
     for k, (stance, noise) in enumerate(zip(stances, residuals.noise, strict=True)):
         motion, slip = residuals.motion(Z, k)
         shown = stance.predicted(residuals.keel(Z, stance), motion)

@@ -79,7 +79,8 @@ def test_with_half_a_degree_planted_no_known_number_is_outside_its_interval() ->
     found = calibrate([stood_out_of_flat()], vsf_foot(), starts=3, finished=1)
     numbers = found.knowledge.numbers
     known = [(n, value) for n, value in zip(numbers, PLANTED, strict=True) if n.verdict == "known"]
-    assert len(known) >= 8
+    # 7; 10 before, of which three were known only because their priors counted with the variance of the residuals
+    assert len(known) >= 7
     assert not [n.name for n, value in known if not n.lower <= value <= n.upper]
     assert all(np.isnan(n.lower) and np.isnan(n.upper) for n in numbers if n.verdict != "known")
-    assert found.errors[0][1] == pytest.approx(-TURNED, abs=np.radians(0.1))
+    assert found.offsets[0].pitch == pytest.approx(-TURNED, abs=np.radians(0.1))

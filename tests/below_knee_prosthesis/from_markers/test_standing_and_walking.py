@@ -15,10 +15,10 @@ from geocontact.below_knee_prosthesis.from_markers.walking import functional_hip
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_keel
 from geocontact.below_knee_prosthesis.model.leg import Leg, Person
 from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, recorded_tree
-from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, SPINES, marker_places, true_leg
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.dynamics.functional_joint import FunctionalCentre
+from meshes.gait_persons import PARTICIPANTS, SPINES, marker_places, true_leg
 
 BELOW = 0.03
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic import LABORATORIES
+from geocontact.gap_benchmark.synthetic.catalogue import SCENES
 from geocontact.gap_benchmark.synthetic.plan import NotFoundError
 from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
-from geocontact.gap_benchmark.synthetic.scenes import SCENES
 
 
 def scene_of(kind: str, system: str, seed: int = 1) -> SyntheticScene:

@@ -16,8 +16,7 @@ from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
 from geocontact.gap_benchmark.synthetic.cases import amplitude, prepared
-from geocontact.gap_benchmark.synthetic.catalogue import NO_GAP, plans
-from geocontact.gap_benchmark.synthetic.scenes import SCENES
+from geocontact.gap_benchmark.synthetic.catalogue import NO_GAP, SCENES, plans
 from geocontact.gap_benchmark.synthetic.trials import fine_enough, truth
 from geocontact.systems.catalogue import system_of
 

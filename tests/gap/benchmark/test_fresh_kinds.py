@@ -10,17 +10,13 @@ import numpy as np
 import pytest
 
 from geocontact.gap_benchmark.drawing import Lot, drawn
-from geocontact.gap_benchmark.synthetic.equipment.clock import Clock
-from geocontact.gap_benchmark.synthetic.equipment.power_law import PowerLawNoise
-from geocontact.gap_benchmark.synthetic.equipment.recorder import Recorder
-from geocontact.gap_benchmark.synthetic.equipment.sampler import Sampler
-from geocontact.gap_benchmark.synthetic.equipment.wandering import Wandering
+from geocontact.gap_benchmark.synthetic.catalogue import SCENES
 from geocontact.gap_benchmark.synthetic.laboratories.kinds import LABORATORY_KINDS, kinds_of
 from geocontact.gap_benchmark.synthetic.laboratories.movements import FAMILIES, moving
-from geocontact.gap_benchmark.synthetic.laboratories.sampling_gap import sampled_unseen, sampling_gap
+from geocontact.gap_benchmark.synthetic.laboratories.unseen import UNSEEN, sampled_unseen, sampling_gap
+from geocontact.gap_benchmark.synthetic.noise import PowerLawNoise, Wandering
 from geocontact.gap_benchmark.synthetic.plan import NotFoundError
-from geocontact.gap_benchmark.synthetic.scenes import SCENES
-from geocontact.gap_benchmark.synthetic.slight import UNSEEN
+from geocontact.gap_benchmark.synthetic.recording import Clock, Recorder, Sampler
 from geocontact.gap_benchmark.synthetic.trials import record
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.gap_case_writer import write_gap_case

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from geocontact.gap_benchmark.attainable import ahead_by, clearly_ahead, one_law
+from geocontact.gap_benchmark.confounding import ahead_by, clearly_ahead, one_law
 from geocontact.gap_benchmark.generalisation import Loss, figures_of, log_score, losses
 from geocontact.gap_benchmark.rates import Rate
 

@@ -13,19 +13,18 @@ from scipy.stats import kurtosis
 from geocontact.gap_benchmark.drawing import ABROAD, HOME, Lot, drawn, lots
 from geocontact.gap_benchmark.synthetic import LABORATORIES, cases, synthetic_case
 from geocontact.gap_benchmark.synthetic.base_fit import jacobian
-from geocontact.gap_benchmark.synthetic.equipment.clock import Clock
-from geocontact.gap_benchmark.synthetic.equipment.placement import Placement
-from geocontact.gap_benchmark.synthetic.equipment.power_law import PowerLawNoise
-from geocontact.gap_benchmark.synthetic.equipment.recorder import Quotient, Recorder
+from geocontact.gap_benchmark.synthetic.catalogue import SCENES
 from geocontact.gap_benchmark.synthetic.hooks import BASE
 from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import sizes
 from geocontact.gap_benchmark.synthetic.laboratories.inputs import harmonics, other_filters, starts
 from geocontact.gap_benchmark.synthetic.laboratories.kinds import kinds_of
-from geocontact.gap_benchmark.synthetic.laboratories.paced import Pace
+from geocontact.gap_benchmark.synthetic.laboratories.movements import Pace
 from geocontact.gap_benchmark.synthetic.laboratories.placement import ANGLE, GAIN, LENGTH, placement_of
+from geocontact.gap_benchmark.synthetic.laboratory import Placement
+from geocontact.gap_benchmark.synthetic.noise import PowerLawNoise
 from geocontact.gap_benchmark.synthetic.plan import NotFoundError
+from geocontact.gap_benchmark.synthetic.recording import Clock, Quotient, Recorder
 from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
-from geocontact.gap_benchmark.synthetic.scenes import SCENES
 from geocontact.gap_benchmark.synthetic.trials import as_measured, record, samples, sensed
 from geocontact.gap_benchmark.synthetic.visibility import whitener
 

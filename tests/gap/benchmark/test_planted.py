@@ -10,24 +10,23 @@ from scipy.interpolate import CubicSpline
 from scipy.linalg import solve_triangular
 
 import geocontact.gap_benchmark.synthetic as planted
+from geocontact.gap_benchmark.drawing import SYSTEMS
 from geocontact.gap_benchmark.synthetic import KINDS, cases, synthetic_case
 from geocontact.gap_benchmark.synthetic.base_fit import jacobian
 from geocontact.gap_benchmark.synthetic.cases import prepared
-from geocontact.gap_benchmark.synthetic.catalogue import PLANS, plans
+from geocontact.gap_benchmark.synthetic.catalogue import NUMBERS, PLANS, SCENES, plans, unknown_effects
 from geocontact.gap_benchmark.synthetic.course import through
-from geocontact.gap_benchmark.synthetic.effects.mechanical.contact_loss import seated
-from geocontact.gap_benchmark.synthetic.effects.mechanical.slip import crept
+from geocontact.gap_benchmark.synthetic.effects.kernels import crept, seated
+from geocontact.gap_benchmark.synthetic.effects.unknown import UNKNOWN
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks
 from geocontact.gap_benchmark.synthetic.noise import Coloured, NoiseFilter, smooth_covariance, smooth_noise
-from geocontact.gap_benchmark.synthetic.outside.catalogue import unknown_effects
 from geocontact.gap_benchmark.synthetic.reach import shortest
-from geocontact.gap_benchmark.synthetic.scenes import SCENES
-from geocontact.gap_benchmark.synthetic.systems.foot.model import Sole, foot
+from geocontact.gap_benchmark.synthetic.systems.foot import Sole, foot
 from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError, pull
-from geocontact.gap_benchmark.synthetic.systems.knee.model import area_under, deflection
-from geocontact.gap_benchmark.synthetic.systems.shoulder.model import shoulder
-from geocontact.gap_benchmark.synthetic.systems.sit_to_stand.model import inputs as inputs_of
-from geocontact.gap_benchmark.synthetic.systems.sit_to_stand.model import sit_to_stand
+from geocontact.gap_benchmark.synthetic.systems.knee import area_under, deflection
+from geocontact.gap_benchmark.synthetic.systems.shoulder import shoulder
+from geocontact.gap_benchmark.synthetic.systems.sit_to_stand import inputs as inputs_of
+from geocontact.gap_benchmark.synthetic.systems.sit_to_stand import sit_to_stand
 from geocontact.gap_benchmark.synthetic.systems.swing import at_rest
 from geocontact.gap_benchmark.synthetic.trials import (
     SyntheticDataError,
@@ -60,12 +59,20 @@ def test_it_shares_nothing_with_the_candidates():
                 assert own or name.split(".")[0] in ALLOWED | STANDARD, f"{file.name} imports {name}"
 
 
-def test_every_file_says_what_is_planted_and_what_the_candidate_does():
+def test_every_effect_says_what_is_planted_and_what_the_candidate_does():
     assert len({one.name for one in PLANS}) == len(PLANS) == 23
     for one in PLANS:
-        (file,) = (Path(planted.__file__).parent / "effects").rglob(f"{one.name}.py")
-        text = file.read_text()
+        text = one.draw.__doc__
         assert "planted:" in text and "candidate:" in text and one.planted != one.candidate
+
+
+def test_every_effect_of_a_system_is_planned_and_every_plan_has_a_system():
+    known, unknown = {one.name for one in PLANS}, {one.name for one in UNKNOWN}
+    assert set().union(*(one.names for one in NUMBERS.values())) == known
+    assert set().union(*(one.unknown for one in NUMBERS.values())) == unknown
+    assert NUMBERS.keys() == SCENES.keys() and tuple(SCENES) == SYSTEMS
+    for one in NUMBERS.values():
+        assert set(one.no_gap) <= set(one.confounded) <= set(one.names)
 
 
 @pytest.fixture(scope="module")

@@ -57,7 +57,9 @@ def test_covariance_of_landmarks_is_that_of_draws():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("points", [400, 6000], ids=["fewer points than vertices", "more"])
+@pytest.mark.parametrize(
+    "points", [400, pytest.param(6000, marks=pytest.mark.long)], ids=["fewer points than vertices", "more"]
+)
 def test_intervals_of_shapes_hold_the_truth(points):
     """Vertices of the scan are noisy by 0.5 mm each; 1600 of them."""
     fixed, clean = bumpy(-0.15, 0.15, -0.15, 0.15, 40), bumpy(-0.12, 0.12, -0.12, 0.12, 50)

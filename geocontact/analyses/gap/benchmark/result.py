@@ -16,7 +16,6 @@ from geocontact.analyses.gap.benchmark.options import BenchmarkOptions
 from geocontact.analyses.gap.benchmark.outcome import BenchmarkOutcome
 from geocontact.analyses.gap.benchmark.tables import cases_table
 from geocontact.analyses.json_file import write_json
-from geocontact.analyses.plain_page import write_plain_page
 from geocontact.analyses.result import Result
 from geocontact.analyses.results_folder import Scratch
 from geocontact.io.text.results import write_table
@@ -44,6 +43,11 @@ class BenchmarkResult(Result):
     when: str
     scratch: Scratch
 
+    @property
+    def title(self) -> str:
+        """With the seed of the cases."""
+        return f"Gap benchmark, seed {self.outcome.seed}"
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`cases`: a row per case, the truth, what was said of it, and what that scores."""
         return {"cases": cases_table(self.outcome)}
@@ -63,7 +67,3 @@ class BenchmarkResult(Result):
             home = folder / f"cases-{self.outcome.seed}"
             shutil.copytree(self.scratch.folder, home)
             write_json(home / "labels.json", self.outcome.labels)
-
-    def write_page(self, file: Path) -> None:
-        """The table of figures, the reliability, every case."""
-        write_plain_page(self, f"Gap benchmark, seed {self.outcome.seed}", file)

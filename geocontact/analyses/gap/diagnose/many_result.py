@@ -9,7 +9,6 @@ from pathlib import Path
 import pandas as pd
 
 from geocontact.analyses.gap.diagnose.options import ManyOptions
-from geocontact.analyses.plain_page import write_plain_page
 from geocontact.analyses.result import Result
 from geocontact.analyses.results_folder import Scratch
 from geocontact.io.text.results import write_table
@@ -73,6 +72,11 @@ class ManyResult(Result):
         codes = {one.code for one in self.outcomes}
         return FAILED if FAILED in codes else max(codes)
 
+    @property
+    def title(self) -> str:
+        """With the folder of the cases."""
+        return f"Gap diagnoses of {self.options.case.name}"
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`summary`: a row for each case that could be diagnosed."""
         return {SUMMARY: pd.DataFrame([dict(one.row) for one in self.done])}
@@ -82,7 +86,3 @@ class ManyResult(Result):
         for one in self.done:
             shutil.copytree(self.scratch.folder / one.name, folder / one.name)
         write_table(self.table(), folder, SUMMARY)
-
-    def write_page(self, file: Path) -> None:
-        """The summary."""
-        write_plain_page(self, f"Gap diagnoses of {self.options.case.name}", file)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from geocontact.analyses.options import Options
+from geocontact.analyses.options import C3dUnit, Options
 
 
 @dataclass(frozen=True)
@@ -20,8 +20,12 @@ class GatherOptions(Options):
         what was measured beside them: <site> = "folder" that `geocontact mat` wrote, for each site;
         plates = "grf.mot" with plate = "name", for a foot; forces = "forces.csv" and areas = "area.csv", for a knee;
         inputs = "ik.mot" and outputs = "id.sto" with a table [columns]; outputs = "logger.csv" with units in its head.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     """
 
     over_time: ClassVar[bool] = True
 
     settings: Path
+    _: KW_ONLY
+    c3d_unit: C3dUnit = None

@@ -52,7 +52,7 @@ def read(o: GatherOptions, record: Record) -> Recordings:
     if plan.settings.mesh:
         raise InputError(path, "mesh", "a case with meshes is not gathered", "add them to the case by hand")
     mats = {site: _mats(record, path, plan, site) for site in plan.sites}
-    trials = {name: _recording(record, plan, name, source) for name, source in plan.sources.items()}
+    trials = {name: _recording(record, plan, name, source, o.c3d_unit) for name, source in plan.sources.items()}
     tables = {key: read_side_table(path.parent / file) for key, file in plan.settings.tables.items()}
     return Recordings(plan, trials, mats, tables)
 
@@ -68,11 +68,11 @@ def _mats(record: Record, path: Path, plan: Gathering, site: str) -> dict[str, M
     return found
 
 
-def _recording(record: Record, plan: Gathering, name: str, source: Source) -> GatheredTrial:
+def _recording(record: Record, plan: Gathering, name: str, source: Source, c3d_unit: str | None) -> GatheredTrial:
     inputs, outputs = _inputs_and_outputs(record, plan, name, source)
     plate = areas = forces = None
     if source.plate is not None:
-        there = read_force_plates(source.plate.file)
+        there = read_force_plates(source.plate.file, c3d_unit)
         plate = plate_named(there, source.plate.plate, source.plate.file, "plate =")
         record.add_input(f"{name} plates", source.plate.file, plate=plate.name)
     if source.sides is not None:

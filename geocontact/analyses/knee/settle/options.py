@@ -32,12 +32,12 @@ READS_NO_FILE = Excludes("sweep", "has no effect with `sweep`, which has no reco
 LOAD = Plausible("the axial load", N, (1e-3, 1e5), (1.0, 10_000.0))
 Free = Annotated[
     tuple[str, ...],
-    Typed("-", "knee.settle.typed:names", '("adduction", "rotation")'),
+    Typed("-", "knee.settle.equilibrium:names", '("adduction", "rotation")'),
     Spelled(default="adduction"),
 ]
 Springs = Annotated[
     Mapping[str, float],
-    Typed("-", "knee.settle.typed:springs", '{"anterior": 30e3, "rotation": 20.6}'),
+    Typed("-", "knee.settle.equilibrium:springs", '{"anterior": 30e3, "rotation": 20.6}'),
 ]
 
 

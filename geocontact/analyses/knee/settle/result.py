@@ -1,29 +1,71 @@
-"""What a contact equilibrium finds, with its files, figure and page."""
+"""What a contact equilibrium is, frame after frame: found, in tables, with its files, figure and page."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.contact_loads import write_contact_loads
-from geocontact.analyses.figure_files import save_both
+from geocontact.analyses.finished_page import Thinned
+from geocontact.analyses.knee.settle.equilibrium import SIDES, Settled, SettleInputs
 from geocontact.analyses.knee.settle.options import SettleOptions
-from geocontact.analyses.knee.settle.page import write_settle_page
-from geocontact.analyses.knee.settle.settled import SIDES, Settled
-from geocontact.analyses.knee.settle.tables import pose_table, settle_table
+from geocontact.analyses.knee.settle.show import thinned_page
 from geocontact.analyses.pressure_figure import PressureMap, pressure_figure
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.sides import medial_side
+from geocontact.data.errors import InputError
 from geocontact.io.opensim.storage_writer import write_storage
-from geocontact.io.text.results import write_table
-from geocontact.loads.settling.energy_balance import EnergyBalance
+from geocontact.loads.settling.along import Frame, settle_along
+from geocontact.loads.settling.coordinates import NAMES, coordinates_of
+from geocontact.loads.settling.energy_balance import EnergyBalance, energy_balance
+from geocontact.loads.settling.indeterminate import not_held
 from geocontact.view.surfaces.pressure_series import PressureSeries, write_pressure_series
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+MM, MM2, MPA = 1e3, 1e6, 1e-6
+
+
+def settle_table(s: Settled) -> pd.DataFrame:
+    """A row per frame; cells are empty where it did not come to rest."""
+    flexion, adduction, rotation = np.degrees(s.knee_angles).T
+    columns: dict[str, object] = {
+        s.inputs.clock: s.inputs.motion.time,
+        "load [N]": s.inputs.load,
+        "flexion [deg]": flexion,
+        "adduction [deg]": adduction,
+        "rotation [deg]": rotation,
+    }
+    columns |= {f"{name} [mm]": s.coordinates[:, k] * MM for k, name in enumerate(NAMES[:3])}
+    columns |= {"contact_area [mm^2]": s.areas * MM2, "peak [MPa]": s.peaks * MPA}
+    for side in SIDES:
+        columns[f"force_{side} [N]"] = s.forces(side)
+    for side in SIDES:
+        centre = s.centres(side) * MM
+        columns |= {f"cop_{side}_{letter} [mm]": centre[:, axis] for axis, letter in enumerate("xyz")}
+    steps = [np.nan if frame.rest is None else frame.rest.steps for frame in s.frames]
+    columns |= {"stored_energy [J]": s.stored, "residual [N]": s.residuals, "newton_steps [-]": steps}
+    return pd.DataFrame(columns)
+
+
+def pose_table(s: Settled) -> pd.DataFrame:
+    """Poses of MOVING in FIXED in the frames at rest, as `area` reads them."""
+    poses = s.poses
+    shift, turn = poses.translation * MM, poses.rotation.as_quat(scalar_first=True)
+    columns: dict[str, object] = {s.inputs.clock: s.inputs.motion.time[s.kept]}
+    columns |= {f"t{letter} [mm]": shift[:, axis] for axis, letter in enumerate("xyz")}
+    columns |= {f"q{letter} [-]": turn[:, k] for k, letter in enumerate("wxyz")}
+    return pd.DataFrame(columns)
+
 
 COORDINATES = ("flexion", "adduction", "rotation", "tx", "ty", "tz")
 """Columns of settled.mot, as `area` reads them by the convention of Grood and Suntay."""
@@ -49,35 +91,32 @@ class SettleResult(Result):
         """`settle`, a row per frame, and `poses` of those at rest."""
         return {"settle": settle_table(self.settled), "poses": pose_table(self.settled)}
 
-    def figure(self) -> Figure:
-        """Forces and largest pressure over the motion, and the pressures at the largest load."""
+    def figures(self) -> dict[str, Figure]:
+        """`settle`: forces and largest pressure over the motion, and the pressures at the largest load."""
         s, k = self.settled, self.settled.heaviest
         pressure = s.face_pressure(k)
         largest = max(float(s.face_pressure(int(j)).max()) for j in s.kept)
         at = PressureMap(s.inputs.fixed.vertices, s.inputs.fixed.faces, pressure, s.centres("total"), k, largest)
         forces = {side: s.forces(side) for side in SIDES}
-        return pressure_figure(s.inputs.motion.course, forces, s.peaks, at)
+        return {"settle": pressure_figure(s.inputs.motion.course, forces, s.peaks, at)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Thinned]:
+        """Both bodies with pressures, curves and numbers over time."""
+        return {REPORT: thinned_page(self.settled, self.sentences)}
 
     def write_files(self, folder: Path) -> None:
-        """Tables, settled.mot, figure, page, and what was asked for beside them."""
+        """settled.mot besides, and what was asked for: loads for OpenSim, a series for ParaView."""
         s = self.settled
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
         time, poses = s.inputs.motion.time[s.kept], s.poses
         values = np.hstack([np.degrees(s.knee_angles[s.kept]), poses.translation])
         write_storage(folder / "settled.mot", time, COORDINATES, values, title=s.inputs.title, degrees=True)
-        save_both(self.figure(), folder, "settle")
         if self.options.bodies is not None:
             found = [load for load in s.loads if load is not None]
             loads = {side: [load[side] for load in found] for side in SIDES[:2]}
             write_contact_loads(folder, time, loads, *self.options.bodies)
         if self.options.paraview:
             write_pressure_series(self._series(), folder / "paraview")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """Both bodies with pressures, curves and numbers over time."""
-        write_settle_page(self.settled, self.record, file)
+        super().write_files(folder)
 
     def _series(self) -> PressureSeries:
         s = self.settled
@@ -89,3 +128,106 @@ class SettleResult(Result):
             s.poses,
             lambda k: s.face_pressure(int(kept[k])),
         )
+
+
+BALANCED = 0.01  # of the work; a larger difference is a reservation
+STRAINED = 0.2  # largest strain that the linear law is trusted to
+NAMED = 8  # frames that a warning names
+
+
+def run(i: SettleInputs, o: SettleOptions, record: Record) -> SettleResult:
+    """Every frame after the other, then the balance of energy in that with the largest load."""
+    wanted = coordinates_of(i.motion.poses, i.bed.point)
+    with record.listener.progress("equilibrium", len(wanted)) as step:
+
+        def each(frame: Frame) -> None:
+            _refuse_indeterminate(i, frame)
+            step()
+
+        frames = settle_along(i.bed, i.fixed, wanted, i.load, i.springs, i.free, each)
+    settled = Settled(i, tuple(frames), o.side)
+    _refuse_nowhere(i, settled)
+    _warn_of_lost(i, settled, record)
+    heaviest = settled.heaviest
+    rest = frames[heaviest].rest
+    balance = None if rest is None else energy_balance(i.bed, frames[heaviest].pull, rest, i.free)
+    _summarise(i, settled, balance, record)
+    record.say(f"medial is {medial_side(o.split, o.side, None).words} of {i.fixed.name}")
+    return SettleResult(record=record, options=o, settled=settled, balance=balance)
+
+
+def _refuse_indeterminate(i: SettleInputs, frame: Frame) -> None:
+    """InputError where contact and springs leave a free coordinate anywhere."""
+    if frame.rest is None:
+        return
+    loose = not_held(frame.rest.total.stiffness, i.free, frame.pull.load)
+    if loose and (frame.rest.converged or not i.springs.any()):
+        what = f"nothing holds {' and '.join(loose)}: the contact has no stiffness along it"
+        raise InputError("", "`free`", what, f"leave out one of them, or give `springs` {loose[0]}=…")
+
+
+def _refuse_nowhere(i: SettleInputs, s: Settled) -> None:
+    """InputError where no frame has an equilibrium."""
+    if s.converged.any():
+        return
+    if all(frame.rest is None for frame in s.frames):
+        what = f"{i.bed.moving.name} misses the layer of {i.fixed.name} along -y in every frame: no contact found"
+        raise InputError("", "", what, "check motion, unit, `moving_body` and `region`")
+    residual = min(frame.rest.residual for frame in s.frames if frame.rest is not None)
+    what = f"no frame came to rest; at best {residual:.3g} N were left over"
+    raise InputError("", "`free`", what, "let fewer coordinates settle, or give `springs`")
+
+
+def _warn_of_lost(i: SettleInputs, s: Settled, record: Record) -> None:
+    missed = [k for k, frame in enumerate(s.frames) if frame.rest is None]
+    stuck = [k for k, frame in enumerate(s.frames) if frame.rest is not None and not frame.converged]
+    for frames, what in ((missed, "no contact found"), (stuck, "did not come to rest")):
+        if frames:
+            times = ", ".join(f"{i.motion.time[k]:g}" for k in frames[:NAMED])
+            more = ", …" if len(frames) > NAMED else ""
+            record.warn(f"{len(frames)} of {len(s.frames)} frames: {what} (at {times}{more} s); their rows are empty")
+
+
+def _between(values: Float[np.ndarray, " t"], form: str) -> str:
+    """Smallest and largest in words, once where they are written alike."""
+    low, high = format(np.nanmin(values), form), format(np.nanmax(values), form)
+    return low if low == high else f"{low} … {high}"
+
+
+def _summarise(i: SettleInputs, s: Settled, balance: EnergyBalance | None, record: Record) -> None:
+    peak, area = s.peaks * 1e-6, s.areas * 1e6
+    shares = s.forces("medial") / s.forces("total")
+    record.say(
+        f"{int(s.converged.sum())} of {len(s.frames)} frames at rest under {_between(i.load, '.0f')} N: "
+        f"contact area {_between(area, '.1f')} mm^2, pressure up to {np.nanmax(peak):.2f} MPa, "
+        f"{_between(100.0 * shares, '.0f')} % of the force medial"
+    )
+    strain = s.largest_strain
+    if i.bed.layer.law == "linear" and strain > STRAINED:
+        record.warn(f"the layer is strained by up to {strain:.0%}: `foundation` logarithmic is for that")
+    found: dict[str, object] = {
+        "frames": len(s.frames),
+        "frames_at_rest": int(s.converged.sum()),
+        "pieces": len(i.bed.layer.pieces.area),
+        "layer_modulus_Pa": i.bed.layer.modulus,
+        "largest_pressure_Pa": float(np.nanmax(s.peaks)),
+        "largest_strain": round(strain, 6),
+        "largest_residual_N": float(np.nanmax(s.residuals)),
+        "newton_steps_per_frame": round(float(np.mean([f.rest.steps for f in s.frames if f.rest is not None])), 2),
+    }
+    if balance is None:
+        record.warn("the balance of energy was not checked: no equilibrium under smaller loads, not on the axial way")
+    else:
+        found |= {"work_of_load_J": balance.work, "stored_energy_J": balance.stored, "axial_way_alone": balance.alone}
+        way = (
+            " on the axial way alone, as smaller loads have no equilibrium with all that is free"
+            if balance.alone
+            else ""
+        )
+        record.say(
+            f"work of the load {balance.work * 1e3:.4g} mJ, energy stored {balance.stored * 1e3:.4g} mJ: "
+            f"{balance.difference:.1e} apart{way}"
+        )
+        if balance.difference > BALANCED:
+            record.warn(f"work and stored energy differ by {balance.difference:.1%}; give a smaller `piece`")
+    record.results["equilibrium"] = found

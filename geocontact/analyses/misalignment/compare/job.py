@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from geocontact.analyses.job import Job
 from geocontact.analyses.misalignment.compare.options import CompareOptions
-from geocontact.analyses.misalignment.compare.read import read
-from geocontact.analyses.misalignment.compare.run import run
+from geocontact.analyses.misalignment.compare.pairs import read
+from geocontact.analyses.misalignment.compare.result import run
 
 compare = Job("elbow compare", CompareOptions, read, run)

@@ -13,8 +13,8 @@ be decreased by 16.35 mm and the upper end must be increased by 1.81 mm
 from __future__ import annotations
 
 from geocontact.analyses.job import Job
+from geocontact.analyses.misalignment.design.designed import read
 from geocontact.analyses.misalignment.design.options import DesignOptions
-from geocontact.analyses.misalignment.design.read import read
-from geocontact.analyses.misalignment.design.run import run
+from geocontact.analyses.misalignment.design.result import run
 
 design = Job("elbow design", DesignOptions, read, run)

@@ -2,24 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
+from geocontact.analyses.figure_files import drawing
 from geocontact.analyses.json_file import write_json
-from geocontact.analyses.misalignment.design.designed import Designed
-from geocontact.analyses.misalignment.design.figure import design_figure, map_figure
+from geocontact.analyses.misalignment.design.designed import (
+    Designed,
+    boundary_table,
+    described,
+    designed,
+    force_table,
+    map_table,
+    sensitivity_table,
+    stroke_words,
+)
 from geocontact.analyses.misalignment.design.options import DesignOptions
-from geocontact.analyses.misalignment.design.page import write_design_report
-from geocontact.analyses.misalignment.design.tables import boundary_table, force_table, map_table, sensitivity_table
-from geocontact.analyses.result import Result
-from geocontact.io.text.results import write_table
+from geocontact.analyses.misalignment.design.show import design_figure, design_page, map_figure
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.axis_misalignment.axis_drift import AxisDrift
+from geocontact.axis_misalignment.planar_joint import FATES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -48,18 +61,53 @@ class DesignResult(Result):
             "sensitivity": sensitivity_table(d),
         }
 
-    def figure(self) -> Figure:
-        """The limit in the plane of the offsets, and the force over the angle with its band."""
-        return design_figure(self.design)
+    def figures(self) -> dict[str, Figure]:
+        """`design`: the limit in the plane of the offsets, and the force over the angle with its band."""
+        return {"design": design_figure(self.design)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Map of the offsets, force over the angle, what the limit asks for, sensitivities."""
+        return {REPORT: design_page(self.design, self.summary, drawing(map_figure(self.design)))}
 
     def write_files(self, folder: Path) -> None:
-        """design.json, tables, figure, page."""
+        """design.json besides."""
         write_json(folder / "design.json", self.summary)
-        for name, rows in self.tables().items():
-            write_table(rows, folder, name)
-        save_both(self.figure(), folder, "design")
-        self.write_page(folder / "report.html")
+        super().write_files(folder)
 
-    def write_page(self, file: Path) -> None:
-        """Map of the offsets, force over the angle, what the limit asks for, sensitivities."""
-        write_design_report(file, self.record, self.design, self.summary, drawing(map_figure(self.design)))
+
+MM = 1e3
+
+
+def run(drift: AxisDrift, o: DesignOptions, record: Record) -> DesignResult:
+    """Map of the offsets, robust radius, stroke that is needed, sensitivities."""
+    found = designed(drift, o)
+    _reserve(record, found)
+    _say(record, found)
+    summary = described(found)
+    record.results["design"] = summary
+    return DesignResult(record=record, options=o, design=found, summary=summary)
+
+
+def _reserve(record: Record, d: Designed) -> None:
+    for fate, words in FATES.items():
+        count = int((d.map.fate == fate).sum())
+        if count:
+            x, y = d.map.offsets[int(np.argmax(d.map.fate == fate))] * MM
+            record.warn(f"{count} of {len(d.map.fate)} offsets of the map (x = {x:g} mm, y = {y:g} mm …): {words}")
+    if d.boundary.least >= d.boundary.most:
+        record.warn("the limit is exceeded nowhere within the map: how far offsets may go is told up to its edge only")
+    if np.isnan(d.sensitivities[0].peak_slope):
+        record.warn("no sensitivities where there is no force: give another `offset` than what is aimed at")
+
+
+def _say(record: Record, d: Designed) -> None:
+    c = d.task.compensation
+    state = "locked" if c.lower == c.upper == 0.0 else f"stroke {c.lower * MM:g} … {c.upper * MM:g} mm"
+    x, y = d.offset[0] * MM, d.offset[1] * MM
+    verdict = "keeps" if d.keeps_limit else "exceeds"
+    record.say(
+        f"{state}, x = {x:g} mm, y = {y:g} mm: |F| up to {d.peak:.2f} N {verdict} the limit of {d.task.limit:g} N"
+    )
+    if d.keeps_limit:
+        record.say(f"offsets may go {d.boundary.least * MM:.2f} mm from there in any direction")
+    record.say(f"offsets within {d.uncertainty * MM:g} mm: {stroke_words(c, d.stroke)}")

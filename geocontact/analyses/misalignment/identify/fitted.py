@@ -1,25 +1,255 @@
-"""Everything that is found of recordings with a locked joint."""
+"""The fit to recordings with a locked joint: bins that are reached, intervals, trials that were held out."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.misalignment.identify.held_out import Held, each_left_out, predicted
-from geocontact.analyses.misalignment.identify.intervals import ShownInterval, intervals
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
+from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
+from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
 from geocontact.axis_misalignment.explicit import require_no_pole, require_reach
-from geocontact.axis_misalignment.law import SCALED, offsets_of
-from geocontact.axis_misalignment.least_squares import ElbowFit, estimated, r_squared
+from geocontact.axis_misalignment.law import GROWING, LENGTHS, SCALED, offsets_of
+from geocontact.axis_misalignment.least_squares import ElbowFit, estimated, law_at, problem_of, r_squared
 from geocontact.axis_misalignment.residuals import Excess, excess, normality, residual_by_bin, standard_residuals
-from geocontact.axis_misalignment.uncertainty import Direction, Separability, along_the_scale, direction, separability
+from geocontact.axis_misalignment.uncertainty import (
+    Direction,
+    Separability,
+    along_the_scale,
+    covariance,
+    direction,
+    profiled,
+    separability,
+    wild_bootstrap,
+    with_link_held,
+)
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.identify.intervals.bin_tests import BinPair, BinTest, Normality, between_bins, between_neighbours
+from geocontact.identify.intervals.profile_likelihood import Profile
+
+ROUNDING = 1e-9  # of the force's range; less is no noise
+LEAST_BINS = 8  # that a fit is made to
+MIRRORED = -0.5  # correlation of a trial with the others from which on its sign is turned
+
+
+def require_bins(record: Record, paths: Sequence[Path], data: Binned) -> None:
+    """Refuse too few bins, name those that are missing inside the range reached, and a trial of the other sign."""
+    bins = len(data.visits.edges) - 1
+    reached = np.bincount(data.cells.place, minlength=bins) > 0
+    if reached.sum() < LEAST_BINS:
+        span = np.degrees(data.visits.edges[[0, -1]])
+        what = f"{reached.sum()} bins are reached between {span[0]:.0f} and {span[1]:.0f} degrees"
+        raise InputError(paths[0], "", what, f"{LEAST_BINS} are needed: give narrower bins (`bin`) or wider motion")
+    _require_noise(paths[0], data)
+    inside = np.flatnonzero(reached)[[0, -1]]
+    missing = np.flatnonzero(~reached[: inside[1]])
+    missing = missing[missing > inside[0]]
+    if len(missing):
+        runs = np.split(missing, np.flatnonzero(np.diff(missing) > 1) + 1)
+        edges = np.degrees(data.visits.edges)
+        told = ", ".join(f"{edges[run[0]]:.0f}…{edges[run[-1] + 1]:.0f}°" for run in runs)
+        record.warn(f"no sample in {len(missing)} bins inside the range reached: {told}")
+    _refuse_mirrored(paths, data)
+
+
+def _require_noise(path: Path, data: Binned) -> None:
+    """Refuse recordings whose samples all lie on the curve through their bins, as one sample in each bin does."""
+    noise, force = float(data.noise.sd[0]), data.cells.means[:, FORCE]
+    if not noise > ROUNDING * float(np.ptp(force)):
+        what = f"{data.cells.count.sum():.0f} samples in {len(np.unique(data.cells.place))} bins show no noise"
+        raise InputError(path, "", what, "give longer recordings or wider bins (`bin`): intervals come from it")
+
+
+def _refuse_mirrored(paths: Sequence[Path], data: Binned) -> None:
+    """A trial whose force mirrors that of the others."""
+    for trial, path in enumerate(paths):
+        if len(paths) < 2:
+            return
+        mine, others = data.only(trial).cells, data.without(trial).cells
+        bins = len(data.visits.edges) - 1
+        count = np.bincount(others.place, others.count, bins)
+        mean = np.bincount(others.place, others.count * others.means[:, FORCE], bins) / np.where(count > 0, count, 1)
+        both = count[mine.place] > 0
+        if both.sum() < LEAST_BINS:
+            continue
+        correlation = float(np.corrcoef(mine.means[both, FORCE], mean[mine.place][both])[0, 1])
+        if correlation < MIRRORED:
+            others_are = "the other trial, and nothing tells which is right" if len(paths) == 2 else "the other trials"
+            what = f"its force mirrors that of {others_are} (correlation {correlation:.2f} over the bins)"
+            raise InputError(path, "", what, "is its sign turned? correct the file, or leave it out")
+
+
+@dataclass(frozen=True, eq=False)
+class Held:
+    """R² and root mean square error [N] of bin means that were not fitted, by what was held out."""
+
+    name: str
+    r2: float
+    rmse: float
+    bins: int
+
+
+def each_left_out(data: Binned, e: ElbowFit) -> list[Held]:
+    """Each trial in turn, predicted by what the others give."""
+    if len(data.names) < 2:
+        return []
+    found = []
+    for trial, name in enumerate(data.names):
+        problem = problem_of(data.without(trial), e.problem.parameters, e.problem.priors, e.problem.scale)
+        theta = problem.theta(problem.searched(e.values).values)
+        found.append(_held(name, data.only(trial), theta))
+    return found
+
+
+def predicted(
+    paths: Sequence[Path], recordings: Sequence[ElbowRecording], data: Binned, e: ElbowFit, width: float
+) -> list[Held]:
+    """Recordings of their own, in bins of `width` [rad]; InputError for one whose force mirrors what is predicted."""
+    found = []
+    for path, r in zip(paths, recordings, strict=True):
+        own = binned([r], width, data.pressure)
+        measured, force = own.cells.means[:, FORCE], law_at(own.cells.means).force(e.theta)
+        with np.errstate(invalid="ignore"):
+            along = float(np.corrcoef(measured, force)[0, 1])
+        if along < MIRRORED:
+            what = f"its force mirrors what the fitted trials predict (correlation {along:.2f} over the bins)"
+            raise InputError(path, "", what, "is its sign turned? correct the file, or leave it out")
+        found.append(_held(r.name, own, e.theta))
+    return found
+
+
+def _held(name: str, data: Binned, theta: Float[np.ndarray, " 8"]) -> Held:
+    measured, force = data.cells.means[:, FORCE], law_at(data.cells.means).force(theta)
+    rmse = float(np.sqrt(np.mean((measured - force) ** 2)))
+    return Held(name, r_squared(measured, force), rmse, len(measured))
+
+
+TIMES_LINK = {"k": "N", "b": "N s"}
+"""Units of the stiffness and the damping times the link's length."""
+TAILS = (2.5, 97.5)
+
+
+@dataclass(frozen=True, eq=False)
+class ShownInterval:
+    """One number or ratio in the unit shown, with its 95 %.
+
+    Parameters
+    ----------
+    key, words
+        Name in files and in sentences: k, or k_times_l and "k l".
+    unit, per
+        Shown, empty for a ratio; how many of it one of the profile's is.
+    profile
+        Of the number, or with l held of that which the ratio is made of.
+    drawn
+        Ends by the bootstrap in the unit shown; None without.
+    """
+
+    key: str
+    words: str
+    unit: str
+    per: float
+    profile: Profile
+    drawn: tuple[float, float] | None
+
+    @property
+    def value(self) -> float:
+        """Best value."""
+        return self.profile.best * self.per
+
+    @property
+    def parts(self) -> list[tuple[float, float]]:
+        """As of the profile."""
+        return [(low * self.per, high * self.per) for low, high in self.profile.parts]
+
+    @property
+    def lower(self) -> float:
+        """Least value within."""
+        return self.profile.lower * self.per
+
+    @property
+    def upper(self) -> float:
+        """Largest value within."""
+        return self.profile.upper * self.per
+
+    @property
+    def lower_open(self) -> bool:
+        """Whether the recordings set no least value."""
+        return self.profile.lower_open
+
+    @property
+    def upper_open(self) -> bool:
+        """Whether the recordings set no largest value."""
+        return self.profile.upper_open
+
+    @property
+    def ends(self) -> str:
+        """Ends in words, of each part."""
+        told = [f"{end:.4g}" for part in self.parts for end in part]
+        if self.lower_open:
+            told[0] = "open"
+        if self.upper_open:
+            told[-1] = "open"
+        return " or ".join(f"{low} … {high}" for low, high in zip(told[::2], told[1::2], strict=True))
+
+    @property
+    def sign_open(self) -> bool:
+        """Whether there are values of both signs within."""
+        return self.lower < 0.0 < self.upper
+
+    @property
+    def shown(self) -> str:
+        """Value, unit as far as there is one, and ends."""
+        return f"{' '.join(filter(None, (f'{self.value:.4g}', self.unit)))} (95 % {self.ends})"
+
+
+def intervals(data: Binned, e: ElbowFit, replicates: int) -> tuple[ShownInterval, ...]:
+    """Of each free number; where nothing sets the scale, of k l, x/l, y/l, z/l in place of k and the lengths.
+
+    `replicates` of the bootstrap are drawn, none for 0.
+    """
+    spread = covariance(data, e)
+    if not e.problem.scale_free:
+        drawn = _drawn(data, e, replicates)
+        return tuple(_number(name, profiled(e, spread, name), drawn.get(name)) for name in e.problem.names)
+    held, link = with_link_held(e), e.named["l"]
+    held_spread, drawn = covariance(data, held), _drawn(data, held, replicates)
+    return tuple(
+        _ratio(name, profiled(held, held_spread, name), link, drawn.get(name))
+        if name in SCALED
+        else _number(name, profiled(e, spread, name), None)
+        for name in e.problem.names
+        if name != "l"
+    )
+
+
+def _drawn(data: Binned, e: ElbowFit, replicates: int) -> dict[str, tuple[float, float]]:
+    """Ends of the bootstrap's 95 % by free number; empty without one."""
+    if not replicates:
+        return {}
+    low, high = np.percentile(wild_bootstrap(data, e, replicates), TAILS, axis=0)
+    return {name: (float(low[k]), float(high[k])) for k, name in enumerate(e.problem.names)}
+
+
+def _ratio(name: str, p: Profile, link: float, drawn: tuple[float, float] | None) -> ShownInterval:
+    per = 1.0 / link if name in GROWING else link
+    ends = None if drawn is None else (drawn[0] * per, drawn[1] * per)
+    if name in GROWING:
+        return ShownInterval(f"{name}_over_l", f"{name}/l", "" if name in LENGTHS else "1/N", per, p, ends)
+    return ShownInterval(f"{name}_times_l", f"{name} l", TIMES_LINK[name], per, p, ends)
+
+
+def _number(name: str, p: Profile, drawn: tuple[float, float] | None) -> ShownInterval:
+    per = PER_SI[name]
+    ends = None if drawn is None else (drawn[0] * per, drawn[1] * per)
+    return ShownInterval(name, name, WRITTEN[name], per, p, ends)
+
 
 FACTORS = np.geomspace(0.5, 2.0, 41)
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from geocontact.analyses.misalignment.identify.fitted import require_bins
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
-from geocontact.analyses.misalignment.identify.reached_bins import require_bins
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
 from geocontact.axis_misalignment.end_stop import (

@@ -12,8 +12,8 @@
 from __future__ import annotations
 
 from geocontact.analyses.job import Job
+from geocontact.analyses.misalignment.identify.inputs import read
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
-from geocontact.analyses.misalignment.identify.read import read
-from geocontact.analyses.misalignment.identify.run import run
+from geocontact.analyses.misalignment.identify.result import run
 
 identify = Job("elbow fit", IdentifyOptions, read, run)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
-from geocontact.analyses.figure_files import drawing, save_both
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.misalignment.identify.figure import (
     Boxes,
@@ -19,18 +21,166 @@ from geocontact.analyses.misalignment.identify.figure import (
     residual_figure,
     told_figure,
 )
-from geocontact.analyses.misalignment.identify.fitted import Fitted
-from geocontact.analyses.misalignment.identify.free_joint import Free
+from geocontact.analyses.misalignment.identify.fitted import Fitted, ShownInterval, fitted, require_bins
+from geocontact.analyses.misalignment.identify.free_joint import Free, free_joint
+from geocontact.analyses.misalignment.identify.inputs import IdentifyInputs
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
-from geocontact.analyses.misalignment.identify.page import write_fit_report
-from geocontact.analyses.misalignment.identify.tables import QUANTILE_COLUMNS, tables_of
-from geocontact.analyses.result import Result
-from geocontact.axis_misalignment.bins import Binned
+from geocontact.analyses.misalignment.identify.sentences import described, reserve, say
+from geocontact.analyses.misalignment.identify.show import fit_page
+from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.axis_misalignment.bins import Binned, binned
 from geocontact.axis_misalignment.end_stop import bin_means
-from geocontact.io.text.results import write_table
+from geocontact.axis_misalignment.fixation import yielded
+from geocontact.axis_misalignment.law import NAMES, offsets_of
+from geocontact.axis_misalignment.least_squares import ElbowFit, ElbowProblem, Prior, estimated, problem_of
+from geocontact.axis_misalignment.transmission import CuffLoads, cuff_loads
+from geocontact.data.elbow_recording import ElbowRecording
+from geocontact.identify.signals.angle_bins import bin_numbers
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
+
+
+QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
+QUANTILE_COLUMNS = tuple(f"{share:.0%} [N]" for share in QUANTILES)
+
+
+def tables_of(found: Fitted, free: Free | None) -> dict[str, pd.DataFrame]:
+    """All of them by name; `conditions` and `boxes_free` where the joint was free too."""
+    tables = {
+        "intervals": interval_table(found),
+        "bins": _with_fit(spread_table(found.recordings, found.data), found),
+        "boxes": spread_table(found.recordings, found.boxes),
+        "scale_line": line_table(found),
+        "held_out": held_table(found),
+    }
+    if free is not None:
+        tables["conditions"] = condition_table(found, free)
+        tables["boxes_free"] = spread_table(free.recordings, free.boxes)
+    return tables
+
+
+def spread_table(recordings: Sequence[ElbowRecording], data: Binned) -> pd.DataFrame:
+    """Samples of all trials by bin: counts, mean, SD, quantiles; empty where nothing was recorded."""
+    edges = data.visits.edges
+    place = np.concatenate([bin_numbers(r.beta, edges) for r in recordings])
+    force = np.concatenate([r.force for r in recordings])
+    order = np.argsort(place, kind="stable")
+    groups = np.split(force[order], np.searchsorted(place[order], np.arange(1, len(edges) - 1)))
+    return pd.DataFrame([_spread(k, values, data) for k, values in enumerate(groups)])
+
+
+def _spread(k: int, values: np.ndarray, data: Binned) -> dict[str, Any]:
+    q = np.quantile(values, QUANTILES) if len(values) else np.full(len(QUANTILES), np.nan)
+    return {
+        "beta [deg]": math.degrees(data.centres[k]),
+        "trials": int((data.cells.place == k).sum()),
+        "visits": int((data.visits.place == k).sum()),
+        "samples": len(values),
+        "mean [N]": float(values.mean()) if len(values) else np.nan,
+        "sd [N]": float(values.std(ddof=1)) if len(values) > 1 else np.nan,
+        **dict(zip(QUANTILE_COLUMNS, map(float, q), strict=True)),
+    }
+
+
+def _with_fit(table: pd.DataFrame, found: Fitted) -> pd.DataFrame:
+    r = found.residuals
+    off = dict(zip(np.round(np.degrees(r.beta), 6), r.off, strict=True))
+    table["residual [N]"] = [off.get(round(value, 6), np.nan) for value in table["beta [deg]"]]
+    table["fitted [N]"] = table["mean [N]"] - table["residual [N]"]
+    e = found.estimate
+    if not e.problem.scale_free:  # a moment is a force times a length, and no length is known then
+        there = table["fitted [N]"].notna()
+        beta = np.radians(table.loc[there, "beta [deg]"].to_numpy())
+        loads = _loads(e, beta, table.loc[there, "fitted [N]"].to_numpy())
+        table.loc[there, "gamma [deg]"], table.loc[there, "cuff_moment [N m]"] = np.degrees(loads.gamma), loads.moment
+    return table
+
+
+def _loads(e: ElbowFit, beta: Float[np.ndarray, " b"], force: Float[np.ndarray, " b"]) -> CuffLoads:
+    """What the cuff passes to the forearm with these forces, its stiffness against turning left out."""
+    numbers = e.named
+    rest = yielded(beta, np.zeros(len(beta)), offsets_of(e.theta), numbers["k"], compliance=numbers["c"])
+    return cuff_loads(beta, (numbers["l"], numbers["z"]), replace(rest, force=force))
+
+
+def interval_table(found: Fitted) -> pd.DataFrame:
+    """Every number of the law, then ratios where nothing sets the scale, with the intervals there are."""
+    told = {each.key: each for each in found.intervals}
+    problem = found.estimate.problem
+    source = {name: "recordings and prior" if name in problem.priors else "recordings" for name in problem.names}
+    rows = [
+        _row(name, WRITTEN[name], source.get(name, "known beforehand"), value * PER_SI[name], told.pop(name, None))
+        for name, value in found.estimate.named.items()
+    ]
+    return pd.DataFrame(rows + [_row(each.words, each.unit, "recordings", each.value, each) for each in told.values()])
+
+
+def _row(name: str, unit: str, source: str, value: float, told: ShownInterval | None) -> dict[str, Any]:
+    row: dict[str, Any] = {
+        "number": name,
+        "unit": unit,
+        "from": source,
+        "value": value,
+        "profile lower": np.nan,
+        "profile upper": np.nan,
+        "profile parts": np.nan,
+        "bootstrap lower": np.nan,
+        "bootstrap upper": np.nan,
+    }
+    if told is not None:
+        row["profile lower"] = np.nan if told.lower_open else told.lower
+        row["profile upper"] = np.nan if told.upper_open else told.upper
+        if len(told.parts) > 1:
+            row["profile parts"] = told.ends
+        if told.drawn is not None:
+            row["bootstrap lower"], row["bootstrap upper"] = told.drawn
+    return row
+
+
+def line_table(found: Fitted) -> pd.DataFrame:
+    """Numbers along the scale and R² of each row."""
+    line = found.line
+    columns = {f"{n} [{WRITTEN[n]}]": line.numbers[:, k] * PER_SI[n] for k, n in enumerate(NAMES[:5])}
+    return pd.DataFrame({"scale [-]": line.numbers[:, 3] / found.estimate.theta[3], **columns, "r2 [-]": line.r2})
+
+
+def held_table(found: Fitted) -> pd.DataFrame:
+    """R² and RMSE of what was not fitted."""
+    columns = ["trial", "r2 [-]", "rmse [N]", "bins"]
+    return pd.DataFrame([(h.name, h.r2, h.rmse, h.bins) for h in found.held], columns=columns)
+
+
+def condition_table(found: Fitted, free: Free) -> pd.DataFrame:
+    """Bin means with the joint locked and free."""
+    locked, curve = bin_means(found.data), free.stroke.curve
+    one = pd.DataFrame(
+        {
+            "beta [deg]": np.degrees(locked.beta).round(6),
+            "place": _places(locked.beta, found.data),
+            "locked [N]": locked.force,
+        }
+    )
+    other = pd.DataFrame(
+        {
+            "place": _places(curve.beta, found.data),
+            "free beta [deg]": np.degrees(curve.beta),
+            "free [N]": curve.force,
+            "displacement [mm]": curve.joint * 1e3,
+        }
+    )
+    both = one.merge(other, on="place", how="outer").sort_values("place")
+    both["beta [deg]"] = both["beta [deg]"].fillna(both["free beta [deg]"])
+    return both[["beta [deg]", "locked [N]", "free [N]", "displacement [mm]"]]
+
+
+def _places(beta: np.ndarray, data: Binned) -> np.ndarray:
+    width = float(data.visits.edges[1] - data.visits.edges[0])
+    return np.floor(beta / width).astype(int)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -57,18 +207,16 @@ class IdentifyResult(Result):
         """k, x, y, l, z, b and s in SI; where nothing sets the scale, one point of the line that fits alike."""
         return self.fit.estimate.named
 
-    @property
-    def figures(self) -> tuple[str, ...]:
-        """Names of the figures."""
-        own = ("forces", "identifiability", "residuals")
-        return own if self.free is None else (*own, "conditions")
+    def figures(self) -> dict[str, Figure]:
+        """`forces`, `identifiability`, `residuals`, and `conditions` with a free joint."""
+        return {name: self.figure(name) for name in self._drawn}
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`intervals`, `bins`, `boxes`, `scale_line`, `held_out`; `conditions` and `boxes_free` with a free joint."""
         return tables_of(self.fit, self.free)
 
     def figure(self, name: str = "forces") -> Figure:
-        """One of `figures`: force over the angle unless named."""
+        """One of the figures: force over the angle unless named."""
         f = self.fit
         if name == "forces":
             return force_figure(_over(f), self._boxes("boxes", f.boxes))
@@ -81,22 +229,21 @@ class IdentifyResult(Result):
         if name == "conditions" and self.free is not None:
             boxes = self._boxes("boxes", f.boxes), self._boxes("boxes_free", self.free.boxes)
             return conditions_figure(bin_means(f.data), self.free.stroke, *boxes)
-        raise KeyError(f"no figure {name!r}; there are {', '.join(self.figures)}")
+        raise KeyError(f"no figure {name!r}; there are {', '.join(self._drawn)}")
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Force over the angle, what the data tell, figures and tables."""
+        return {REPORT: fit_page(self.record, self.fit, self.free, self.tables(), drawings)}
 
     def write_files(self, folder: Path) -> None:
-        """elbow.json, tables, figures, page."""
+        """elbow.json besides."""
         write_json(folder / "elbow.json", self.summary)
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
-        drawings = {name: save_both(self.figure(name), folder, name) for name in self.figures}
-        self._write_page(folder / "report.html", drawings)
+        super().write_files(folder)
 
-    def write_page(self, file: Path) -> None:
-        """Force over the angle, what the data tell, figures and tables."""
-        self._write_page(file, {name: drawing(self.figure(name)) for name in self.figures})
-
-    def _write_page(self, file: Path, drawings: dict[str, bytes]) -> None:
-        write_fit_report(file, self.record, self.fit, self.free, self.tables(), drawings)
+    @property
+    def _drawn(self) -> tuple[str, ...]:
+        own = ("forces", "identifiability", "residuals")
+        return own if self.free is None else (*own, "conditions")
 
     def _boxes(self, name: str, data: Binned) -> Boxes:
         table = self.table(name)
@@ -109,3 +256,33 @@ def _over(f: Fitted) -> Over:
     law = f.estimate.problem.law
     order = np.argsort(law.beta)
     return Over(law.beta, f.estimate.problem.force, law.beta[order], f.estimate.predicted[order])
+
+
+def run(recorded: IdentifyInputs, o: IdentifyOptions, record: Record) -> IdentifyResult:
+    """The best numbers, their intervals, and what the recordings do not tell."""
+    data = binned(recorded.locked, o.bin)
+    require_bins(record, o.recordings, data)
+    free = free_joint(record, o, recorded.unlocked, data)
+    priors = {name: Prior(*pair) for name, pair in (o.prior or {}).items()}
+    problem = problem_of(data, recorded.parameters, priors)
+    if problem.scale_free and free is not None:
+        problem = _scaled_by(record, problem, free)
+    found = fitted(recorded.locked, data, estimated(problem), recorded.held_out, o)
+    reserve(record, found, free)
+    say(record, found, free)
+    summary = described(found, free)
+    record.results["elbow"] = summary
+    return IdentifyResult(record=record, options=o, fit=found, free=free, summary=summary)
+
+
+def _scaled_by(record: Record, problem: ElbowProblem, free: Free) -> ElbowProblem:
+    """The problem with the free joint's displacement beside it; as it was where that has no standard error."""
+    if free.scale is None:
+        record.warn("the free joint's displacement sets no scale without a standard error, which takes two free trials")
+        return problem
+    record.warn(
+        f"the scale is set by the free joint's displacement (SE {free.scale.error:.2%} over {free.scale.trials} "
+        "trials), which supposes the same offsets while the joint was free"
+        + ("" if free.rotary_free else ", and no other joint of the device free beside it (else `rotary_free`)")
+    )
+    return replace(problem, scale=free.scale)

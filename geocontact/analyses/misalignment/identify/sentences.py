@@ -1,18 +1,207 @@
-"""What an identification says, in the terminal and on its page."""
+"""What is said of an identification: reservations, elbow.json, sentences."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
-from geocontact.analyses.misalignment.identify.description import ratios
-from geocontact.analyses.misalignment.identify.fitted import Fitted
+from geocontact.analyses.json_file import finite
+from geocontact.analyses.misalignment.identify.fitted import Fitted, ShownInterval
 from geocontact.analyses.misalignment.identify.free_joint import Free, stroke_stiffness
-from geocontact.analyses.misalignment.identify.reservations import SCALE_FREE
+from geocontact.analyses.misalignment.law_numbers import MMHG, with_units
 from geocontact.analyses.run_record import Record
+from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.end_stop import EndStop
-from geocontact.identify.intervals.bin_tests import LEVEL, BinTest
+from geocontact.axis_misalignment.law import LENGTHS
+from geocontact.axis_misalignment.uncertainty import Direction
+from geocontact.identify.intervals.bin_tests import LEVEL, BinPair, BinTest
+
+FEW_STRETCHES = 12
+OWN = 0.1  # of what c does to the force; less is called hardly separable from the cuff
+RARE, MORE = 0.01, 1.5  # p and size from which residuals are more than noise
+BETTER = 0.02  # of R² that the mirrored force must gain to be worth a word
+APART = 3.0  # times that two stiffnesses may differ before a unit is doubted
+SCALE_FREE = (
+    f"k and the lengths {', '.join(LENGTHS)} are known up to one factor only: F(k/s, s × lengths) = F for every s; "
+    "know l, z or k (`known`), give a prior (`prior`), or record the free joint's displacement (`unlocked`)"
+)
+
+
+def reserve(record: Record, found: Fitted, free: Free | None) -> None:
+    """Tell the record what is open, rough or odd."""
+    _say_what_is_open(record, found)
+    if free is not None:
+        _doubt_displacement(record, found, free)
+    e, excess = found.estimate, found.residuals.excess
+    if found.stretches < FEW_STRETCHES:
+        record.warn(f"{found.stretches} stretches of {found.data.stretch:.2g} s are few: intervals are rough")
+    if not e.converged:
+        record.warn("the search did not end by itself; see `start` and `bounds`")
+    if excess.p < RARE and excess.ratio > MORE:
+        record.warn(
+            f"the fit leaves {excess.ratio:.2g} times what noise within the trials would: offsets that change "
+            "from trial to trial, or something the law misses; intervals do not know of it and are too short"
+        )
+    if found.r2 < 0.0:
+        record.warn(f"R² is {found.r2:.2f}: a constant force would do better than the law")
+    bad = [f"{each.name} ({each.r2:.2f})" for each in found.held if each.r2 < 0.0]
+    if bad:
+        record.warn(f"R² of what was not used is below 0, a constant force would do better: {', '.join(bad)}")
+    if found.mirrored_r2 > found.r2 + BETTER:
+        told = f"the force turned over fits better (R² {found.mirrored_r2:.3f} instead of {found.r2:.3f})"
+        record.warn(f"{told}: is its sign turned? see `map` force=-…")
+
+
+def _doubt_displacement(record: Record, found: Fitted, free: Free) -> None:
+    """A stroke that is not that of the fitted geometry, where something else than the displacement sets its scale."""
+    problem = found.estimate.problem
+    if free.stiffness is None or problem.scale_free or problem.scale is not None or not free.stiffness.value > 0.0:
+        return
+    times = free.stiffness.value / found.estimate.named["k"]
+    if 1.0 / APART < times < APART:
+        return
+    stroke = f"the free joint slides by {1.0 / times:.3g} times what the fitted lengths ask for"
+    record.warn(
+        f"{stroke}, so that k by its displacement is {free.stiffness.value:.4g} N/m and not "
+        f"{found.estimate.named['k']:.4g}: is the displacement in another unit than its header says?"
+    )
+
+
+def _say_what_is_open(record: Record, found: Fitted) -> None:
+    """The scale, ends of intervals, signs."""
+    if found.estimate.problem.scale_free:
+        record.warn(SCALE_FREE)
+    apart, problem = found.separable, found.estimate.problem
+    if "c" in problem.names and apart.from_all < OWN and not set(problem.priors) & {"k", "c"}:
+        told = f"only {apart.from_all:.2%} of what c does to the force is its own" if apart.told else "not at all"
+        record.warn(
+            "angle and force hardly tell the compliance c of the upper arm's fixation from that of the cuff, which is "
+            f"in series with it ({told}): know k or c (`known`), or give a prior (`prior`)"
+        )
+    driven = [r.name for r in found.recordings if r.torque is not None and r.torque.any()]
+    if driven and found.estimate.named["c"] != 0.0:
+        told = f"{', '.join(driven)}: an actuator's torque pushes a fixation that yields"
+        record.warn(f"{told}; the fit takes it as 0, as if nobody drove the exoskeleton")
+    ends = [each.words for each in found.intervals if each.lower_open or each.upper_open]
+    if ends:
+        record.warn(f"no limit within the bounds to {', '.join(ends)}, on one side or both")
+    signs = [each.words for each in found.intervals if each.key[0] in LENGTHS and each.sign_open]
+    if signs:
+        record.warn(f"the sign of {', '.join(signs)} is not told: values of both signs fit within the interval")
+
+
+def described(found: Fitted, free: Free | None) -> dict[str, Any]:
+    """Numbers, intervals, what is told and what is not, tests; units in the keys."""
+    e, residuals, noise = found.estimate, found.residuals, found.data.noise
+    content: dict[str, Any] = {
+        "numbers": with_units(e.named),
+        "free": list(e.problem.names),
+        "scale_free": e.problem.scale_free,
+        "ratios": ratios(e.named),
+        "intervals": {each.key: _interval(each) for each in found.intervals},
+        "identifiability": _directions(found),
+        "r2": finite(found.r2),
+        "r2_along_the_scale": [float(found.line.r2.min()), float(found.line.r2.max())],
+        "r2_of_the_force_turned_over": finite(found.mirrored_r2),
+        "held_out": [{"name": h.name, "r2": finite(h.r2), "rmse_N": h.rmse, "bins": h.bins} for h in found.held],
+        "between_bins": _tested(found.bins_differ, found.neighbours, found.boxes),
+        "residuals": {
+            "p_lilliefors": residuals.normality.p,
+            "in_words": residuals.normality.words,
+            "over_noise": residuals.excess.ratio,
+            "p_over_noise": residuals.excess.p,
+        },
+        "noise": {"sd_N": float(noise.sd[0]), "correlation_time_s": float(noise.tau[0])},
+        "stretches": {"count": found.stretches, "length_s": found.data.stretch},
+        "pressure_mmHg": found.data.pressure / MMHG if found.data.pressure else None,
+        "starts": {"count": len(e.costs), "costs": list(e.costs)},
+    }
+    return content if free is None else {**content, "free_joint": _free_joint(found, free)}
+
+
+def ratios(numbers: dict[str, float]) -> dict[str, float]:
+    """What no scale changes: the force k l, and lengths over the link."""
+    lengths = {f"{name}_over_l": numbers[name] / numbers["l"] for name in LENGTHS if name != "l"}
+    return {"k_times_l_N": numbers["k"] * numbers["l"], **lengths}
+
+
+def _interval(one: ShownInterval) -> dict[str, Any]:
+    return {
+        "unit": one.unit,
+        "value": one.value,
+        "profile_likelihood": [one.lower, one.upper],
+        "parts": [list(part) for part in one.parts],
+        "open": [one.lower_open, one.upper_open],
+        "wild_bootstrap": None if one.drawn is None else list(one.drawn),
+    }
+
+
+def _directions(found: Fitted) -> dict[str, Any]:
+    known = {"k_and_lengths": found.all_directions, "free": found.free_directions}
+    told = {key: _direction(each) for key, each in known.items() if each is not None}
+    apart = found.separable
+    fixation = {"own_beside_k": apart.from_cuff, "own_beside_all_free": apart.from_all, "told_apart": apart.told}
+    return {**told, "fixation_from_cuff": fixation}
+
+
+def _direction(one: Direction) -> dict[str, Any]:
+    return {
+        "numbers": list(one.names),
+        "singular_values_N": one.singular_values.tolist(),
+        "told_least": one.least.tolist(),
+        "flat": one.flat,
+    }
+
+
+def _free_joint(found: Fitted, free: Free) -> dict[str, Any]:
+    s, scale, k = free.stiffness, free.scale, stroke_stiffness(found.estimate, free)
+    told = None if s is None else {"value": s.value, "se": finite(s.error), "trials": s.trials, "bins": s.bins}
+    return {
+        "stops": [_stop_numbers(stop, k) for stop in free.stroke.stops],
+        "level_while_sliding_N": free.stroke.level,
+        "spread_while_sliding_N": free.stroke.spread,
+        "k_by_displacement_N_per_m": told,
+        "scale": None if scale is None else {"se": scale.error, "trials": scale.trials},
+        "between_bins": _tested(free.bins_differ, free.neighbours, free.boxes),
+    }
+
+
+def _stop_numbers(stop: EndStop, stiffness: float | None) -> dict[str, Any]:
+    return {
+        "side": stop.side,
+        "position_mm": stop.position * 1e3,
+        "leaves_at_deg": math.degrees(stop.leaves),
+        "from_deg": math.degrees(stop.first),
+        "to_deg": math.degrees(stop.last),
+        "force_N": stop.force,
+        "stroke_wanting_mm": None if stiffness is None else abs(stop.force) / stiffness * 1e3,
+    }
+
+
+def _tested(test: BinTest | None, pairs: Sequence[BinPair], boxes: Binned) -> dict[str, Any] | None:
+    if test is None:
+        return None
+    middle = np.degrees(boxes.centres)
+    neighbours = [
+        {
+            "between_deg": [float(middle[k]) for k in pair.places],
+            "mann_whitney": pair.statistic,
+            "p": pair.p,
+            "p_holm": pair.p_holm,
+        }
+        for pair in pairs
+    ]
+    return {
+        "kruskal_wallis": test.statistic,
+        "p": test.p,
+        "bins": test.bins,
+        "counted_visits": test.counted,
+        "samples": test.samples,
+        "neighbours": neighbours,
+    }
 
 
 def say(record: Record, found: Fitted, free: Free | None) -> None:

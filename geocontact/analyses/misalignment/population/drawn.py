@@ -1,22 +1,100 @@
-"""People that are drawn, and everything found of their largest forces."""
+"""People that are drawn and their largest forces: what is read, found, tables, population.json."""
 
 from __future__ import annotations
 
+import math
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import pandas as pd
 from jaxtyping import Float, Int
 
+from geocontact.analyses.misalignment.drift import axis_drift
+from geocontact.analyses.misalignment.law_numbers import NUMBERS
+from geocontact.analyses.misalignment.planar_words import STATES, WITHOUT_FORCE, rounded
 from geocontact.analyses.misalignment.population.options import PopulationOptions
+from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.axis_drift import AxisDrift
 from geocontact.axis_misalignment.planar_joint import SOUND, STEP
 from geocontact.axis_misalignment.population import QUANTITIES, Exposure, peak_forces
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import numbers_in
 from geocontact.identify.intervals.quantile_intervals import IntervalEstimate, probability, quantile
-from geocontact.identify.intervals.sampling import Sampling
+from geocontact.identify.intervals.sampling import Factor, Normal, People, Sampling, Uniform, root
 from geocontact.identify.intervals.sobol_indices import Indices, RankRegression, rank_regression, variance_shares
+from geocontact.io.recordings.population import PopulationFile, read_population
+
+ENDS = {"value", "mean", "upper"}
+"""Numbers of a description that say how large a quantity is."""
+UNITS = {name: "N/m" if name == "k" else "m" for name in QUANTITIES}
+
+
+@dataclass(frozen=True, eq=False)
+class Population:
+    """What differs from person to person, and what is the same for everybody."""
+
+    sampling: Sampling
+    drift: AxisDrift
+
+
+def read(o: PopulationOptions, record: Record) -> Population:
+    """Everything the options name."""
+    drift = axis_drift(record, o.drift, o.range)
+    return Population(_sampling(record, o.description), drift)
+
+
+def _sampling(record: Record, description: Path) -> Sampling:
+    told = read_population(description, UNITS)
+    record.add_input("description", description)
+    _check_sizes(record, description, told)
+    for file in told.tables:
+        record.add_input("table", file)
+    drawn = {name: one for name, one in told.quantities.items() if one.kind in ("normal", "uniform")}
+    factors: list[Factor] = [_factor(name, one.kind, one.numbers) for name, one in drawn.items()]
+    factors += [People(tuple(columns), np.column_stack(list(columns.values()))) for columns in told.tables.values()]
+    if not factors:
+        raise InputError(description, "", "every quantity is the same for everybody", "let one differ")
+    fixed = {name: one.numbers["value"] for name, one in told.quantities.items() if one.kind == "value"}
+    return Sampling(factors, _correlation(description, told, factors), fixed)
+
+
+def _check_sizes(record: Record, description: Path, told: PopulationFile) -> None:
+    """Refuse numbers that a quantity cannot have, and warn of unusual ones; lower ends and deviations may be small."""
+    ranges = dict(NUMBERS.ranges)
+    stated = [
+        (f"[{n}] {key}", n, one.numbers[key], one.numbers[key] / one.factor)
+        for n, one in told.quantities.items()
+        for key in ENDS & {*one.numbers}
+    ]
+    listed = [(f"[{n}] table", n, float(c.max()), None) for columns in told.tables.values() for n, c in columns.items()]
+    for place, name, value, written in (*sorted(stated), *listed):
+        for _, known, number in numbers_in(ranges[name], value):
+            if refusal := known.refusal(number, written):
+                raise InputError(description, place, *refusal)
+            if doubt := known.doubt(number, written):
+                record.warn(f"{description} {place}: {doubt}")
+
+
+def _factor(name: str, kind: str, numbers: Mapping[str, float]) -> Factor:
+    return Normal(name, **numbers) if kind == "normal" else Uniform(name, **numbers)
+
+
+def _correlation(description: Path, told: PopulationFile, factors: list[Factor]) -> Float[np.ndarray, "f f"]:
+    names = [factor.names[0] for factor in factors]
+    matrix = np.eye(len(names))
+    for (first, second), value in told.correlations.items():
+        i, j = names.index(first), names.index(second)
+        matrix[i, j] = matrix[j, i] = value
+    try:
+        root(matrix)
+    except ValueError as error:
+        raise InputError(description, "[correlation]", str(error), "make them smaller") from error
+    return matrix
+
 
 SHARES = (0.05, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)
 LEVELS = 200
@@ -133,3 +211,86 @@ def _refuse_impossible(description: Path, people: Float[np.ndarray, "n 5"]) -> N
         if bad.any():
             what = f"{int(bad.sum())} of {len(bad)} samples of {name} are not above 0"
             raise InputError(description, f"[{name}]", what, "give it a lower end above 0")
+
+
+SHOWN = {name: ("N/m", 1.0) if name == "k" else ("mm", 1e3) for name in QUANTITIES}
+"""Unit of each quantity, and how many of it one SI unit is."""
+
+
+def quantile_table(d: Drawn) -> pd.DataFrame:
+    """Quantiles with their Monte Carlo interval of 95 %; `inf` where samples without a force reach that far."""
+    rows = [
+        {"share [-]": share, "peak_force [N]": one.value, "lower [N]": one.lower, "upper [N]": one.upper}
+        for share, one in d.quantiles.items()
+    ]
+    return pd.DataFrame(rows)
+
+
+def exceedance_table(d: Drawn) -> pd.DataFrame:
+    """Probability that the largest |F| is above a force, with exact intervals of 95 %."""
+    columns = {
+        "force [N]": d.levels,
+        "probability [-]": [one.value for one in d.exceedance],
+        "lower [-]": [one.lower for one in d.exceedance],
+        "upper [-]": [one.upper for one in d.exceedance],
+    }
+    return pd.DataFrame(columns)
+
+
+def influence_table(d: Drawn) -> pd.DataFrame:
+    """Coefficient of each quantity's rank, and the shares of the variance of the factor that it belongs to."""
+    rows = []
+    factors = [k for k, factor in enumerate(d.sampling.factors) for _ in factor.names]
+    r = d.regression
+    for name, k, own, far in zip(d.varying, factors, r.coefficients, r.of_distance, strict=True):
+        row: dict[str, object] = {
+            "quantity": name,
+            "factor": " and ".join(d.sampling.factors[k].names),
+            "rank_coefficient": float(own),
+            "distance_rank_coefficient": float(far),
+        }
+        rows.append(row | _shares(d.indices, k))
+    return pd.DataFrame(rows)
+
+
+def _shares(indices: Indices | None, k: int) -> dict[str, float]:
+    """First-order and total share of one factor with their intervals; NaN where there are none."""
+    told: dict[str, float] = {}
+    for kind in ("first", "total"):
+        values = (np.nan, np.nan, np.nan)
+        if indices is not None:
+            lower, upper = getattr(indices, f"{kind}_interval")[k]
+            values = (float(getattr(indices, kind)[k]), float(lower), float(upper))
+        told |= dict(zip((f"sobol_{kind}", f"sobol_{kind}_lower", f"sobol_{kind}_upper"), values, strict=True))
+    return told
+
+
+def sample_table(d: Drawn) -> pd.DataFrame:
+    """Every sample."""
+    columns: dict[str, object] = {
+        f"{name} [{unit}]": d.people[:, k] * per_si for k, (name, (unit, per_si)) in enumerate(SHOWN.items())
+    }
+    return pd.DataFrame({**columns, "peak_force [N]": d.peak, "state": [STATES[int(fate)] for fate in d.fate]})
+
+
+def described(d: Drawn) -> dict[str, Any]:
+    """What was asked for and found, with units in the keys; None stands for infinite and for what is not known."""
+    content: dict[str, Any] = {
+        "samples": len(d.peak),
+        "synthetic": True,
+        "limit_N": d.limit,
+        "range_deg": [math.degrees(d.exposure.start), math.degrees(d.exposure.stop)],
+        "stroke_mm": [d.exposure.lower * 1e3, d.exposure.upper * 1e3],
+        "above_limit": _estimate(d.beyond),
+        "without_a_force": {STATES[fate]: int((d.fate == fate).sum()) for fate in WITHOUT_FORCE},
+        "quantiles_N": {f"{share:g}": _estimate(one) for share, one in d.quantiles.items()},
+        "grid_error_N": d.grid_error,
+        "influence": influence_table(d).to_dict(orient="records"),
+        "rank_regression_explains": d.regression.explained,
+    }
+    told: dict[str, Any] = rounded(content)
+    return told
+
+
+def _estimate(one: IntervalEstimate) -> dict[str, float]:
+    return {"value": one.value, "lower": one.lower, "upper": one.upper}

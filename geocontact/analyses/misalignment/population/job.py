@@ -13,8 +13,8 @@ largest |F| of 20000 synthetic people: median … N (… … …), 95 % below �
 from __future__ import annotations
 
 from geocontact.analyses.job import Job
+from geocontact.analyses.misalignment.population.drawn import read
 from geocontact.analyses.misalignment.population.options import PopulationOptions
-from geocontact.analyses.misalignment.population.read import read
-from geocontact.analyses.misalignment.population.run import run
+from geocontact.analyses.misalignment.population.result import run
 
 population = Job("elbow population", PopulationOptions, read, run)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,23 +11,29 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
 from geocontact.analyses.json_file import write_json
-from geocontact.analyses.misalignment.population.drawn import Drawn
-from geocontact.analyses.misalignment.population.figure import population_figure
-from geocontact.analyses.misalignment.population.options import PopulationOptions
-from geocontact.analyses.misalignment.population.page import write_population_report
-from geocontact.analyses.misalignment.population.tables import (
+from geocontact.analyses.misalignment.population.drawn import (
+    SHOWN,
+    Drawn,
+    Population,
+    described,
+    drawn,
     exceedance_table,
     influence_table,
     quantile_table,
     sample_table,
 )
-from geocontact.analyses.result import Result
-from geocontact.io.text.results import write_table
+from geocontact.analyses.misalignment.population.options import PopulationOptions
+from geocontact.analyses.misalignment.population.show import population_figure, population_page
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.axis_misalignment.planar_joint import FATES
+from geocontact.identify.intervals.quantile_intervals import IntervalEstimate
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -50,19 +58,52 @@ class PopulationResult(Result):
         found = {"quantiles": quantile_table(d), "exceedance": exceedance_table(d), "influence": influence_table(d)}
         return {**found, "samples": sample_table(d)} if self.options.keep else found
 
-    def figure(self) -> Figure:
-        """Density of the largest force, and the probability of more."""
+    def figures(self) -> dict[str, Figure]:
+        """`population`: density of the largest force, and the probability of more."""
         d = self.drawn
-        return population_figure(d.peak[np.isfinite(d.peak)], d.levels, d.exceedance, d.limit)
+        return {"population": population_figure(d.peak[np.isfinite(d.peak)], d.levels, d.exceedance, d.limit)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Exceedance, figure, quantiles, where the spread comes from."""
+        return {REPORT: population_page(self.drawn, drawings["population"])}
 
     def write_files(self, folder: Path) -> None:
-        """population.json, tables, figure, page."""
+        """population.json besides."""
         write_json(folder / "population.json", self.summary)
-        for name, rows in self.tables().items():
-            write_table(rows, folder, name)
-        picture = save_both(self.figure(), folder, "population")
-        write_population_report(folder / "report.html", self.record, self.drawn, picture)
+        super().write_files(folder)
 
-    def write_page(self, file: Path) -> None:
-        """Exceedance, figure, quantiles, where the spread comes from."""
-        write_population_report(file, self.record, self.drawn, drawing(self.figure()))
+
+def run(population: Population, o: PopulationOptions, record: Record) -> PopulationResult:
+    """Quantiles of the largest force, how often it is above the limit, and what that depends on."""
+    found = drawn(population.sampling, population.drift, o)
+    _reserve(record, found)
+    _say(record, found)
+    summary = described(found)
+    record.results["samples_per_second_of_one_core"] = found.rate
+    record.results["population"] = summary
+    return PopulationResult(record=record, options=o, drawn=found, summary=summary)
+
+
+def _reserve(record: Record, d: Drawn) -> None:
+    for fate, words in FATES.items():
+        hit = d.fate == fate
+        if hit.any():
+            first = zip(SHOWN.items(), d.people[int(np.argmax(hit))], strict=True)
+            told = ", ".join(f"{name} = {value * per_si:.4g} {unit}" for (name, (unit, per_si)), value in first)
+            what = f"{int(hit.sum())} of {len(hit)} samples count as beyond every force: {words}"
+            record.warn(f"{what} (the first: {told})")
+    if d.indices is None:
+        why = "some samples have no force, or all the same" if d.sampling.independent else "factors are correlated"
+        record.warn(f"no shares of the variance, for {why}: the regression on ranks is all there is")
+
+
+def _say(record: Record, d: Drawn) -> None:
+    middle, high = d.quantiles[0.5], d.quantiles[0.95]
+    record.say(f"largest |F| of {len(d.peak)} synthetic people: median {_said(middle)}, 95 % below {_said(high)}")
+    b = d.beyond
+    record.say(f"above {d.limit:g} N: {b.value:.4%} ({b.lower:.4%} … {b.upper:.4%})")
+    record.say(f"{d.rate} samples per second of one core; grid of angles: error below {max(d.grid_error, 1e-9):.1e} N")
+
+
+def _said(e: IntervalEstimate) -> str:
+    return f"{e.value:.3f} N ({e.lower:.3f} … {e.upper:.3f})" if math.isfinite(e.value) else "infinite"

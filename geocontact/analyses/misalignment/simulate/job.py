@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from geocontact.analyses.job import Job
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
-from geocontact.analyses.misalignment.simulate.read import read
-from geocontact.analyses.misalignment.simulate.run import run
+from geocontact.analyses.misalignment.simulate.result import run
+from geocontact.analyses.misalignment.simulate.trials import read
 
 simulate = Job("elbow simulate", SimulateOptions, read, run)

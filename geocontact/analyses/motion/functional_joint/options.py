@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.options import Expression, Options, Requires, TimeSpan
+from geocontact.analyses.options import C3dUnit, Expression, Options, Requires, TimeSpan
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,8 @@ class JointOptions(Options):
         unless given.
     axes
         Which of the markers' axes are x, y and z of what is written: x,z,-y where the laboratory's z is up.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     time
         First and last time of the trial [s].
     """
@@ -48,4 +50,5 @@ class JointOptions(Options):
     name: str = "JOINT"
     near: Annotated[str | None, Requires("axis")] = None
     axes: Expression | None = None
+    c3d_unit: C3dUnit = None
     time: TimeSpan | None = None

@@ -70,9 +70,9 @@ class MovedPair:
 
 def read(o: JointOptions, record: Record) -> MovedPair:
     """Everything the options name."""
-    seen = markers_given(o.trial, o.axes, o.time)
+    seen = markers_given(o.trial, o.axes, o.time, o.c3d_unit)
     record.add_input("trial", o.trial, frames=len(seen), markers=len(seen.names))
-    still = None if o.static is None else markers_given(o.static, o.axes, None)
+    still = None if o.static is None else markers_given(o.static, o.axes, None, o.c3d_unit)
     if o.static is not None and still is not None:
         record.add_input("`static`", o.static, frames=len(still), markers=len(still.names))
     first, second = marker_list(o.first), marker_list(o.second)

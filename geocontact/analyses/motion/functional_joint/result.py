@@ -1,7 +1,16 @@
-"""A joint from markers: its place in both segments, and a file of markers that has it."""
+"""Centre or axis of a joint from markers: `geocontact joint`, `gc.functional_joint`.
+
+>>> import geocontact as gc
+>>> leg = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim").write("leg")
+>>> thigh, shank = (",".join(f"{body}_r{k}" for k in range(3)) for body in ("femur", "tibia"))
+>>> gc.functional_joint(leg / "markers.trc", first=thigh, second=shank, axis=True).sentences[0]
+"101 frames, 60 deg of turn: the segments' axis is 0.0 mm off itself, root mean square; halves of the trial give it 0.0
+mm apart"
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,19 +19,24 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.json_file import write_json
+from geocontact.analyses.job import Job
+from geocontact.analyses.json_file import finite, plain, write_json
 from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.functional_joint.options import JointOptions
-from geocontact.analyses.motion.functional_joint.page import write_joint_page
-from geocontact.analyses.motion.functional_joint.read import MovedPair
-from geocontact.analyses.result import Result
+from geocontact.analyses.motion.functional_joint.read import MovedPair, Segment, marker_list, read
+from geocontact.analyses.motion.functional_joint.show import joint_page
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
-from geocontact.dynamics.joint_points import JointPoints
+from geocontact.dynamics.joint_points import JointPoints, apart_in_halves, axis_points, centre_points
+from geocontact.dynamics.segment_poses import segment_poses
 from geocontact.io.mocap.trc_writer import write_trc
-from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -67,14 +81,120 @@ class JointResult(Result):
         """Distance between what both segments say, over time."""
         return curves_figure(self.pair.time, {"apart [mm]": self.table()[["apart [mm]"]]})
 
-    def write_files(self, folder: Path) -> None:
-        """joint.json, joint.csv, markers.trc [mm], page."""
-        write_json(folder / "joint.json", self.summary)
-        write_table(self.table(), folder, "joint")
-        write_trc(folder / "markers.trc", self.markers)
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Both segments and the joint as they move, and how far it is off itself."""
-        title = f"Joint from {self.options.trial.name}"
-        write_joint_page(file, title, self.record, self.pair, self.points, self.table()["apart [mm]"].to_numpy())
+        title, apart = f"Joint from {self.options.trial.name}", self.table()["apart [mm]"].to_numpy()
+        return {REPORT: joint_page(title, self.sentences, self.pair, self.points, apart)}
+
+    def write_files(self, folder: Path) -> None:
+        """joint.json and markers.trc [mm] besides."""
+        write_json(folder / "joint.json", self.summary)
+        write_trc(folder / "markers.trc", self.markers)
+        super().write_files(folder)
+
+
+SKIN = 0.01
+"""m; markers of a segment that are farther from a rigid one move on the skin or were exchanged."""
+APART = 0.02
+"""m; halves of a trial that give the joint farther apart do not tell it; the number is a convention of this command."""
+LOOSE = 0.5
+"""Looseness of an axis from which on a point fits as well."""
+FRAME = "axes of the markers as written, while standing or in the first whole frame; origin: the mean of its markers"
+MOVE = "move the joint through its range, a hip forward, sideways and round, with all markers in sight"
+
+
+def run(pair: MovedPair, o: JointOptions, record: Record) -> JointResult:
+    """Points in both segments, over the trial, and as markers."""
+    near = pair.near(None if o.near is None else marker_list(o.near)) if o.axis else None
+    try:
+        poses = pair.first_poses, pair.second_poses
+        points = centre_points(*poses) if near is None else axis_points(*poses, near)
+    except ValueError as error:
+        raise InputError(o.trial, "", str(error), MOVE if o.axis else f"{MOVE}; for a hinge give `axis`") from error
+    halves = apart_in_halves(*poses, near)
+    summary = _summary(o, pair, points, halves)
+    record.results.update(plain(summary))
+    _warn(record, o, pair, points)
+    _tell(record, o, pair, points, halves)
+    return JointResult(
+        record=record,
+        options=o,
+        pair=pair,
+        points=points,
+        markers=_beside(pair.shown, o, pair.first, points),
+        summary=summary,
+    )
+
+
+def turned(pair: MovedPair) -> float:
+    """Largest turn of the second segment in the first from where it is first seen [rad]."""
+    relative = pair.first_poses.rotation.inv() * pair.second_poses.rotation
+    return float((relative[0].inv() * relative).magnitude().max())
+
+
+def _summary(o: JointOptions, pair: MovedPair, points: JointPoints, halves: float) -> dict[str, object]:
+    """What `joint.json` holds."""
+    beside = {"first": pair.first, "second": pair.second}
+    told: dict[str, object] = {
+        "kind": "axis" if o.axis else "centre",
+        "frames": len(pair.time),
+        "turn_deg": float(np.degrees(turned(pair))),
+        "apart_rms_mm": 1e3 * points.rms,
+        "halves_apart_mm": finite(1e3 * halves),
+        "frame": FRAME,
+    }
+    if points.looseness is not None:
+        told["looseness"] = points.looseness
+    of = (points.first, points.first_sd, pair.off[0]), (points.second, points.second_sd, pair.off[1])
+    for (name, segment), (places, sd, off) in zip(beside.items(), of, strict=True):
+        told[name] = {
+            "markers": segment.names,
+            "point_mm": (1e3 * places.mean(axis=0)).tolist(),
+            **({} if sd is None else {"point_sd_mm": (1e3 * sd).tolist()}),
+            **({} if len(places) == 1 else {"direction": _direction(places).tolist()}),
+            "markers_rms_mm": 1e3 * off,
+        }
+    return told
+
+
+def _direction(places: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, " 3"]:
+    along = places[1] - places[0]
+    return np.asarray(along / np.linalg.norm(along))
+
+
+def _warn(record: Record, o: JointOptions, pair: MovedPair, points: JointPoints) -> None:
+    for option, segment, off in (("`first`", pair.first, pair.off[0]), ("`second`", pair.second, pair.off[1])):
+        if off > SKIN:
+            what = f"{', '.join(segment.names)} are {1e3 * off:.0f} mm from a rigid segment, root mean square"
+            record.warn(f"{option}: {what}: skin that slides, or names exchanged")
+    if points.looseness is not None and points.looseness > LOOSE:
+        record.warn(f"{o.trial}: a point fits as well as an axis (looseness {points.looseness:.2f}): is it a hinge?")
+
+
+def _tell(record: Record, o: JointOptions, pair: MovedPair, points: JointPoints, halves: float) -> None:
+    kind = "axis" if o.axis else "centre"
+    both = "" if np.isnan(halves) else f"; halves of the trial give it {1e3 * halves:.1f} mm apart"
+    off = f"the segments' {kind} is {1e3 * points.rms:.1f} mm off itself, root mean square"
+    record.say(f"{len(pair.time)} frames, {np.degrees(turned(pair)):.0f} deg of turn: {off}{both}")
+    if np.isnan(halves):
+        record.warn(f"{o.trial}: half of the trial does not tell the {kind}: how far it can be trusted stays open")
+    elif halves > APART:
+        what = f"two halves of the trial give the {kind} {1e3 * halves:.0f} mm apart"
+        record.warn(f"{o.trial}: {what}: {MOVE}")
+
+
+def _beside(shown: MarkerTrajectories, o: JointOptions, first: Segment, points: JointPoints) -> MarkerTrajectories:
+    """Markers of a trial with the joint's own added, which move with the first segment."""
+    names = (o.name,) if len(points.first) == 1 else (f"{o.name}_1", f"{o.name}_2")
+    taken = [name for name in names if name in shown.names]
+    if taken:
+        raise InputError(shown.source, "`name`", f"there is a marker {taken[0]} already", "give another name")
+    poses, known, _ = segment_poses(shown.of(first.names), first.template)
+    places: Float[np.ndarray, "t p 3"] = np.full((len(shown), len(names), 3), np.nan)
+    for k, point in enumerate(points.first):
+        places[known, k] = poses.apply(point)
+    together = np.concatenate([shown.positions, places], axis=1)
+    return MarkerTrajectories(shown.time, together, (*shown.names, *names), shown.source)
+
+
+functional_joint = Job("joint", JointOptions, read, run)

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.options import AngleUnit, Excludes, Expression, Options, Texts, TimeSpan
+from geocontact.analyses.options import AngleUnit, C3dUnit, Excludes, Expression, Options, Texts, TimeSpan
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import CUTOFF, FORCE
 
@@ -31,6 +31,8 @@ class IdOptions(Options):
         Which plate acts on which body, by name or number: 1=calcn_r. May be given again.
     axes
         Which of the plates' axes are the model's x, y and z: x,z,-y where the laboratory's z is up.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     threshold
         Force [N] below which a plate counts as unloaded, since the point of a small force means little. OpenSim has
         none; a warning names forces that pass far from their body.
@@ -57,6 +59,7 @@ class IdOptions(Options):
     plates: Annotated[Path | None, TWICE] = None
     plate: Annotated[Texts, TWICE] = ()
     axes: Expression | None = None
+    c3d_unit: C3dUnit = None
     threshold: Annotated[float, FORCE] = 0.0
     cutoff: Annotated[float, CUTOFF] = 6.0
     time: TimeSpan | None = None

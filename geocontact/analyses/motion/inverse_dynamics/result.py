@@ -1,33 +1,44 @@
-"""What inverse dynamics finds: generalised forces for OpenSim, what is left over at the ground, page."""
+"""Joint moments and forces of a recorded motion: `geocontact id`, `gc.inverse_dynamics`.
+
+>>> import geocontact as gc
+>>> result = gc.inverse_dynamics("meshes/leg_swing.mot", model="meshes/leg.osim")
+>>> result.sentences[0]
+'101 frames; most at hip_z_moment, 26.8 N m; left over at the joint to the ground: 264 N at most, 117.0% of
+the weight, as nothing but gravity acts'
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.json_file import write_json
+from geocontact.analyses.job import Job
+from geocontact.analyses.json_file import plain, write_json
 from geocontact.analyses.motion.figure import curves_figure
-from geocontact.analyses.motion.gait_cycles import GaitCycles
-from geocontact.analyses.motion.inverse_dynamics.forces import Forces
+from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
+from geocontact.analyses.motion.inverse_dynamics.forces import Forces, warn_of_residuals, words, write_setup
+from geocontact.analyses.motion.inverse_dynamics.loads import Loaded, read, warn_of_other_feet
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
-from geocontact.analyses.motion.inverse_dynamics.page import write_forces_report
-from geocontact.analyses.motion.inverse_dynamics.read import Loaded
-from geocontact.analyses.motion.inverse_dynamics.setup import write_setup
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.result import Result
+from geocontact.analyses.motion.inverse_dynamics.show import forces_page
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.data.multibody.passive_forces import PassiveForces
 from geocontact.data.wrench import Wrench
+from geocontact.dynamics.forces_along import forces_along
+from geocontact.dynamics.tree import tree_of
 from geocontact.io.opensim.storage_writer import write_storage
-from geocontact.io.text.results import write_table
-from geocontact.view.page.tables import inputs_table
+from geocontact.io.text.tables import listed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -49,6 +60,8 @@ class IdResult(Result):
     summary
         Numbers of the whole motion, with units in their names.
     """
+
+    elsewhere: ClassVar[frozenset[str]] = frozenset({"forces"})
 
     options: IdOptions
     forces: Forces
@@ -74,28 +87,113 @@ class IdResult(Result):
             {"moment [N m]": table.filter(like="_moment ["), "force [N]": table.filter(like="_force [")},
         )
 
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Moments and forces over time, and what is left over."""
+        title = f"Inverse dynamics of {self.options.coordinates.name}"
+        return {
+            REPORT: forces_page(title, self.forces, self.coordinates, self.loads, self.cycles, self.sentences),
+        }
+
     def write_files(self, folder: Path) -> None:
-        """id.sto for OpenSim, its set-up, the table of gait cycles, id.json, page."""
+        """id.sto for OpenSim, its set-up and id.json besides."""
         f, title = self.forces, "Inverse Dynamics Generalized Forces"
         write_storage(folder / "id.sto", f.time, f.names, f.values, title=title, degrees=False)
-        if self.cycles:
-            write_table(self.table("cycles"), folder, "cycles")
         write_json(folder / "id.json", self.summary)
         write_setup(folder, self.options, self.given)
-        self.write_page(folder / "report.html")
+        super().write_files(folder)
 
-    def write_page(self, file: Path) -> None:
-        """Moments and forces over time, and what is left over."""
-        tables = [inputs_table(self.record.inputs), options_table(self.record)]
-        title = f"Inverse dynamics of {self.options.coordinates.name}"
-        write_forces_report(
-            file,
-            title,
-            self.forces,
-            self.coordinates,
-            self.loads,
-            self.cycles,
-            tables,
-            self.warnings,
-            self.sentences,
-        )
+
+def run(given: Loaded, o: IdOptions, record: Record) -> IdResult:
+    """Forces along all coordinates, and what motion, masses and plates leave over at the ground."""
+    tree, passive = tree_of(given.model), given.passive
+    found = forces_along(tree, given.recorded, given.values, given.time, given.loads, passive.acting)
+    forces = Forces(given.time, given.model, found, _peak(given.loads), _height(given))
+    summary = {**_summary(forces), **_of_the_model(record, passive)}
+    cycles = _cycles(forces, given)
+    if cycles:
+        summary["gait_cycles"] = cycles.counts
+    record.results.update(plain(summary))
+    single = tuple(name for name in o.exclude if name in passive.excluded)
+    if single:
+        record.warn(f"OpenSim leaves out groups of forces only: with setup_id.xml it lets {listed(single)} act")
+    warn_of_other_feet(record, given.model, given.shown, given.loads)
+    _tell(record, forces)
+    return IdResult(
+        record=record,
+        options=o,
+        forces=forces,
+        given=given,
+        coordinates=given.shown,
+        loads=given.loads,
+        cycles=cycles,
+        summary=summary,
+    )
+
+
+def _of_the_model(record: Record, passive: PassiveForces) -> dict[str, object]:
+    """Names of passive forces that act and of those left out; a warning for kinds that are not read."""
+    if passive.unread:
+        names = listed(passive.unread)
+        record.warn(f"forces of the model of kinds that are not read do not act here, in OpenSim they do: {names}")
+    acting = [force.name for force in passive.acting]
+    if acting:
+        record.say(f"Passive forces of the model act beside muscles: {listed(tuple(acting))}.")
+    return {"passive_forces": acting, "passive_forces_left_out": [*passive.excluded, *passive.unread]}
+
+
+def _cycles(forces: Forces, given: Loaded) -> GaitCycles:
+    """Of all but what is left over, by the mass of the model."""
+    model = forces.model
+    if not model.mass > 0.0:
+        return GaitCycles({}, {}, {})
+    chosen = np.flatnonzero(~forces.at_ground)
+    coordinates = [model.coordinates[k] for k in chosen]
+    units = ["N m/kg" if c.kind == "rotational" else "N/kg" for c in coordinates]
+    values = np.asarray(forces.values)[:, chosen] / model.mass
+    return gait_cycles(forces.time, [c.name for c in coordinates], units, values, given.strikes)
+
+
+def _peak(loads: dict[str, Wrench]) -> float:
+    """Of the net force: all loads together."""
+    net = sum((wrench.force for wrench in loads.values()), start=np.zeros((1, 3)))
+    return float(np.linalg.norm(net, axis=1).max())
+
+
+def _height(given: Loaded) -> float:
+    """Of the mass centre above the ground's origin, mean over the whole recording [m]; 0 without gravity."""
+    size = float(np.linalg.norm(given.model.gravity))
+    up = -given.model.gravity / size if size > 0.0 else np.zeros(3)
+    return float(np.mean(given.model.mass_centre(given.values) @ up))
+
+
+def _summary(forces: Forces) -> dict[str, object]:
+    """Numbers of the whole motion, as `id.json` holds them."""
+    units = ["N_m" if name.endswith("_moment") else "N" for name in forces.names]
+    left = {
+        name: {f"rms_{unit}": float(np.sqrt(np.mean(column**2))), f"max_{unit}": float(np.abs(column).max())}
+        for name, unit, column in zip(forces.names, units, np.asarray(forces.values).T, strict=True)
+    }
+    return {
+        "frames": len(forces.time),
+        "peak_external_force_N": forces.peak,
+        "residual_force_rms_N": forces.residual,
+        "residual_share_of_peak": forces.residual / forces.peak if forces.peak > 0.0 else float("nan"),
+        "residual_force_max_N": float(forces.residual_forces.max()),
+        "residual_moment_max_N_m": float(forces.residual_moments.max()),
+        "mass_centre_height_m": forces.height,
+        "residuals": [name for name, there in zip(forces.names, forces.at_ground, strict=True) if there],
+        "coordinates": left,
+    }
+
+
+def _tell(record: Record, forces: Forces) -> None:
+    warn_of_residuals(record, forces)
+    sizes = np.abs(np.where(forces.at_ground, 0.0, forces.values))
+    frame, largest = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
+    name = forces.names[int(largest)]
+    unit = "N m" if name.endswith("_moment") else "N"
+    said = f"{len(forces.time)} frames; most at {name}, {sizes[frame, largest]:.4g} {unit}"
+    record.say("; ".join(each for each in (said, words(forces)) if each))
+
+
+inverse_dynamics = Job("id", IdOptions, read, run)

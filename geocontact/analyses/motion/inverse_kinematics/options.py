@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.options import Expression, Options, Requires, Texts, TimeSpan
+from geocontact.analyses.options import C3dUnit, Expression, Options, Requires, Texts, TimeSpan
 from geocontact.data.ranges import GAP
 
 
@@ -46,6 +46,8 @@ class IkOptions(Options):
         Write the other analog channels of a .c3d, EMG among them, at their own rate: analog.sto.
     axes
         Which of the markers' axes are the model's x, y and z: x,z,-y where the laboratory's z is up.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     time
         First and last time [s]: 0.4:1.6.
     """
@@ -66,4 +68,5 @@ class IkOptions(Options):
     events: Texts = ()
     analog: bool = False
     axes: Expression | None = None
+    c3d_unit: C3dUnit = None
     time: TimeSpan | None = None

@@ -41,7 +41,7 @@ def read(o: IkOptions, record: Record) -> KinematicsInputs:
     record.add_input("`model`", o.model, bodies=len(model.bodies), coordinates=len(model.coordinates))
     model = with_marker_set(record, model, o.model, o.marker_set)
     knees = knees_of(o.knee, model)
-    seen = renamed(record, markers_given(o.markers, o.axes, o.time), model, o.markers_map)
+    seen = renamed(record, markers_given(o.markers, o.axes, o.time, o.c3d_unit), model, o.markers_map)
     record.add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     strikes = strikes_typed(o.events) or strikes_marked(o.markers)
     tasks = marker_tasks(record, model, seen, o.tasks, o.follow, o.weight, o.hold)

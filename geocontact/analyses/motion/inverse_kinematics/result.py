@@ -1,33 +1,54 @@
-"""What inverse kinematics finds: coordinates for OpenSim, distances of the markers, clinical knee angles, page."""
+"""Joint angles from recorded markers: `geocontact ik`, `gc.inverse_kinematics`.
+
+>>> import geocontact as gc
+>>> markers = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim").write("virtual") / "markers.trc"
+>>> result = gc.inverse_kinematics(markers, model="meshes/leg.osim")
+>>> result
+101 frames, 16 markers: 0.0 mm from the model, root mean square, and 0.0 mm at most, foot_r2 at 0.57 s
+(OpenSim advises less than 20 and 40 mm)
+>>> list(result.table("coordinates"))[:3]
+['time [s]', 'tilt [deg]', 'list [deg]']
+"""
 
 from __future__ import annotations
 
+import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
 import pandas as pd
 
-from geocontact.analyses.json_file import write_json
+from geocontact.analyses.job import Job
+from geocontact.analyses.json_file import plain, write_json
+from geocontact.analyses.motion.exchanged_markers import exchanged_markers
 from geocontact.analyses.motion.figure import curves_figure
-from geocontact.analyses.motion.gait_cycles import GaitCycles
+from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
 from geocontact.analyses.motion.inverse_kinematics.knees import knee_table
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
-from geocontact.analyses.motion.inverse_kinematics.page import write_kinematics_report
-from geocontact.analyses.motion.inverse_kinematics.read import KinematicsInputs
+from geocontact.analyses.motion.inverse_kinematics.read import KinematicsInputs, read
+from geocontact.analyses.motion.inverse_kinematics.show import kinematics_page
+from geocontact.analyses.motion.marker_errors import MOVING, MarkerErrors
 from geocontact.analyses.motion.printed import printed
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.result import Result
+from geocontact.analyses.motion.upright import warn_of_tilt
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
 from geocontact.dynamics.inverse_kinematics import Poses
+from geocontact.dynamics.inverse_kinematics import inverse_kinematics as kinematics_of
+from geocontact.dynamics.tree import tree_of
 from geocontact.io.mocap.trc_writer import write_trc
 from geocontact.io.opensim.osim_scaler import write_scaled_model
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.opensim.tool_setup_writer import write_ik_setup
-from geocontact.io.text.results import write_table
-from geocontact.view.page.tables import inputs_table
+from geocontact.io.text.tables import listed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -45,6 +66,8 @@ class IkResult(Result):
     summary
         Numbers of the whole recording, with units in their names.
     """
+
+    elsewhere: ClassVar[frozenset[str]] = frozenset({"coordinates"})
 
     options: IkOptions
     seen: KinematicsInputs
@@ -80,29 +103,22 @@ class IkResult(Result):
             self.poses.time, {"angle [deg]": angles, "markers [mm]": self.table("markers").iloc[:, 1:]}
         )
 
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Coordinates over time, and how far each marker is from the model."""
+        title, seen = f"Inverse kinematics of {self.options.markers.name}", self.seen
+        return {REPORT: kinematics_page(title, seen.model, self.poses, seen.markers, self.cycles, self.sentences)}
+
     def write_files(self, folder: Path) -> None:
-        """ik.mot for OpenSim, its set-up with the markers as read, tables, ik.json, page; analog.sto if asked for."""
+        """ik.mot for OpenSim, its set-up with the markers as read and ik.json besides; analog.sto if asked for."""
         values = printed(self.seen.model.coordinates, self.poses.values)
         file = folder / "ik.mot"
         write_storage(file, self.poses.time, self.poses.names, values, title="Coordinates", degrees=True)
-        for name, table in self.tables().items():
-            if name != "coordinates":  # which ik.mot holds
-                write_table(table, folder, name)
         self._write_setup(folder)
         if (analog := self.seen.analog) is not None:
             names = [name.replace(" ", "_") for name in analog.channels]
             write_storage(folder / "analog.sto", analog.time, names, analog.values, title="Analog", degrees=False)
         write_json(folder / "ik.json", self.summary)
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """Coordinates over time, and how far each marker is from the model."""
-        title = f"Inverse kinematics of {self.options.markers.name}"
-        tables = [inputs_table(self.record.inputs), options_table(self.record)]
-        seen = self.seen
-        write_kinematics_report(
-            file, title, seen.model, self.poses, seen.markers, self.cycles, tables, self.warnings, self.sentences
-        )
+        super().write_files(folder)
 
     def _write_setup(self, folder: Path) -> None:
         """With which OpenSim's own tool finds the same."""
@@ -119,3 +135,88 @@ class IkResult(Result):
     def _distances(self) -> pd.DataFrame:
         off = {f"{name} [mm]": 1e3 * d for name, d in zip(self.poses.markers, self.poses.distances.T, strict=True)}
         return pd.DataFrame({"time [s]": self.poses.time, **off})
+
+
+UNTOLD = 1.0 / 3.0  # share of the coordinates beyond which the rest means little
+
+
+def run(seen: KinematicsInputs, o: IkOptions, record: Record) -> IkResult:
+    """Coordinates of every frame, how far the markers are from the model, and what sums them up."""
+    tree = tree_of(seen.model)
+    began = time.perf_counter()
+    with record.listener.progress("frames", len(seen.markers)) as step:
+        try:
+            found = kinematics_of(tree, seen.markers, seen.tasks, lambda _: step(), fill=o.fill)
+        except ValueError as error:
+            raise InputError(o.markers, "", str(error), "is it the right file?") from error
+    summary = _summary(found, time.perf_counter() - began)
+    cycles = _cycles(seen, found)
+    if cycles:
+        summary["gait_cycles"] = cycles.counts
+    result = IkResult(record=record, options=o, seen=seen, poses=found, cycles=cycles, summary=summary)
+    record.results.update(plain(summary))
+    errors = MarkerErrors.of(found)
+    exchanged = exchanged_markers(tree, seen.markers, seen.tasks, found)
+    errors.warn(record, MOVING, "" if exchanged is None else exchanged.words)
+    if exchanged is None:
+        warn_of_tilt(record, seen.model, found.values, o.axes)
+    _warn(record, found)
+    told = "" if (free := _never(found)) <= UNTOLD * len(found.names) else f"{free} of {len(found.names)} coordinates "
+    told = told and f"{told}are not determined; "
+    record.say(f"{told}{len(found.time)} frames, {len(found.markers)} markers: {errors.words(MOVING)}")
+    return result
+
+
+def _never(found: Poses) -> int:
+    """Coordinates that no frame tells."""
+    return int((~found.determined.any(axis=0)).sum())
+
+
+def _cycles(seen: KinematicsInputs, found: Poses) -> GaitCycles:
+    coordinates = seen.model.coordinates
+    units = ["deg" if c.kind == "rotational" else "m" for c in coordinates]
+    return gait_cycles(found.time, found.names, units, printed(coordinates, found.values), seen.strikes)
+
+
+def _summary(found: Poses, seconds: float) -> dict[str, object]:
+    """Numbers of the whole recording, as `ik.json` holds them."""
+    squares = {
+        name: {"rms_mm": float(np.sqrt(np.mean(d[there] ** 2))), "max_mm": float(d[there].max())}
+        for name, d in zip(found.markers, 1e3 * found.distances.T, strict=True)
+        if (there := np.isfinite(d)).any()
+    }
+    missing = ~np.isfinite(found.values)
+    filled = ~found.determined & ~missing & found.determined.any(axis=0)
+    return {
+        "frames": len(found.time),
+        "frames_per_second": len(found.time) / seconds,
+        "steps_mean": float(found.steps.mean()),
+        "unsettled_frames": int((~found.settled).sum()),
+        "filled_frames": {n: int(k) for n, k in zip(found.names, filled.sum(axis=0), strict=True) if k},
+        "missing_frames": {n: int(k) for n, k in zip(found.names, missing.sum(axis=0), strict=True) if k},
+        "rms_mm": 1e3 * float(np.sqrt(np.nanmean(found.distances**2))),
+        "max_mm": 1e3 * float(np.nanmax(found.distances)),
+        "markers": squares,
+    }
+
+
+def _warn(record: Record, found: Poses) -> None:
+    if not found.settled.all():
+        count = int((~found.settled).sum())
+        record.warn(f"{count} frames did not settle: markers and model may not belong together")
+    never = np.asarray(~found.determined.any(axis=0))
+    if never.any():
+        names = tuple(name for name, each in zip(found.names, never, strict=True) if each)
+        record.warn(f"no frame tells {listed(names)}: kept at the model's default")
+    for lost, what in (
+        (~found.determined & np.isfinite(found.values) & ~never, "filled between frames that tell them"),
+        (~np.isfinite(found.values), "left empty, markers do not tell them"),
+    ):
+        names = tuple(name for name, each in zip(found.names, lost.any(axis=0), strict=True) if each)
+        if names:
+            frames = found.time[lost.any(axis=1)]
+            span = f"{len(frames)} frames from {frames[0]:g} to {frames[-1]:g} s"
+            record.warn(f"{span}: {what}: {listed(names)}")
+
+
+inverse_kinematics = Job("ik", IkOptions, read, run)

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
-from geocontact.analyses.options import Expression, Options, Texts, TimeSpan
+from geocontact.analyses.options import C3dUnit, Expression, Options, Texts, TimeSpan
 from geocontact.data.ranges import MASS
 
 
@@ -44,6 +44,8 @@ class ScaleOptions(Options):
         OpenSim's setup of inverse kinematics or its task set (.xml) for the static pose; without it all markers alike.
     axes
         Which of the markers' axes are the model's x, y and z: x,z,-y where the laboratory's z is up.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     time
         First and last time [s] of standing still.
     """
@@ -61,4 +63,5 @@ class ScaleOptions(Options):
     keep_markers: bool = False
     tasks: Path | None = None
     axes: Expression | None = None
+    c3d_unit: C3dUnit = None
     time: TimeSpan | None = None

@@ -1,27 +1,49 @@
-"""A model made to measure: a file for OpenSim, and how well it fits the static trial."""
+"""A model made to measure from a static trial: `geocontact scale`, `gc.scale`.
+
+>>> import geocontact as gc
+>>> static = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim").write("virtual") / "markers.trc"
+>>> result = gc.scale(static, model="meshes/leg.osim", mass=70.0)
+>>> result
+scaled: no body; markers 25.8 mm from the model, root mean square, and 50.3 mm at most, foot_r2 at 0 s
+(OpenSim advises less than 10 and 20 mm)
+warning: virtual/markers.trc: foot_r2 moves 491 mm away from its mean: is this standing still?
+warning: markers are 25.8 mm from the model, root mean square, and 50.3 mm at most, foot_r2 at 0 s (OpenSim
+advises less than 10 and 20 mm): check where foot_r2 is on the model and in the recording, the scaling, and
+exchanged markers
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.json_file import write_json
-from geocontact.analyses.motion.scale.factors import labelled
+from geocontact.analyses.job import Job
+from geocontact.analyses.json_file import plain, write_json
+from geocontact.analyses.motion.marker_errors import STANDING, MarkerErrors
+from geocontact.analyses.motion.printed import printed
+from geocontact.analyses.motion.scale.factors import Standing, labelled, read
 from geocontact.analyses.motion.scale.options import ScaleOptions
-from geocontact.analyses.motion.scale.page import write_scaling_page
-from geocontact.analyses.motion.scale.read import Standing
-from geocontact.analyses.result import Result
+from geocontact.analyses.motion.scale.show import scaling_page
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
-from geocontact.dynamics.inverse_kinematics import Poses
-from geocontact.dynamics.scaling import Factors
+from geocontact.dynamics.inverse_kinematics import Poses, inverse_kinematics
+from geocontact.dynamics.scaling import Factors, scaled
+from geocontact.dynamics.tree import tree_of
 from geocontact.io.mocap.trc_writer import write_trc
 from geocontact.io.opensim.osim_scaler import write_scaled_model
 from geocontact.io.opensim.tool_setup_writer import write_scale_setup
+
+if TYPE_CHECKING:
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -44,6 +66,8 @@ class ScaleResult(Result):
         Numbers of the scaling, with units in their names.
     """
 
+    elsewhere: ClassVar[frozenset[str]] = frozenset({"markers", "factors"})
+
     options: ScaleOptions
     standing: Standing
     factors: Factors
@@ -60,21 +84,20 @@ class ScaleResult(Result):
         by = {"body": list(told), "factor [-]": list(told.values())}
         return {"markers": pd.DataFrame(off), "factors": pd.DataFrame(by)}
 
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """The static pose with its markers, factors, distances."""
+        title, both = f"Model scaled to {self.options.static.name}", (self.seen, self.modelled)
+        return {REPORT: scaling_page(title, self.model, labelled(self.factors), self.pose, both)}
+
     def write_files(self, folder: Path) -> None:
-        """scaled.osim, scale.json, OpenSim's set-up with the static trial as it was read, page."""
+        """scaled.osim, scale.json and OpenSim's set-up with the static trial as it was read besides."""
         values = np.asarray(self.pose.values)[0].tolist()
         standing = {name: v for name, v in zip(self.pose.names, values, strict=True) if np.isfinite(v)}
         defaults = None if self.options.keep_markers else standing
         write_scaled_model(self.options.model, folder / "scaled.osim", self.model, self.factors, defaults)
         write_json(folder / "scale.json", self.summary)
         self._write_setup(folder)
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """The static pose with its markers, factors, distances."""
-        title = f"Model scaled to {self.options.static.name}"
-        both = self.seen, self.modelled
-        write_scaling_page(file, title, self.record, self.model, labelled(self.factors), self.pose, both)
+        super().write_files(folder)
 
     def _write_setup(self, folder: Path) -> None:
         """With which OpenSim's own tool makes the same model."""
@@ -93,3 +116,70 @@ class ScaleResult(Result):
             place=not o.keep_markers,
             out="opensim_scaled.osim",
         )
+
+
+def run(given: Standing, o: ScaleOptions, record: Record) -> ScaleResult:
+    """Sizes and mass, the static pose, and markers where they were seen in it."""
+    try:
+        made = scaled(given.model, given.factors, o.mass, by_volume=o.mass_by_volume)
+    except ValueError as error:
+        raise InputError(o.model, "", str(error), "correct the model") from error
+    try:
+        pose = inverse_kinematics(tree_of(made), given.markers, given.tasks)
+    except ValueError as error:
+        raise InputError(o.static, "", str(error), "is it the right file?") from error
+    if not pose.settled.all():
+        record.warn("the static pose did not settle: markers and model may not belong together")
+    moved = made if o.keep_markers else _placed(made, given.markers, pose)
+    summary = _summary(given, pose, moved)
+    record.results.update(plain(summary))
+    _tell(record, given, pose)
+    which = [[m.name for m in made.markers].index(name) for name in pose.markers]
+    return ScaleResult(
+        record=record,
+        options=o,
+        standing=given,
+        factors=given.factors,
+        model=moved,
+        pose=pose,
+        seen=given.markers.of(pose.markers)[0],
+        modelled=made.marker_places(pose.values)[0, which],
+        summary=summary,
+    )
+
+
+def _placed(model: Multibody, seen: MarkerTrajectories, pose: Poses) -> Multibody:
+    """Markers that were seen where they were, in the static pose; others, and fixed ones, where scaling put them."""
+    poses = model.poses(pose.values)
+    places = seen.of(tuple(m.name for m in model.markers))[0]
+    markers = tuple(
+        m if m.fixed or not np.isfinite(place).all() else replace(m, location=poses[m.body][0].inv().apply(place))
+        for m, place in zip(model.markers, places, strict=True)
+    )
+    return replace(model, markers=markers)
+
+
+def _summary(given: Standing, pose: Poses, made: Multibody) -> dict[str, object]:
+    """Numbers of the scaling, as `scale.json` holds them."""
+    off = 1e3 * pose.distances[0]
+    units = {"rotational": "deg", "translational": "m"}
+    values = printed(made.coordinates, pose.values)[0].tolist()
+    return {
+        "factors": labelled(given.factors),
+        "mass_kg": sum(body.mass for body in made.bodies),
+        "static_rms_mm": float(np.sqrt(np.nanmean(off**2))),
+        "markers_mm": dict(zip(pose.markers, off.tolist(), strict=True)),
+        "static_pose": {
+            f"{c.name} [{units.get(c.kind, 'rad or m')}]": v for c, v in zip(made.coordinates, values, strict=True)
+        },
+    }
+
+
+def _tell(record: Record, given: Standing, pose: Poses) -> None:
+    errors = MarkerErrors.of(pose)
+    errors.warn(record, STANDING)
+    sizes = ", ".join(f"{name} {by:.3f}" for name, by in labelled(given.factors).items()) or "no body"
+    record.say(f"scaled: {sizes}; markers {errors.words(STANDING)}")
+
+
+scale = Job("scale", ScaleOptions, read, run)

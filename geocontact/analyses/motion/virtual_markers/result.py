@@ -1,25 +1,40 @@
-"""Where the markers of a model are: a table, and a file for OpenSim."""
+"""Virtual markers of a model along a motion: `geocontact markers`, `gc.virtual_markers`.
+
+>>> import geocontact as gc
+>>> result = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim")
+>>> result
+16 markers in 101 frames
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.job import Job
 from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.virtual_markers.options import MarkersOptions
-from geocontact.analyses.motion.virtual_markers.page import write_markers_page
-from geocontact.analyses.result import Result
+from geocontact.analyses.motion.virtual_markers.show import markers_page
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.io.opensim.coordinates import motion_of
+from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.text.tables import TextTable, read_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -28,6 +43,8 @@ class MarkersResult(Result):
 
     `values` are the coordinates of `model` that they follow [rad, m].
     """
+
+    elsewhere: ClassVar[frozenset[str]] = frozenset({"markers"})
 
     options: MarkersOptions
     markers: MarkerTrajectories
@@ -49,12 +66,48 @@ class MarkersResult(Result):
         table = self.table()
         return curves_figure(self.markers.time, {f"{axis} [m]": table.filter(like=f"_{axis} [") for axis in "xyz"})
 
-    def write_files(self, folder: Path) -> None:
-        """markers.trc [mm], page."""
-        write_trc(folder / "markers.trc", self.markers)
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The model as it moves, with its markers."""
         title = f"Virtual markers along {self.options.coordinates.name}"
-        write_markers_page(file, title, self.record, self.model, self.values, self.markers)
+        return {REPORT: markers_page(title, self.model, self.values, self.markers)}
+
+    def write_files(self, folder: Path) -> None:
+        """markers.trc [mm] besides."""
+        write_trc(folder / "markers.trc", self.markers)
+        super().write_files(folder)
+
+
+@dataclass(frozen=True)
+class Moved:
+    """A model with markers, and its coordinates over time."""
+
+    model: Multibody
+    table: TextTable
+
+
+def read(o: MarkersOptions, record: Record) -> Moved:
+    """Everything the options name."""
+    model = read_multibody(o.model)
+    record.add_input("`model`", o.model, bodies=len(model.bodies), markers=len(model.markers))
+    if not model.markers:
+        raise InputError(o.model, "", "has no markers", "give a model with a MarkerSet")
+    table = read_table(o.coordinates)
+    record.add_input("coordinates", o.coordinates, frames=len(table.time))
+    if table.time_unit != "s":
+        raise InputError(o.coordinates, "", "time is in per cent of a cycle", "a .trc file needs seconds")
+    return Moved(model, table)
+
+
+def run(moved: Moved, o: MarkersOptions, record: Record) -> MarkersResult:
+    """Places of all markers in every frame."""
+    model, table = moved.model, moved.table
+    names = tuple(m.name for m in model.markers)
+    values = motion_of(table, model, o.angles)
+    places = model.marker_places(values)
+    record.results.update(frames=len(table.time), markers=len(names))
+    record.say(f"{len(names)} markers in {len(table.time)} frames")
+    markers = MarkerTrajectories(table.time, places, names)
+    return MarkersResult(record=record, options=o, markers=markers, model=model, values=values)
+
+
+virtual_markers = Job("markers", MarkersOptions, read, run)

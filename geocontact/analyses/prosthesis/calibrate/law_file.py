@@ -6,15 +6,29 @@ import numpy as np
 
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
+from geocontact.below_knee_prosthesis.model.foot_offset import FootOffset
 
 HEAD = """\
 # Force law of the sole, calibrated on one stance; SI units. Numbers marked unknown were never loaded; those marked
 # not identified the stance hardly tells: the prior has most of the say.
 """
+FOOT = """
+[foot]  # beside where its standing trial has it, found with the law; `sd` are standard deviations
+height = {height!r}  # m, its middle raised
+height_sd = {height_sd!r}  # m
+pitch = {pitch!r}  # rad, the toes up
+pitch_sd = {pitch_sd!r}  # rad
+standing = "{standing}"  # SHA-256 of that trial: [foot] holds beside no other"""
 
 
-def law_toml(found: SoleCalibration | WholeCalibration) -> str:
-    """Text of the file."""
+def law_toml(found: SoleCalibration | WholeCalibration, standing: str) -> str:
+    """Text of the file.
+
+    Parameters
+    ----------
+    standing
+        SHA-256 of the standing trial.
+    """
     law = found.law
     lines = [HEAD, f"n = {law.exponent!r}", f"delta_full = {law.full_depth!r}", f"v_th = {law.threshold_speed!r}"]
     verdicts = {each.name: each.verdict for each in found.knowledge.numbers}
@@ -27,4 +41,10 @@ def law_toml(found: SoleCalibration | WholeCalibration) -> str:
         lines.append(f"b = {float(law.damping[k])!r}  # {verdicts[f'damping.{zone}']}")
         lines.append(f"mu_s = {static!r}  # its ratio to mu_k is kept")
         lines.append(f"mu_k = {kinetic!r}  # {verdicts[f'friction.{zone}']}")
+    lines += [_foot(each, standing) for each in found.offsets[:1]]
     return "\n".join(lines) + "\n"
+
+
+def _foot(offset: FootOffset, standing: str) -> str:
+    names = ("height", "height_sd", "pitch", "pitch_sd")
+    return FOOT.format(standing=standing, **{name: float(getattr(offset, name)) for name in names})

@@ -7,7 +7,17 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import BodyMass, Degrees, Expression, Fraction, Length, Options, PartLength, Spelled
+from geocontact.analyses.options import (
+    BodyMass,
+    C3dUnit,
+    Degrees,
+    Expression,
+    Fraction,
+    Length,
+    Options,
+    PartLength,
+    Spelled,
+)
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import CUTOFF, GAP, NOISE, SHIFT, SPEED, TILT
@@ -40,7 +50,8 @@ class ProsthesisCalibrateOptions(Options):
     fulcrum
         Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
     law
-        Usual numbers of the sole (.toml), about which those of the person are sought; built in unless given.
+        Usual numbers of the sole (.toml), about which those of the person are sought; built in unless given. How the
+        foot is beside its standing trial is sought anew.
 
     Force plates
     ----------
@@ -54,8 +65,9 @@ class ProsthesisCalibrateOptions(Options):
     The search
     ----------
     full
-        Go on with the whole model of the stance from what was found along the recorded poses: with the leg's inertia,
-        the socket and the free pelvis. The trial needs the markers of pelvis and thigh too.
+        Go on with the whole model of the stance from what was found along the recorded poses, height and pitch of the
+        foot with it: with the leg's inertia, the socket and the free pelvis. The trial needs the markers of pelvis and
+        thigh too.
     starts
         Starts spread over the bounds, beside the usual numbers.
     seed
@@ -87,6 +99,8 @@ class ProsthesisCalibrateOptions(Options):
     axes
         Which of the markers' axes are x (forward along the walk), y (upwards) and z: x,z,-y where the laboratory's z
         is up.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     """
 
     markers: Path
@@ -113,6 +127,7 @@ class ProsthesisCalibrateOptions(Options):
     gap_limit: Annotated[float, GAP] = 0.2
     markers_map: str | None = None
     axes: Expression | None = None
+    c3d_unit: C3dUnit = None
 
     def refuse_impossible(self) -> None:
         """No starts at all, a probability that is none, a force without noise."""

@@ -32,6 +32,7 @@ POSES = [
 WALKED = [
     "The stance is simulated: inertia, socket and the free pelvis act, and the force is what comes of the start.",
     'The search began with the numbers in the column "along poses", found with a keel without inertia.',
+    "Height and pitch of the foot are sought on, as constant errors of the standing trial.",
     "Angles are taken as they were recorded; what errors of the start, of hip and of knee do is in the weights.",
 ]
 READ = [
@@ -39,6 +40,7 @@ READ = [
     "Not identified: they do not; the value is stated beside its prior and has no interval.",
     "Unknown: the stance never loaded the zone, and the value is the usual one.",
     "Intervals count that residuals remember from frame to frame; they hold for this model, not beyond it.",
+    "The last two rows, height and pitch of the foot (toes up) beside its standing trial, go into law.toml as [foot].",
 ]
 
 

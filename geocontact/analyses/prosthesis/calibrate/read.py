@@ -58,10 +58,10 @@ def read(o: ProsthesisCalibrateOptions, record: Record) -> FootOnPlate:
     with record.listener.preparing():
         foot = foot_with_law(record, vsf_foot(), o.law)
     fulcrum = fulcrum_of(o.setting) if o.fulcrum is None else o.fulcrum
-    standing = right_markers(record, "`static`", o.static, o.side, o.axes, o.markers_map)
+    standing = right_markers(record, "`static`", o.static, o.side, o.axes, o.markers_map, o.c3d_unit)
     leg = standing_leg(standing, Person(o.mass), foot.keel, sole_numbers()["below"].value)
-    seen = right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map)
-    plate, name = plate_under_foot(record, o.plates, o.plate, o.side, o.mass)
+    seen = right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map, o.c3d_unit)
+    plate, name = plate_under_foot(record, o.plates, o.plate, o.side, o.mass, o.c3d_unit)
     filtered: Filtered = {"cutoff": None if o.cutoff == 0.0 else o.cutoff, "gap_limit": o.gap_limit}
     stance = stance_from_markers(
         seen,
@@ -83,7 +83,7 @@ def read(o: ProsthesisCalibrateOptions, record: Record) -> FootOnPlate:
 
 def _walked(o: ProsthesisCalibrateOptions, record: Record, found: Walked, stance: RecordedStance) -> WalkedStance:
     """Of the stance: InputError where the markers, or the other plate, do not cover enough of it."""
-    other = plate_named(read_force_plates(o.plates), o.other_plate, o.plates, "`other_plate`")
+    other = plate_named(read_force_plates(o.plates, o.c3d_unit), o.other_plate, o.plates, "`other_plate`")
     require_weight(o.plates, "`other_plate`", other.name, other.wrench.force[:, 1], o.mass * GRAVITY)
     motion, time = found.motion, stance.time
     if motion.time[0] > time[0] - LATE or motion.time[-1] < time[-1]:

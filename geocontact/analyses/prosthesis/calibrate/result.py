@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from os import fspath
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,7 @@ from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrate
 from geocontact.analyses.prosthesis.calibrate.page import write_calibration_page
 from geocontact.analyses.result import Result
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
+from geocontact.below_knee_prosthesis.calibration.known_numbers import KnownNumber
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
 from geocontact.identify.signals.agreement import Agreement
@@ -27,6 +29,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 LAW = "law.toml"
+
+
+def known_of(found: SoleCalibration | WholeCalibration) -> tuple[KnownNumber, ...]:
+    """Numbers of the zones, then height and pitch of the foot beside its standing trial."""
+    return *found.knowledge.numbers, *found.knowledge.beside
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -62,8 +69,7 @@ class ProsthesisCalibrateResult(Result):
     @property
     def residual(self) -> float:
         """Of the data at the numbers found last, over their noise, root mean square."""
-        at = self.calibration.at if self.whole is None else self.whole.logarithms
-        return float(np.sqrt(np.mean(self.last.residuals.of_data(at) ** 2)))
+        return float(np.sqrt(np.mean(self.last.residuals.of_data(self.last.at) ** 2)))
 
     @property
     def last(self) -> SoleCalibration | WholeCalibration:
@@ -88,10 +94,10 @@ class ProsthesisCalibrateResult(Result):
                 "prior lower": each.prior[0],
                 "prior upper": each.prior[1],
             }
-            for each in self.last.knowledge.numbers
+            for each in known_of(self.last)
         ]
         if self.whole is not None:
-            for row, before in zip(rows, self.calibration.knowledge.numbers, strict=True):
+            for row, before in zip(rows, known_of(self.calibration), strict=True):
                 row |= {"along poses": before.value, "along poses verdict": before.verdict}
         return {"numbers": pd.DataFrame(rows), "stance": pd.DataFrame(columns)}
 
@@ -103,7 +109,9 @@ class ProsthesisCalibrateResult(Result):
         """Tables, law, figure, page."""
         for name, rows in self.tables().items():
             write_table(rows, folder, name)
-        (folder / LAW).write_text(law_toml(self.last), encoding="utf-8", newline="\n")
+        named = fspath(self.options.static)
+        standing = next(str(each["sha256"]) for each in self.record.inputs if each["file"] == named)
+        (folder / LAW).write_text(law_toml(self.last, standing), encoding="utf-8", newline="\n")
         save_both(self.figure(), folder, "stance")
         self.write_page(folder / "report.html")
 

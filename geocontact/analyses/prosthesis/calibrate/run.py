@@ -45,7 +45,7 @@ def run(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> Pr
     motion, slip = found.residuals.motion(found.at, 0)
     predicted = found.residuals.stance(found.at, 0).predicted(found.foot.at(stance.fulcrum), motion)
     if whole is not None:
-        one = whole.residuals.wholes[0]
+        one = whole.residuals.whole(whole.at, 0)
         predicted, slip = one.channels(one.shown(whole.foot)), 0.0 * slip
     step = float(np.median(np.diff(stance.time)))
     model, measured = predicted / stance.weight, stance.measured / stance.weight
@@ -72,7 +72,8 @@ def _whole(
     """On the whole model, where that is asked for."""
     if given.walked is None or given.fit is None:
         return None
-    stance = given.walked
+    stance, offset = given.walked, found.offsets[0]
+    fit = replace(given.fit, motion=replace(given.fit.motion, leg=given.fit.motion.leg.with_foot(offset)))
     push, span = stance.push, (stance.begin, float(stance.recorded.time[-1]))
 
     def along(motion: LegMotion) -> Stance:
@@ -80,13 +81,11 @@ def _whole(
 
     try:
         with record.listener.stages("calibrating on the whole model"):
-            limb = limb_in_socket(
-                given.seen, given.fit, along, cutoff=ANGLES_CUTOFF, gap_limit=o.gap_limit, turns=TURNS
-            )
+            limb = limb_in_socket(given.seen, fit, along, cutoff=ANGLES_CUTOFF, gap_limit=o.gap_limit, turns=TURNS)
             if not limb.settled:
                 record.warn(counted_twice(limb))
-            stances = [replace(stance, motion=limb.walked.motion)]
-            return calibrate_whole(stances, given.foot, found.logarithms, level=o.level, machine_code=o.machine_code)
+            stances = [replace(stance, motion=replace(limb.walked.motion, leg=given.fit.motion.leg))]
+            return calibrate_whole(stances, given.foot, found.at, level=o.level, machine_code=o.machine_code)
     except ArithmeticError as error:
         raise InputError(o.markers, "", str(error), "check `mass`, `side` and `axes`, or leave `full` out") from error
 
@@ -94,12 +93,12 @@ def _whole(
 def _say_how_well(r: ProsthesisCalibrateResult) -> None:
     """How the foot stood, and what speaks against the fit."""
     record, e = r.record, r.stance.errors
-    (height, pitch), *_ = r.calibration.errors
+    offset = r.last.offsets[0]
     record.say(
-        f"the foot is {1e3 * height:+.1f} mm and {np.degrees(pitch):+.2f} degrees (toes up) beside where its standing "
-        f"trial has it; prior {1e3 * e.standing:.1f} mm and {np.degrees(e.pitch):.2f} degrees"
+        f"the foot is {offset.words} beside where its standing trial has it; prior {1e3 * e.standing:.1f} mm and "
+        f"{np.degrees(e.pitch):.2f} degrees"
     )
-    for words in doubts(height / e.standing, pitch / e.pitch, r.residual, r.vertical.rmsd):
+    for words in doubts(offset.height / e.standing, offset.pitch / e.pitch, r.residual, r.vertical.rmsd):
         record.warn(words)
 
 
@@ -158,10 +157,12 @@ def _say(r: ProsthesisCalibrateResult) -> None:
     )
     factors = ", ".join(f"{kind} a factor {sd:g}" for kind, (sd, _) in PRIOR.items())
     record.say(f"prior (invented), as one standard deviation about the usual number: {factors}")
-    (height, pitch), *_ = r.calibration.errors
+    offset = found.offsets[0]
     record.results["calibrate"] = {
-        "height_m": height,
-        "pitch_rad": pitch,
+        "height_m": offset.height,
+        "height_sd_m": offset.height_sd,
+        "pitch_rad": offset.pitch,
+        "pitch_sd_rad": offset.pitch_sd,
         "residual_over_noise": r.residual,
         "vertical_rmse_of_body_weight": r.vertical.rmsd,
         "vertical_r2": r.vertical.r2,

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import Expression, Options
+from geocontact.analyses.options import C3dUnit, Expression, Options
 from geocontact.analyses.prosthesis.ranges import TURNS, require_turns
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import CUTOFF, GAP
@@ -35,13 +35,15 @@ class ProsthesisCompareOptions(Options):
     axes
         Which of the markers' axes are x (forward along the walk), y (upwards) and z: x,z,-y where the laboratory's z
         is up.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
 
     How it is simulated
     ----------
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
     machine_code
-        Compile the equations first: the first run takes half a minute longer, every one after it is faster.
+        Compile the equations first: the first run takes ten seconds longer, every one after it is faster.
     workers
         Processes; as many as there are cores by default. Results do not depend on it.
     """
@@ -53,6 +55,7 @@ class ProsthesisCompareOptions(Options):
     gap_limit: Annotated[float, GAP] = 0.2
     markers_map: str | None = None
     axes: Expression | None = None
+    c3d_unit: C3dUnit = None
     socket: Literal["as_meant", "as_printed"] = "as_meant"
     machine_code: bool = False
     workers: int | None = None

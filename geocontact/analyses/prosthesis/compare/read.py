@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.read import Walk
@@ -68,5 +69,6 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
         machine_code=o.machine_code,
         markers_map=o.markers_map,
         axes=o.axes,
+        c3d_unit=unit_of_c3d(o.c3d_unit, trial.markers, trial.plates, person.static, person.functional),
         residual=RESIDUAL if person.residual is None else person.residual,
     )

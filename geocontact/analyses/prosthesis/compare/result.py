@@ -20,6 +20,7 @@ from geocontact.analyses.prosthesis.compare.tables import (
     trials_table,
 )
 from geocontact.analyses.prosthesis.simulate.exports import write_coordinates, write_loads, write_spheres
+from geocontact.analyses.prosthesis.simulate.tables import numbers_of, numbers_table
 from geocontact.analyses.result import Result
 from geocontact.below_knee_prosthesis.evaluation.judged_stance import JudgedStance
 from geocontact.below_knee_prosthesis.evaluation.outliers import Oddness
@@ -65,7 +66,7 @@ class ProsthesisCompareResult(Result):
         return ensemble_figure(self.stances)
 
     def write_files(self, folder: Path) -> None:
-        """Tables, figure, page; of each stance coordinates, external loads and spheres as `prosthesis simulate`."""
+        """Tables, figure, page; of each stance coordinates, loads, spheres and numbers as `prosthesis simulate`."""
         for name, rows in self.tables().items():
             write_table(rows, folder, name)
         for one in self.stances:
@@ -74,6 +75,7 @@ class ProsthesisCompareResult(Result):
             write_coordinates(place, one.stance, self.sides[one.name])
             write_loads(place, one.stance, self.sides[one.name])
             write_spheres(place / "paraview", one.stance, self.sides[one.name])
+            write_table(numbers_table(numbers_of(one.stance)), place, "numbers")
         save_both(self.figure(), folder, "ensembles")
         self.write_page(folder / "report.html")
 

@@ -91,6 +91,10 @@ def _say(r: ProsthesisCompareResult) -> None:
         record.say(f"{setting}: {'; '.join(_of_setting(name, own.loc[[name]].iloc[0]) for name in SAID)}")
     late = [one.errors.stance[0] - one.errors.stance[1] for one in stances if not one.calibrated]
     late = [each for each in late if np.isfinite(each)]
+    turned = [one.stance.motion.leg.offset.given for one in stances]
+    if any(turned):
+        count = f"{sum(turned)} of {len(stances)} stances"
+        record.say(f"height and pitch of the foot beside its standing trial are taken from the law on {count}")
     if late:
         record.say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms)")
     for one in stances:

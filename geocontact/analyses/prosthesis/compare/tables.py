@@ -86,6 +86,8 @@ def trials_table(stances: Sequence[JudgedStance], odd: Mapping[str, Oddness]) ->
                 "setting": one.setting,
                 "calibrated": one.calibrated,
                 "fulcrum [mm]": 1e3 * one.stance.fulcrum,
+                "foot height [mm]": 1e3 * one.stance.motion.leg.offset.height,
+                "foot pitch [deg]": float(np.degrees(one.stance.motion.leg.offset.pitch)),
                 "stance [s]": one.errors.stance[0],
                 "stance on the plate [s]": one.errors.stance[1],
                 "most vertical [-]": float(np.nanmax(one.simulated("vertical"))),

@@ -36,9 +36,9 @@ def intact_side(o: ProsthesisDesignOptions, trial: RecordedTrial, record: Record
         what = f"`intact` tells already which {MEASURES[o.aim].words} is wanted"
         raise InputError("", "`target`", what, "give one of them")
     leg = standing_intact_leg(trial.standing, trial.person)
-    seen = right_markers(record, "`intact`", o.intact, o.side, o.axes, o.markers_map)
+    seen = right_markers(record, "`intact`", o.intact, o.side, o.axes, o.markers_map, o.c3d_unit)
     plates = o.plates if o.intact_plates is None else o.intact_plates
-    plate, name = plate_under_foot(record, plates, o.intact_plate, o.side, o.mass, "intact_plate")
+    plate, name = plate_under_foot(record, plates, o.intact_plate, o.side, o.mass, o.c3d_unit, "intact_plate")
     step = intact_step(seen, leg, plate, cutoff=trial.cutoff, gap_limit=trial.gap_limit)
     foot = body_poses(seen, leg.markers, "intact_foot", seen.time, trial.cutoff, trial.gap_limit)
     height = lowest_sphere(foot, leg.spheres()[0])

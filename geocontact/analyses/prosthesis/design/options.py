@@ -7,7 +7,17 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import BodyMass, Degrees, Expression, Fraction, Length, Options, PartLength, Spelled
+from geocontact.analyses.options import (
+    BodyMass,
+    C3dUnit,
+    Degrees,
+    Expression,
+    Fraction,
+    Length,
+    Options,
+    PartLength,
+    Spelled,
+)
 from geocontact.analyses.prosthesis.ranges import EDGE, FULCRUM, PERSON, SLOPE
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import CUTOFF, GAP, NOISE, SHIFT, TILT
@@ -42,7 +52,8 @@ class ProsthesisDesignOptions(Options):
     fulcrum
         Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
     law
-        Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in unless given.
+        Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in unless given. With them go height
+        and pitch of the foot beside its standing trial, where that is `static`.
     numbers
         Their intervals of 95 % (numbers.csv of `prosthesis calibrate`); what is believed of any sole unless given.
 
@@ -92,7 +103,7 @@ class ProsthesisDesignOptions(Options):
     marker_error
         Standard deviation of a marker's place along each axis [mm].
     pitch_error
-        Of the foot's pitch: how far it may not have stood flat.
+        Of the foot's pitch: how far it may not have stood flat. A law that knows the pitch better has its own.
     force_noise
         Of a component of the plate's force [N].
 
@@ -107,6 +118,8 @@ class ProsthesisDesignOptions(Options):
     axes
         Which of the markers' axes are x (forward along the walk), y (upwards) and z: x,z,-y where the laboratory's z
         is up.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     """
 
     markers: Path
@@ -140,6 +153,7 @@ class ProsthesisDesignOptions(Options):
     gap_limit: Annotated[float, GAP] = 0.2
     markers_map: str | None = None
     axes: Expression | None = None
+    c3d_unit: C3dUnit = None
 
     def refuse_impossible(self) -> None:
         """Too few draws, a probability that is none, a plate of a trial that is not named."""

@@ -73,6 +73,7 @@ def write_design_page(
         frame_table("Between which ends each outcome lies, whatever the person keeps", tables["ranges"], 3),
         frame_table("On what the outcomes of the present foot hang", tables["sensitivities"], 3),
         *curves,
+        frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
         inputs_table(record.inputs),
         options_table(record),
         Words("What the numbers do and do not contain", [*LIMITS, NOT_A_DEVICE]),

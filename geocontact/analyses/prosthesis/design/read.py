@@ -12,7 +12,7 @@ from scipy.stats import norm
 
 from geocontact.analyses.prosthesis.design.intact_side import intact_side
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
-from geocontact.analyses.prosthesis.foot_law import foot_with_law
+from geocontact.analyses.prosthesis.foot_law import foot_with_law, offset_of_law
 from geocontact.analyses.prosthesis.plausible_plate import require_one_clock, require_under_foot
 from geocontact.analyses.prosthesis.recorded_files import plate_under_foot, right_markers
 from geocontact.analyses.run_record import Record
@@ -21,7 +21,6 @@ from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZonePar
 from geocontact.below_knee_prosthesis.clocks import clock_offset
 from geocontact.below_knee_prosthesis.design.intact_step import IntactStep
 from geocontact.below_knee_prosthesis.design.stance_again import RecordedTrial
-from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
@@ -50,10 +49,10 @@ def read(o: ProsthesisDesignOptions, record: Record) -> FootAndTrial:
     """Everything the options name."""
     with record.listener.preparing():
         foot = foot_with_law(record, vsf_foot(), o.law)
-    plate, name = plate_under_foot(record, o.plates, o.plate, o.side, o.mass)
+    plate, name = plate_under_foot(record, o.plates, o.plate, o.side, o.mass, o.c3d_unit)
     trial = RecordedTrial(
-        standing=right_markers(record, "`static`", o.static, o.side, o.axes, o.markers_map),
-        walking=right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map),
+        standing=right_markers(record, "`static`", o.static, o.side, o.axes, o.markers_map, o.c3d_unit),
+        walking=right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map, o.c3d_unit),
         plate=plate,
         person=Person(o.mass),
         keel=foot.keel,
@@ -61,8 +60,9 @@ def read(o: ProsthesisDesignOptions, record: Record) -> FootAndTrial:
         below=sole_numbers()["below"].value,
         cutoff=None if o.cutoff == 0.0 else o.cutoff,
         gap_limit=o.gap_limit,
+        offset=offset_of_law(record, o.law, o.static),
     )
-    leg = standing_leg(trial.standing, trial.person, trial.keel, trial.below)
+    leg = trial.leg
     spheres = foot.sole.spheres
     time, height = recorded_heights(trial.walking, leg, spheres, cutoff=trial.cutoff, gap_limit=trial.gap_limit)
     require_one_clock(o.plates, "`plate`", name, clock_offset(time, height, plate.time, plate.force[:, 1]))

@@ -17,12 +17,14 @@ from geocontact.analyses.prosthesis.design.page import write_design_page
 from geocontact.analyses.prosthesis.design.sensitivities_table import sensitivities_table
 from geocontact.analyses.prosthesis.design.sweep import SHOWN, UNITS, AimAnswer, Sweep, answers_table
 from geocontact.analyses.prosthesis.design.together import Together
+from geocontact.analyses.prosthesis.simulate.tables import numbers_table
 from geocontact.analyses.result import Result
 from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import Knob, Response
 from geocontact.below_knee_prosthesis.design.outcomes import Aim, shank_path
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity
+from geocontact.data.sourced_number import Number
 from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
@@ -47,6 +49,8 @@ class ProsthesisDesignResult(Result):
         How far outcomes on the present foot hang on each number.
     together
         Alignment varied together with the value; None where it was not asked for.
+    numbers
+        Of leg and foot as the trial is read with.
     intact
         Outcomes that the intact foot has, in SI; None where its step is not given.
     """
@@ -60,10 +64,11 @@ class ProsthesisDesignResult(Result):
     held: tuple[float, ...]
     hangs_on: tuple[FootSensitivity, ...]
     together: Together | None = None
+    numbers: Mapping[str, Number]
     intact: Mapping[Aim, float] | None = None
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`answers`, `ranges`, `sensitivities`, `sweep`, `shapes`; `intact` of that side; `pairs` and `together`."""
+        """`answers`, `ranges`, `sensitivities`, `sweep`, `shapes`, `numbers`; `intact`; `pairs` and `together`."""
         vary = self.sweep.knob.vary
         told = {
             "answers": answers_table(self.answers, vary),
@@ -71,6 +76,7 @@ class ProsthesisDesignResult(Result):
             "sensitivities": sensitivities_table(self.hangs_on),
             "sweep": self.sweep.table(),
             "shapes": self._shapes(),
+            "numbers": numbers_table(self.numbers),
         }
         if self.intact is not None:
             told["intact"] = intact_table(self.intact)

@@ -14,6 +14,8 @@ from geocontact.analyses.prosthesis.design.read import FootAndTrial
 from geocontact.analyses.prosthesis.design.result import ProsthesisDesignResult
 from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, AimAnswer, Sweep, wanted_of
 from geocontact.analyses.prosthesis.design.together import Together, pair_words
+from geocontact.analyses.prosthesis.foot_law import offset_words
+from geocontact.analyses.prosthesis.simulate.tables import leg_numbers, numbers_without_leg
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.design.choice import FootChoice, choose
 from geocontact.below_knee_prosthesis.design.drawn import draws
@@ -38,7 +40,8 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
     """Bands of every outcome over the values, the best value for every aim."""
     trial, terrain = given.trial, Terrain(o.slope, o.edge)
     knob = Knob(o.vary, VALUES[o.vary], trial.fulcrum, terrain)
-    errors = TrialErrors(marker=o.marker_error, pitch=o.pitch_error, force=o.force_noise)
+    pitch = min(o.pitch_error, trial.offset.pitch_sd) if trial.offset.pitch_sd > 0.0 else o.pitch_error
+    errors = TrialErrors(marker=o.marker_error, pitch=pitch, force=o.force_noise)
     try:
         task = trial.task()
         with record.listener.progress("feet", o.feet) as step:
@@ -79,6 +82,7 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
         held=tuple(held.tolist()),
         hangs_on=hangs_on,
         together=together,
+        numbers=leg_numbers(trial.leg) | numbers_without_leg(given.foot, trial.fulcrum),
         intact=None if given.intact is None else near,
     )
     if found.lost:
@@ -92,6 +96,8 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
     if terrain != LEVEL:
         record.warn(f"judged {words(terrain)}: the stance was recorded on a floor, its load and its turns are kept")
     _say(result)
+    if trial.offset.given:
+        record.say(offset_words(trial.offset))
     return result
 
 

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import BodyMass, Expression, Fraction, Options, PartLength, PartMass, Spelled
+from geocontact.analyses.options import BodyMass, C3dUnit, Expression, Fraction, Options, PartLength, PartMass, Spelled
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, PROSTHESIS, RESIDUAL, STATURE
 from geocontact.data.errors import InputError
 
@@ -52,6 +52,8 @@ class ProsthesisScaleOptions(Options):
         Names of recorded markers as they are called here: R_HIP=RASI, or a file with a pair in each line.
     axes
         Which of the markers' axes are x (forward), y (upwards) and z: x,z,-y where the laboratory's z is up.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     """
 
     static: Path
@@ -67,6 +69,7 @@ class ProsthesisScaleOptions(Options):
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
     markers_map: str | None = None
     axes: Expression | None = None
+    c3d_unit: C3dUnit = None
 
     def refuse_impossible(self) -> None:
         """Nobody to weigh."""

@@ -36,11 +36,11 @@ class Stood:
 
 def read(o: ProsthesisScaleOptions, record: Record) -> Stood:
     """Everything the options name."""
-    seen = right_markers(record, "static", o.static, o.side, o.axes, o.markers_map)
+    seen = right_markers(record, "static", o.static, o.side, o.axes, o.markers_map, o.c3d_unit)
     _warn_of_motion(seen, record)
     moving = None
     if o.functional is not None:
-        moving = right_markers(record, "`functional`", o.functional, o.side, o.axes, o.markers_map)
+        moving = right_markers(record, "`functional`", o.functional, o.side, o.axes, o.markers_map, o.c3d_unit)
     joints = NO_JOINTS if moving is None else standing_joints(seen, moving)
     foot = vsf_foot()
     keel = foot.keel.posterior_mass + foot.keel.joints * foot.keel.segment_mass

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import BodyMass, Expression, Fraction, Options, PartLength, Spelled, TimeSpan
+from geocontact.analyses.options import BodyMass, C3dUnit, Expression, Fraction, Options, PartLength, Spelled, TimeSpan
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, RESIDUAL, TURNS, require_turns
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import CUTOFF, GAP
@@ -43,7 +43,8 @@ class ProsthesisSimulateOptions(Options):
     fulcrum
         Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
     law
-        Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in unless given.
+        Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in unless given. With them go height
+        and pitch of the foot beside its standing trial, where that is `static`.
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
 
@@ -72,12 +73,14 @@ class ProsthesisSimulateOptions(Options):
     gap_limit
         Longest time for which a coordinate may be unknown [s].
     machine_code
-        Compile the equations first: the first run takes half a minute longer, every one after it is faster.
+        Compile the equations first: the first run takes ten seconds longer, every one after it is faster.
     markers_map
         Names of recorded markers as they are called here: R_HIP=RASI, or a file with a pair in each line.
     axes
         Which of the markers' axes are x (forward along the walk), y (upwards) and z: x,z,-y where the laboratory's z
         is up.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     time
         First and last time [s]: 0.4:1.6. It has to begin before touch-down.
     """
@@ -106,6 +109,7 @@ class ProsthesisSimulateOptions(Options):
     machine_code: bool = False
     markers_map: str | None = None
     axes: Expression | None = None
+    c3d_unit: C3dUnit = None
     time: TimeSpan | None = None
 
     def refuse_impossible(self) -> None:

@@ -45,9 +45,17 @@ SOLE = (
     "The foot is a keel of eight hinges on spheres. Where the spheres are, and what they press with, is invented but "
     "for stiffness in compression; nothing was fitted to this person."
 )
+CALIBRATED = (
+    "The foot is a keel of eight hinges on spheres. Where the spheres are is invented; what they press with, and how "
+    "the foot is beside its standing trial, is what the law's file says of it."
+)
 TWICE = (
     "Markers on the socket see the socket's own turn against the residual limb, so that it is in the knee angle as "
     "well as in the bushing."
+)
+IN_TURNS = (
+    "Markers on the socket see the socket's own turn against the residual limb. What the simulation finds of it is "
+    "taken out of them, in turns of fitting and simulating."
 )
 
 
@@ -68,7 +76,7 @@ def write_stance_page(
         frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
         inputs_table(record.inputs),
         options_table(record),
-        Words("What the numbers do not contain", [ALONE, SOLE, TWICE, NOT_A_DEVICE]),
+        Words("What the numbers do not contain", [ALONE, *_sole_and_socket(o), NOT_A_DEVICE]),
     ]
     page = Page(
         title=f"Prosthetic stance along {o.markers.name}",
@@ -86,6 +94,10 @@ def write_stance_page(
         total=len(s.time),
     )
     return write_page(page, path)
+
+
+def _sole_and_socket(o: ProsthesisSimulateOptions) -> list[str]:
+    return [SOLE if o.law is None else CALIBRATED, TWICE if o.socket_turns == 0 else IN_TURNS]
 
 
 def _lines(s: Stance, o: ProsthesisSimulateOptions, shown: Int[np.ndarray, " k"]) -> list[Linkage]:

@@ -12,7 +12,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_errors import FAR, MOVING
-from geocontact.analyses.prosthesis.foot_law import foot_with_law
+from geocontact.analyses.prosthesis.foot_law import foot_with_law, offset_of_law
 from geocontact.analyses.prosthesis.plausible_plate import require_one_clock, require_weight
 from geocontact.analyses.prosthesis.recorded_files import right_markers
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
@@ -88,12 +88,13 @@ def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
     ground = _ground(o)
     foot = foot_with_law(record, vsf_foot(), o.law)
     fulcrum = fulcrum_of(o.setting, "pinned") if o.fulcrum is None else o.fulcrum
-    standing = right_markers(record, "`static`", cast(Path, o.static), o.side, o.axes, o.markers_map)
+    standing = right_markers(record, "`static`", cast(Path, o.static), o.side, o.axes, o.markers_map, o.c3d_unit)
     person = Person(cast(float, o.mass), o.sex, o.residual)
-    leg = standing_leg(standing, person, foot.keel, sole_numbers()["below"].value, _hip(o, standing, record))
-    seen = right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map, o.time)
+    stood = standing_leg(standing, person, foot.keel, sole_numbers()["below"].value, _hip(o, standing, record))
+    leg = stood.with_foot(offset_of_law(record, o.law, cast(Path, o.static)))
+    seen = right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map, o.c3d_unit, o.time)
     found = walked(seen, leg, cutoff=None if o.cutoff == 0.0 else o.cutoff, gap_limit=o.gap_limit)
-    plates = read_force_plates(cast(Path, o.plates))
+    plates = read_force_plates(cast(Path, o.plates), o.c3d_unit)
     record.add_input("`plates`", cast(Path, o.plates), plates=len(plates))
     other = plate_named(plates, o.other_plate, cast(Path, o.plates), "`other_plate`")
     _require_fit(seen, found, record)
@@ -111,7 +112,7 @@ def _hip(o: ProsthesisSimulateOptions, standing: MarkerTrajectories, record: Rec
         return None
     places = np.nanmedian(standing.of(PELVIS), axis=0)
     frame = pelvis_frame(dict(zip(PELVIS, places, strict=True)), standing.source)
-    moving = right_markers(record, "`functional`", o.functional, o.side, o.axes, o.markers_map)
+    moving = right_markers(record, "`functional`", o.functional, o.side, o.axes, o.markers_map, o.c3d_unit)
     found = functional_hip(moving, frame.inv().apply(places))
     record.say(f"hip centre from the functional trial, {1e3 * found.rms:.1f} mm off itself")
     return found.first

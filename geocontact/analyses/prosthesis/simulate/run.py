@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from geocontact.analyses.json_file import plain
+from geocontact.analyses.prosthesis.foot_law import offset_words
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.read import Walk
 from geocontact.analyses.prosthesis.simulate.result import ProsthesisSimulateResult
@@ -51,6 +52,8 @@ def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisS
     if errors is not None:
         record.say(beside_words(errors))
         record.results["errors"] = plain({name: {"r2": r2, "rmse": off} for name, (r2, off) in errors.table.items()})
+    if walk.leg.offset.given:
+        record.say(offset_words(walk.leg.offset))
     return ProsthesisSimulateResult(record=record, options=o, walk=walk, stance=found, errors=errors, numbers=numbers)
 
 

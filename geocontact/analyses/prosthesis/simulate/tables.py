@@ -68,10 +68,22 @@ def all_numbers(leg: Leg, foot: VariableStiffnessFoot, fulcrum: float, bushing: 
 
     What is also fixed: a pinned end of the keel (`Keel.compliance` tells its hinges from EI and fulcrum).
     """
-    own = {f"leg {name}": number for name, number in leg.numbers().items()}
-    own |= socket_numbers(bushing)
-    own |= foot_numbers(foot, fulcrum)
-    return own | {"gravity": Number(GRAVITY, "derived", "standard gravity")}
+    return leg_numbers(leg) | socket_numbers(bushing) | numbers_without_leg(foot, fulcrum)
+
+
+def leg_numbers(leg: Leg) -> dict[str, Number]:
+    """By name, in SI; height and pitch of the foot beside its standing trial are in `leg keel` and `leg turn`."""
+    return {f"leg {name}": number for name, number in leg.numbers().items()}
+
+
+def numbers_without_leg(foot: VariableStiffnessFoot, fulcrum: float) -> dict[str, Number]:
+    """Of keel and sole, and gravity."""
+    return foot_numbers(foot, fulcrum) | {"gravity": Number(GRAVITY, "derived", "standard gravity")}
+
+
+def numbers_of(s: Stance) -> Mapping[str, Number]:
+    """`all_numbers` of a stance that was simulated."""
+    return all_numbers(s.motion.leg, s.foot, s.fulcrum, s.bushing)
 
 
 def numbers_table(numbers: Mapping[str, Number]) -> pd.DataFrame:

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import Expression, Options, Requires, Spelled, Typed
+from geocontact.analyses.options import C3dUnit, Expression, Options, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import PLAIN, Plausible
 from geocontact.data.ranges import CUTOFF, GAP, LIMIT
@@ -68,6 +68,8 @@ class ShoulderOptimiseOptions(Options):
         trials.
     axes
         Which of the markers' axes are x, y (upwards) and z of OpenSim's, of all trials: x,z,-y where z is up.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     """
 
     study: Annotated[Path | None, Spelled(keyword=True)] = None
@@ -87,6 +89,7 @@ class ShoulderOptimiseOptions(Options):
     gap_limit: Annotated[float, GAP] = 0.2
     markers_map: Annotated[str | None, Requires("study")] = None
     axes: Annotated[Expression | None, Requires("study")] = None
+    c3d_unit: C3dUnit = None
 
     def refuse_impossible(self) -> None:
         """Shares that are none, too few draws for an interval, a share that has no effect."""

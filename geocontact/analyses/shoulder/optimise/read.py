@@ -83,7 +83,7 @@ def _arms(
     o: ShoulderOptimiseOptions, record: Record, study: OverheadStudy, trial: StudyTrial, lengths: Wearer
 ) -> list[ArmTrial]:
     person, task = study.persons[trial.person], study.tasks[trial.task]
-    recorded = renamed_as_told(record, markers_given(trial.markers, o.axes, None), o.markers_map)
+    recorded = renamed_as_told(record, markers_given(trial.markers, o.axes, None, o.c3d_unit), o.markers_map)
     seen = _filled(recorded, o.gap_limit)
     record.add_input(f"{trial.person} {trial.task}", trial.markers, frames=len(seen))
     current = tool_current(record, trial.tool, seen.time)

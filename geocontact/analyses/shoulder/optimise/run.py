@@ -114,8 +114,8 @@ def _held_out(
         return held_out(
             given.trials,
             given.support,
-            _of_others(loop, o, one=False),
-            _of_others(loop, o, one=True),
+            of_others(loop, o, one=False),
+            of_others(loop, o, one=True),
             draws=o.draws,
             seed=o.seed,
             reaches=loop.transfer,
@@ -125,7 +125,7 @@ def _held_out(
         raise InputError(o.study or "", "", what, "let every person do every task") from error
 
 
-def _of_others(loop: ClosedLoop, o: ShoulderOptimiseOptions, *, one: bool) -> Maker:
+def of_others(loop: ClosedLoop, o: ShoulderOptimiseOptions, *, one: bool) -> Maker:
     """Makes a profile, or one factor, from the others, and scales it to the arm of the person held out."""
 
     def make(others: Sequence[ArmTrial], own: Sequence[ArmTrial]) -> Factors:

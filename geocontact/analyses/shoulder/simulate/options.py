@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import Expression, Needs, Options, Requires, Spelled, TimeSpan, Typed
+from geocontact.analyses.options import C3dUnit, Expression, Needs, Options, Requires, Spelled, TimeSpan, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import Plausible
 from geocontact.data.ranges import CUTOFF, GAP
@@ -69,6 +69,8 @@ class ShoulderSimulateOptions(Options):
         Names of recorded markers as they are called here: R_UP=humerus_rup, or a file with a pair in each line.
     axes
         Which of the markers' axes are x, y (upwards) and z of OpenSim's: x,z,-y where the laboratory's z is up.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     time
         First and last time [s]: 0.4:1.6.
     """
@@ -94,6 +96,7 @@ class ShoulderSimulateOptions(Options):
     tool_current: Annotated[float | None, Requires("tool"), CURRENT] = None
     markers_map: str | None = None
     axes: Expression | None = None
+    c3d_unit: C3dUnit = None
     time: TimeSpan | None = None
 
     def refuse_impossible(self) -> None:

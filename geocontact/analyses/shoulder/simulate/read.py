@@ -62,7 +62,7 @@ def read(o: ShoulderSimulateOptions, record: Record) -> Worn:
 def worn_along(o: ShoulderSimulateOptions, wearer: Wearer, record: Record) -> Worn:
     """The same on a wearer who is known."""
     device = device_named(record, o.device)
-    seen = renamed_as_told(record, markers_given(o.markers, o.axes, o.time), o.markers_map)
+    seen = renamed_as_told(record, markers_given(o.markers, o.axes, o.time, o.c3d_unit), o.markers_map)
     record.add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     found = arm_motions(seen, MarkerSettings(upright=o.upright, gap_limit=o.gap_limit))
     for note in found.notes:

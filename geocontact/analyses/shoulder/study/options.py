@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.options import Expression, Options
+from geocontact.analyses.options import C3dUnit, Expression, Options
 from geocontact.data.ranges import CUTOFF, GAP
 
 
@@ -33,6 +33,8 @@ class StudyOptions(Options):
         trials.
     axes
         Which of the markers' axes are x, y (upwards) and z of OpenSim's, of all trials: x,z,-y where z is up.
+    c3d_unit
+        Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     """
 
     over_time: ClassVar[bool] = True
@@ -44,3 +46,4 @@ class StudyOptions(Options):
     gap_limit: Annotated[float, GAP] = 0.2
     markers_map: str | None = None
     axes: Expression | None = None
+    c3d_unit: C3dUnit = None

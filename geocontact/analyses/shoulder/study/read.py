@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.devices import wearer_of_lengths
 from geocontact.analyses.shoulder.level import level
@@ -81,6 +82,7 @@ def _worn(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOptions
         tool=trial.tool,
         markers_map=o.markers_map,
         axes=o.axes,
+        c3d_unit=unit_of_c3d(o.c3d_unit, trial.markers),
     )
     own = Record("shoulder simulate", {})
     found = worn_along(asked, wearer_of_lengths(own, o.study, person.lengths), own)

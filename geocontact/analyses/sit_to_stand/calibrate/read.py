@@ -9,4 +9,4 @@ from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, s
 
 def read(o: StandingCalibrateOptions, record: Record) -> StandingUpTrials:
     """Everything in the study."""
-    return standing_trials(o.study, "study", record)
+    return standing_trials(o.study, "study", record, o.c3d_unit)

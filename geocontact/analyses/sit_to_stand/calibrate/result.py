@@ -10,6 +10,7 @@ import pandas as pd
 
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.result import Result
+from geocontact.analyses.sit_to_stand.calibrate.numbers import calibration_numbers
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
 from geocontact.analyses.sit_to_stand.calibrate.page import write_standing_page
 from geocontact.analyses.sit_to_stand.calibrate.tables import (
@@ -21,6 +22,7 @@ from geocontact.analyses.sit_to_stand.calibrate.tables import (
 from geocontact.analyses.sit_to_stand.exports import write_motion
 from geocontact.analyses.sit_to_stand.gap_files import write_strap_case
 from geocontact.analyses.sit_to_stand.model_file import write_standing_model
+from geocontact.analyses.sit_to_stand.numbers_table import mesh_table, ran_table
 from geocontact.analyses.sit_to_stand.standing_figure import standing_figure
 from geocontact.analyses.sit_to_stand.standing_tables import errors_table, trial_table
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
@@ -67,7 +69,7 @@ class StandingCalibrateResult(Result):
         return errors_table(self.trials, self.given.noise, self.given.tracks)
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`parameters`, `errors`, `certificate`, `correlation`, `trial_NAME`; `profiles` where they are asked for."""
+        """`parameters`, `errors`, `certificate`, `correlation`, `numbers`, `mesh`, `trial_NAME`; `profiles` too."""
         noise, tracks = self.given.noise, self.given.tracks
         own = {f"trial_{trial.recorded.name}": trial_table(trial, noise, tracks) for trial in self.trials}
         return {
@@ -76,6 +78,8 @@ class StandingCalibrateResult(Result):
             "certificate": certificate_table(self.phases),
             "correlation": correlation_table(self.phases),
             **({"profiles": profile_table(self.phases)} if self.options.profiles else {}),
+            "numbers": ran_table(calibration_numbers(self.phases, self.given.trials)),
+            "mesh": mesh_table("phase", [(phase.name, phase.found.motions) for phase in self.phases]),
             **own,
         }
 

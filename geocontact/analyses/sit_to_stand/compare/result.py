@@ -14,6 +14,8 @@ from geocontact.analyses.result import Result
 from geocontact.analyses.sit_to_stand.compare.figure import compared_figure
 from geocontact.analyses.sit_to_stand.compare.options import StandingCompareOptions
 from geocontact.analyses.sit_to_stand.compare.page import write_compared_page
+from geocontact.analyses.sit_to_stand.numbers_table import ran_table
+from geocontact.analyses.sit_to_stand.predict.numbers import predicted_meshes, prediction_numbers
 from geocontact.analyses.sit_to_stand.predict.predicted_trial import ALL, PredictedTrial
 from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
 from geocontact.analyses.sit_to_stand.predict.searches import complete
@@ -51,13 +53,15 @@ class StandingCompareResult(Result):
         return complete(self.predictions, len(self.given.trials.trials))
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`comparison` and `certificate`."""
+        """`comparison`, `certificate`, `numbers` and `mesh`."""
         rows = []
         for one in self.predictions:
             rows += certificate_rows(one.name, [one.trial.recorded.name], [one.trial.judged])
         return {
             "comparison": self.errors,
             "certificate": pd.DataFrame(rows).rename(columns={"phase": "predictor"}),
+            "numbers": ran_table(prediction_numbers(self.predictions)),
+            "mesh": predicted_meshes(self.predictions),
         }
 
     def figure(self) -> Figure:

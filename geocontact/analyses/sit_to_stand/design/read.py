@@ -40,7 +40,7 @@ class TrialsToHelp:
 
 def read(o: StandingDesignOptions, record: Record) -> TrialsToHelp:
     """Everything the options name; InputError where no exoskeleton is worn or draws lack intervals."""
-    trials = standing_trials(o.study, "study", record)
+    trials = standing_trials(o.study, "study", record, o.c3d_unit)
     if not trials.exoskeleton:
         what, remedy = "is not of a person with an exoskeleton", "write exoskeleton = true, and torques and strap"
         raise InputError(o.study, "", what, remedy)

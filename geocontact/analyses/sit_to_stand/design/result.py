@@ -12,6 +12,7 @@ from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.result import Result
 from geocontact.analyses.sit_to_stand.design.chosen import CertifiedDesign, DrawnGain
 from geocontact.analyses.sit_to_stand.design.figure import design_figure
+from geocontact.analyses.sit_to_stand.design.numbers import design_numbers
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
 from geocontact.analyses.sit_to_stand.design.page import write_choice_page
 from geocontact.analyses.sit_to_stand.design.read import TrialsToHelp
@@ -24,8 +25,9 @@ from geocontact.analyses.sit_to_stand.design.tables import (
 )
 from geocontact.analyses.sit_to_stand.exports import write_motion
 from geocontact.analyses.sit_to_stand.model_file import write_standing_model
+from geocontact.analyses.sit_to_stand.numbers_table import mesh_table, ran_table
 from geocontact.io.text.results import write_table
-from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS
+from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS, AssistedModel
 from geocontact.standing_up.assistance.peaks import MEASURES
 
 if TYPE_CHECKING:
@@ -38,6 +40,8 @@ class StandingDesignResult(Result):
 
     Parameters
     ----------
+    model
+        What moved.
     designs
         Without help, share alone, chosen, and chosen for the draws where that was asked for.
     front
@@ -48,6 +52,7 @@ class StandingDesignResult(Result):
 
     options: StandingDesignOptions
     given: TrialsToHelp
+    model: AssistedModel
     designs: tuple[CertifiedDesign, ...]
     front: tuple[CertifiedDesign, ...]
     draws: tuple[DrawnGain, ...]
@@ -82,13 +87,15 @@ class StandingDesignResult(Result):
         return len(each) == wanted and all(one.certified and (one.design is None or one.design.met) for one in each)
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`designs`, `chosen`, `sensitivity`, `certificate`; `front` and `draws` where they were asked for."""
+        """`designs`, `chosen`, `sensitivity`, `certificate`, `numbers`, `mesh`; `front` and `draws` if asked for."""
         every = (*self.designs, *self.front)
         found = {
             "designs": designs_table(self.designs),
             "chosen": chosen_table(self.best),
             "sensitivity": sensitivity_table(self.best, self.given.sd),
             "certificate": certificates_table(every),
+            "numbers": ran_table(design_numbers(self.model, every, self.given.trials.trials)),
+            "mesh": mesh_table("design", [(one.name, one.movement.found.motions) for one in every]),
         }
         if self.front:
             found["front"] = designs_table((self.designs[0], *self.front, self.best))

@@ -40,7 +40,7 @@ def run(given: TrialsToHelp, o: StandingDesignOptions, record: Record) -> Standi
             front = search.front(worn, next(one for one in designs[::-1] if one.name != ROBUST))
             draws = search.drawn(designs)
     result = StandingDesignResult(
-        record=record, options=o, given=given, designs=tuple(designs), front=front, draws=draws
+        record=record, options=o, given=given, model=search.model, designs=tuple(designs), front=front, draws=draws
     )
     doubt(result, stopped=search.stop)
     say(result, search.movements.solved, search.movements.seconds)
@@ -71,7 +71,7 @@ class _DesignSearch:
         without = self.given.p.copy()
         without[SHARE] = 0.0
         try:
-            movement = self.movements.at(without)
+            movement = self.movements.finely_at(without)
         except StoppedByHandError as error:
             raise KeyboardInterrupt from error
         except ArithmeticError as error:

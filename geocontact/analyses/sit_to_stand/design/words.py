@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.analyses.page_words import counted
+from geocontact.analyses.sit_to_stand.certificate_words import not_certified
 from geocontact.analyses.sit_to_stand.design.chosen import gain_interval
 from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult
 from geocontact.analyses.sit_to_stand.design.tables import in_units
@@ -30,8 +31,7 @@ def doubt(r: StandingDesignResult, *, stopped: bool) -> None:
         for trial in one.trials:
             seen = trial.judged.certificate
             if seen is not None and not seen.converged:
-                failed = "; ".join(seen.failed)
-                record.warn(f"{trial.recorded.name} {one.name} is not certified: {failed}; give more `nodes`")
+                record.warn(not_certified(f"{trial.recorded.name} {one.name}", seen))
     best = r.best.design
     if best is not None and best.on_end.any():
         names = ", ".join(name for name, end in zip(best.task.vary, best.on_end, strict=True) if end)

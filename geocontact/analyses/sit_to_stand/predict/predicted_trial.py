@@ -5,7 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+from jaxtyping import Float
+
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
+from geocontact.dynamics.collocation.motion import CollocatedMotion
+from geocontact.standing_up.phase import PhaseProblem
+from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trials import StandingTrial
 
 ALL, MEAN = "all given", "mean of the calibration"
@@ -19,6 +25,10 @@ class PredictedTrial:
     ----------
     name
         Of the predictor.
+    model, phase
+        What moved, and the problem that was solved.
+    motion, p, objective
+        Its solution, and what it costs.
     ending
         How the search ended, in words.
     seconds
@@ -26,6 +36,11 @@ class PredictedTrial:
     """
 
     name: str
+    model: StandingModel
+    phase: PhaseProblem
+    motion: CollocatedMotion
+    p: Float[np.ndarray, " p"]
+    objective: float
     trial: TrialResult
     solved: bool
     ending: str

@@ -47,7 +47,8 @@ def _parameters(sites: Sequence[StrapSite]) -> tuple[ContactParameter, ...]:
 
 def read(o: StandingPredictOptions, record: Record) -> HeldOutTrials:
     """Everything the options name; InputError where trials are not of one model."""
-    trials, known = standing_trials(o.study, "study", record), standing_trials(o.against, "`against`", record)
+    trials = standing_trials(o.study, "study", record, o.c3d_unit)
+    known = standing_trials(o.against, "`against`", record, o.c3d_unit)
     for file, study in ((o.study, trials), (o.against, known)):
         if not study.exoskeleton or not {"force", "centre", "torque", "strap"} <= set(study.tracks):
             what = "is not of a person with an exoskeleton, with force, centre, torque and strap"

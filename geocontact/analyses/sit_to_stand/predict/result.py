@@ -13,7 +13,9 @@ import pandas as pd
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.result import Result
 from geocontact.analyses.sit_to_stand.exports import write_motion
+from geocontact.analyses.sit_to_stand.numbers_table import ran_table
 from geocontact.analyses.sit_to_stand.predict.figure import strap_figure
+from geocontact.analyses.sit_to_stand.predict.numbers import predicted_meshes, prediction_numbers
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.predict.page import write_prediction_page
 from geocontact.analyses.sit_to_stand.predict.predicted_trial import ALL, MEAN, PredictedTrial
@@ -98,7 +100,7 @@ class StandingPredictResult(Result):
         ]
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`errors`, `certificate`, and `trial_NAME` by the predictor that is given everything."""
+        """`errors`, `certificate`, `numbers`, `mesh`, and `trial_NAME` by the predictor that is given everything."""
         rows = []
         for one in self.predictions:
             rows += certificate_rows(one.name, [one.trial.recorded.name], [one.trial.judged])
@@ -106,7 +108,8 @@ class StandingPredictResult(Result):
         own = {
             f"trial_{trial.recorded.name}": trial_table(trial, self.given.trials.noise, COMPARED) for trial in self.best
         }
-        return {"errors": self.errors, "certificate": certificates, **own}
+        ran = {"numbers": ran_table(prediction_numbers(self.predictions)), "mesh": predicted_meshes(self.predictions)}
+        return {"errors": self.errors, "certificate": certificates, **ran, **own}
 
     def figure(self) -> Figure:
         """Force of the strap by all predictors."""

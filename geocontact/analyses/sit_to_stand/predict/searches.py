@@ -118,4 +118,5 @@ def _predicted(
         acceleration=motion.state(motion.held_times)[:, 2 * n : 3 * n],
         judged=seen,
     )
-    return PredictedTrial(name, result, found.solved, found.ending, found.iterations, found.seconds)
+    ended = found.solved, found.ending, found.iterations, found.seconds
+    return PredictedTrial(name, model, phase, motion, found.p, found.objective, result, *ended)

@@ -1,1 +1,1 @@
-"""Effects of the vocabulary, each in an equation of its own: one effect, one file."""
+"""Injected effects by stage, each in an equation of its own."""

@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import another_device, sampled
-from geocontact.gap_benchmark.synthetic.laboratories.paced import Pace, Speed, paced
+from geocontact.gap_benchmark.synthetic.laboratories.movements import Pace, Speed, paced
 from geocontact.gap_benchmark.synthetic.noise import FAR_FROM_NYQUIST, LOWEST, USUAL, NoiseFilter, smooth_covariance
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 

@@ -11,8 +11,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.course import Path
-from geocontact.gap_benchmark.synthetic.equipment.placement import Placement
 from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import Sizes, another_device, sampled, sizes
+from geocontact.gap_benchmark.synthetic.laboratory import Placement
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 from geocontact.gap_benchmark.synthetic.trials import samples
 from geocontact.gap_benchmark.synthetic.visibility import placed, varied

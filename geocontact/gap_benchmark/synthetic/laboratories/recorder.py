@@ -7,12 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.course import Path
-from geocontact.gap_benchmark.synthetic.equipment.clock import Clock
-from geocontact.gap_benchmark.synthetic.equipment.power_law import PowerLawNoise
-from geocontact.gap_benchmark.synthetic.equipment.recorder import Quotient, Recorder
 from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import Sizes, another_device, sampled, sizes
-from geocontact.gap_benchmark.synthetic.laboratories.paced import Pace, paced
-from geocontact.gap_benchmark.synthetic.noise import FAR_FROM_NYQUIST, USUAL, NoiseFilter
+from geocontact.gap_benchmark.synthetic.laboratories.movements import Pace, paced
+from geocontact.gap_benchmark.synthetic.noise import FAR_FROM_NYQUIST, USUAL, NoiseFilter, PowerLawNoise
+from geocontact.gap_benchmark.synthetic.recording import Clock, Quotient, Recorder
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 from geocontact.gap_benchmark.synthetic.trials import samples
 
@@ -20,8 +18,6 @@ SLOWEST, FASTEST = 25.0, 1000.0
 """Samples per second."""
 MOST, MOST_OF_ALL = 1100, 2200
 """Samples of a channel, and of all outputs, in a trial; a trial has no more, since whole covariances are inverted."""
-QUICKEST = {"elbow": 10.0, "shoulder": 1.4}
-"""How much quicker than at home a device may move, so that a high rate does not make too many samples."""
 COARSEST, FINEST = 2.0, 0.05
 """Step of an output's numbers, in standard deviations of its noise."""
 COARSEST_INPUT = 1.0
@@ -56,7 +52,7 @@ def recorder_laboratory(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
 
 def at_another_rate(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
     """The scene at 25 to 1000 samples per second, as far as a trial has room; what nobody filtered is filtered now."""
-    quicker = float(np.exp(rng.uniform(0.0, np.log(QUICKEST.get(scene.system, 1.0)))))
+    quicker = float(np.exp(rng.uniform(0.0, np.log(scene.body.quickest))))
     scene = paced(scene, lambda _, duration: Pace.even(duration, quicker))
     duration = scene.path(rng, 0)(np.zeros(1)).duration
     most = min(MOST, MOST_OF_ALL / len(scene.outputs)) / (1.15 * duration)

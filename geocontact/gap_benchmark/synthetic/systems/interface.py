@@ -1,4 +1,4 @@
-"""What one interface makes of its deflection, with whatever is hooked in; shared by all systems but the foot."""
+"""What an interface makes of its deflection, with whatever is hooked in, and how a foot gives way to its load."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.gap_benchmark.synthetic.compile import loop
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Values
 
 TOLERANCE = 1e-11
@@ -49,3 +50,41 @@ def in_series(place: Values, pull: Callable[[Values], Values], hooks: Hooks, tol
         if not np.isfinite(way).all():
             break
     raise NotConvergedError("a spring in series was not solved")
+
+
+@loop
+def give_way(
+    time: Float[np.ndarray, " t"],
+    depth: Float[np.ndarray, "t n"],
+    closing: Float[np.ndarray, "t n"],
+    k: Float[np.ndarray, " n"],
+    b: Float[np.ndarray, " n"],
+    n: float,
+    full: float,
+    soft: float,
+    hard: float,
+    limit: float,
+) -> Float[np.ndarray, " t"]:
+    """Height w(t) [m] by which the foot gives way to its load through two springs in a row, one of which bottoms out.
+
+    w = hard F + (soft - hard) limit tanh(F / limit). Trapezoidal in w', by bisection.
+    """
+    way = np.zeros(time.size)
+    for i in range(time.size):
+        h = time[i] - time[i - 1] if i > 0 else 1.0
+        low, high = 0.0, max(depth[i].max(), 0.0)
+        for _ in range(60):
+            w = 0.5 * (low + high)
+            rate = (w - way[i - 1]) / h if i > 0 else 0.0
+            force = 0.0
+            for j in range(k.size):
+                d = depth[i, j] - w
+                if d > 0.0:
+                    u = min(d / full, 1.0)
+                    force += k[j] * d**n + b[j] * max(closing[i, j] - rate, 0.0) * u * u * (3.0 - 2.0 * u)
+            if hard * force + (soft - hard) * limit * np.tanh(force / limit) > w:
+                low = w
+            else:
+                high = w
+        way[i] = 0.5 * (low + high)
+    return way

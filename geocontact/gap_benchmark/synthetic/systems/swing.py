@@ -23,6 +23,8 @@ Torque = Callable[[Values], Values]
 """Further torque over time [N m] that a motion e(t) meets."""
 
 GRAVITY = 9.81
+PARTS, SAME_TICK = 20, 1e-6
+"""Into how many parts the shortest time between two samples may have to be cut; how exactly these must fit."""
 SAME = 1e-7
 """Change of the motion at which it counts as found [rad]."""
 ROUNDS, PATIENT = 60, 15
@@ -169,3 +171,13 @@ def at_rest(torque: Callable[[float], float], here: float) -> float:
         if far > FARTHEST:
             raise NotConvergedError("the arm finds no rest")
     return float(brentq(torque, here + side * near, here + side * far, xtol=1e-12)) if first else here
+
+
+def tick(time: Float[np.ndarray, " t"]) -> float:
+    """Longest step that leads to every sample [s]: the shortest between two, or a whole part of it."""
+    apart = np.diff(time)
+    for parts in range(1, PARTS + 1):
+        along = apart * parts / apart.min()
+        if float(np.abs(along - np.round(along)).max()) < SAME_TICK:
+            return float(apart.min() / parts)
+    raise NotConvergedError("samples are apart by no whole number of steps")

@@ -1,0 +1,411 @@
+"""The bodies and how they move: what is read, measured areas to compare with, what is refused."""
+
+from __future__ import annotations
+
+import glob
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Bool
+
+from geocontact.analyses import quantities
+from geocontact.analyses.area.options import AreaOptions
+from geocontact.analyses.area.pose_error import pose_error_of
+from geocontact.analyses.bodies import chosen_faces, read_body_and_outer, refuse_two_spaces
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.sides import MedialSide, medial_side, refuse_other_axes
+from geocontact.data.errors import InputError
+from geocontact.data.evolution import MM2
+from geocontact.data.file_names import cannot_be_named, same_place
+from geocontact.data.motion import Motion
+from geocontact.geometry.contact_area.area import Refinement
+from geocontact.geometry.contact_area.evolution import Settings
+from geocontact.geometry.contact_area.pose_error import PoseError
+from geocontact.geometry.fit.cylinder import fit_cylinder
+from geocontact.geometry.pieces.union import UnitedSurface
+from geocontact.geometry.plane import Plane
+from geocontact.geometry.surface import Surface
+from geocontact.geometry.sweep import sweep
+from geocontact.io.motion.motion import read_motion
+from geocontact.io.text.frame import read_frame
+from geocontact.io.text.units import LENGTH
+from geocontact.view.surfaces.vtp_series import require_pyvista
+
+DIRECTIONS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+def motions_given(record: Record, o: AreaOptions, moving: Surface) -> list[tuple[str, Motion]]:
+    """Name of the sub-folder (empty when there is one motion) and motion, with the offset of adduction asked for."""
+    motions = _read(record, o) if o.sweep is None else [("", _swept(record, o, o.sweep, moving))]
+    if o.adduction is None:
+        return motions
+    axis, angle = o.adduction
+    return [(folder, motion.turned(DIRECTIONS[axis], angle)) for folder, motion in motions]
+
+
+def _read(record: Record, o: AreaOptions) -> list[tuple[str, Motion]]:
+    paths = _expanded(o.motion or ())
+    _refuse_names(paths)
+    motions = {path: _motion(path, o) for path in paths}
+    bases = _motions_of_fixed(o, paths)
+    _refuse_unheeded(o, {**motions, **dict(bases.values())})
+    found = []
+    for path, motion in motions.items():
+        folder = path.stem if len(motions) > 1 else ""
+        record.add_input("motion", path, frames=len(motion), source=motion.source, folder=folder or ".")
+        if path in bases:
+            motion = _relative(record, motion, *bases[path])
+        found.append((folder, motion))
+    if o.osim is not None:
+        record.add_input("model", o.osim, joint=o.joint)
+    return found
+
+
+def _motion(path: Path, o: AreaOptions) -> Motion:
+    return read_motion(
+        path,
+        osim=o.osim,
+        joint=o.joint,
+        moving=o.moving_body or "child",
+        mapping=o.map,
+        order=o.order,
+        angles=o.angles,
+        grood_suntay_side=o.side if o.convention else None,
+        unit=o.unit,
+        rate=o.rate,
+    )
+
+
+def _motions_of_fixed(o: AreaOptions, paths: list[Path]) -> dict[Path, tuple[Path, Motion]]:
+    """File and poses of FIXED for each motion of MOVING; none where FIXED stays."""
+    if not o.motion_fixed:
+        return {}
+    fixed = _expanded(o.motion_fixed)
+    if len(fixed) != len(paths):
+        what = f"names {len(fixed)} files for {len(paths)} of `motion`"
+        raise InputError("", "`motion_fixed`", what, "give one for each, in the same order")
+    read = [read_motion(path, order=o.order, angles=o.angles, unit=o.unit, rate=o.rate) for path in fixed]
+    return dict(zip(paths, zip(fixed, read, strict=True), strict=True))
+
+
+def _relative(record: Record, motion: Motion, file: Path, fixed: Motion) -> Motion:
+    """Poses of MOVING in FIXED, both moving in one frame."""
+    record.add_input("motion of fixed", file, frames=len(fixed), source=fixed.source)
+    try:
+        found = motion.relative_to(fixed)
+    except ValueError as error:
+        raise InputError(file, "", str(error), "cut `motion` to times at which both are known") from error
+    if fixed.at(motion.time) is not fixed:
+        record.warn(
+            f"{file}: has other times than the motion of MOVING; interpolated to those, translations linearly, "
+            "rotations along the shortest arc"
+        )
+    return found
+
+
+def _refuse_unheeded(o: AreaOptions, motions: dict[Path, Motion]) -> None:
+    """InputError for options of reading that had no say in any of the motions read."""
+    heeded = frozenset[str]().union(*(motion.heeded for motion in motions.values()))
+    files = ", ".join(map(str, motions))
+    for option, unread, remedy in (
+        ("convention", "knee angle is", "name its columns with `map`"),
+        ("order", "two angles to put in order are", "leave it out"),
+        ("angles", "angle is", "leave it out"),
+        ("rate", "pose without a time is", "leave it out"),
+    ):
+        if o.given(option) and option not in heeded:
+            raise InputError("", f"`{option}`", f"has no effect here: no {unread} read from {files}", remedy)
+
+
+def _expanded(patterns: Sequence[str]) -> list[Path]:
+    paths: list[Path] = []
+    for pattern in patterns:
+        matches = [pattern] if Path(pattern).exists() or not glob.has_magic(pattern) else sorted(glob.glob(pattern))
+        if not matches:
+            raise InputError(pattern, "", "matches no file", "check the pattern")
+        paths += [Path(match) for match in matches]
+    return paths
+
+
+def _refuse_names(paths: Sequence[Path]) -> None:
+    """InputError for motions that cannot have a sub-folder each."""
+    names = [path.stem for path in paths]
+    for name in names if len(names) > 1 else ():
+        if cannot_be_named(name) or name.lower() == "run.json":
+            raise InputError("", "`motion`", f"a motion called {name!r} cannot name a folder", "rename its file")
+    twice = same_place(names)
+    if twice is not None:
+        raise InputError("", "`motion`", f"two motions are called {twice}", "their results would share a folder")
+
+
+def _swept(record: Record, o: AreaOptions, asked: tuple[str, float, float, float], moving: Surface) -> Motion:
+    name, start, stop, step = asked
+    if o.axis is not None:
+        file = quantities.named_file(o.axis)
+        if file is not None:
+            record.add_input("`axis`", file)
+        line = quantities.axis(o.axis, o.unit)
+    else:
+        fit = fit_cylinder(moving.vertices[moving.used])
+        line = fit.line
+        record.warn(
+            f"no `axis`: turned about the cylinder fitted to all of {moving.name}, "
+            f"radius {(fit.radius or 0.0) * 1e3:.2f} mm, rms {fit.rms * 1e3:.2f} mm"
+        )
+    try:
+        return sweep(line, start, stop, step, name)
+    except ValueError as error:
+        raise InputError("", "`sweep`", str(error), "give name, start, stop and step") from error
+
+
+PARTS = ("", "_lower", "_upper", "_medial", "_lateral")
+TIME, THRESHOLD, RELATIVE = "time [s]", "threshold [mm]", "relative [-]"
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The user's table and the largest relative difference to it that is acceptable."""
+
+    path: Path
+    table: pd.DataFrame
+    tolerance: float
+
+    def accepts(self, rows: pd.DataFrame) -> bool:
+        """Whether no row of a comparison is beyond the tolerance."""
+        return largest_difference(rows) <= self.tolerance
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """A row per measured area, from `compared`, and the largest relative difference that is acceptable."""
+
+    rows: pd.DataFrame
+    tolerance: float
+
+    @property
+    def largest(self) -> float:
+        """Largest relative difference."""
+        return largest_difference(self.rows)
+
+    @property
+    def accepted(self) -> bool:
+        """Whether no row is beyond the tolerance."""
+        return self.largest <= self.tolerance
+
+
+def read_reference(path: Path) -> pd.DataFrame:
+    """Reference table: `time [s]`, optionally `threshold [mm]`, and one or more area columns as in area.csv [mm^2]."""
+    areas = (f"area_{body}{part} [mm^2]" for body in ("fixed", "moving") for part in PARTS)
+    table = read_frame(path, (TIME, THRESHOLD, *areas), "give a CSV like area.csv")
+    if TIME not in table or not any(_is_area(name) for name in table.columns):
+        what = f"has the columns {', '.join(map(str, table.columns))}"
+        raise InputError(path, "", what, "it needs 'time [s]' and for example 'area_fixed [mm^2]'")
+    for name in table.columns:
+        if name in (TIME, THRESHOLD) or _is_area(name):
+            table[name] = pd.to_numeric(table[name], errors="coerce")
+    if table[TIME].isna().any():
+        raise InputError(path, f"row {int(table[TIME].isna().argmax()) + 2}", "time is not a number", "correct it")
+    return table
+
+
+def _is_area(name: str) -> bool:
+    return name.startswith("area_") and name.endswith("[mm^2]")
+
+
+def compared(ours: pd.DataFrame, reference: pd.DataFrame, path: Path) -> pd.DataFrame:
+    """One row per reference value: ours (linear in time between frames), theirs, difference, relative difference.
+
+    Reference times outside our own frames are refused; rows without a threshold need ours to have only one.
+    """
+    levels = sorted(set(ours[THRESHOLD]))
+    if THRESHOLD not in reference:
+        if len(levels) > 1:
+            raise InputError(path, "", "does not say which threshold it is for", f"add a column '{THRESHOLD}'")
+        reference = reference.assign(**{THRESHOLD: levels[0]})
+    rows = [
+        _row(ours, row, name, path)
+        for name in reference.columns
+        if _is_area(name)
+        for _, row in reference.iterrows()
+        if np.isfinite(row[name])
+    ]
+    if not rows:
+        raise InputError(path, "", "no area in it is a number", "give measured areas in mm^2")
+    return pd.DataFrame(rows)
+
+
+def largest_difference(rows: pd.DataFrame) -> float:
+    """Largest relative difference of a comparison."""
+    return float(rows[RELATIVE].abs().max())
+
+
+def _row(ours: pd.DataFrame, row: pd.Series, name: str, path: Path) -> dict[str, object]:
+    if name not in ours:
+        raise InputError(path, name, "is not among our columns", f"ours are {', '.join(ours.columns)}")
+    same = ours[np.isclose(ours[THRESHOLD], row[THRESHOLD], rtol=1e-9, atol=1e-9)]
+    if same.empty:
+        levels = ", ".join(f"{level:g}" for level in sorted(set(ours[THRESHOLD])))
+        raise InputError(path, "", f"threshold {row[THRESHOLD]:g} mm was not evaluated ({levels})", "see `threshold`")
+    time, value = same[TIME].to_numpy(float), same[name].to_numpy(float)
+    tolerance = 1e-6 * max(1.0, float(np.abs(time).max()))
+    if not time[0] - tolerance <= row[TIME] <= time[-1] + tolerance:
+        raise InputError(path, "", f"time {row[TIME]:g} lies outside {time[0]:g} … {time[-1]:g}", "shift its clock")
+    mine = float(np.interp(row[TIME], time, value))
+    theirs = float(row[name])
+    return {
+        TIME: row[TIME],
+        THRESHOLD: row[THRESHOLD],
+        "quantity": name,
+        "ours [mm^2]": mine,
+        "reference [mm^2]": theirs,
+        "difference [mm^2]": mine - theirs,
+        RELATIVE: (mine - theirs) / theirs if theirs else (0.0 if mine == 0.0 else np.inf),
+    }
+
+
+def refuse_plane_beside(
+    split: str, plane: Plane, fixed: Surface, counted: Bool[np.ndarray, " m"] | None, unit: str
+) -> None:
+    """InputError for a plane that leaves all faces of FIXED that count on one side."""
+    faces = fixed.faces if counted is None else fixed.faces[counted]
+    height = plane.height(fixed.vertices[np.unique(faces)])
+    if height.min() < 0.0 < height.max():
+        return
+    low, high = ((end + plane.offset) / LENGTH[unit] for end in (height.min(), height.max()))
+    axis = split.partition("=")[0].strip()
+    what = f"{axis} = {plane.offset / LENGTH[unit]:.6g} {unit} does not cut {fixed.name}"
+    what += (
+        f", whose {'faces that count go' if counted is not None else 'faces go'} from {low:.4g} to {high:.4g} {unit}"
+    )
+    middle = float(f"{0.5 * (low + high):.2g}")
+    raise InputError("", "`split`", what, f"write for example {axis}={middle:g}")
+
+
+def refuse_zero_without_inside(thresholds: tuple[float, ...], moving: Surface, fixed: Surface) -> None:
+    """InputError for a threshold of 0, which counts penetration, where no body has an inside."""
+    if 0.0 in thresholds and not moving.closed and not fixed.closed:
+        what = f"0 counts what is inside the other body, and neither {moving.name} nor {fixed.name} is closed"
+        raise InputError("", "`threshold`", what, "give a length, or say `assume_closed`")
+
+
+BRIEF, PATIENT = 40_000, 1_000_000  # triangles divided per area, without and with bounds asked for
+FEW = (
+    8_000  # without, where thresholds are finer than `FINE`: all that nearly touches is doubtful, however often divided
+)
+FINE = 0.05e-3  # m
+TOLERANCE = 0.02
+SENSITIVITY = np.linspace(0.0, 1.5, 13)  # shares of the largest threshold at which the page shows the area as well
+ZERO_REACH = 1e-3  # m; what these shares are of where the threshold is zero
+
+
+@dataclass(frozen=True, eq=False)
+class Bodies:
+    """Two bodies, how their contact is counted, and how one moves in the frame of the other.
+
+    Parameters
+    ----------
+    moving, fixed
+        The bodies, each in its own frame [m].
+    settings
+        What counts as contact, and how it is counted.
+    motions
+        Name of the sub-folder, empty when there is one motion, and poses of MOVING in FIXED.
+    reference
+        Measured areas to compare with; None without.
+    error
+        By which poses may be off; None without.
+    inner
+        Outer surfaces of bodies whose file holds closed surfaces inside or across others, where these count.
+    """
+
+    moving: Surface
+    fixed: Surface
+    settings: Settings
+    motions: tuple[tuple[str, Motion], ...]
+    reference: Reference | None
+    error: PoseError | None = None
+    inner: Mapping[Literal["moving", "fixed"], UnitedSurface] = field(default_factory=dict)
+
+    @property
+    def title(self) -> str:
+        """Heading of figures and pages."""
+        return f"MOVING {self.moving.name} on FIXED {self.fixed.name}"
+
+
+def read(o: AreaOptions, record: Record) -> Bodies:
+    """Everything the options name."""
+    if o.paraview:
+        require_pyvista()
+    split = None
+    if o.split is not None:
+        split = quantities.splitting_plane(o.split, o.unit), medial_side(o.split, o.side, o.medial)
+    reference = None
+    if o.compare is not None:
+        table = read_reference(o.compare)
+        reference = Reference(o.compare, table, TOLERANCE if o.tolerance is None else o.tolerance)
+        record.add_input("`compare`", o.compare)
+    error = pose_error_of(o)
+    if o.markers is not None:
+        record.add_input("`markers`", o.markers)
+    closed = {body: o.assume_closed in (body, "both") for body in ("moving", "fixed")}
+    moving, outer_moving = read_body_and_outer(record, "moving", o.moving, o.unit, o.place_moving, closed["moving"])
+    fixed, outer_fixed = read_body_and_outer(record, "fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
+    refuse_two_spaces(moving, fixed)
+    refuse_zero_without_inside(o.threshold, moving, fixed)
+    if split is not None:
+        refuse_other_axes(fixed.space, fixed.name, o.side, o.medial)
+    settings = _settings(record, o, split, moving, fixed)
+    if o.split is not None and split is not None:
+        refuse_plane_beside(o.split, split[0], fixed, settings.fixed_faces, o.unit)
+        record.say(f"medial is {split[1].words} of {fixed.name}")
+    bodies = Bodies(moving, fixed, settings, tuple(motions_given(record, o, moving)), reference, error)
+    return _outer(record, o, bodies, {"moving": outer_moving, "fixed": outer_fixed})
+
+
+def _outer(
+    record: Record, o: AreaOptions, bodies: Bodies, found: Mapping[Literal["moving", "fixed"], UnitedSurface | None]
+) -> Bodies:
+    """The bodies with their outer surfaces where these are asked for, and known where they are not."""
+    if o.outer is not None and not any(found[body] for body in found if o.outer in (body, "both")):
+        record.warn(f"`outer` {o.outer} leaves nothing out: no closed surface lies inside or across another one")
+    inner = {}
+    for body, united in found.items():
+        if united is None:
+            continue
+        if o.outer not in (body, "both"):
+            inner[body] = united
+            continue
+        record.say(
+            f"{united.surface.name} holds {united.words}: its outer surface counts, "
+            f"{united.inner_area * MM2:.1f} mm^2 inside are left out"
+        )
+        marked = bodies.settings.moving_faces if body == "moving" else bodies.settings.fixed_faces
+        faces = None if marked is None else marked[united.face]
+        if body == "moving":
+            settings = replace(bodies.settings, moving_faces=faces)
+            bodies = replace(bodies, moving=united.surface, settings=settings)
+        else:
+            settings = replace(bodies.settings, fixed_faces=faces)
+            bodies = replace(bodies, fixed=united.surface, settings=settings)
+    return replace(bodies, inner=inner)
+
+
+def _settings(
+    record: Record, o: AreaOptions, split: tuple[Plane, MedialSide] | None, moving: Surface, fixed: Surface
+) -> Settings:
+    pieces = BRIEF if min(o.threshold) >= FINE else FEW
+    refinement = Refinement(pieces=pieces) if o.bounds is None else Refinement(bounds=o.bounds, pieces=PATIENT)
+    return Settings(
+        thresholds=o.threshold,
+        rule=o.rule,
+        refinement=refinement,
+        fixed_faces=chosen_faces(record, "`region`", o.region, fixed, o.unit),
+        moving_faces=chosen_faces(record, "`region_moving`", o.region_moving, moving, o.unit),
+        split=None if split is None else split[0],
+        medial_side=0 if split is None else split[1].sign,
+        sensitivity=tuple((max(o.threshold) or ZERO_REACH) * SENSITIVITY),
+    )

@@ -1,1 +1,0 @@
-"""Congruence of the two surfaces where they are in contact."""

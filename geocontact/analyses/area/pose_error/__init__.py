@@ -1,1 +1,0 @@
-"""Error of poses or markers carried into the contact area."""

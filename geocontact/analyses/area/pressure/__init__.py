@@ -1,1 +1,0 @@
-"""Pressures of the contact area analysis."""

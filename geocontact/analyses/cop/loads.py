@@ -1,0 +1,124 @@
+"""Loads on a foot over its motion, the centre along the foot, and their tables."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float
+
+from geocontact.analyses.cop.foot import Foot, PlateCurves
+from geocontact.analyses.cop.options import CopOptions
+from geocontact.analyses.result import Result
+from geocontact.identify.signals.cycles import STEPS, Span, loaded_spans, normalised
+from geocontact.loads.along_foot import FootAxis
+from geocontact.loads.centre_of_pressure import CentreOfPressure
+from geocontact.loads.sphere_loads import SphereLoads
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class FootLoads(Result):
+    """Loads on a foot over its motion, in the frame of the ground.
+
+    Parameters
+    ----------
+    foot
+        Sole, law, motion and ground.
+    loads
+        Force of every sphere in every frame.
+    centre
+        Resultant, centre of pressure and free moment of every frame.
+    centres
+        The centre of each of `loads.centre_of_pressure.POINTS`, `centre.centre` among them.
+    axis
+        From the heel to the toe; None where nobody said which way the toe is.
+    zones
+        Sum of the normal forces of each zone, filtered where the forces are.
+    plate, comparison
+        What a force plate shows, and the differences to it; None without a plate.
+    """
+
+    options: CopOptions
+    foot: Foot
+    loads: SphereLoads
+    centre: CentreOfPressure
+    centres: dict[str, Float[np.ndarray, "t 3"]]
+    axis: FootAxis | None
+    zones: dict[str, Float[np.ndarray, " t"]]
+    plate: PlateCurves | None
+    comparison: pd.DataFrame | None
+
+
+def loads_table(r: FootLoads) -> pd.DataFrame:
+    """Force, centre and free moment of every frame; centre and free moment are empty below the gate."""
+    c = r.centre
+    vectors = {
+        f"{name}_{axis} [{unit}]": values[:, k]
+        for name, unit, values in (("force", "N", c.wrench.force), ("cop", "m", c.centre))
+        for k, axis in enumerate("xyz")
+    }
+    return pd.DataFrame(
+        {
+            "time [s]": r.foot.motion.time,
+            **vectors,
+            "free_moment [N m]": c.free_moment,
+            "normal [N]": c.pressing,
+            "spheres [-]": np.count_nonzero(r.loads.depth > 0.0, axis=1),
+            "max_depth [m]": np.maximum(r.loads.depth.max(axis=1), 0.0),
+        }
+    )
+
+
+NAMES = {"ground": "ground_point", "sphere": "sphere_centre"}
+"""Columns of the two centres, by what the normal forces weigh."""
+SHARE = "_share [-]"
+MM = 1e3
+
+
+def along_foot(r: FootLoads) -> pd.DataFrame | None:
+    """Centres of the ground points, of the sphere centres and of the plate: distance from the heel, and its share.
+
+    None where nobody said which way the toe is.
+    """
+    axis, poses = r.axis, r.foot.motion.poses
+    if axis is None:
+        return None
+    columns: dict[str, Float[np.ndarray, " t"]] = {"time [s]": r.foot.motion.time}
+    centres = {NAMES[point]: centre for point, centre in r.centres.items()}
+    if r.plate is not None:
+        theirs = np.full_like(r.centre.centre, np.nan)
+        theirs[r.plate.frames] = r.plate.centre
+        centres["plate"] = theirs
+    for name, centre in centres.items():
+        distance = axis.from_heel(centre, poses)
+        columns |= {f"{name} [mm]": distance * MM, f"{name}{SHARE}": axis.share(distance)}
+    return pd.DataFrame(columns)
+
+
+def stances(r: FootLoads) -> list[Span]:
+    """Complete stances: the normal force reaches the gate and falls below it again."""
+    return loaded_spans(r.foot.motion.time, r.centre.pressing, r.options.gate)
+
+
+def stance_table(r: FootLoads, loads: pd.DataFrame) -> pd.DataFrame:
+    """Each complete stance at 0, 1, … 100 % of its time: force, centre and free moment, and the centre in the foot.
+
+    `loads` is the table over time. Where one of two samples has no centre there is none between them, so that the
+    first and last per cent of a stance are empty.
+    """
+    within = along_foot(r)
+    whole = loads if within is None else loads.join(within.drop(columns="time [s]"))
+    whole = whole.drop(columns=["spheres [-]", "max_depth [m]"])
+    metres = [str(name) for name in whole.columns if str(name).endswith(" [m]")]
+    whole[metres] *= MM
+    whole = whole.rename(columns={name: f"{name.removesuffix(' [m]')} [mm]" for name in metres})
+    kept = [str(name) for name in whole.columns if name != "time [s]"]
+    time, parts = r.foot.motion.time, []
+    for number, span in enumerate(stances(r), 1):
+        curves = {name: normalised(time, whole[name].to_numpy(float), span.start, span.end) for name in kept}
+        times = span.start + (span.end - span.start) * STEPS / 100.0
+        parts.append(pd.DataFrame({"stance [-]": number, "cycle [%]": STEPS, "time [s]": times, **curves}))
+    if not parts:
+        return pd.DataFrame(columns=["stance [-]", "cycle [%]", "time [s]", *kept], dtype=float)
+    return pd.concat(parts, ignore_index=True)

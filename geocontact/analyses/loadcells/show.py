@@ -1,0 +1,378 @@
+"""What is shown of load cells: static figures, and the page with curves, tray and weights."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.analyses.loadcells.forces import SIDES, Cut, RecordedCells, stacked
+from geocontact.analyses.page_frames import thinned
+from geocontact.analyses.page_words import NOT_A_DEVICE, counted
+from geocontact.data.cell_regression import CellRegression
+from geocontact.data.ensemble import mean_and_sd
+from geocontact.data.seconds import seconds
+from geocontact.identify.signals.cycles import STEPS, Span
+from geocontact.identify.signals.gaps import broken, gaps
+from geocontact.view.curves.over_cycle import mean_over_cycle
+from geocontact.view.curves.quantity import CYCLE, FORCE, TIME, Quantity
+from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, legend, panels
+from geocontact.view.curves.text import plain
+from geocontact.view.extremes import FRAMES, thinned_line
+from geocontact.view.page.content import (
+    Choices,
+    Curve,
+    Curves,
+    Mark,
+    Page,
+    PageChoice,
+    Picture,
+    Plan,
+    Section,
+    Table,
+    Track,
+    Words,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+@in_style
+def loadcell_figure(
+    time: Float[np.ndarray, " t"],
+    cells: Mapping[str, Float[np.ndarray, " t"]],
+    sides: Mapping[str, Float[np.ndarray, " t"]],
+    spans: tuple[Span, ...] = (),
+) -> Figure:
+    """Forces of the cells above, those of the compartments below [N]; cycles are shaded in turns."""
+    figure, (above, below) = panels(2, 1, DOUBLE, 0.12)
+    for axes, curves in ((above, cells), (below, sides)):
+        _lines(axes, time, curves)
+        for k, span in enumerate(spans):
+            axes.axvspan(span.start, span.end, color=GREY, alpha=0.12 if k % 2 else 0.2, lw=0, zorder=0)
+    above.set_ylabel("force of a cell [N]")
+    below.set_ylabel(FORCE.label)
+    below.set_xlabel(TIME.label)
+    return figure
+
+
+def _lines(axes: Axes, time: Float[np.ndarray, " t"], curves: Mapping[str, Float[np.ndarray, " t"]]) -> None:
+    drawn = [
+        (
+            axes.plot(*thinned_line(*broken(time, values)), color=PALETTE[k % len(PALETTE)], ls=LINES[k % len(LINES)])[
+                0
+            ],
+            plain(name),
+        )
+        for k, (name, values) in enumerate(curves.items())
+    ]
+    axes.set_xlim(time[0], time[-1])
+    axes.axhline(0.0, color=GREY, lw=0.6, zorder=1)
+    legend(axes, drawn)
+
+
+SINGLE = 8
+"""Single cycles of a style that are drawn at most: more lines tell no more, and a file must not grow with them."""
+
+
+def some_cycles(trials: Float[np.ndarray, "n t"]) -> Float[np.ndarray, "k t"]:
+    """All cycles, or `SINGLE` of them: the one with the highest peak, the one with the lowest, and others between."""
+    if len(trials) <= SINGLE:
+        return trials
+    by_peak = np.argsort(trials.max(axis=1), kind="stable")
+    return np.asarray(trials[np.sort(by_peak[np.linspace(0, len(trials) - 1, SINGLE).astype(int)])])
+
+
+@in_style
+def ensemble_figure(
+    sides: Mapping[str, Mapping[str, Float[np.ndarray, "_ 101"]]],
+    along: str = "cycle",
+    unit: str = "N",
+    per_newton: float = 1.0,
+) -> Figure:
+    """Mean and SD over the cycle and, thin, single cycles; a panel per compartment, a colour per gait style.
+
+    Forces are shown in `unit`, of which one newton is `per_newton`.
+    """
+    figure, row = panels(1, len(sides), DOUBLE, 0.07)
+    for axes, (side, styles) in zip(row, sides.items(), strict=True):
+        shown = Quantity(f"{side} contact force", unit, per_newton)
+        mean_over_cycle(STEPS, styles, shown, axes, replace(CYCLE, name=along))
+        for k, trials in enumerate(styles.values()):
+            if len(trials) > 1:
+                axes.plot(STEPS, shown.shown(some_cycles(trials)).T, color=PALETTE[k], lw=0.5, alpha=0.6, zorder=2)
+    return figure
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Times that the page shows [s], their numbers by the recorder's clock, and how many these are in all.
+
+    Samples that were lost are counted, so that numbers go with the clock.
+    """
+
+    given: Float[np.ndarray, " t"]
+    kept: Int[np.ndarray, " k"]
+    time: Float[np.ndarray, " s"]
+    numbers: Int[np.ndarray, " s"]
+    total: int
+
+    def of(self, values: Float[np.ndarray, " t"]) -> Float[np.ndarray, " s"]:
+        """What the page shows of values at the recording's own times; NaN in gaps."""
+        found = np.full(len(self.time), np.nan)
+        found[np.searchsorted(self.time, self.given[self.kept])] = values[self.kept]
+        return found
+
+
+def samples(
+    time: Float[np.ndarray, " t"], curves: Sequence[Float[np.ndarray, " t"]] = (), most: int = FRAMES
+) -> Samples:
+    """Samples with the extremes of the curves, `most` about, those beside gaps, and the middle of each gap."""
+    missing = gaps(time)
+    after = np.array([np.searchsorted(time, each.end) for each in missing], int)
+    kept = np.unique(np.concatenate([thinned(len(time), curves, most=most), after, after - 1])).astype(int)
+    step = float(np.median(np.diff(time))) if len(time) > 1 else 1.0
+    lost = np.maximum(np.rint(np.diff(time) / step).astype(int) - 1, 0)
+    lost[np.setdiff1d(np.arange(len(lost)), after - 1)] = 0
+    by_clock = np.arange(1, len(time) + 1) + np.concatenate([[0], np.cumsum(lost)])
+    shown, _ = broken(time, time)
+    shown = np.unique(np.concatenate([time[kept], np.setdiff1d(shown, time)]))
+    numbers = np.rint(np.interp(shown, time, by_clock)).astype(int)
+    return Samples(time, kept, shown, numbers, int(by_clock[-1]))
+
+
+def beside_their_mean(
+    time: Float[np.ndarray, " t"], values: Float[np.ndarray, " t"], cuts: list[Cut], recording: str, side: str
+) -> list[Curve]:
+    """The force and, within each of its cycles, mean ± SD of that cycle's style; nothing between the cycles."""
+    mean, lower, upper = (np.full(len(time), np.nan) for _ in range(3))
+    styles = {style: mean_and_sd(trials) for style, trials in stacked(cuts, side).items()}
+    for cut in cuts:
+        if cut.recording != recording:
+            continue
+        inside = (time >= cut.span.start) & (time <= cut.span.end)
+        place = 100.0 * (time[inside] - cut.span.start) / (cut.span.end - cut.span.start)
+        level, spread = (np.interp(place, STEPS, each) for each in styles[cut.style])
+        mean[inside], lower[inside], upper[inside] = level, level - spread, level + spread
+    known = np.isfinite(values)
+    for each in (mean, lower, upper):
+        each[~known] = np.nan
+    band = (lower, upper) if np.isfinite(lower).any() else (None, None)
+    return [Curve("as recorded", values), Curve("mean of the cycles ± SD", mean, *band)]
+
+
+PLACES = {"PM": (-1.0, -1.0), "AM": (-1.0, 1.0), "AL": (1.0, 1.0), "PL": (1.0, -1.0)}
+"""Posterior and anterior, medial and lateral cell, in half their distances."""
+LEAST = 0.05  # of the largest total; a side with less has no centre worth a point
+SLIGHT = 0.01  # of the largest total; less tension of a cell than that is an offset
+WORDS = (
+    "The four cells, seen from above. Each point lies between them as their forces share the load; distances are in "
+    "half the spacing of the cells, because the size of the tray is not an input."
+)
+WIDE, DEEP, CORNER = 1.6, 1.45, 3.0  # outline in the same unit: a rounded plate, a sketch
+
+
+def tray_plan(cells: dict[str, Float[np.ndarray, " t"]]) -> Plan | None:
+    """Cells and the centre of pressure of each side and of the whole; None for a tray with other cells.
+
+    The centre is that of the cells' forces at the cells. Where a side bears little or pulls there is none (NaN).
+    """
+    if set(cells) != set(PLACES):
+        return None
+    total = sum(cells.values(), np.zeros(()))
+    least = LEAST * float(np.nanmax(total))
+    tracks = [
+        Track("medial", _centre({c: f for c, f in cells.items() if c.endswith("M")}, least)),
+        Track("lateral", _centre({c: f for c, f in cells.items() if c.endswith("L")}, least)),
+        Track("whole tray", _centre(cells, least)),
+    ]
+    turn = np.linspace(0.0, 2.0 * np.pi, 97)
+    x, y = (np.sign(part) * np.abs(part) ** (2.0 / CORNER) for part in (np.cos(turn), np.sin(turn)))
+    return Plan(
+        "Where the force acts on the tray",
+        "half spacing",
+        "medial ← → lateral",
+        "posterior ← → anterior",
+        [np.column_stack([WIDE * x, DEEP * y]), np.array([[0.0, -DEEP], [0.0, DEEP]])],
+        tracks,
+        [Mark(name, place) for name, place in PLACES.items()],
+        words=WORDS,
+    )
+
+
+def _centre(forces: dict[str, Float[np.ndarray, " t"]], least: float) -> Float[np.ndarray, "t 2"]:
+    names = list(forces)
+    each = np.stack([forces[name] for name in names], axis=1)
+    total = each.sum(axis=1)
+    bears = (total > least) & (each > -SLIGHT / LEAST * least).all(axis=1)
+    moments = each @ np.array([PLACES[name] for name in names])
+    found = np.full((len(total), 2), np.nan)
+    found[bears] = moments[bears] / total[bears, None]
+    return found
+
+
+CELLS = (
+    "Each cell measures the force along its own axis. The sum is the axial force on the tray; how it is shared between "
+    "the compartments is a regression, not a measurement, and shear and friction are in neither."
+)
+CYCLES, STYLES = "Cycles", "Difference to the first style (root mean square of the means)"
+SHIFTS = "Swing and time of each style beside the first, intervals of 95 % over cycles"
+ENSEMBLE = (
+    "Cycles as thin lines, the mean of each style as a thick one, mean ± SD as a band; 0 to 100 % of each cycle's own "
+    "duration."
+)
+SOME = f" {SINGLE} cycles of each style are drawn, those with the highest and the lowest peak among them."
+BOTH_UNITS = FRAMES // 2
+"""Samples where forces are there in two units, so that the page stays below a megabyte."""
+
+
+@dataclass(frozen=True)
+class ForceUnit:
+    """What forces are shown in: newtons, or per cent of body weight."""
+
+    name: str
+    per_newton: float
+
+    def text(self, force: float) -> str:
+        """A force as a sentence says it."""
+        return f"{force * self.per_newton:.0f} {self.name}"
+
+
+NEWTON = ForceUnit("N", 1.0)
+
+
+def body_weight(weight: float) -> ForceUnit:
+    """Per cent of a body weight [N]."""
+    return ForceUnit("% of body weight", 100.0 / weight)
+
+
+Drawn = Callable[[ForceUnit], bytes | None]
+"""The figure of the mean over the cycle (SVG) in a unit; None where there is none."""
+
+
+def loadcell_page(
+    recorded: RecordedCells,
+    regression: CellRegression,
+    cuts: list[Cut],
+    ensemble: Drawn,
+    weight: float | None = None,
+    results: Sequence[Table] = (),
+) -> Page:
+    """The page of one recording.
+
+    Parameters
+    ----------
+    cuts
+        Cycles of all recordings; empty where none were asked for.
+    weight
+        Of the body [N]: forces can be read in per cent of it.
+    results
+        Cycles and styles.
+    """
+    forces, by_cell = recorded.forces, recorded.by_cell(regression)
+    curves = [forces.total, *forces.curves.values(), *by_cell.values()]
+    shown = samples(forces.time, curves, FRAMES if weight is None else BOTH_UNITS)
+    cells = {name: shown.of(values) for name, values in by_cell.items()}
+    tray = tray_plan(cells)
+    many = cuts and max(len(trials) for trials in stacked(cuts, SIDES[0]).values()) > SINGLE
+    words = ENSEMBLE + (SOME if many else "")
+
+    def sections(unit: ForceUnit) -> list[Section]:
+        drawn = ensemble(unit)
+        forces_over_time, *others = _curves(recorded, shown, cells, cuts, unit)
+        return [
+            forces_over_time,
+            *([] if tray is None else [tray]),
+            *others,
+            *([] if drawn is None else [Picture("Over the cycle", words, drawn, wide=True)]),
+        ]
+
+    own, choices = sections(NEWTON), None
+    if weight is not None:
+        unit = body_weight(weight)
+        instead = {k: other for k, other in enumerate(sections(unit)) if other is not tray}
+        other = PageChoice(unit.name, _headline(recorded, cuts, unit), _facts(recorded, unit), instead)
+        choices = Choices("forces in", NEWTON.name, [other])
+    part = f"the page shows {len(shown.kept)} of {len(forces.time)} samples; forces.csv has all"
+    return Page(
+        title=f"Load cells of {recorded.file.name}",
+        subtitle=f"Tibial contact force from {len(cells)} load cells, weights '{regression.name}'",
+        time=shown.time,
+        time_label="time [s]",
+        headline=_headline(recorded, cuts, NEWTON),
+        facts=_facts(recorded, NEWTON),
+        reservations=(part,) if len(shown.kept) < len(forces.time) else (),
+        start_frame=int(np.nanargmax(shown.of(forces.total))),
+        sections=(
+            *own,
+            *results,
+            _weights(regression),
+            Words(
+                "What the numbers do not contain", [CELLS, f"Weights of the cells: {regression.source}.", NOT_A_DEVICE]
+            ),
+        ),
+        numbers=shown.numbers,
+        total=shown.total,
+        choices=choices,
+    )
+
+
+def _curves(
+    recorded: RecordedCells, shown: Samples, cells: dict[str, np.ndarray], cuts: list[Cut], unit: ForceUnit
+) -> list[Curves]:
+    """Compartments, cells, and the total beside the mean of its cycles; broken where samples are missing."""
+    per = unit.per_newton
+    sides = {name: shown.of(values) for name, values in recorded.forces.curves.items()}
+    panels = [Curves("Contact force", unit.name, [Curve(name, values * per) for name, values in sides.items()])]
+    if any(cut.recording == recorded.file.stem for cut in cuts):
+        beside = beside_their_mean(shown.time, sides["total"], cuts, recorded.file.stem, "total")
+        panels.append(
+            Curves("Total force, each cycle beside the mean", unit.name, [_times(one, per) for one in beside])
+        )
+    panels.append(Curves("Load cells", unit.name, [Curve(name, values * per) for name, values in cells.items()]))
+    return panels
+
+
+def _times(curve: Curve, per: float) -> Curve:
+    lower, upper = (None if each is None else each * per for each in (curve.lower, curve.upper))
+    return Curve(curve.name, curve.values * per, lower, upper)
+
+
+def _headline(recorded: RecordedCells, cuts: list[Cut], unit: ForceUnit) -> list[str]:
+    """The largest total force and how it is shared; what the cycles have in common."""
+    f = recorded.forces
+    k = int(np.argmax(f.total))
+    share = f.medial[k] / f.total[k]
+    lines = [f"The tray bears up to {unit.text(f.total[k])}, at {_when(recorded, k)}: {share:.0%} of it medially."]
+    mine = [cut for cut in cuts if cut.recording == recorded.file.stem]
+    for style, trials in stacked(mine, "total").items() if mine else ():
+        peaks = trials.max(axis=1)
+        spread = f" (SD {unit.text(float(peaks.std(ddof=1)))})" if len(peaks) > 1 else ""
+        named = "" if style == recorded.file.stem else f" of {style}"
+        lines.append(f"Peak total force of {counted(len(peaks), 'cycle')}{named}: {unit.text(peaks.mean())}{spread}.")
+    return lines[:3]
+
+
+def _when(recorded: RecordedCells, k: int) -> str:
+    return f"{seconds(round(float(recorded.forces.time[k]), 3))} s"
+
+
+def _facts(recorded: RecordedCells, unit: ForceUnit) -> list[tuple[str, str]]:
+    f = recorded.forces
+    lines = []
+    for name, values in f.curves.items():
+        k = int(np.argmax(values))
+        lines.append((f"Largest {name} force", f"{unit.text(values[k])} at {_when(recorded, k)}"))
+    k = int(np.argmax(f.total))
+    lines.append(("Medial share at the largest total", f"{f.medial[k] / f.total[k]:.0%}"))
+    return lines
+
+
+def _weights(r: CellRegression) -> Table:
+    rows = [(c, f"{m:g}", f"{k:g}") for c, m, k in zip(r.cells, r.medial, r.lateral, strict=True)]
+    return Table(f"Weights of the cells, '{r.name}'", ("cell", "medial", "lateral"), rows)

@@ -1,0 +1,229 @@
+"""Forces of a mat beside those of a model, by phase."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float
+
+from geocontact.analyses.mat.options import MatOptions
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.data.wrench import Wrench
+from geocontact.identify.signals.agreement import FEWEST, Agreement, agreement, over_stretches, per_phase
+from geocontact.identify.signals.even_times import at_times, even_times
+from geocontact.io.text.side_table import read_side_table
+from geocontact.io.text.tables import TextTable, read_table
+from geocontact.io.text.units import si_unit
+from geocontact.io.text.wrench_head import WrenchHead, read_wrench_head
+from geocontact.loads.mat.load import MatLoad
+
+MM, MM2 = 1e3, 1e6
+AXES = "xyz"
+
+
+def load_table(load: MatLoad, time: Float[np.ndarray, " t"]) -> pd.DataFrame:
+    """Wrench, pressing, area, pressures and centre of every frame; the centre is empty below the gate."""
+    force, moment, centre = load.wrench.force, load.wrench.moment, load.centre * MM
+    return pd.DataFrame(
+        {
+            "time [s]": time,
+            **{f"f{axis} [N]": force[:, k] for k, axis in enumerate(AXES)},
+            **{f"m{axis} [N m]": moment[:, k] for k, axis in enumerate(AXES)},
+            "normal [N]": load.pressing,
+            "perpendicular [N]": load.perpendicular,
+            "area [mm^2]": load.area * MM2,
+            "peak [Pa]": load.peak,
+            "mean [Pa]": load.mean,
+            **{f"cop_{axis} [mm]": centre[:, k] for k, axis in enumerate(AXES)},
+        }
+    )
+
+
+COLUMNS = ("name", "start [s]", "end [s]")
+ROUNDED = 1e-6
+"""s; a frame that close to a start or an end belongs to the phase."""
+
+Stretches = list[tuple[int, int]]
+"""First frame of each and the one after its last."""
+
+
+@dataclass(frozen=True)
+class Phase:
+    """A phase once: its name, and from when to when [s]."""
+
+    name: str
+    start: float
+    end: float
+
+
+def read_phases(record: Record, o: MatOptions) -> tuple[Phase, ...] | None:
+    """Phases in the order of the file; None where nobody names any."""
+    if o.phases is None:
+        return None
+    table = read_side_table(o.phases, COLUMNS)
+    missing = [name for name in COLUMNS if name not in table.columns]
+    if missing:
+        raise InputError(o.phases, "line 1", f"no column {', '.join(missing)}", f"write {', '.join(COLUMNS)}")
+    record.add_input("`phases`", o.phases, rows=len(table))
+    return tuple(Phase(str(name), start, end) for name, start, end in zip(*(table[c] for c in COLUMNS), strict=True))
+
+
+def frames_of(phases: tuple[Phase, ...], time: Float[np.ndarray, " t"], o: MatOptions) -> dict[str, Stretches]:
+    """Frames of each phase, in the order in which names first occur."""
+    file = o.phases or Path()
+    found: dict[str, Stretches] = {}
+    for k, phase in enumerate(phases, 1):
+        first = int(np.searchsorted(time, phase.start - ROUNDED))
+        last = int(np.searchsorted(time, phase.end + ROUNDED, side="right"))
+        within = phase.start >= time[0] - ROUNDED and phase.end <= time[-1] + ROUNDED
+        if not phase.end > phase.start or last - first < FEWEST or not within:
+            what = f"phase '{phase.name}' from {phase.start:g} to {phase.end:g} s holds {max(last - first, 0)} frames"
+            remedy = f"at least {FEWEST} are needed, between {time[0]:g} and {time[-1]:g} s"
+            raise InputError(file, f"row {k}", what, remedy)
+        found.setdefault(phase.name, []).append((first, last))
+    for name, stretches in found.items():
+        if name == "all" or any(before > start for (_, before), (start, _) in pairwise(sorted(stretches))):
+            what = "is the name of the whole recording" if name == "all" else "overlaps itself"
+            raise InputError(file, "", f"phase '{name}' {what}", "correct its name, or its start and end")
+    return found
+
+
+FORCE, MOMENT = ("fx", "fy", "fz"), ("mx", "my", "mz")
+UNITS: Mapping[str, str] = {
+    **dict.fromkeys(FORCE, "N"),
+    **dict.fromkeys(MOMENT, "N m"),
+    **dict.fromkeys(("normal", "perpendicular"), "N"),
+}
+"""What is compared, in SI."""
+
+SAME_POINT = 1e-6
+"""m; points nearer than that are one."""
+
+Curves = dict[str, Float[np.ndarray, " t"]]
+
+
+@dataclass(frozen=True)
+class ModelForces:
+    """A table of forces over time, and what its first lines say of point and frame."""
+
+    file: Path
+    table: TextTable
+    head: WrenchHead
+
+
+def read_model(record: Record, o: MatOptions) -> ModelForces | None:
+    """The forces to compare with; None where there are none."""
+    if o.compare is None:
+        return None
+    model = ModelForces(o.compare, read_table(o.compare), read_wrench_head(o.compare))
+    record.add_input("`compare`", o.compare, rows=len(model.table.time))
+    return model
+
+
+def model_curves(
+    record: Record, model: ModelForces, ours: Wrench, time: Float[np.ndarray, " t"], o: MatOptions
+) -> Curves:
+    """What the model has of `UNITS`, NaN at times it does not cover; moments about the point of `ours`.
+
+    A table that names its point (`# point_mm = ...`) has its moments moved to ours; one that does not is taken to
+    refer to ours. Another frame is refused where the frame of `ours` was named, and warned of where nobody did.
+    """
+    known = model.table.channels
+    curves = {name: _at(model, name, unit, time) for name, unit in UNITS.items() if name in known}
+    if not curves:
+        raise InputError(model.file, "", "holds none of our columns", f"name them {', '.join(UNITS)} with their unit")
+    if curves.keys() & {*FORCE, *MOMENT}:
+        _check_frame(record, model, ours, o)
+    head = model.head
+    record.results["compared_with"] = {
+        "frame": head.frame or "not said, taken as ours",
+        "point_mm": "not said, taken as ours" if head.point is None else (head.point * 1e3).tolist(),
+    }
+    return _moved(curves, model, ours)
+
+
+def _at(model: ModelForces, name: str, unit: str, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
+    table = model.table
+    known = si_unit(table.units[table.channels.index(name)])
+    if known is None or known[0] != unit:
+        raise InputError(model.file, "", f"column '{name}' is not in {unit}", f"write `{name} [{unit}]`")
+    return np.asarray(known[1] * np.interp(time, table.time, table.needed(name), np.nan, np.nan))
+
+
+def _check_frame(record: Record, model: ModelForces, ours: Wrench, o: MatOptions) -> None:
+    if model.head.frame is None or model.head.frame == ours.frame:
+        return
+    what = f"is in the frame '{model.head.frame[:60]}', the mat's forces are in '{ours.frame}'"
+    if o.frame is not None:
+        raise InputError(model.file, "", what, "turn it into that frame, or give both one name where they are one")
+    record.warn(f"{model.file} {what}: axes are compared as if they were one; say which frame ours is with `frame`")
+
+
+def _moved(curves: Curves, model: ModelForces, ours: Wrench) -> Curves:
+    point, there = model.head.point, [name for name in MOMENT if name in curves]
+    if point is None or not there or np.abs(ours.origin - point).max() <= SAME_POINT:
+        return curves
+    lacking = [name for name in FORCE if name not in curves]
+    if lacking:
+        what = f"has moments about another point and no {', '.join(lacking)} to move them with"
+        given = ", ".join(f"{value * 1e3:g}" for value in point)
+        raise InputError(model.file, "", what, f"add the forces, or give `point` {given} (in mm)")
+    nothing = np.full(len(ours.force), np.nan)
+    force = np.column_stack([curves[name] for name in FORCE])
+    moment = np.column_stack([curves.get(name, nothing) for name in MOMENT])
+    at = np.broadcast_to(point, force.shape)
+    moved = Wrench(force, moment, at, ours.frame).moved_to(ours.origin).moment
+    return curves | {name: moved[:, MOMENT.index(name)] for name in there}
+
+
+PARTS = 10
+
+Curve = Float[np.ndarray, " t"]
+
+
+def compared(
+    record: Record, model: ModelForces, phases: tuple[Phase, ...] | None, whole: MatLoad, time: Curve, o: MatOptions
+) -> pd.DataFrame:
+    """One row per channel and phase ("all", then those that are named, or "0-10 %", …)."""
+    if len(time) < 3 * PARTS:
+        raise InputError(model.file, "", f"{len(time)} frames are too few to compare", f"{3 * PARTS} are needed")
+    even, step = even_times(time)
+    if even is not time:
+        record.warn("frames are not evenly spaced: agreement is told at even times, without what lies in gaps")
+    measured = load_table(whole, time)
+    in_phases = _phases(phases, even, step, o)
+    rows = [
+        {"channel": name, "unit": UNITS[name], "phase": phase, **asdict(each)}
+        for name, theirs in model_curves(record, model, whole.wrench, time, o).items()
+        for model_there in [at_times(time, theirs, even, step)]
+        for ours in [at_times(time, measured[f"{name} [{UNITS[name]}]"].to_numpy(float), even, step)]
+        for phase, each in {"all": agreement(model_there, ours, step), **in_phases(model_there, ours)}.items()
+    ]
+    agreed = pd.DataFrame(rows).rename(columns={"lag": "lag [s]", "r2": "r2 [-]", "correlation": "correlation [-]"})
+    if not (agreed.loc[agreed["phase"] == "all", "samples"] > 0).any():
+        raise InputError(model.file, "", "has no time in common with the mat", "check its time column")
+    _tell(record, agreed[agreed["phase"] == "all"])
+    return agreed
+
+
+def _tell(record: Record, whole: pd.DataFrame) -> None:
+    record.results["agreement"] = whole.replace({np.nan: None}).to_dict(orient="records")
+    for row in whole.itertuples():
+        record.say(f"{row.channel}: mean absolute difference {row.mae:.4g} {row.unit}, root mean square {row.rmsd:.4g}")
+
+
+def _phases(
+    phases: tuple[Phase, ...] | None, time: Curve, step: float, o: MatOptions
+) -> Callable[[Curve, Curve], dict[str, Agreement]]:
+    """Agreement by name of the phase: tenths of the recording where nobody names any."""
+    if phases is None:
+        names = [f"{100 * k // PARTS}-{100 * (k + 1) // PARTS} %" for k in range(PARTS)]
+        return lambda model, ours: dict(zip(names, per_phase(model, ours, step, PARTS), strict=True))
+    found = frames_of(phases, time, o)
+    return lambda model, ours: {name: over_stretches(model, ours, step, parts) for name, parts in found.items()}

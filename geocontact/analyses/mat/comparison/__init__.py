@@ -1,1 +1,0 @@
-"""Loads of a mat beside the forces of a model."""

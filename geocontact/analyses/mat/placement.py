@@ -1,0 +1,281 @@
+"""Where a mat lies: landmarks of a second scan, registration to a body, sides, belts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.analyses.bodies import read_surface
+from geocontact.analyses.mat.options import MatOptions
+from geocontact.analyses.quantities import centre
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.data.pressure_frames import PressureFrames
+from geocontact.geometry.drape.belt import NotAroundError
+from geocontact.geometry.drape.cells import Drape
+from geocontact.geometry.drape.geodesics import Geodesics
+from geocontact.geometry.drape.mat import Mat
+from geocontact.geometry.drape.rectangle import Rectangle, rectangle_on
+from geocontact.geometry.drape.scan_difference import ScanDifference, scan_difference
+from geocontact.geometry.register.icp import icp
+from geocontact.geometry.register.landmarks import fit_landmarks
+from geocontact.geometry.register.quality import Registration
+from geocontact.geometry.register.scale_guard import compare_boxes, compare_landmarks
+from geocontact.geometry.register.shape_covariance import shape_covariance
+from geocontact.geometry.register.unguided import same_place, unguided
+from geocontact.geometry.surface import Surface
+from geocontact.io.recordings.mat_landmarks import MatLandmarks
+from geocontact.io.text.side_table import read_side_table
+from geocontact.io.text.units import LENGTH
+
+
+def open_belt(o: MatOptions, error: NotAroundError) -> InputError:
+    """The line for a belt that does not close."""
+    remedy = "check landmarks, pitch and unit; a mat with two ends, or one that overlaps itself, is no `belt`"
+    return InputError("", f"`belt` {o.belt}", str(error), remedy)
+
+
+def say_how_it_closes(record: Record, mat: Mat, laid: Drape, o: MatOptions) -> None:
+    """Length of the belt and of the way around that it took; cells share the difference."""
+    if o.belt is None:
+        return
+    along = 0 if o.belt == "rows" else 1
+    length = (mat.rows, mat.columns)[along] * mat.pitch[along]
+    stretch = laid.stretch[..., along]
+    around = length * (1.0 + np.nanmean(stretch))
+    record.results["belt"] = {"around": o.belt, "length_mm": length * 1e3, "way_around_mm": float(around) * 1e3}
+    record.say(f"belt of {length * 1e3:.0f} mm closes around {around * 1e3:.0f} mm of the body")
+
+
+HOLLOW = -0.1
+"""Mean cosine between the cells' normals and their directions from the middle of the mat; -1 inside a ball."""
+
+
+def outwards(surface: Surface, o: MatOptions) -> Surface:
+    """The scan with its faces turned over where `inwards` says that they look into the body."""
+    if not o.inwards:
+        return surface
+    if surface.closed:
+        raise InputError("", "`inwards`", "has no effect on a closed scan: its sides are known", "leave it out")
+    return replace(surface, faces=np.ascontiguousarray(surface.faces[:, ::-1]))
+
+
+def say_which_side(record: Record, surface: Surface, laid: Drape, marks: MatLandmarks, o: MatOptions) -> None:
+    """Warn where landmarks cannot show the side, and where an open scan looks as if it were seen from inside."""
+    arms = marks.place - marks.place.mean(axis=0)
+    if o.landmarks is not None and np.linalg.matrix_rank(arms, 1e-6 * float(np.abs(arms).max())) < 2:
+        record.warn(
+            f"the landmarks lie on one line of the mat: they do not show which side of it faces the body, and "
+            f"`seen_from` {o.seen_from} is believed"
+        )
+    if not surface.closed and _bulge(laid) < HOLLOW:
+        record.warn(
+            "the scan is hollow under the mat, as its faces look: if they look into the body, every force has the "
+            "wrong sign; pass `inwards` then"
+        )
+
+
+def _bulge(laid: Drape) -> float:
+    """How much the cells' normals point away from the middle of the mat: 1 on a ball, 0 on a plane, -1 in a bowl."""
+    inside = laid.covered
+    centre = laid.centre[inside]
+    arm = centre - centre.mean(axis=0)
+    size = float(np.linalg.norm(arm, axis=-1).sum())
+    return float(np.einsum("ij,ij->", arm, laid.normal[inside])) / size if size > 0.0 else 0.0
+
+
+SCAN, BODY = ("x [m]", "y [m]", "z [m]"), ("body_x [m]", "body_y [m]", "body_z [m]")
+EXAMPLE = "id, x [mm], y [mm], z [mm], body_x [mm], body_y [mm], body_z [mm]"
+
+
+@dataclass(frozen=True, eq=False)
+class BodyModel:
+    """A body model that the scan is brought to: landmarks of both [m], and the body's surface for a fit by shape."""
+
+    names: tuple[str, ...]
+    on_scan: Float[np.ndarray, "n 3"]
+    on_body: Float[np.ndarray, "n 3"]
+    surface: Surface | None
+
+
+def read_body_model(record: Record, o: MatOptions) -> BodyModel | None:
+    """Landmarks and, where the fit is by shape, the surface; None where results stay in the scan's frame."""
+    if o.body_landmarks is None:
+        return None
+    names, on_scan, on_body = _pairs(o.body_landmarks)
+    record.add_input("`body_landmarks`", o.body_landmarks, landmarks=len(names))
+    body = None if o.body is None else read_surface(record, "body", o.body, o.body_unit or o.unit, None)
+    return BodyModel(names, on_scan, on_body, body)
+
+
+def registered(
+    record: Record, scan: Surface, marks: MatLandmarks, model: BodyModel | None, o: MatOptions
+) -> tuple[Surface, MatLandmarks, Registration | None]:
+    """Scan and marks of the mat in the body's frame, and how well they fit; as they are without a body."""
+    if model is None:
+        return scan, marks, None
+    try:
+        guard = compare_landmarks(model.on_scan, model.on_body)
+        found = fit_landmarks(model.on_scan, model.on_body, names=model.names)
+        if guard.warning:
+            record.warn(guard.warning)
+        _tell_fit(record, "landmarks", found)
+        if model.surface is not None:
+            engine, found = _by_shape(scan, model.surface, found, o)
+            _tell_fit(record, "shape", found, engine=engine)
+            if not found.converged:
+                record.warn("the registration by shape did not settle; look at registration.csv")
+    except InputError:
+        raise
+    except ValueError as error:
+        raise InputError(o.body_landmarks or "", "", str(error), "check landmarks, units and `body`") from error
+    moved = Surface(found.pose.apply(scan.vertices), scan.faces, scan.name)
+    return moved, replace(marks, point=found.pose.apply(marks.point)), found
+
+
+def _by_shape(scan: Surface, body: Surface, start: Registration, o: MatOptions) -> tuple[str, Registration]:
+    """The scan brought onto the body from where the landmarks put it, and by which engine."""
+    engine, found = "own", None
+    if o.icp_engine != "own":
+        from geocontact.geometry.register.open3d_icp import open3d_icp  # heavy
+
+        try:
+            engine, found = "open3d", open3d_icp(scan, body, start.pose)
+        except ImportError as error:
+            if o.icp_engine == "open3d":
+                raise InputError("", "`icp_engine`", str(error), "or leave it out") from error
+            engine = "own"
+    found = found or icp(scan, body, start.pose)
+    return engine, replace(found, covariance=shape_covariance(scan, body, found.pose, start=start.covariance))
+
+
+def _pairs(path: Path) -> tuple[tuple[str, ...], Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
+    table = read_side_table(path, ("id", *SCAN, *BODY))
+    missing = [name for name in ("id", *SCAN, *BODY) if name not in table.columns]
+    if missing:
+        what = f"no column {', '.join(each.replace('[m]', 'with a unit of length') for each in missing)}"
+        raise InputError(path, "line 1", what, f"write {EXAMPLE}")
+    return (
+        tuple(str(each) for each in table["id"]),
+        table[list(SCAN)].to_numpy(float),
+        table[list(BODY)].to_numpy(float),
+    )
+
+
+def _tell_fit(record: Record, way: str, found: Registration, **more: str) -> None:
+    worst, off = found.worst
+    record.results[f"registration by {way}"] = {
+        "rms_mm": found.rms * 1e3,
+        "overlap": found.overlap,
+        "worst": worst,
+        "worst_mm": off * 1e3,
+        "hold": None if np.isnan(found.hold) else found.hold,
+        "pose": found.pose.as_matrix().tolist(),
+        **more,
+    }
+    record.say(
+        f"registration by {way}: root mean square {found.rms * 1e3:.2f} mm, {found.overlap:.0%} of the points met"
+    )
+
+
+FITS = 0.12  # of a side's length, by which the region may be longer or shorter than the mat
+OVERLAP = 0.5  # of the second scan that lies on the first
+
+
+@dataclass(frozen=True, eq=False)
+class SecondScan:
+    """The scan with the mat on, and a point near the mat's corner at its first cell [m], where one is named."""
+
+    surface: Surface
+    corner: Float[np.ndarray, " 3"] | None
+
+
+def read_second_scan(record: Record, o: MatOptions) -> SecondScan | None:
+    """The scan with the mat on; None where there is none."""
+    if o.scan_with_mat is None:
+        return None
+    surface = read_surface(record, "scan with the mat", o.scan_with_mat, o.unit, None)
+    corner = None if o.first_corner is None else np.array(centre(o.first_corner, o.unit, "`first_corner`"))
+    return SecondScan(surface, corner)
+
+
+def marks_found(
+    record: Record, scan: Surface, second: SecondScan, frames: PressureFrames, o: MatOptions
+) -> MatLandmarks:
+    """Where the mat's corners lie on the scan, in its frame."""
+    try:
+        compare_boxes(second.surface.vertices, scan.vertices, ("scan with the mat", "scan"))
+        found = unguided(second.surface, scan)
+        if found.overlap < OVERLAP:
+            raise ValueError(f"only {found.overlap:.0%} of it lies on {scan.name}")
+        raised = scan_difference(same_place(second.surface, found), scan)
+        outline = rectangle_on(Geodesics(scan), raised.outline, raised.length, o.mat_edge or 0.0)
+    except ValueError as error:
+        remedy = "check that both scans are of the same body, or give `landmarks`"
+        raise InputError(o.scan_with_mat or "", "", str(error), remedy) from error
+    _tell_raised(record, found, raised, outline, frames)
+    first = _first(outline, _candidates(outline, frames, o), second.corner, o)
+    hand = 1 if o.seen_from == "outside" else -1
+    rows, columns = float(frames.rows), float(frames.columns)
+    order = [first, (first + hand) % 4, (first - hand) % 4, (first + 2) % 4]
+    place = np.array([[0.0, 0.0], [rows, 0.0], [0.0, columns], [rows, columns]])
+    names = ("first corner", "end of column 1", "end of row 1", "last corner")
+    return MatLandmarks(names, place, outline.corners[order])
+
+
+def _tell_raised(
+    record: Record, found: Registration, raised: ScanDifference, outline: Rectangle, frames: PressureFrames
+) -> None:
+    record.results["second scan"] = {
+        "rms_mm": found.rms * 1e3,
+        "overlap": found.overlap,
+        "pose": found.pose.as_matrix().tolist(),
+        "noise_mm": raised.noise * 1e3,
+        "mat_thickness_mm": raised.thickness * 1e3,
+        "outline_rms_mm": outline.rms * 1e3,
+        "sides_mm": (outline.sides * 1e3).tolist(),
+        "mat_mm": [frames.rows * frames.pitch[0] * 1e3, frames.columns * frames.pitch[1] * 1e3],
+        "corners_mm": (outline.corners * 1e3).tolist(),
+    }
+    record.say(
+        f"second scan: {found.overlap:.0%} on the first, the mat {raised.thickness * 1e3:.1f} mm high, its outline "
+        f"within {outline.rms * 1e3:.2f} mm of a rectangle"
+    )
+    if not found.converged:
+        record.warn("the registration of the second scan did not settle")
+
+
+def _candidates(outline: Rectangle, frames: PressureFrames, o: MatOptions) -> list[int]:
+    """Corners that may be the first: from them rows and columns are as long as the sides, and turn the right way."""
+    down, across = frames.rows * frames.pitch[0], frames.columns * frames.pitch[1]
+    ahead, behind = outline.sides, np.roll(outline.sides, 1)
+    by_row, by_column = (ahead, behind) if o.seen_from == "outside" else (behind, ahead)
+    fits = (np.abs(by_row / down - 1.0) < FITS) & (np.abs(by_column / across - 1.0) < FITS)
+    if not fits.any():
+        a, b = (outline.sides[k] + outline.sides[k + 2] for k in (0, 1))
+        seen = f"{500.0 * max(a, b):.0f} × {500.0 * min(a, b):.0f}"
+        mat = f"{1e3 * max(down, across):.0f} × {1e3 * min(down, across):.0f}"
+        remedy = "check the pitch; `mat_edge` takes off a border without cells"
+        what = f"the region that stands off is {seen} mm, the mat {mat}"
+        raise InputError(o.scan_with_mat or "", "", what, remedy)
+    return [int(k) for k in np.flatnonzero(fits)]
+
+
+def _first(outline: Rectangle, candidates: list[int], given: Float[np.ndarray, " 3"] | None, o: MatOptions) -> int:
+    """The corner of the first cell."""
+    named = " or ".join(_text(outline.corners[k] / LENGTH[o.unit]) for k in candidates)
+    if given is None:
+        what = f"the outline does not tell which corner is that of the first cell; it may be {named} {o.unit}"
+        raise InputError("", "`first_corner`", what, "name the one, e.g. `first_corner` x,y,z")
+    nearest = int(np.argmin(np.linalg.norm(outline.corners - given, axis=1)))
+    if nearest not in candidates:
+        what = f"the corner nearest to {o.first_corner} cannot be that of the first cell, which is {named} {o.unit}"
+        raise InputError("", "`first_corner`", what, "check the corner and `seen_from`")
+    return nearest
+
+
+def _text(point: Float[np.ndarray, " 3"]) -> str:
+    return ",".join(f"{x:.4g}" for x in point)

@@ -1,0 +1,254 @@
+"""What is shown of a mat: static figure and animated page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.mat.loads import MatFindings
+from geocontact.analyses.mat.placed import ClosestPoint
+from geocontact.analyses.page_frames import thinned
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.geometry.drape.cells import Drape
+from geocontact.loads.mat.load import MatLoad
+from geocontact.loads.mat.map import MatMap
+from geocontact.view.curves.sheet import sheet
+from geocontact.view.extremes import thinned_line
+from geocontact.view.page.content import (
+    Curve,
+    Curves,
+    FaceMap,
+    Page,
+    Picture,
+    Readout,
+    Row,
+    Scene,
+    SceneBody,
+    Section,
+    Table,
+    Words,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+COLOURS = ("#0072B2", "#D55E00", "#009E73")  # Okabe-Ito: told apart by colour-blind readers
+
+
+UNTOUCHED = "#c9cdd2"  # of cells without pressure, as of faces on the page
+
+
+def mat_figure(
+    time: Float[np.ndarray, " t"],
+    load: MatLoad,
+    laid: Drape,
+    pressure: Float[np.ndarray, "t n"],
+    placed: MatMap,
+    largest: float,
+) -> Figure:
+    """Force with its components, area and largest pressure over time; beside them the largest pressure of each cell.
+
+    `largest` is the upper end of the colours [Pa]: the largest pressure of a face in all frames, as on the page.
+    """
+    from matplotlib import colormaps
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    figure = sheet(11.0, 6.0)
+    FigureCanvasAgg(figure)
+    panels = figure.subplot_mosaic([["force", "cells"], ["peak", "cells"], ["area", "cells"]], width_ratios=[3, 2])
+    for k, axis in enumerate("xyz"):
+        panels["force"].plot(*thinned_line(time, load.wrench.force[:, k]), color=COLOURS[k], label=axis)
+    panels["force"].plot(*thinned_line(time, load.perpendicular), color="black", label="perpendicular to the interface")
+    panels["force"].axhline(0.0, color="grey", lw=0.6)
+    panels["force"].legend(fontsize=8, frameon=False, ncols=2)
+    panels["peak"].plot(*thinned_line(time, load.peak * 1e-3), color="black", label="largest")
+    panels["peak"].plot(*thinned_line(time, load.mean * 1e-3), color="grey", label="mean where it touches")
+    panels["peak"].legend(fontsize=8, frameon=False)
+    panels["area"].plot(*thinned_line(time, load.area * 1e4), color="black")
+    grid = np.full(laid.area.shape, np.nan)
+    grid[placed.cell[:, 0], placed.cell[:, 1]] = pressure.max(axis=0) * 1e-3
+    grid[grid == 0.0] = -1.0
+    colours = colormaps["inferno_r"].with_extremes(under=UNTOUCHED)
+    image = panels["cells"].imshow(grid, cmap=colours, vmin=0.0, vmax=largest * 1e-3 or 1.0)
+    figure.colorbar(image, ax=panels["cells"], label="largest pressure [kPa]", shrink=0.8)
+    panels["cells"].set_xlabel("column")
+    panels["cells"].set_ylabel("row")
+    for name, label in (("force", "force on the body [N]"), ("peak", "pressure [kPa]"), ("area", "area [cm²]")):
+        panels[name].set_ylabel(label)
+    panels["area"].set_xlabel("time [s]")
+    return figure
+
+
+FRAMES = 201  # frames that the page animates at most
+KPA, CM2, MM = 1e-3, 1e4, 1e3
+NEAR = 1e-3  # m; a scene asks for a distance, and nothing here has one
+FIGURE = (
+    "Force, pressure and area over time; right, the mat unrolled with the largest pressure of each cell, in the "
+    "colours of the picture above."
+)
+AXES: Mapping[str, Sequence[float]] = {
+    "+x": (1.0, 0.0, 0.0),
+    "−x": (-1.0, 0.0, 0.0),
+    "+y": (0.0, 1.0, 0.0),
+    "−y": (0.0, -1.0, 0.0),
+    "+z": (0.0, 0.0, 1.0),
+    "−z": (0.0, 0.0, -1.0),
+}
+
+
+def shown_frames(r: MatFindings, most: int) -> Int[np.ndarray, " k"]:
+    """About so many frames at most, those with the extremes among them."""
+    return thinned(len(r.frames.time), [r.loads.pressing, r.loads.peak], [r.heaviest, int(np.argmax(r.on_faces))], most)
+
+
+def mat_page(r: MatFindings, shown: Int[np.ndarray, " k"], drawing: bytes) -> Page:
+    """The page before it becomes a file."""
+    sections: list[Section] = [_scene(r, shown), Readout(_rows(r, shown)), *_curves(r, shown)]
+    sections.append(Picture("The mat", FIGURE, drawing, wide=True))
+    if r.closest_point is not None:
+        sections.append(_two_ways(r, r.closest_point))
+    sections += [INPUTS, OPTIONS]
+    sections.append(Words("What the numbers rest on", [*_reservations(r), NOT_A_DEVICE]))
+    part = f"the page shows {len(shown)} of {len(r.frames.time)} frames; wrench.csv has them all"
+    return Page(
+        title=f"{r.frames.name} on {r.surface.name}",
+        subtitle=f"Pressure mat of {r.frames.rows} × {r.frames.columns} cells on a body scan",
+        time=r.frames.time[shown],
+        time_label="time [s]",
+        headline=headline(r.record.sentences, most=2),
+        facts=_facts(r),
+        reservations=(part,) if len(shown) < len(r.frames.time) else (),
+        start_frame=int(np.flatnonzero(shown == r.heaviest)[0]),
+        sections=tuple(sections),
+        numbers=shown + 1,
+        total=len(r.frames.time),
+    )
+
+
+def _scene(r: MatFindings, shown: Int[np.ndarray, " k"]) -> Scene:
+    values = r.cells.face_pressure(r.pressure[shown], r.surface.face_area) * KPA
+    return Scene(
+        bodies=(SceneBody(r.surface.name, r.surface.vertices, r.surface.faces),),
+        thresholds=(NEAR,),
+        span=(0.0, NEAR),
+        value_name="",
+        directions=AXES,
+        view=tuple(_facing(r).tolist()),
+        maps=(FaceMap("pressure on each face", "kPa", 0, values),),
+    )
+
+
+def _facing(r: MatFindings) -> Float[np.ndarray, " 3"]:
+    """Where the mat is seen from: against its mean normal; a belt has none, and is seen at the cell pressed most."""
+    if np.isfinite(r.loads.normal).all():
+        return r.loads.normal
+    row, column = r.cells.cell[int(np.argmax(r.pressure[r.heaviest]))]
+    return np.asarray(r.drape.normal[row, column])
+
+
+def _rows(r: MatFindings, shown: Int[np.ndarray, " k"]) -> list[Row]:
+    w = r.loads
+    sd = r.deviation[shown]
+    rows = [
+        Row("force, perpendicular", "N", _texts(w.perpendicular[shown], 1)),
+        *(Row(f"force {axis}", "N", _with(w.wrench.force[shown, k], sd[:, k], 1)) for k, axis in enumerate("xyz")),
+        *(
+            Row(f"moment {axis}", "N m", _with(w.wrench.moment[shown, k], sd[:, 3 + k], 2))
+            for k, axis in enumerate("xyz")
+        ),
+        Row("largest pressure", "kPa", _texts(w.peak[shown] * KPA, 1)),
+        Row("mean pressure where it touches", "kPa", _texts(w.mean[shown] * KPA, 1)),
+        Row("area", "cm²", _texts(w.area[shown] * CM2, 1)),
+        *(Row(f"centre of pressure {axis}", "mm", _texts(w.centre[shown, k] * MM, 1)) for k, axis in enumerate("xyz")),
+    ]
+    return rows + [Row(f"force, {name}", "N", _texts(part.pressing[shown], 1)) for name, part in r.segments.items()]
+
+
+def _curves(r: MatFindings, shown: Int[np.ndarray, " k"]) -> list[Curves]:
+    w = r.loads
+    parts = [Curve(name, part.pressing[shown]) for name, part in r.segments.items()]
+    return [
+        Curves(
+            "Force on the body",
+            "N",
+            [
+                Curve("perpendicular", w.perpendicular[shown]),
+                *(Curve(axis, w.wrench.force[shown, k]) for k, axis in enumerate("xyz")),
+            ],
+        ),
+        *([Curves("Force of each segment", "N", parts)] if parts else []),
+        Curves("Moment", "N m", [Curve(axis, w.wrench.moment[shown, k]) for k, axis in enumerate("xyz")]),
+        Curves("Largest pressure", "kPa", [Curve("largest pressure", w.peak[shown] * KPA)]),
+        Curves("Centre of pressure", "mm", [Curve(axis, w.centre[shown, k] * MM) for k, axis in enumerate("xyz")]),
+    ]
+
+
+def _facts(r: MatFindings) -> list[tuple[str, str]]:
+    k, w = r.heaviest, r.loads
+    peak = int(np.argmax(w.peak))
+    along = "" if np.isnan(w.perpendicular[k]) else f" ({w.perpendicular[k]:.0f} N perpendicular)"
+    lines = [
+        (
+            "Largest force",
+            f"{w.pressing[k]:.0f} N at {r.frames.time[k]:.2f} s{along}",
+        ),
+        ("Largest pressure", f"{w.peak[peak] * KPA:.1f} kPa at {r.frames.time[peak]:.2f} s"),
+        ("Area under the largest force", f"{w.area[k] * CM2:.0f} cm²"),
+    ]
+    if np.isfinite(w.centre[k, 0]):
+        x, y, z = w.centre[k] * MM
+        lines.append(("Centre of pressure then", f"x {x:.1f}, y {y:.1f}, z {z:.1f} mm"))
+    return lines
+
+
+def _reservations(r: MatFindings) -> list[str]:
+    known = np.abs(r.drape.distortion[r.drape.covered])
+    sd = np.sqrt(np.trace(r.uncertainty[r.heaviest][:3, :3]))
+    met = r.drape.misses[np.isfinite(r.drape.misses)]
+    miss = f"{met.max() * MM:.1f} mm" if len(met) else "an unknown distance"
+    frame = r.loads.wrench.frame
+    still = "" if frame == r.home else f" The picture stands still in the frame {r.home}, with which the segment moves."
+    return [
+        f"Forces, moments and centres of pressure are in the frame {frame}.{still}",
+        "A mat measures what is perpendicular to its cells. Friction along the skin is in none of these forces.",
+        f"Cells are up to {known.max():.1%} larger or smaller on the scan than flat; each keeps its own sensing area.",
+        f"Landmarks are missed by up to {miss}.",
+        f"The errors that were stated make the largest force uncertain by {sd:.1f} N (standard deviation).",
+        r.record.spell(
+            "What was neither stated (`gain`, `registration`) nor told by a registration is not in that number."
+        ),
+        "The scan is one shape: where soft tissue gives way under the load, pressures sit where it was before.",
+    ]
+
+
+def _two_ways(r: MatFindings, flat: ClosestPoint) -> Table:
+    """The mat as it is laid, and as closest points would lay it."""
+    at, drapes, both = flat.frame, (r.drape, flat.drape), (flat.used, flat.projected)
+    rows = [
+        ("area of a cell, largest change", *(f"{_largest(r, each):.1%}" for each in drapes)),
+        ("cells beside the scan", *(str(int((r.frames.valid & ~each.covered).sum())) for each in drapes)),
+        *((f"force {axis} [N]", *(f"{each.wrench.force[at, k]:.2f}" for each in both)) for k, axis in enumerate("xyz")),
+        *(
+            (f"centre of pressure {axis} [mm]", *(f"{each.centre[at, k] * MM:.1f}" for each in both))
+            for k, axis in enumerate("xyz")
+        ),
+    ]
+    title = f"Laid along the surface, and pushed straight down (frame {at + 1}, axes of the scan)"
+    return Table(title, ("", "along the surface (used)", "closest points"), rows)
+
+
+def _largest(r: MatFindings, laid: Drape) -> float:
+    return float(np.abs(laid.distortion[laid.covered & r.frames.valid]).max())
+
+
+def _texts(values: Float[np.ndarray, " k"], digits: int) -> list[str]:
+    return ["–" if np.isnan(value) else f"{value:.{digits}f}" for value in values]
+
+
+def _with(values: Float[np.ndarray, " k"], sd: Float[np.ndarray, " k"], digits: int) -> list[str]:
+    return [f"{value:.{digits}f} ± {one:.{digits}f}" for value, one in zip(values, sd, strict=True)]

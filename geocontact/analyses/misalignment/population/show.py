@@ -1,0 +1,167 @@
+"""What is shown of a population: distribution of the largest force, exceedance, page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.misalignment.planar_words import MODEL, STATES, WITHOUT_FORCE, page_table
+from geocontact.analyses.misalignment.population.drawn import Drawn, influence_table, quantile_table
+from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.identify.intervals.quantile_intervals import IntervalEstimate
+from geocontact.identify.intervals.sobol_indices import Indices
+from geocontact.view.curves.style import BLACK, DOUBLE, PALETTE, in_style, legend, panels
+from geocontact.view.page.content import (
+    Curve,
+    Curves,
+    IntervalRow,
+    Intervals,
+    Page,
+    Picture,
+    Readout,
+    Row,
+    Section,
+    Table,
+    Words,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+BINS = 80
+
+
+@in_style
+def population_figure(
+    peak: Float[np.ndarray, " n"], levels: Float[np.ndarray, " k"], exceedance: Sequence[IntervalEstimate], limit: float
+) -> Figure:
+    """Draw finite largest forces [N] on the left, probabilities of passing the levels [N] on the right."""
+    figure, (shape, tail) = panels(1, 2, DOUBLE, 0.07)
+    counts, edges = np.histogram(peak, BINS, (0.0, float(levels[-1])))
+    shape.stairs(counts / (max(len(peak), 1) * np.diff(edges)), edges, color=PALETTE[0], fill=True, alpha=0.5)
+    line = shape.axvline(limit, color=BLACK, lw=0.8, ls="--")
+    shape.set_xlabel("largest |F| [N]")
+    shape.set_ylabel("density [1/N]")
+    legend(shape, [(line, f"limit {limit:g} N")])
+    value, lower, upper = (np.array([getattr(one, end) for one in exceedance]) for end in ("value", "lower", "upper"))
+    band = tail.fill_between(levels, lower, upper, color=PALETTE[0], alpha=0.3, lw=0)
+    curve = tail.plot(levels, np.where(value > 0.0, value, np.nan), color=PALETTE[0])[0]
+    tail.axvline(limit, color=BLACK, lw=0.8, ls="--")
+    tail.set_yscale("log")
+    positive = value[value > 0.0]
+    tail.set_ylim(0.5 * float(positive.min()) if len(positive) else 1e-6, 1.2)
+    tail.set_xlabel("force [N]")
+    tail.set_ylabel("probability of more")
+    legend(tail, [(curve, "share of the samples"), (band, "95 %, exact")])
+    return figure
+
+
+FIGURE = (
+    "Left: density of the largest |F| over the range of angles. Right: probability that it is above a force; the band "
+    "is what the number of samples leaves open."
+)
+DRAWN = (
+    "The people are synthetic: drawn from the distributions in the description, which are as good as what they were "
+    "taken from. Intervals tell the error of drawing a finite number of them, nothing else. Samples whose limb or link "
+    "comes to a pole or a fold have no force; they count as beyond every force."
+)
+SHARES = "First-order: what knowing the factor takes away. Total: what is left if all others are known."
+INFLUENCE = (
+    "Shares of the variance (Sobol): first, what knowing the factor would take away; total, what would be left if all "
+    "others were known. They need independent factors and a force for every sample. Coefficients of ranks see what "
+    "rises or falls throughout, those of the distance from the median what acts either way, as offsets do."
+)
+
+
+def population_page(d: Drawn, drawing: bytes) -> Page:
+    """The page of a population, whose slider goes along the forces.
+
+    `drawing` is the figure (SVG).
+    """
+    shares = [100.0 * np.array([getattr(one, end) for one in d.exceedance]) for end in ("value", "lower", "upper")]
+    names = ("probability of more", "lower end, 95 %", "upper end, 95 %")
+    readout = [Row(name, "%", [f"{v:.4f}" for v in values]) for name, values in zip(names, shares, strict=True)]
+    numbers = _numbers(d)
+    sections: list[Section] = [
+        Curves("Probability of more", "%", [Curve("share of the samples", shares[0], shares[1], shares[2])]),
+        *_shares(d),
+        Readout(readout, "At this force"),
+        numbers,
+        Picture("Distribution of the largest force", FIGURE, drawing, wide=True),
+        page_table("Quantiles of the largest |F|", quantile_table(d)),
+        page_table("Where the spread comes from", influence_table(d)),
+        INPUTS,
+        OPTIONS,
+        Words("How to read where the spread comes from", [INFLUENCE]),
+        Words("What the numbers do not contain", [DRAWN, MODEL, NOT_A_DEVICE]),
+    ]
+    return Page(
+        title=f"Largest force of {len(d.peak)} synthetic people",
+        subtitle="Exoskeleton beside a joint: forces over a population",
+        time=d.levels,
+        time_label="force [N]",
+        headline=answer(d),
+        facts=[(row[0], row[1]) for row in numbers.rows[:5]],
+        start_frame=int(np.argmin(np.abs(d.levels - d.limit))),
+        sections=tuple(sections),
+        plays=False,
+    )
+
+
+def _shares(d: Drawn) -> list[Section]:
+    """Bars of both shares of every factor, the largest total first; none where they could not be known."""
+    if d.indices is None:
+        return []
+    kinds = {
+        "total": (d.indices.total, d.indices.total_interval),
+        "first-order": (d.indices.first, d.indices.first_interval),
+    }
+    rows = [
+        IntervalRow(_factor(d, k), float(share[k]), float(ends[k][0]), float(ends[k][1]), kind)
+        for k in _ordered(d.indices)
+        for kind, (share, ends) in kinds.items()
+    ]
+    return [Intervals("Share of the variance, by factor", "share", rows, bars=True, words=SHARES)]
+
+
+def _factor(d: Drawn, k: int) -> str:
+    return " and ".join(d.sampling.factors[k].names)
+
+
+def _ordered(indices: Indices) -> list[int]:
+    """Factors by their total share, the largest first."""
+    return [int(k) for k in np.argsort(-indices.total, kind="stable")]
+
+
+def answer(d: Drawn) -> list[str]:
+    """How many are above the limit, the middle of them, and what makes them differ."""
+    b, middle, high = d.beyond, d.quantiles[0.5], d.quantiles[0.95]
+    told = (
+        f"In {b.value:.2%} of {len(d.peak)} synthetic people the largest force is above {d.limit:g} N "
+        f"(95 % interval {b.lower:.2%} … {b.upper:.2%})."
+    )
+    median = f"The median is {middle.value:.3g} N" if np.isfinite(middle.value) else "Half of them have no finite force"
+    tail = f"95 % stay below {high.value:.3g} N" if np.isfinite(high.value) else "the 95 % quantile is infinite"
+    most = ""
+    if d.indices is not None:
+        k = _ordered(d.indices)[0]
+        most = f" Most of the spread comes from {_factor(d, k)}: a total share of {d.indices.total[k]:.0%}."
+    return [told, f"{median}; {tail}.{most}"]
+
+
+def _numbers(d: Drawn) -> Table:
+    b, middle, high = d.beyond, d.quantiles[0.5], d.quantiles[0.95]
+    without = ", ".join(f"{int((d.fate == fate).sum())} {STATES[fate]}" for fate in WITHOUT_FORCE)
+    rows = [
+        (f"above {d.limit:g} N", f"{b.value:.3%}", f"{b.lower:.3%} … {b.upper:.3%}, exact"),
+        ("median of the largest |F|", f"{middle.value:.3f} N", f"{middle.lower:.3f} … {middle.upper:.3f} N"),
+        ("95 % stay below", f"{high.value:.3f} N", f"{high.lower:.3f} … {high.upper:.3f} N"),
+        ("samples without a force", str(int((d.fate > 0).sum())), f"{without}: they count as beyond every force"),
+        ("error of the grid of angles", f"{d.grid_error:.1e} N", "largest of those checked with a finer one"),
+    ]
+    return Table("What was found", ("what", "value", "interval or note"), rows)

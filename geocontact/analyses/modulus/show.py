@@ -1,0 +1,245 @@
+"""What is shown of a modulus: the static figure, and the page with its answer, intervals and tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geocontact.analyses.modulus.identified import ForcePair, Identified, constant
+from geocontact.analyses.modulus.numbers import PER_SI, UNITS
+from geocontact.analyses.page_words import NOT_A_DEVICE, rounded
+from geocontact.elastic_modulus.area_force import MODULUS
+from geocontact.elastic_modulus.identify import Identification, agreement
+from geocontact.identify.identifiability import Identifiability
+from geocontact.identify.intervals.profile_likelihood import Profile
+from geocontact.view.curves.quantity import FORCE, TIME
+from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, legend, panels
+from geocontact.view.page.content import Curve, Curves, IntervalRow, Intervals, Page, Picture, Section, Table, Words
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.figure import Figure
+
+
+@in_style
+def modulus_figure(pairs: Mapping[str, ForcePair], profiles: Mapping[str, Profile]) -> Figure:
+    """Draw forces over time on the left (measured solid, predicted dashed), profiles of E* on the right.
+
+    A profile is the rise of the sum of squares in units of the cut: the interval of 95 % ends where it is 1.
+    """
+    figure, (forces, shape) = panels(1, 2, DOUBLE, 0.075)
+    entries: list[tuple[Artist | tuple[Artist, ...], str]] = []
+    for k, (side, pair) in enumerate(pairs.items()):
+        line = forces.plot(pair.time, pair.measured, color=PALETTE[k], label="_")[0]
+        dashed = forces.plot(pair.time, pair.predicted, color=PALETTE[k], ls="--", lw=1.0)[0]
+        entries += [(line, f"{side}, measured"), (dashed, f"{side}, by the law")]
+    forces.set_xlabel(TIME.label)
+    forces.set_ylabel(FORCE.label)
+    legend(forces, entries)
+    curves: list[tuple[Artist | tuple[Artist, ...], str]] = []
+    for k, (side, p) in enumerate(profiles.items()):
+        marker = "." if len(p.values) == 1 else ""
+        curve = shape.plot(p.values * 1e-6, p.rise, color=PALETTE[k], ls=LINES[k], marker=marker)[0]
+        shape.axvline(p.best * 1e-6, color=PALETTE[k], lw=0.5, ls=":")
+        curves.append((curve, side))
+    shape.axhline(1.0, color=GREY, lw=0.6)
+    shape.set_ylim(0.0, 2.0)
+    shape.set_xlabel("E* [MPa]")
+    shape.set_ylabel("rise of the profile / cut at 95 %")
+    legend(shape, curves)
+    return figure
+
+
+DESCRIBES = 0.5
+"""R² below which the law leaves more of a force's course than it describes: E* is no answer then."""
+MPA = 1e-6
+
+
+def undescribed(found: Identified) -> dict[str, float]:
+    """R² of the sides whose forces the law does not describe."""
+    met = {side: agreement(each.measured, each.predicted)[1] for side, each in found.sides.items()}
+    return {side: r2 for side, r2 in met.items() if r2 < DESCRIBES}
+
+
+def headline(found: Identified) -> list[str]:
+    """Whether the law holds, E* of the first side, and a trial that was not used."""
+    missed = undescribed(found)
+    lines = [] if not missed else [_not_described(found, missed)]
+    side, first = next(iter(found.sides.items()))
+    p = first.profiles[MODULUS]
+    value, span = f"{rounded(p.best * MPA)} MPa", f"95 % {rounded(p.lower * MPA)} … {rounded(p.upper * MPA)} MPa"
+    rmse, r2 = agreement(first.measured, first.predicted)
+    if side in missed:
+        lines.append(f"E* of {value} ({span}) is only the number that fits the {_force(side)} best{_sticking(found)}.")
+    else:
+        lines.append(
+            f"E* is {value} ({span}): the law{_sticking(found)} meets the {_force(side)} to {rmse:.0f} N, R² {_r2(r2)}."
+        )
+    lines += [
+        f"In a trial not used it meets the {_force(told.side)} to {told.rmse:.0f} N, R² {_r2(told.r2)}."
+        for told in found.predictions
+        if told.measured is not None and told.side == side
+    ]
+    return lines
+
+
+def _not_described(found: Identified, missed: dict[str, float]) -> str:
+    flat = [side for side in missed if constant(found.sides[side])]
+    if flat:
+        return f"The law is not tested: the area is the same in every frame, the {_listed(flat)} is not."
+    worse = ", a constant force would do better" if max(missed.values()) < 0.0 else ""
+    shares = ", ".join(f"{side} {_r2(r2)}" for side, r2 in missed.items()) if len(missed) > 1 else _r2(*missed.values())
+    return f"The law does not describe the {_listed(list(missed))}: R² {shares}{worse}."
+
+
+def _sticking(found: Identified) -> str:
+    """What the law holds the bodies together by, where it does; the work is given, not found."""
+    sticks = found.first.model.adhesion
+    return "" if sticks is None else f" with {sticks.words}"
+
+
+def _listed(sides: list[str]) -> str:
+    return f"{' and '.join(sides)} force" if sides != ["both"] else _force("both")
+
+
+def _force(side: str) -> str:
+    return "medial and lateral force" if side == "both" else f"{side} force"
+
+
+def _r2(value: float) -> str:
+    return f"{value:.2f}".replace("-", "−")
+
+
+def facts(found: Identified) -> list[tuple[str, str]]:
+    """E* of each side, then E for each stated Poisson's ratio of the first one; five at most."""
+    lines = []
+    for side, each in found.sides.items():
+        p = each.profiles[MODULUS]
+        span = f"{rounded(p.best * MPA)} MPa ({rounded(p.lower * MPA)} … {rounded(p.upper * MPA)})"
+        lines.append((f"E*, {side}", span))
+    side, first = next(iter(found.sides.items()))
+    lines += [
+        (f"E, {side}, for ν = {nu:g}", f"{rounded(first.modulus * (1.0 - nu**2) * MPA)} MPa") for nu in found.poisson
+    ]
+    return lines[:5]
+
+
+WORDS = "95 % intervals. They hold what the force's noise leaves open, not what the law leaves out."
+
+
+def modulus_intervals(found: Identified) -> Intervals:
+    """By profile likelihood, and by block bootstrap where it was drawn."""
+    rows = []
+    for side, each in found.sides.items():
+        profile, drawn = each.profiles[MODULUS], each.replicates
+        best = profile.best * MPA
+        rows.append(IntervalRow(f"{side}, profile likelihood", best, profile.lower * MPA, profile.upper * MPA))
+        if drawn is not None:
+            k = list(each.profiles).index(MODULUS)
+            rows.append(IntervalRow(f"{side}, block bootstrap", best, drawn.lower[k] * MPA, drawn.upper[k] * MPA))
+    return Intervals("Elastic modulus E*", "MPa", rows, words=WORDS)
+
+
+Row = tuple[str, ...]
+
+
+def moduli(found: Identified) -> Table:
+    """Every free number of every side with its intervals, and E for each stated Poisson's ratio."""
+    header = ("side", "number", "value", "profile likelihood, 95 %", "block bootstrap, 95 %", "RMSE [N]", "R²")
+    rows: list[Row] = []
+    for side, each in found.sides.items():
+        rows += _free(side, each)
+        rows += [
+            (side, f"E for ν = {nu:g}", f"{each.modulus * (1.0 - nu**2) * 1e-6:.4g} MPa", "", "", "", "")
+            for nu in found.poisson
+        ]
+    return Table("What was identified", header, rows)
+
+
+def _free(side: str, each: Identification) -> list[Row]:
+    rmse, r2 = agreement(each.measured, each.predicted)
+    drawn = each.replicates
+    rows: list[Row] = []
+    for k, (name, p) in enumerate(each.profiles.items()):
+        per, unit = (1e-6, "MPa") if name == MODULUS else (PER_SI[name], UNITS[name])
+        label = "E*" if name == MODULUS else name
+        blocks = "" if drawn is None else _span(float(drawn.lower[k]) * per, float(drawn.upper[k]) * per)
+        profile = _span(p.lower * per, p.upper * per)
+        rows.append((side, label, f"{p.best * per:.4g} {unit}", profile, blocks, f"{rmse:.0f}", f"{r2:.2f}"))
+    return rows
+
+
+def told_apart(found: Identified) -> Table:
+    """Singular values and verdict of every group of numbers that somebody may want together."""
+    header = ("side", "numbers", "singular values", "condition", "correlation", "verdict")
+    rows = [_apart(side, group) for side, each in found.sides.items() for group in each.told_apart.values()]
+    return Table("What the data tell apart", header, rows)
+
+
+def _apart(side: str, group: Identifiability) -> Row:
+    values = ", ".join(f"{value:.3g}" for value in group.singular_values)
+    condition = f"{group.condition:.3g}" if math.isfinite(group.condition) else "infinite"
+    correlation = f"{group.correlation[0, 1]:.4f}" if len(group.names) == 2 else "see modulus.json"
+    return side, ", ".join(group.names), values, condition, correlation, group.verdict
+
+
+def _span(low: float, high: float) -> str:
+    return f"{low:.4g} … {high:.4g}"
+
+
+FIGURE = (
+    "Left: measured force as a line, force by the law dashed. Right: how far the sum of squares rises when E* is held "
+    "beside its best value, in units of the cut: the interval of 95 % ends at 1."
+)
+LAW = (
+    "The law turns one area into one force. It has no friction, no damping, no liner that creeps, and it takes the "
+    "area of rigid surfaces within a threshold for that of an elastic contact: what E* says of a material is only as "
+    "good as that reading. Read it beside the table of thresholds and readings."
+)
+
+
+def modulus_page(title: str, found: Identified, drawing: bytes, tables: Sequence[Table]) -> Page:
+    """The page before it becomes a file; it opens with E*, or with the forces where the law does not describe them.
+
+    Parameters
+    ----------
+    drawing
+        The figure (SVG).
+    tables
+        Results first.
+    """
+    pairs = found.curves()
+    first = next(iter(pairs.values()))
+    forces: list[Section] = [
+        Curves(f"Contact force, {side}", "N", [Curve("measured", pair.measured), Curve("by the law", pair.predicted)])
+        for side, pair in pairs.items()
+    ]
+    intervals = modulus_intervals(found)
+    sections: list[Section] = [
+        *([*forces, intervals] if undescribed(found) else [intervals, *forces]),
+        tables[0],
+        Words("What the data cannot tell", found.not_identifiable()),
+        Picture("Force by the law and profile of E*", FIGURE, drawing, wide=True),
+        *tables[1:],
+        Words("What the numbers do not contain", [LAW, NOT_A_DEVICE]),
+    ]
+    return Page(
+        title=title,
+        subtitle=_subtitle(found),
+        time=first.time,
+        time_label="time [s]",
+        headline=headline(found),
+        facts=facts(found),
+        start_frame=int(np.argmax(first.measured)),
+        sections=tuple(sections),
+        plays=False,
+    )
+
+
+def _subtitle(found: Identified) -> str:
+    sticks = found.first.model.adhesion
+    law = "the area-integrated Hertz law" if sticks is None else f"Hertz's law less {sticks.words}, which is given"
+    return f"Elastic modulus of a contact by {law}"

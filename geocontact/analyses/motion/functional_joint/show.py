@@ -1,0 +1,78 @@
+"""The page of a joint: both segments as they move, and how far the joint is off itself."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Float, Int
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.motion.functional_joint.read import MovedPair, Segment
+from geocontact.analyses.motion.skeleton import JOINT, MARKER, RAY, scene_over
+from geocontact.analyses.page_frames import thinned
+from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.dynamics.joint_points import JointPoints
+from geocontact.view.page.content import Curve, Curves, Linkage, Page, Scene, Section, Words
+
+SKIN = (
+    "Segments are taken to be rigid. Skin slides over bone by centimetres at the thigh, smoothly and alike in every "
+    "repetition: neither the standard error nor the halves of the trial hold what that adds."
+)
+
+
+def joint_page(
+    title: str, sentences: Sequence[str], pair: MovedPair, points: JointPoints, apart: Float[np.ndarray, " t"]
+) -> Page:
+    """The page of a joint; `apart` is in mm."""
+    shown = thinned(len(pair.time), [apart])
+    sections: list[Section] = [
+        _picture(pair, points, shown),
+        Curves("Distance between the joint of one segment and of the other", "mm", [Curve("apart", apart[shown])]),
+        INPUTS,
+        OPTIONS,
+        Words("What the numbers do not contain", [SKIN, NOT_A_DEVICE]),
+    ]
+    return Page(
+        title=title,
+        subtitle=f"{', '.join(pair.first.names)} against {', '.join(pair.second.names)}",
+        time=pair.time[shown],
+        time_label="time [s]",
+        headline=list(sentences),
+        sections=tuple(sections),
+        numbers=shown + 1,
+        total=len(pair.time),
+    )
+
+
+def _picture(pair: MovedPair, points: JointPoints, shown: Int[np.ndarray, " k"]) -> Scene:
+    none = np.zeros((0, 2), dtype=np.int64)
+    line = np.array([[0, 1]], dtype=np.int64) if len(points.first) == 2 else none
+    first = Linkage(
+        "first segment", _moved(pair.first_poses[shown], pair.first.template), _rays(pair.first), "bone", MARKER, RAY
+    )
+    second = Linkage(
+        "second segment",
+        _moved(pair.second_poses[shown], pair.second.template),
+        _rays(pair.second),
+        "seen",
+        MARKER,
+        RAY,
+    )
+    linkages = [first, second]
+    for name, poses, joint in (("first", pair.first_poses, points.first), ("second", pair.second_poses, points.second)):
+        linkages.append(Linkage(f"joint of the {name} segment", _moved(poses[shown], joint), line, "model", JOINT, RAY))
+    places = pair.shown.positions[np.isfinite(pair.shown.positions).all(axis=2)]
+    upright = np.eye(3)[int(np.argmax(np.ptp(places, axis=0)))]  # for the picture only: people are taller than wide
+    return scene_over(upright, linkages)
+
+
+def _moved(poses: RigidTransform, points: Float[np.ndarray, "m 3"]) -> Float[np.ndarray, "t m 3"]:
+    return np.stack([poses.apply(point) for point in points], axis=1)
+
+
+def _rays(segment: Segment) -> Int[np.ndarray, "k 2"]:
+    """Lines from each marker to the next, around."""
+    count = len(segment.names)
+    return np.column_stack([np.arange(count), (np.arange(count) + 1) % count])

@@ -1,0 +1,287 @@
+"""Model, coordinates and the loads on its bodies, as they are read."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.analyses.motion.heel_strikes import Strikes, strikes_on_plates, strikes_typed
+from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
+from geocontact.analyses.motion.skeleton import upwards
+from geocontact.analyses.quantities import turned_axes
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.data.multibody.model import Multibody
+from geocontact.data.multibody.passive_forces import PassiveForces
+from geocontact.data.wrench import Wrench
+from geocontact.dynamics.forces_along import SMOOTH
+from geocontact.identify.signals.even_times import UNEVEN
+from geocontact.identify.signals.zero_lag import as_opensim
+from geocontact.io.mocap.force_plates import OPENSIM_FRAME, ForcePlate, plate_named, read_force_plates
+from geocontact.io.opensim.coordinates import motion_of
+from geocontact.io.opensim.external_loads import ExternalLoad, read_external_loads
+from geocontact.io.opensim.osim_forces import read_passive_forces
+from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.text.tables import TextTable, listed, read_table
+
+UP = 0.9  # smallest cosine between a plate's normal and the way up
+REACH = 1.0  # m from the body's origin to the point that a plate's force acts at
+
+
+def loads_on_bodies(
+    record: Record,
+    o: IdOptions,
+    model: Multibody,
+    time: Float[np.ndarray, " t"],
+    values: Float[np.ndarray, "t n"],
+) -> dict[str, Wrench]:
+    """One wrench on each body that a plate acts on, about the ground's origin; several plates on a body add up.
+
+    `values` are the coordinates at those times [rad, m].
+    """
+    file, loads = _given(record, o)
+    if file is None:
+        return {}
+    plates = read_force_plates(file, o.c3d_unit)
+    record.add_input("plates", file, plates=len(plates))
+    if o.axes is not None and all(load.moves for load in loads):
+        raise InputError(file, "`axes`", "has no effect: all loads are expressed in bodies", "leave it out")
+    found: dict[str, Wrench] = {}
+    for load in loads:
+        names = tuple(body.name for body in model.bodies)
+        for body in (load.body, load.force_frame, load.point_frame):
+            if body and body not in names:
+                raise InputError(o.loads or "", load.plate, f"no body '{body}'", f"bodies are: {listed(names)}")
+        named = "`plate`" if o.loads is None else f"{o.loads} <force_identifier>"
+        plate = plate_named(plates, load.plate, file, named, _weight(model), not load.force_frame)
+        poses = model.poses(values)
+        if load.moves:
+            wrench = _carried(file, plate, load, o.threshold, time, poses)
+        else:
+            wrench = _during(file, _loaded(_turned(plate, o, file, model), load, o.threshold), time)
+        _warn_of_far_points(record, file, load, wrench, poses[load.body].translation)
+        before = found.get(load.body)
+        if before is not None:
+            wrench = replace(wrench, force=wrench.force + before.force, moment=wrench.moment + before.moment)
+        found[load.body] = wrench
+    return found
+
+
+def _given(record: Record, o: IdOptions) -> tuple[Path | None, tuple[ExternalLoad, ...]]:
+    """The file of the plates, and which acts on what: by OpenSim's external loads or by `plates` and `plate`."""
+    if o.loads is not None:
+        file, loads = read_external_loads(o.loads)
+        record.add_input("`loads`", o.loads, forces=len(loads))
+        return file, loads
+    chosen = []
+    for text in o.plate:
+        plate, equals, body = text.rpartition("=")
+        if not equals:
+            raise InputError("", "`plate`", f"'{text}' is not a plate and a body", "write 1=calcn_r")
+        chosen.append(ExternalLoad(plate, body))
+    return o.plates, tuple(chosen)
+
+
+def _weight(model: Multibody) -> float:
+    """Of all bodies [N]."""
+    return model.mass * float(np.linalg.norm(model.gravity))
+
+
+def _turned(plate: ForcePlate, o: IdOptions, file: Path, model: Multibody) -> ForcePlate:
+    """The plate in the model's axes; refused where its floor is not level there."""
+    if o.axes is not None and plate.wrench.frame == OPENSIM_FRAME:
+        raise InputError(file, "`axes`", "has no effect: the file is in OpenSim's axes, y up", "leave it out")
+    if o.axes is not None:
+        turn = turned_axes(o.axes, "`axes`")
+        wrench = plate.wrench
+        wrench = Wrench(turn.apply(wrench.force), turn.apply(wrench.moment), turn.apply(wrench.origin), wrench.frame)
+        corners = None if plate.corners is None else turn.apply(plate.corners)
+        point, up = turn.apply(plate.point), turn.apply(plate.normal)
+        plate = replace(plate, wrench=wrench, point=point, normal=up, corners=corners)
+    down = model.gravity / max(float(np.linalg.norm(model.gravity)), 1e-12)
+    if -plate.normal @ down < UP and np.linalg.norm(model.gravity) > 0.0:
+        normal = " ".join(f"{x:.2g}" for x in plate.normal)
+        what = f"its floor's normal is {normal}, the model's gravity pulls along {' '.join(f'{x:.2g}' for x in down)}"
+        raise InputError(file, plate.name, what, "say which axes are the model's: `axes` x,z,-y where z is up")
+    return plate
+
+
+def _loaded(plate: ForcePlate, load: ExternalLoad, threshold: float) -> ForcePlate:
+    """The plate without what it shows below the threshold, where its point means nothing, or without its torque."""
+    wrench = plate.wrench
+    if not load.torque:
+        wrench = replace(wrench, moment=np.zeros_like(wrench.moment))
+    about = wrench.moved_to(np.zeros(3))
+    size = np.linalg.norm(wrench.force, axis=1)
+    idle = (size < threshold) | (size == 0.0)  # a force that is missing is not small
+    force, moment = (np.where(idle[:, None], 0.0, each) for each in (about.force, about.moment))
+    return replace(plate, wrench=Wrench(force, moment, np.zeros_like(force), wrench.frame))
+
+
+def _during(file: Path, plate: ForcePlate, time: Float[np.ndarray, " t"]) -> Wrench:
+    if time[0] < plate.time[0] - 1e-6 or time[-1] > plate.time[-1] + 1e-6:
+        what = f"runs from {plate.time[0]:g} to {plate.time[-1]:g} s, the motion from {time[0]:g} to {time[-1]:g} s"
+        raise InputError(file, plate.name, what, "cut the motion with `time`")
+    wrench = plate.at(np.clip(time, plate.time[0], plate.time[-1]))
+    lost = ~(np.isfinite(wrench.force).all(axis=1) & np.isfinite(wrench.moment).all(axis=1))
+    if lost.any():
+        what = (
+            f"force, point or torque is missing at {time[np.argmax(lost)]:g} s and in {int(lost.sum())} frames in all"
+        )
+        raise InputError(file, plate.name, what, "fill the gap, or cut the motion with `time`")
+    return wrench
+
+
+def _carried(
+    file: Path,
+    plate: ForcePlate,
+    load: ExternalLoad,
+    threshold: float,
+    time: Float[np.ndarray, " t"],
+    poses: Mapping[str, RigidTransform],
+) -> Wrench:
+    """The wrench of a force, torque and point that are expressed in bodies, about the ground's origin."""
+    wrench = plate.wrench
+    torque = wrench.moment if load.torque else np.zeros_like(wrench.moment)
+    size = np.linalg.norm(wrench.force, axis=1)
+    idle = ((size < threshold) | (size == 0.0))[:, None]
+    own = [np.where(idle, 0.0, each) for each in (wrench.force, torque, wrench.origin)]
+    still = replace(plate, wrench=Wrench(own[0], np.zeros_like(torque), np.zeros_like(torque), wrench.frame))
+    _during(file, still, time)  # refuses gaps and other clocks
+    force, moment, point = (np.column_stack([np.interp(time, plate.time, column) for column in each.T]) for each in own)
+    if load.force_frame:
+        turn = poses[load.force_frame].rotation
+        force, moment = turn.apply(force), turn.apply(moment)
+    point = poses[load.point_frame].apply(point) if load.point_frame else point
+    lost = ~np.isfinite(np.column_stack([moment, point])).all(axis=1)
+    if lost.any():
+        raise InputError(file, plate.name, f"point or torque is missing at {time[np.argmax(lost)]:g} s", "fill the gap")
+    return Wrench(force, moment, point, OPENSIM_FRAME).moved_to(np.zeros(3))
+
+
+def _warn_of_far_points(
+    record: Record, file: Path, load: ExternalLoad, wrench: Wrench, origin: Float[np.ndarray, "t 3"]
+) -> None:
+    """A force whose line passes far from the body it is said to act on: exchanged plates, or noise of a small force."""
+    size = np.linalg.norm(wrench.force, axis=1)
+    on = size > 0.0
+    if not on.any():
+        record.warn(f"{file}: {load.plate} carries nothing during the motion")
+        return
+    arm = np.linalg.norm(wrench.moved_to(origin).moment[on], axis=1) / size[on]
+    if arm.max() > REACH:
+        what = f"a force of {size[on][np.argmax(arm)]:.3g} N passes {arm.max():.3g} m from the origin of {load.body}"
+        record.warn(f"{file}: {load.plate}: {what}: exchanged plates, or a higher `threshold`?")
+
+
+LOADED = 50.0  # N, from which a centre of pressure is exact to centimetres
+
+
+def warn_of_other_feet(
+    record: Record, model: Multibody, values: Float[np.ndarray, "t c"], loads: Mapping[str, Wrench]
+) -> None:
+    """A reservation where a load passes nearer another loaded body than its own, in most of the frames.
+
+    Plates that are exchanged leave no residual at the ground: the sum of all loads is the same.
+    """
+    up, poses = upwards(model), model.poses(values)
+    for body, load in loads.items():
+        centre = load.centre_of_pressure(np.zeros(3), up, LOADED)
+        away = {name: _across(poses[name].translation - centre, up) for name in loads if name in poses}
+        there = np.isfinite(centre).all(axis=1)
+        if body not in away or not there.any():
+            continue
+        typical = {name: float(np.median(distance[there])) for name, distance in away.items()}
+        nearest = min(typical, key=lambda name: typical[name])
+        if nearest != body:
+            record.warn(
+                f"the load on {body} acts {typical[body]:.2f} m from it and {typical[nearest]:.2f} m from {nearest} "
+                "(median over its frames): are the loads of the two exchanged?"
+            )
+
+
+def _across(offset: Float[np.ndarray, "t 3"], up: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " t"]:
+    return np.asarray(np.linalg.norm(offset - (offset @ up)[:, None] * up, axis=1))
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """A model that moves under loads.
+
+    Parameters
+    ----------
+    recorded, unfiltered, values
+        Times [s] and coordinates [rad, m] of the whole recording, as they are and filtered.
+    time
+        Those of them that are wanted.
+    loads
+        By body, about the ground's origin, at the wanted times.
+    strikes
+        When feet come to the ground.
+    passive
+        Forces of the model itself.
+    """
+
+    model: Multibody
+    recorded: Float[np.ndarray, " n"]
+    unfiltered: Float[np.ndarray, "n c"]
+    values: Float[np.ndarray, "n c"]
+    time: Float[np.ndarray, " t"]
+    loads: dict[str, Wrench]
+    strikes: Strikes
+    passive: PassiveForces
+
+    @property
+    def shown(self) -> Float[np.ndarray, "t c"]:
+        """Filtered coordinates at the wanted times [rad, m]."""
+        first = int(np.searchsorted(self.recorded, self.time[0]))
+        return self.values[first : first + len(self.time)]
+
+
+def read(o: IdOptions, record: Record) -> Loaded:
+    """Everything the options name."""
+    model = read_multibody(o.model)
+    record.add_input("`model`", o.model, bodies=len(model.bodies), coordinates=len(model.coordinates))
+    table = read_table(o.coordinates)
+    record.add_input("coordinates", o.coordinates, frames=len(table.time))
+    unfiltered = motion_of(table, model, o.angles)
+    values = _filtered(table, unfiltered, o.cutoff)
+    shown = _shown(table, o.time)
+    time = table.time[shown]
+    loads = loads_on_bodies(record, o, model, time, values[shown])
+    strikes = strikes_typed(o.events) or strikes_on_plates(time, loads, upwards(model))
+    passive = read_passive_forces(o.model, model, o.exclude)
+    return Loaded(model, table.time, unfiltered, values, time, loads, strikes, passive)
+
+
+def _filtered(table: TextTable, values: Float[np.ndarray, "t n"], cutoff: float) -> Float[np.ndarray, "t n"]:
+    if len(table.time) <= SMOOTH:
+        raise InputError(table.file, "", f"{len(table.time)} frames are too few", f"{SMOOTH + 1} are needed")
+    if table.time_unit != "s":
+        raise InputError(table.file, "", "time is in per cent of a cycle", "accelerations need seconds")
+    if cutoff == 0.0:
+        return values
+    step = float(table.time[-1] - table.time[0]) / (len(table.time) - 1)
+    if np.abs(table.time - table.time[0] - step * np.arange(len(table.time))).max() > UNEVEN * step:
+        what = f"frames are not {step:g} s apart to {UNEVEN:.0%} everywhere"
+        raise InputError(table.file, "", what, "fill the gaps, or pass `cutoff` 0")
+    try:
+        return as_opensim(values, step, cutoff)
+    except ValueError as error:
+        raise InputError(table.file, "`cutoff`", str(error), "0 leaves the coordinates as they are") from error
+
+
+def _shown(table: TextTable, span: tuple[float, float] | None) -> slice:
+    if span is None:
+        return slice(None)
+    first, last = span
+    inside = np.flatnonzero((table.time >= first - 1e-6) & (table.time <= last + 1e-6))
+    if not len(inside):
+        what = f"no frame between {first:g} and {last:g} s"
+        raise InputError(table.file, "`time`", what, f"it is from {table.time[0]:g} to {table.time[-1]:g} s")
+    return slice(int(inside[0]), int(inside[-1]) + 1)

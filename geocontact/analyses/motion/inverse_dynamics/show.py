@@ -1,0 +1,138 @@
+"""The page of moments and forces over time, and what is left over."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.motion.cycles_picture import cycles_pictured
+from geocontact.analyses.motion.gait_cycles import GaitCycles
+from geocontact.analyses.motion.inverse_dynamics.forces import Forces, force_left, moment_left, verdict
+from geocontact.analyses.motion.panels import panels_of
+from geocontact.analyses.motion.skeleton import forces_on, scene_of, skeleton
+from geocontact.analyses.page_frames import thinned
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.data.wrench import Wrench
+from geocontact.view.page.content import Curve, Curves, Page, Scale, Section, Table, Words
+
+LEFT = (
+    "The joint to the ground has no muscle: what is found along its coordinates is what motion, masses and plates do "
+    "not agree upon. Hicks et al. (2015, J Biomech Eng 137, 020905) ask for peaks below 5 % of the largest external "
+    "force, and for moments below 1 % of that force times the height of the mass centre. OpenSim calls a largest force "
+    "up to 10 N good, up to 25 N okay and more bad after residual reduction, which nothing here has done."
+)
+FILTERED = (
+    "Moments follow from accelerations: the low-pass of the coordinates decides how much of an impact is left. Forces "
+    "of plates are not filtered. Positive values act along the coordinate."
+)
+
+
+def forces_page(
+    title: str,
+    forces: Forces,
+    coordinates: Float[np.ndarray, "t n"],
+    loads: Mapping[str, Wrench],
+    cycles: GaitCycles,
+    sentences: Sequence[str] = (),
+) -> Page:
+    """The page of moments and forces over time."""
+    shown = thinned(len(forces.time), list(np.asarray(forces.values).T))
+    turning = np.array([c.kind == "rotational" for c in forces.model.coordinates], dtype=bool)
+    base = forces.at_ground
+    values = np.asarray(forces.values)[shown]
+    model = forces.model
+    by_mass = Scale("N m/kg", 1.0 / model.mass) if model.mass > 0.0 else None
+    sections: list[Section] = [
+        scene_of(model, [skeleton(model, coordinates[shown]), *forces_on(model, loads, shown)]),
+        *panels_of(model, "N m", values, turning & ~base, by_mass),
+        *panels_of(model, "N", values, ~turning & ~base),
+        *cycles_pictured(cycles),
+        *_left_over(forces, values, turning, base),
+        *_residuals(forces),
+        INPUTS,
+        OPTIONS,
+        Words("What the numbers do not contain", [LEFT, FILTERED, NOT_A_DEVICE]),
+    ]
+    return Page(
+        title=title,
+        subtitle=f"{int((~base).sum())} coordinates of {forces.model.name or 'the model'}",
+        time=forces.time[shown],
+        time_label="time [s]",
+        headline=answer(forces, turning & ~base) or headline(sentences, most=2),
+        facts=_facts(forces, turning & ~base),
+        start_frame=_start(forces, turning & ~base, shown),
+        sections=tuple(sections),
+        numbers=shown + 1,
+        total=len(forces.time),
+    )
+
+
+def answer(forces: Forces, turning: Bool[np.ndarray, " n"]) -> list[str]:
+    """The largest moment, and what is left over at the ground; nothing where no joint turns."""
+    if not turning.any():
+        return []
+    frame, which = _largest(forces, turning)
+    name, size = forces.model.coordinates[which].name, abs(forces.values[frame, which])
+    told = [f"{name} needs the largest moment, {size:.1f} N m at {forces.time[frame]:.3g} s."]
+    if forces.at_ground.any():
+        left = force_left(forces)
+        of = "largest measured force" if forces.peak > 0.0 else "weight, as nothing but gravity acts"
+        told.append(f"Up to {left.size:.0f} N are left over at the ground: {left.share:.1%} of the {of}.")
+    return told
+
+
+def _largest(forces: Forces, turning: Bool[np.ndarray, " n"]) -> tuple[int, int]:
+    """Frame and coordinate of the largest moment."""
+    sizes = np.abs(np.where(turning, forces.values, 0.0))
+    frame, which = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
+    return int(frame), int(which)
+
+
+def _start(forces: Forces, turning: Bool[np.ndarray, " n"], shown: Int[np.ndarray, " k"]) -> int:
+    """Of the frames shown, the one next to the largest moment."""
+    return int(np.argmin(np.abs(shown - _largest(forces, turning)[0]))) if turning.any() else 0
+
+
+def _facts(forces: Forces, turning: Bool[np.ndarray, " n"]) -> list[tuple[str, str]]:
+    told = []
+    if turning.any():
+        frame, which = _largest(forces, turning)
+        where = f"{forces.model.coordinates[which].name} at {forces.time[frame]:.3g} s"
+        told.append(("Largest moment", f"{abs(forces.values[frame, which]):.1f} N m, {where}"))
+    if forces.at_ground.any():
+        left = force_left(forces)
+        of = "the largest measured force" if forces.peak > 0.0 else "the weight, as nothing but gravity acts"
+        told.append(("Left over at the ground, at most", f"{left.size:.1f} N ({left.share:.1%} of {of})"))
+    return told
+
+
+def _residuals(forces: Forces) -> list[Section]:
+    """Sizes beside what they should be below; nothing where no body is free."""
+    if not forces.at_ground.any():
+        return []
+    rows = []
+    for name, unit, sizes, peak in (
+        ("force", "N", forces.residual_forces, force_left(forces)),
+        ("moment", "N m", forces.residual_moments, moment_left(forces)),
+    ):
+        limit = f"{peak.allowed * peak.whole:.1f}" if peak.whole > 0.0 else "-"
+        mean = float(np.sqrt(np.mean(sizes**2)))
+        told = verdict(peak.size) if unit == "N" else "-"
+        rows.append((f"{name} [{unit}]", f"{peak.size:.1f}", f"{peak.time:.3g}", f"{mean:.1f}", limit, told))
+    header = ("left over", "largest", "at [s]", "root mean square", "Hicks et al.: below", "OpenSim, if reduced")
+    return [Table("Left over at the ground, and what it should be below", header, rows)]
+
+
+def _left_over(
+    forces: Forces, values: Float[np.ndarray, "t n"], turning: Bool[np.ndarray, " n"], base: Bool[np.ndarray, " n"]
+) -> list[Section]:
+    found: list[Section] = []
+    for title, unit, which in (("forces", "N", ~turning & base), ("moments", "N m", turning & base)):
+        names = [c.name for c, there in zip(forces.model.coordinates, which, strict=True) if there]
+        if names:
+            curves = [Curve(name, value) for name, value in zip(names, values[:, which].T, strict=True)]
+            found.append(Curves(f"Left over at the ground: {title}", unit, curves))
+    return found

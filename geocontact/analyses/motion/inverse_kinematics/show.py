@@ -1,0 +1,93 @@
+"""The page of coordinates over time, and how far each marker is from the model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.motion.cycles_picture import cycles_pictured
+from geocontact.analyses.motion.gait_cycles import GaitCycles
+from geocontact.analyses.motion.panels import panels_of
+from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
+from geocontact.analyses.page_frames import thinned
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
+from geocontact.dynamics.inverse_kinematics import Poses
+from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Scene, Section, Table, Words
+
+SKIN = (
+    "Markers lie on skin, which slides over bone by centimetres, and the model's joints are not the subject's: the "
+    "distances above tell how far both come together, not how wrong the angles are. Angles of joints that few markers "
+    "tell, and rotations about the long axis of a segment, are the least certain."
+)
+
+
+def kinematics_page(
+    title: str,
+    model: Multibody,
+    found: Poses,
+    seen: MarkerTrajectories,
+    cycles: GaitCycles,
+    sentences: Sequence[str] = (),
+) -> Page:
+    """The page of coordinates over time."""
+    shown = thinned(len(found.time), [*np.asarray(found.values).T, *found.distances.T])
+    angular = np.array([c.kind == "rotational" for c in model.coordinates])
+    off = 1e3 * found.distances
+    values = np.asarray(found.values)[shown]
+    sections: list[Section] = [
+        _picture(model, found, seen, shown),
+        Readout([Row("markers, root mean square", "mm", [_size(row) for row in off[shown]])]),
+        *panels_of(model, "deg", np.degrees(values), angular),
+        *panels_of(model, "m", values, ~angular),
+        Curves("Distance of markers", "mm", [Curve(n, d) for n, d in zip(found.markers, off[shown].T, strict=True)]),
+        *cycles_pictured(cycles),
+        _markers(found),
+        INPUTS,
+        OPTIONS,
+        Words("What the numbers do not contain", [SKIN, NOT_A_DEVICE]),
+    ]
+    return Page(
+        title=title,
+        subtitle=f"{len(found.names)} coordinates of {model.name or 'the model'} from {len(found.markers)} markers",
+        time=found.time[shown],
+        time_label="time [s]",
+        headline=headline(sentences, most=2),
+        facts=[
+            ("Distance of markers, root mean square", f"{np.sqrt(np.nanmean(off**2)):.1f} mm"),
+            ("Largest distance", f"{np.nanmax(off):.1f} mm"),
+        ],
+        sections=tuple(sections),
+        numbers=shown + 1,
+        total=len(found.time),
+    )
+
+
+def _picture(model: Multibody, found: Poses, seen: MarkerTrajectories, shown: Int[np.ndarray, " k"]) -> Scene:
+    """The skeleton, and the markers that count: as they were seen, and as the model has them."""
+    values = np.asarray(found.values)[shown]
+    whole = np.isfinite(values).all(axis=1)
+    own = [m.name for m in model.markers]
+    which = [own.index(name) for name in found.markers]
+    modelled = np.full((len(shown), len(which), 3), np.nan)
+    modelled[whole] = model.marker_places(values[whole])[:, which]
+    bones = [skeleton(model, values)] if whole.any() else []
+    return scene_of(model, [*bones, *markers_beside(seen.of(found.markers)[shown], modelled)])
+
+
+def _markers(found: Poses) -> Table:
+    rows = [
+        (name, _size(d), f"{np.nanmax(d, initial=0.0):.1f}", f"{np.isnan(d).sum()}")
+        for name, d in zip(found.markers, 1e3 * found.distances.T, strict=True)
+    ]
+    return Table("Markers", ("marker", "rms [mm]", "largest [mm]", "frames not seen"), rows)
+
+
+def _size(distances: Float[np.ndarray, " k"]) -> str:
+    """Root mean square of those that are known, as text."""
+    known = distances[np.isfinite(distances)]
+    return f"{np.sqrt(np.mean(known**2)):.1f}" if len(known) else "-"

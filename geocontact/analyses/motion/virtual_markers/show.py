@@ -1,0 +1,68 @@
+"""The page of a model as it moves, with its markers."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.motion.skeleton import JOINT, MARKER, scene_of, skeleton, upwards
+from geocontact.analyses.page_frames import thinned
+from geocontact.analyses.page_words import NOT_A_DEVICE, counted
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
+from geocontact.view.page.content import Curve, Curves, Linkage, Page, Scene, Section, Words
+
+MODELLED = "Markers sit on rigid segments: they do not slide as those on skin do, and hold no noise of cameras."
+
+
+def markers_page(
+    title: str,
+    model: Multibody,
+    values: Float[np.ndarray, "t n"],
+    markers: MarkerTrajectories,
+) -> Page:
+    """The page along coordinates [rad, m]."""
+    shown = thinned(len(markers.time), list(markers.positions.reshape(len(markers.time), -1).T))
+    places = markers.positions[shown]
+    panels = [
+        Curves(f"{axis} of the markers", "m", [Curve(n, places[:, k, i]) for k, n in enumerate(markers.names)])
+        for i, axis in enumerate("xyz")
+    ]
+    sections: list[Section] = [
+        _picture(model, values[shown], places),
+        *panels,
+        INPUTS,
+        OPTIONS,
+        Words("What the numbers do not contain", [MODELLED, NOT_A_DEVICE]),
+    ]
+    return Page(
+        title=title,
+        subtitle=f"Markers of {model.name or 'the model'} by forward kinematics, in the ground's frame",
+        time=markers.time[shown],
+        time_label="time [s]",
+        headline=answer(model, markers),
+        sections=tuple(sections),
+        numbers=shown + 1,
+        total=len(markers.time),
+    )
+
+
+def answer(model: Multibody, markers: MarkerTrajectories) -> list[str]:
+    """How long the markers were followed, and which one moves farthest and which comes lowest."""
+    time, places = markers.time, markers.positions
+    reach = np.linalg.norm(np.nanmax(places, axis=0) - np.nanmin(places, axis=0), axis=1)
+    heights = places @ upwards(model)
+    far, low = int(np.nanargmax(reach)), int(np.nanargmin(np.nanmin(heights, axis=0)))
+    told = f"{counted(len(markers.names), 'marker')} over {time[-1] - time[0]:.3g} s in {counted(len(time), 'frame')}"
+    return [
+        f"{told}: {markers.names[far]} moves farthest, within a box of {reach[far]:.3g} m from corner to corner.",
+        f"The lowest is {markers.names[low]}, down to {np.nanmin(heights[:, low]):.3g} m over the ground's origin.",
+    ]
+
+
+def _picture(model: Multibody, values: Float[np.ndarray, "k n"], places: Float[np.ndarray, "k m 3"]) -> Scene:
+    none: Int[np.ndarray, "0 2"] = np.zeros((0, 2), dtype=np.int64)
+    own = Linkage("markers of the model", places, none, "model", MARKER, JOINT)
+    bones = [skeleton(model, values)] if np.isfinite(values).all(axis=1).any() else []
+    return scene_of(model, [*bones, own])

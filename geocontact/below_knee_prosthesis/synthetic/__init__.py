@@ -1,1 +1,0 @@
-"""Synthetic walking trials of persons who were not there."""

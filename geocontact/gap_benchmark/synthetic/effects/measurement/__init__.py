@@ -1,1 +1,0 @@
-"""Effects of sensors, filters and clocks in synthetic cases."""

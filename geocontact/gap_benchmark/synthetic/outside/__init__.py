@@ -1,1 +1,0 @@
-"""Effects that no row of the vocabulary describes."""

@@ -1,1 +1,0 @@
-"""The elbow exoskeleton of synthetic cases."""

@@ -1,1 +1,0 @@
-"""The prosthetic foot of synthetic cases."""

@@ -1,1 +1,0 @@
-"""The knee implant of synthetic cases."""

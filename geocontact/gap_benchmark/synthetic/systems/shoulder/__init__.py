@@ -1,1 +1,0 @@
-"""The shoulder exoskeleton of synthetic cases."""

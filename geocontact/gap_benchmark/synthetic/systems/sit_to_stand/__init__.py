@@ -1,1 +1,0 @@
-"""The sit-to-stand exoskeleton of synthetic cases."""

@@ -1,0 +1,178 @@
+"""Every number of a model and of a phase as it was solved, in SI, and where each is from.
+
+They are read from what was solved: the bodies and laws of which the equations were built, the sizes of the cost, the
+bounds of the problem, the meshes of the motions. Recorded channels are in the study's files.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.multibody.model import Body, Multibody
+from geocontact.data.sourced_number import Source
+from geocontact.dynamics.collocation.motion import CollocatedMotion
+from geocontact.dynamics.collocation.problem import ControlProblem
+from geocontact.standing_up.contact_parameter import ContactParameter
+from geocontact.standing_up.model_constants import GroundLaw
+from geocontact.standing_up.phase import PhaseProblem, PhaseSizes
+from geocontact.standing_up.standing_model import StandingModel
+from geocontact.standing_up.strap_sites import StrapSite
+from geocontact.standing_up.trials import StandingTrial
+
+DE_LEVA = "fractions of mass and height for men, both sides: de Leva (1996)"
+OF_BOTH = "of both sides"
+NOISE_UNITS = {
+    "length": "m",
+    "angle": "rad",
+    "rate": "rad/s and m/s",
+    "force": "N",
+    "centre": "m",
+    "torque": "N m",
+    "strap": "N",
+}
+WEIGHT_UNITS = {"torques": "1/(N m)^2", "energy": "1/J^2"}
+
+
+class Ran(NamedTuple):
+    """A number that ran."""
+
+    number: str
+    value: float
+    unit: str
+    source: Source
+    note: str = ""
+
+
+def model_numbers(model: StandingModel) -> list[Ran]:
+    """Bodies, joints, gravity, ground and straps. ValueError for a model that does not say what it was built of."""
+    of = model.constants
+    if of is None:
+        raise ValueError("this model does not say what it was built of")
+    worn = bool(of.sites)
+    rows = [row for body in of.chain.bodies if body.mass > 0.0 for row in _body(body, worn)]
+    rows += [*_joints(of.chain), *_ground(of.ground)]
+    return rows + [row for site in of.sites for row in _strap(site)]
+
+
+def parameter_numbers(
+    parameters: Sequence[ContactParameter],
+    p: Float[np.ndarray, " p"],
+    prefix: str = "",
+    *,
+    free: Sequence[str] = (),
+    note: str = "held",
+) -> list[Ran]:
+    """Values from what is searched; `note` is of those that are not free."""
+    return [
+        Ran(
+            f"{prefix}{each.name}",
+            each.value(float(value)),
+            each.unit,
+            "derived",
+            "found" if each.name in free else note,
+        )
+        for each, value in zip(parameters, p, strict=True)
+    ]
+
+
+def belief_numbers(phase: PhaseProblem, prefix: str = "") -> list[Ran]:
+    """What is believed of each parameter that is sought, and its bounds."""
+    rows = []
+    for each in phase.parameters:
+        if each.name in phase.free:
+            scale = "1 of the logarithm" if each.logarithm else each.unit
+            name = f"{prefix}{each.name}"
+            rows += [
+                Ran(f"{name} usual", each.usual, each.unit, "invented", "mean of what is believed beforehand"),
+                Ran(f"{name} sd", each.sd, scale, "invented", "standard deviation of what is believed"),
+                Ran(f"{name} least", each.least, each.unit, "invented", "lower bound"),
+                Ran(f"{name} most", each.most, each.unit, "invented", "upper bound"),
+            ]
+    return rows
+
+
+def size_numbers(sizes: PhaseSizes, prefix: str = "") -> list[Ran]:
+    """What the terms of the cost are measured by."""
+    noise = [
+        Ran(f"{prefix}noise {name}", float(value), NOISE_UNITS[name], "derived", "of one sample, as the study has it")
+        for name, value in vars(sizes.noise).items()
+    ]
+    rate = Ran(f"{prefix}rate", sizes.rate, "Hz", "invented", "samples a second at which a deviation counts as itself")
+    jerk = [
+        Ran(f"{prefix}jerk {name}", size, unit, "invented", "size that counts as 1")
+        for name, size, unit in zip(("foot", "joints"), sizes.jerk, ("m/s^3 and rad/s^3", "rad/s^3"), strict=True)
+    ]
+    weights = [
+        Ran(f"{prefix}weight {name}", value, WEIGHT_UNITS[name], "invented", "of the square")
+        for name, value in sizes.weights.items()
+    ]
+    return [*noise, rate, *jerk, *weights]
+
+
+def end_numbers(control: ControlProblem, prefix: str = "") -> list[Ran]:
+    """How far the first and the last state may be off what is given of them; of the first trial, as all of them."""
+    low, high = control.trials[0].start
+    n, half = len(control.system.names[0]) // 3, 0.5 * (high - low)
+    note = "from the smoothed recording to either side"
+    at = {"length": (0, "m"), "angle": (2, "rad"), "rate": (n, "rad/s and m/s")}
+    return [Ran(f"{prefix}ends {name}", float(half[k]), unit, "invented", note) for name, (k, unit) in at.items()]
+
+
+def search_numbers(motions: Sequence[CollocatedMotion], trials: Sequence[StandingTrial], prefix: str = "") -> list[Ran]:
+    """Of each trial its length and rate, and the mesh on which it was solved; `mesh.csv` has where intervals begin."""
+    rows = []
+    for motion, trial in zip(motions, trials, strict=True):
+        name, lengths = f"{prefix}{motion.name}", np.diff(motion.breaks)
+        rows += [
+            Ran(f"{name} duration", float(np.ptp(motion.breaks)), "s", "derived", "of the recording that is used"),
+            Ran(f"{name} rate", trial.rate, "Hz", "derived", "samples a second of the recording"),
+            Ran(f"{name} degree", float(motion.scheme.degree), "-", "invented", "points of an interval, Radau's"),
+            Ran(f"{name} intervals", float(len(lengths)), "-", "derived", "as refined"),
+            Ran(f"{name} shortest interval", float(lengths.min()), "s", "derived", "as refined"),
+        ]
+    return rows
+
+
+def _body(body: Body, worn: bool) -> Iterator[Ran]:
+    source: Source = "invented" if body.name.startswith("exo_") else "derived"
+    note = OF_BOTH if source == "invented" else DE_LEVA
+    if worn and body.name == "foot":
+        note += "; with foot plates, which are invented"
+    name = f"body {body.name}"
+    yield Ran(f"{name} mass", body.mass, "kg", source, note)
+    for axis, value in zip("xy", body.centre[:2], strict=True):
+        yield Ran(f"{name} centre_{axis}", float(value), "m", source, "mass centre in the body's frame")
+    yield Ran(f"{name} inertia", float(body.inertia[2, 2]), "kg m^2", source, "about z through the mass centre")
+
+
+def _joints(chain: Multibody) -> Iterator[Ran]:
+    for joint in chain.joints:
+        if joint.parent in {body.name for body in chain.bodies if body.mass > 0.0}:
+            source: Source = "invented" if joint.child.startswith("exo_") else "derived"
+            for axis, value in zip("xy", joint.parent_offset.translation[:2], strict=True):
+                yield Ran(f"joint {joint.name} {axis}", float(value), "m", source, f"in the frame of {joint.parent}")
+    for axis, value in zip("xy", chain.gravity[:2], strict=True):
+        yield Ran(f"gravity_{axis}", float(value), "m/s^2", "derived", "standard gravity")
+
+
+def _ground(law: GroundLaw) -> Iterator[Ran]:
+    simbody = "Simbody's default"
+    yield Ran("ground hertz_smoothing", law.hertz, "1/m", "paper", simbody)
+    yield Ran("ground hunt_crossley_smoothing", law.hunt_crossley, "s/m", "paper", simbody)
+    yield Ran("ground constant", law.constant, "m^2 and m^2/s^2", "paper", simbody)
+    names = ("transition_speed", "m/s"), ("static", "-"), ("dynamic", "-"), ("viscous", "s/m")
+    for (name, unit), value in zip(names, law.friction.numbers, strict=True):
+        note = "before the factor `friction`" if name in ("static", "dynamic") else ""
+        yield Ran(f"ground {name}", float(value), unit, "invented", note)
+
+
+def _strap(site: StrapSite) -> Iterator[Ran]:
+    name = f"strap at the {site.name}"
+    yield Ran(f"{name} count", float(site.count), "-", "derived", "in parallel between the chains")
+    yield Ran(f"{name} damping", site.damping, "N s/m", "paper", "of one, across and along")
+    yield Ran(f"{name} turning_damping", site.turning_damping, "N m s/rad", "paper", "of one")
+    yield Ran(f"{name} above", site.above, "m", "invented", "the exoskeleton's hinge over the person's")
