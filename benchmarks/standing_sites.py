@@ -274,7 +274,7 @@ def both_phases(study: Any, trials: Any, nodes: float) -> dict[str, dict[str, fl
     """What A and B find without resamples, by name."""
     from geocontact.dynamics.collocation.solve import SolverOptions
     from geocontact.standing_up.calibrated_phase import PhaseSearch, calibrated_phase
-    from geocontact.standing_up.contact_numbers import held_covariance
+    from geocontact.standing_up.contact_numbers import believed_covariance, held_covariance
     from geocontact.standing_up.exoskeleton import strapped
     from geocontact.standing_up.feet import FOOT_PARAMETERS
     from geocontact.standing_up.phase_a import phase_a
@@ -287,7 +287,9 @@ def both_phases(study: Any, trials: Any, nodes: float) -> dict[str, dict[str, fl
     def build_a(given: Any, start: Any) -> Any:
         return phase_a(model, study.subject, given, study.noise, free=study.free, tracks=tracks, start=start)
 
-    first = calibrated_phase("A", model, trials, study.noise, build_a, search)
+    held = [each.name for each in FOOT_PARAMETERS if each.name not in study.free]
+    believed = believed_covariance(model.parameters, held)
+    first = calibrated_phase("A", model, trials, study.noise, build_a, search, held=believed)
     feet, free = first.found.p[: len(FOOT_PARAMETERS)], [name for site in study.sites for name in site.names]
 
     def build_b(given: Any, start: Any) -> Any:

@@ -75,16 +75,16 @@ def assumed_shares(
     Parameters
     ----------
     covariance
-        Of the parameters that are held; rows of those that are sought are not looked at.
+        Of the parameters that are held; rows of those that are sought and move are not looked at.
     stays
-        Sought parameters that do not move, such as those on a bound.
+        Sought parameters that do not move, such as those on a bound: they count as held.
     """
     system = optimality_system(phase.control, found)
     on = system.on
     low, high = on.bounds()
     moves = low < high
-    given = ~moves[: on.np] & (np.diag(covariance) > 0.0)
     sought = moves[: on.np] & ~np.array(stays, bool)
+    given = ~sought & (np.diag(covariance) > 0.0)
     by_held = system.hessian[:, : on.np][:, given].toarray(), system.slope[:, : on.np][:, given].toarray()
     pulls = _jerk_pulls(phase, found, system)
     by_jerk = -2.0 * pulls, np.zeros((system.slope.shape[0], pulls.shape[1]))

@@ -1,4 +1,7 @@
-"""One phase solved: the best of several starts, corrected by what resampled trials show, its motions certified."""
+"""One phase solved: the best of several starts, corrected by what resampled trials show, its motions certified.
+
+One start, and one more where its answer can be doubted (`other_minima`).
+"""
 
 from __future__ import annotations
 
@@ -11,16 +14,17 @@ from jaxtyping import Float
 from geocontact.dynamics.collocation.refinement import refined
 from geocontact.dynamics.collocation.solve import CollocationResult, Progress, SolverOptions, solve
 from geocontact.standing_up.contact_numbers import ContactNumbers, contact_numbers, corrected, unsettled_numbers
+from geocontact.standing_up.contact_parameter import usual
 from geocontact.standing_up.cost_shares import cost_shares
 from geocontact.standing_up.judged import JudgedMotion, judged
+from geocontact.standing_up.other_minima import Ended, beside_rivals, doubtful, ended, misfit, rivals
 from geocontact.standing_up.phase import PhaseProblem
 from geocontact.standing_up.profile import PhaseProfile, profiles
 from geocontact.standing_up.resample import Build, Solve, resampled
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
-SAME = 1e-3
-"""Of the cost: starts that come so near to the best found the same minimum."""
+Run = tuple[PhaseProblem, CollocationResult]
 INTERRUPTED = "interrupted"
 
 
@@ -35,7 +39,7 @@ class PhaseSearch:
     nodes
         Intervals a second where the search starts; those that leave too much of the balance are halved.
     starts
-        Further starts, drawn from what is believed.
+        Further starts, drawn from what is believed; where the answer can be doubted one more starts there.
     resamples
         Calibrations of trials that the answer makes; 0 or 1 for none.
     level
@@ -70,7 +74,9 @@ class CalibratedPhase:
     shares
         Of the cost, by term.
     ends
-        Objective of each start, and whether it was solved; the first is the search's own.
+        Of each start; the first is the search's own.
+    misfit
+        Least cost in parts of what noise alone would make of it.
     doubt
         Why there are no intervals; empty where there are.
     profiles
@@ -84,7 +90,8 @@ class CalibratedPhase:
     numbers: ContactNumbers
     motions: tuple[JudgedMotion, ...]
     shares: dict[str, float]
-    ends: tuple[tuple[float, bool], ...]
+    ends: tuple[Ended, ...]
+    misfit: float
     doubt: str = ""
     profiles: tuple[PhaseProfile, ...] = ()
 
@@ -107,7 +114,7 @@ def calibrated_phase(
 ) -> CalibratedPhase:
     """Solve what `build` makes of trials and of where the parameters start (None: where the phase itself says).
 
-    `held` is the covariance of parameters that the phase holds at what another one found.
+    `held` is the covariance of parameters that the phase holds at what is believed or at what another one found.
     """
     even = tuple(np.linspace(0.0, 1.0, round(search.nodes * float(t.time[-1])) + 1) for t in trials)
 
@@ -119,8 +126,13 @@ def calibrated_phase(
         return refined(phase.control, found, search.options, model.turning, progress=progress)
 
     runs = _runs(trials, build, search, solved)
-    ended = tuple((run[1].objective, run[1].solved) for run in runs)
-    phase, found = min([run for run in runs if run[1].solved] or runs, key=lambda run: run[1].objective)
+    phase, found = _least(runs)
+    if found.solved and doubtful(phase, found, misfit(model, trials, phase, found)):
+        begun = _begun(phase, trials, build, search)
+        runs.append((begun, solved(begun, None)))
+        phase, found = _least(runs)
+    misfits = misfit(model, trials, phase, found)
+    ends, others, at = ended(phase, runs, found), rivals(phase, runs, found, misfits), found.p
     found = finer(phase, found)
     numbers, doubt = unsettled_numbers(phase, found), ""
     curves: tuple[PhaseProfile, ...] = ()
@@ -134,22 +146,36 @@ def calibrated_phase(
             doubt = str(error)
         if search.profiles:
             curves = profiles(phase, found, numbers, search.profiles, solved)
+        numbers = beside_rivals(numbers, phase, at, others, search.level)
         if again is not None and not doubt:
             p = corrected(phase, found, again)
-            at = replace(phase, control=replace(phase.control, p=(p, p), guess_p=p))
-            found = finer(at, solved(at, found))
-            phase = at
+            phase = replace(phase, control=replace(phase.control, p=(p, p), guess_p=p))
+            found = finer(phase, solved(phase, found))
     controlled = range(len(model.joints))
     motions = judged(model.equations, controlled, model.turning, phase, found, certify=found.solved)
     shares = cost_shares(phase, found)
-    return CalibratedPhase(name, model, phase, found, numbers, motions, shares, ended, doubt, curves)
+    return CalibratedPhase(name, model, phase, found, numbers, motions, shares, ends, misfits, doubt, curves)
 
 
-def _runs(
-    trials: Sequence[StandingTrial], build: Build, search: PhaseSearch, solved: Solve
-) -> list[tuple[PhaseProblem, CollocationResult]]:
+def _least(runs: Sequence[Run]) -> Run:
+    return min([run for run in runs if run[1].solved] or runs, key=lambda run: run[1].objective)
+
+
+def _begun(phase: PhaseProblem, trials: Sequence[StandingTrial], build: Build, search: PhaseSearch) -> PhaseProblem:
+    """One that starts at what is believed; where the search started there by itself, drawn from it."""
+    middle = usual(phase.parameters)
+    begun = build(trials, middle)
+    if np.allclose(begun.control.guess_p, build(trials, None).control.guess_p):
+        sd = np.array([each.sd for each in phase.parameters])
+        # another draw than that of the first further start
+        draw = np.random.default_rng([search.seed, 1]).normal(size=len(sd))
+        begun = build(trials, middle + sd * draw)
+    return begun
+
+
+def _runs(trials: Sequence[StandingTrial], build: Build, search: PhaseSearch, solved: Solve) -> list[Run]:
     rng = np.random.default_rng(search.seed)
-    runs: list[tuple[PhaseProblem, CollocationResult]] = []
+    runs: list[Run] = []
     for k in range(search.starts + 1):
         phase = build(trials, None)
         if k:

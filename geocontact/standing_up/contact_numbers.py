@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -18,7 +18,7 @@ from geocontact.standing_up.contact_parameter import ContactParameter
 from geocontact.standing_up.phase import RATE, PhaseProblem
 from geocontact.standing_up.resample import Resampled
 
-Told = Literal["known", "believed", "held", "on its bound", "not settled"]
+Told = Literal["known", "believed", "held", "on its bound", "not separable", "not settled"]
 HALF = 0.5
 """Share of the belief's standard deviation that is left of a number that the trials make known, at most."""
 NEAR = 1e-3
@@ -37,8 +37,9 @@ class ContactNumber:
         Standard deviation of what is searched, as believed and with the trials; `after` is infinite on a bound.
     verdict
         "known": the trials at least halve what was believed. "believed": they do not. "held": it was not sought. "on
-        its bound": the search wanted to go on, so that the value says where the bound is. "not settled": the search
-        was ended before its time.
+        its bound": the search wanted to go on, so that the value says where the bound is. "not separable": another
+        minimum that costs little more has another value (`other_minima`). "not settled": the search was ended before
+        its time.
     assumed
         Part of `after`, in squares, that comes of what is taken as given (`assumed_shares`).
     """
@@ -94,18 +95,20 @@ def contact_numbers(
 
     Intervals are Laplace's: the curvature of the cost at its least, with what is believed in it. With resampled trials
     the bias that they show is taken off, and the intervals are widened for its own error. With the covariance of what
-    is `held` they have the shares of it and of the sizes of the jerk as well.
+    is `held` they have the shares of it and of the sizes of the jerk as well. A number on its bound may lie inside: it
+    counts as held there, with what is believed of it, and its neighbours have its share.
 
     ValueError where the curvature does not exist.
     """
-    sought, on_bound = _sought_and_bound(phase, found)
+    low, high = phase.control.p
+    sought, on_bound = low < high, on_their_bounds(phase, found.p)
     covariance = 2.0 / RATE * inverse_reduced_hessian(phase.control, found, on_bound.tolist())
     sd = np.sqrt(np.diag(covariance))
     reach = float(norm.ppf(0.5 + 0.5 * level))
     best = corrected(phase, found, again)
     if again is not None:
         sd = sd * again.widening
-    assumed = np.zeros(len(sd)) if held is None else assumed_shares(phase, found, held, on_bound.tolist()).sd
+    assumed = _assumed(phase, found, held, on_bound)
     sd = np.hypot(sd, assumed)
     numbers = []
     for k, each in enumerate(phase.parameters):
@@ -122,6 +125,34 @@ def contact_numbers(
     return _together(tuple(numbers), [phase.parameters[k] for k in kept], covariance[np.ix_(kept, kept)])
 
 
+def on_their_bounds(phase: PhaseProblem, p: Float[np.ndarray, " p"]) -> Bool[np.ndarray, " p"]:
+    """Which of the sought parameters are on a bound."""
+    low, high = phase.control.p
+    margin = NEAR * (high - low)
+    return np.asarray((low < high) & ((p <= low + margin) | (p >= high - margin)))
+
+
+def _assumed(
+    phase: PhaseProblem,
+    found: CollocationResult,
+    held: Float[np.ndarray, "p p"] | None,
+    on_bound: Bool[np.ndarray, " p"],
+) -> Float[np.ndarray, " p"]:
+    """Standard deviations that what is given makes: what is held, sizes of the jerk, numbers on their bounds."""
+    given = np.zeros((len(on_bound), len(on_bound))) if held is None else held.copy()
+    given[on_bound], given[:, on_bound] = 0.0, 0.0
+    given[on_bound, on_bound] = [each.sd**2 for each, on in zip(phase.parameters, on_bound, strict=True) if on]
+    if not given.any() and held is None:
+        return np.zeros(len(on_bound))
+    shares = assumed_shares(phase, found, given, on_bound.tolist())
+    return shares.sd if held is not None else np.asarray(np.sqrt(np.diag(shares.held)))
+
+
+def believed_covariance(parameters: Sequence[ContactParameter], names: Collection[str]) -> Float[np.ndarray, "p p"]:
+    """Of what is searched, where a phase holds its numbers at what is believed: of `names`, the others exact."""
+    return np.diag([each.sd**2 if each.name in names else 0.0 for each in parameters])
+
+
 def corrected(phase: PhaseProblem, found: CollocationResult, again: Resampled | None) -> Float[np.ndarray, " p"]:
     """What is searched less the bias that resampled trials show, within its bounds: tables and motions have these.
 
@@ -129,17 +160,9 @@ def corrected(phase: PhaseProblem, found: CollocationResult, again: Resampled | 
     """
     if again is None:
         return found.p
-    sought, on_bound = _sought_and_bound(phase, found)
-    return np.asarray(np.where(sought & ~on_bound, np.clip(found.p - again.bias, *phase.control.p), found.p))
-
-
-def _sought_and_bound(
-    phase: PhaseProblem, found: CollocationResult
-) -> tuple[Bool[np.ndarray, " p"], Bool[np.ndarray, " p"]]:
-    """Which parameters are sought, and which of them are on a bound."""
     low, high = phase.control.p
-    sought, margin = low < high, NEAR * (high - low)
-    return sought, sought & ((found.p <= low + margin) | (found.p >= high - margin))
+    sought, on_bound = low < high, on_their_bounds(phase, found.p)
+    return np.asarray(np.where(sought & ~on_bound, np.clip(found.p - again.bias, *phase.control.p), found.p))
 
 
 def held_covariance(of: ContactNumbers, parameters: Sequence[ContactParameter]) -> Float[np.ndarray, "p p"]:
@@ -149,7 +172,7 @@ def held_covariance(of: ContactNumbers, parameters: Sequence[ContactParameter]) 
     is believed of it.
     """
     sizes = [
-        n.after if n.verdict in ("known", "believed") else of_n.sd
+        n.after if n.verdict in ("known", "believed", "not separable") else of_n.sd
         for n, of_n in zip(of.numbers, parameters, strict=True)
     ]
     found = np.diag(np.array(sizes) ** 2)

@@ -66,3 +66,9 @@ def test_a_parameter_on_its_bound_has_no_interval(phase: PhaseProblem) -> None:
     toe = told.numbers[[each.name for each in FOOT_PARAMETERS].index("toe")]
     assert toe.verdict == "on its bound" and np.isnan(toe.lower) and np.isinf(toe.after)
     assert told.names == ("stiffness", "heel")
+    # the toe may lie inside its bound, as here: its neighbours are not known to what the bound alone leaves of them
+    for name in told.names:
+        k = [each.name for each in FOOT_PARAMETERS].index(name)
+        number, of = told.numbers[k], FOOT_PARAMETERS[k]
+        assert of.searched(number.lower) < PLANTED[k] < of.searched(number.upper), number
+        assert number.assumed > 0.5 * number.after, number

@@ -11,6 +11,7 @@ import pytest
 from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions
 from geocontact.standing_up import calibrated_phase as module
 from geocontact.standing_up import contact_numbers as numbers_module
+from geocontact.standing_up.assumed_shares import AssumedShares
 from geocontact.standing_up.calibrated_phase import CalibratedPhase, PhaseSearch, calibrated_phase
 from geocontact.standing_up.contact_parameter import ContactParameter
 from geocontact.standing_up.phase import PhaseProblem
@@ -62,11 +63,14 @@ def calibrated(monkeypatch: pytest.MonkeyPatch, *, curved: bool = True) -> Calib
         "resampled": lambda *_: Resampled(np.array([BIAS - 0.01, BIAS + 0.01])),
         "judged": lambda *_, **__: (),
         "cost_shares": lambda *_: {},
+        "misfit": lambda *_: 0.8,
         "replace": lambda of, **changed: made(type(of), **(vars(of) | changed)),
     }
     for name, value in given.items():
         monkeypatch.setattr(module, name, value)
     monkeypatch.setattr(numbers_module, "inverse_reduced_hessian", hessian)
+    none = AssumedShares(np.zeros((5, 5)), np.zeros((5, 1)), np.zeros((5, 5)))
+    monkeypatch.setattr(numbers_module, "assumed_shares", lambda *_: none)
     for name in ("joints", "turning"):
         monkeypatch.setattr(StandingModel, name, ())
     model = made(StandingModel, equations=None)

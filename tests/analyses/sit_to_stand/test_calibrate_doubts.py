@@ -8,7 +8,10 @@ import pytest
 
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.calibrate.run import _doubt
+from geocontact.standing_up.other_minima import Ended
 from tests.unchecked import unchecked
+
+BEST, SAME, WORSE = Ended(1.0, True, True), Ended(1.0005, True, True), Ended(3.0, True, False)
 
 
 def doubts(**other: object) -> tuple[list[str], list[str]]:
@@ -21,7 +24,8 @@ def doubts(**other: object) -> tuple[list[str], list[str]]:
         "motions": (),
         "numbers": numbers,
         "shares": {"force": 0.5, "rates": 0.5},
-        "ends": ((1.0, True),),
+        "ends": (BEST,),
+        "misfit": 0.8,
     }
     record = Record("sit-to-stand calibrate", {})
     with unchecked():
@@ -34,8 +38,11 @@ def doubts(**other: object) -> tuple[list[str], list[str]]:
     ("other", "words"),
     [
         ({"shares": {"force": 0.995, "rates": 0.005}}, "99.5 % of the cost are force"),
-        ({"ends": ((2.0, True), (1.0, True))}, "ends in a minimum that another start beats"),
-        ({"ends": ((2.0, False), (1.0, True))}, "ends in a minimum that another start beats"),
+        ({"ends": (WORSE, BEST)}, "ends in a minimum that another start beats"),
+        ({"ends": (Ended(2.0, False, False), BEST)}, "ends in a minimum that another start beats"),
+        ({"ends": (Ended(1.0005, True, False), BEST)}, "ends in a minimum that another start beats"),
+        ({"misfit": 1.74}, "phase A leaves 1.7 times the squares that the noise makes"),
+        ({"verdict": "not separable"}, "not separable, with intervals that cover both: heel"),
         ({"verdict": "on its bound"}, "on its bound, so that the value says where the bound is: heel"),
         ({"verdict": "believed"}, "tell little more than what was believed of heel"),
         ({"doubt": "it is singular"}, "phase A has no intervals: it is singular"),
@@ -46,5 +53,5 @@ def test_what_changes_how_numbers_are_read_is_warned_of(other: dict[str, object]
 
 
 def test_nothing_to_doubt_is_not_warned_of() -> None:
-    said, warned = doubts(ends=((1.0, True), (1.0005, True), (3.0, True)))
+    said, warned = doubts(ends=(BEST, SAME, WORSE))
     assert not warned and said == ["phase A: 2 of 3 starts end in the best minimum, 3 in one"]

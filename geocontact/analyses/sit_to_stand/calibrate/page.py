@@ -20,6 +20,7 @@ MODEL = [
     "Each deviation from the recording counts in parts of its noise.",
     "The motion is sought together with the parameters under exact equations of motion; it is not the recorded one.",
     "Known: the trials at least halve the standard deviation that was believed beforehand. Believed: they do not.",
+    "Not separable: another minimum that costs little more has another value; the interval covers both.",
     "What was believed is invented, as are the usual values.",
     "Intervals hold for this model and white noise of the told size, not beyond.",
     "Values are less the mean error that calibrations of resampled trials show, where these were asked for.",

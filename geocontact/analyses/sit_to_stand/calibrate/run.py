@@ -15,11 +15,12 @@ from geocontact.analyses.sit_to_stand.certificate_words import not_certified
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation.solve import SolverOptions
-from geocontact.standing_up.calibrated_phase import SAME, CalibratedPhase, PhaseSearch, calibrated_phase
-from geocontact.standing_up.contact_numbers import held_covariance
+from geocontact.standing_up.calibrated_phase import CalibratedPhase, PhaseSearch, calibrated_phase
+from geocontact.standing_up.contact_numbers import believed_covariance, held_covariance
 from geocontact.standing_up.cost_shares import MOST_OF_IT
 from geocontact.standing_up.exoskeleton import strapped
 from geocontact.standing_up.feet import FOOT_PARAMETERS, feet_on_ground
+from geocontact.standing_up.other_minima import DOUBTFUL
 from geocontact.standing_up.phase import PhaseProblem
 from geocontact.standing_up.phase_a import TRACKS, phase_a
 from geocontact.standing_up.phase_b import phase_b
@@ -72,7 +73,9 @@ def _phases(
     def build_a(trials: Sequence[StandingTrial], start: Start) -> PhaseProblem:
         return phase_a(model, given.subject, trials, given.noise, free=given.free, tracks=in_a, start=start)
 
-    first = calibrated_phase("A", model, given.trials, given.noise, build_a, search, told("A"))
+    of_feet = [each.name for each in FOOT_PARAMETERS if each.name not in given.free]
+    believed = believed_covariance(model.parameters, of_feet)
+    first = calibrated_phase("A", model, given.trials, given.noise, build_a, search, told("A"), believed)
     if not given.exoskeleton or not first.found.solved:
         return (first,)
     feet, straps = first.found.p[: len(FOOT_PARAMETERS)], [name for site in given.sites for name in site.names]
@@ -96,12 +99,20 @@ def _doubt(record: Record, one: CalibratedPhase) -> None:
     for motion, seen in zip(one.found.motions, one.motions, strict=True):
         if seen.certificate is not None and not seen.certificate.converged:
             record.warn(not_certified(f"{motion.name} in {phase}", seen.certificate))
-    at_bound, believed = (
+    at_bound, believed, apart = (
         ", ".join(n.name for n in one.numbers.numbers if n.verdict == verdict)
-        for verdict in ("on its bound", "believed")
+        for verdict in ("on its bound", "believed", "not separable")
     )
     if at_bound:
         record.warn(f"on its bound, so that the value says where the bound is: {at_bound}")
+    if apart:
+        words = f"{phase} has another minimum that costs little more and has other values"
+        record.warn(f"{words}: not separable, with intervals that cover both: {apart}")
+    if one.found.solved and one.misfit > DOUBTFUL:
+        record.warn(
+            f"{phase} leaves {one.misfit:.1f} times the squares that the noise makes: "
+            "the model lacks something, or the noise is larger than said"
+        )
     if believed:
         words = f"these trials tell little more than what was believed of {believed}"
         record.warn(f"{words}: their values are mostly the belief's")
@@ -112,12 +123,12 @@ def _doubt(record: Record, one: CalibratedPhase) -> None:
 
 
 def _compare_starts(record: Record, one: CalibratedPhase) -> None:
-    solved = [objective for objective, ended in one.ends if ended]
+    solved = sum(end.solved for end in one.ends)
     if len(one.ends) < 2 or not solved:
         return
-    same = [ended and objective <= min(solved) * (1.0 + SAME) for objective, ended in one.ends]
-    record.say(f"phase {one.name}: {sum(same)} of {len(same)} starts end in the best minimum, {len(solved)} in one")
-    if not same[0]:
+    same = sum(end.same for end in one.ends)
+    record.say(f"phase {one.name}: {same} of {len(one.ends)} starts end in the best minimum, {solved} in one")
+    if not one.ends[0].same:
         record.warn(f"phase {one.name} from where it starts by itself ends in a minimum that another start beats")
 
 
@@ -153,6 +164,8 @@ def _say(r: StandingCalibrateResult) -> None:
             "iterations": found.iterations,
             "cpu_seconds": round(found.seconds, 3),
             "objective": found.objective,
+            "misfit": phase.misfit,
+            "starts": [{"objective": end.objective, "solved": end.solved, "same": end.same} for end in phase.ends],
             "condition": None if phase.numbers.told_apart is None else phase.numbers.told_apart.condition,
             "sharper_than_believed": phase.numbers.directions.tolist(),
             "cost_shares": phase.shares,
