@@ -44,8 +44,9 @@ class Entry:
     def module(self) -> ModuleType:
         """Where it is defined; of a job, where it is put together."""
         if isinstance(self.thing, Job):
-            home = self.thing.run.__module__
-            return sys.modules.get(home.rpartition(".")[0] + ".job", sys.modules[home])
+            homes = [part.__module__ for part in (self.thing.read, self.thing.run)]
+            jobs = [f"{home.rpartition('.')[0]}.job" for home in homes]
+            return next(sys.modules[each] for each in (*jobs, homes[1]) if each in sys.modules)
         if isinstance(self.thing, LawParameters):
             return import_module(f"{chain.__name__}.{self.name.rpartition('.')[2].lower()}")
         return sys.modules[Unit.__module__ if self.group == UNITS else _home(self.thing)]

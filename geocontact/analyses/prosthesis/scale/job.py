@@ -10,7 +10,7 @@ kg
 5 of 5 joint centres from the functional trial
 markers of the functional trial 3.7 mm from the model, root mean square, and 11.7 mm at most, LKNE at 37.8 s
 (OpenSim advises less than 20 and 40 mm)
-warning: 8 of 87 numbers of the segments are invented, see numbers.csv
+warning: 8 of 91 numbers of the segments are invented, see numbers.csv
 """
 
 from __future__ import annotations
