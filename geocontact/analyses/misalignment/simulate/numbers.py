@@ -60,7 +60,7 @@ def _of_trial(made: LoadedTrial) -> Iterator[Row]:
     yield f"{name} turning", made.turning, "N m/rad", "derived", "stiffness of the cuff against turning"
 
 
-def _ends(name: str, value: float | tuple[float, float], unit: str, source: Source, note: str) -> Iterator[Row]:
+def _ends(name: str, value: int | float | tuple[float, float], unit: str, source: Source, note: str) -> Iterator[Row]:
     """One row, or one for each end of a range."""
     if isinstance(value, tuple):
         for end, at in zip(("least", "most"), value, strict=True):

@@ -11,7 +11,7 @@ r"""Many stances beside their plates: `geocontact prosthesis compare`, `gc.prost
 >>> _ = Path("study.toml").write_text(text)
 >>> print("\n".join(gc.prosthesis.compare("study.toml", workers=1).sentences[:2]))
 2 stances, 1 person, 2 settings of the foot
-resultant force: R² 0.94, 6.5% BW; without a model mean of the others 11.3% BW, another setting 11.3% BW; better than
+resultant force: R² 0.95, 6.4% BW; without a model mean of the others 11.2% BW, another setting 11.2% BW; better than
 both on 2 of 2
 """
 
