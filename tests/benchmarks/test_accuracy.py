@@ -30,6 +30,7 @@ def test_areas_of_sphere_pairs_converge_at_second_order(name: str, rule: str) ->
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_on_the_axis_of_the_cup_the_order_means_nothing() -> None:
     """The edge of the patch lies along the rings of the cup's mesh there, and the error with them."""
     on_axis = replace(SPHERES["sphere in cup"], tilt=0.0)

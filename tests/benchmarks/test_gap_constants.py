@@ -133,6 +133,7 @@ def test_reductions_are_counted_where_an_effect_is_named() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="the process is forked")
 def test_a_constant_of_the_interval_moves_the_gap_and_no_verdict(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

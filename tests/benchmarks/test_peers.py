@@ -28,6 +28,7 @@ def test_clip_of_one_triangle_in_every_way_of_cutting_it() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_small_run_agrees_with_libigl(tmp_path: Path) -> None:
     options = ["--faces", "3000", "--frames", "5", "--rounds", "1", "--no-memory", "--only", "libigl", "--out"]
     command = [sys.executable, "-m", "benchmarks.peers", *options, str(tmp_path)]

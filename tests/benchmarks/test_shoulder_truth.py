@@ -42,6 +42,7 @@ def test_two_codes_agree_where_the_models_do(motion: ArmMotion) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_what_is_withheld_shows_where_it_should(motion: ArmMotion) -> None:
     """On one ring of cells without friction: a strap presses at rest, a push while the tool runs."""
     device = lucy().having(mu_s=0.0, mu_k=0.0, passive_1_damping=1.0, passive_2_damping=1.0)

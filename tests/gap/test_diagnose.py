@@ -143,6 +143,7 @@ def test_a_reversed_angle_that_the_offsets_nearly_hide(elsewhere: Elsewhere) -> 
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_a_wrong_unit_that_the_stiffness_takes_for_its_own(elsewhere: Elsewhere) -> None:
     found = elsewhere(diagnosis, seed=4, recorded=Times(4.4482216, ALL))
     check(found)
@@ -150,6 +151,7 @@ def test_a_wrong_unit_that_the_stiffness_takes_for_its_own(elsewhere: Elsewhere)
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_a_mistake_beside_an_effect(elsewhere: Elsewhere) -> None:
     found = elsewhere(diagnosis, "damping", DAMPING, seed=1, recorded=Times(1000.0, ("t02",)))
     check(found)

@@ -30,7 +30,7 @@ def answered(system: str, kind: str, place: int) -> tuple[Label, Diagnosis]:
         ("foot", "single", 14, {"crosstalk"}),
         ("knee", "pair", 0, {"saturation", "axis_migration"}),
         pytest.param("shoulder", "single", 15, {"event_load"}, marks=pytest.mark.long),
-        ("sit_to_stand", "single", 6, {"sensor_drift"}),
+        pytest.param("sit_to_stand", "single", 6, {"sensor_drift"}, marks=pytest.mark.long),
     ],
 )
 def test_what_was_planted_is_named(system: str, kind: str, place: int, effects: set[str], elsewhere: Elsewhere) -> None:

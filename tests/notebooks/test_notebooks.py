@@ -146,6 +146,7 @@ def test_elbow_shows_the_line_and_finds_what_the_command_finds(run, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.filterwarnings("default")  # of the notebook machinery itself
 def test_gap_finds_the_damper_and_writes_what_the_command_writes(run, tmp_path):
     said = run(ROOT / "notebooks" / "gap.ipynb")

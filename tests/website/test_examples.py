@@ -45,6 +45,8 @@ LONGEST = {
     "prosthesis.compare",
     "prosthesis.design",
     "shoulder.optimise",
+    "sit_to_stand.compare",
+    "sit_to_stand.predict",
 }
 """More than ten CPU seconds; tests/analyses makes the same calls and looks at what they say."""
 DIAGNOSES = "geocontact.analyses.gap.diagnose.run.diagnose"

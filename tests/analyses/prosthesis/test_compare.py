@@ -55,6 +55,7 @@ def test_refused(tmp_path: Path, old: str, new: str, words: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_shipped_stances_from_markers_to_files(tmp_path: Path) -> None:
     """The error of a stance is that of `prosthesis simulate`; the one that lands too hard says so."""
     study = written(tmp_path, "low", "high")

@@ -53,6 +53,7 @@ def test_peak_torques_are_those_of_the_paper() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_the_best_profile_is_beside_the_paper_s(synthetic: ShoulderOptimiseResult) -> None:
     """Most support while screwing with the dominant hand; the paper's factors push arms up."""
     factors = synthetic.table("factors").set_index(["profile", "task", "hand"])
@@ -69,6 +70,7 @@ def test_the_best_profile_is_beside_the_paper_s(synthetic: ShoulderOptimiseResul
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_persons_held_out_are_judged(synthetic: ShoulderOptimiseResult) -> None:
     """Scaled by the weight of their arms: nobody is pushed up, and the least is sure of the lightest's gain."""
     held = synthetic.table("held_out").set_index("person")

@@ -388,6 +388,7 @@ def test_a_padded_cuff_tells_couple_and_pressures(monkeypatch: pytest.MonkeyPatc
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_sensitivity_is_written_where_it_is_asked_for() -> None:
     table = simulated(sensitivity=True, side="left").table("sensitivity")
     assert table["supporting [N]"].is_monotonic_decreasing

@@ -98,6 +98,7 @@ def command(out: Path, *options: object, markers: Path = TRIAL / "walking.trc") 
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_command_writes_a_law_that_is_read_again(tmp_path: Path) -> None:
     """Zones of the finer foot that is the truth have 15 kN/m a sphere at heel and midfoot."""
     told = done(command(tmp_path / "out", "--starts", "0"))

@@ -8,7 +8,8 @@ from benchmarks.prosthesis_design import planted
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("person", [0, pytest.param(1, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("person", [0, 1])
 def test_a_planted_fulcrum_is_within_its_interval_and_no_effect_is_not_told(person: int) -> None:
     """Both persons go the same way; the second one differs in the numbers that are drawn."""
     found = planted((person, "known", 3, 3))
