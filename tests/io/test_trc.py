@@ -38,6 +38,13 @@ def test_markers_in_metres_and_gaps(tmp_path: Path) -> None:
     assert np.isnan(seen.positions[2, 1]).all()  # cells that are missing at the end of a line
 
 
+def test_values_between_which_there_are_several_tabs(tmp_path: Path) -> None:
+    """As older programs of motion capture wrote line 3, with blanks beside the numbers."""
+    line = "  100.0\t\t  100.0\t\t      3\t\t      2\t\t mm\t  100.0\t      1\t      3"
+    seen = read_trc(written(tmp_path, GOOD.replace("100\t100\t3\t2\tmm\t100\t1\t3", line)))
+    np.testing.assert_array_equal(seen.positions, read_trc(written(tmp_path, GOOD)).positions)
+
+
 def test_metres_stay_metres(tmp_path: Path) -> None:
     seen = read_trc(written(tmp_path, GOOD.replace("\tmm\t", "\tm\t")))
     np.testing.assert_allclose(seen.positions[0, 0], [1.0, 2.0, 3.0])

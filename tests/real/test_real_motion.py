@@ -33,6 +33,8 @@ TABLES: dict[str, tuple[int, int, str | None]] = {
     "gc6_dm_knee/gait/DM_bouncy5_grf.sto": (3419, 27, None),
     "gc6_dm_knee/gait/DM_ngait_og1_grf.sto": (3809, 27, None),
     "gc6_dm_knee/gait/DM_smooth1_grf.sto": (3699, 27, None),
+    "opencap/squats1_videoAndMocap.mot": (801, 35, "deg"),
+    "opencap/walking1_videoAndMocap.mot": (158, 35, "deg"),
     "opensim_walk/coordinates.sto": (1350, 31, "rad"),
     "opensim_walk/grf_walk.mot": (4778, 18, "rad"),
     "opensim_walk/inverse_dynamics.sto": (73, 23, "rad"),

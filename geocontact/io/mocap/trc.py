@@ -75,9 +75,12 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
 
 
 def _declared(keys: str, values: str) -> dict[str, str]:
-    """Values of line 3 by the keys of line 2: between tabs, where a cell may be empty, or between blanks."""
+    """Values of line 3 by the keys of line 2: between tabs, where a cell may be empty, or between blanks.
+
+    Some programs write several tabs between two values: then there are more cells than keys, and no empty one counts.
+    """
     names, cells = ([cell.strip() for cell in line.rstrip().split("\t")] for line in (keys, values))
-    if len(names) == 1 or len(cells) == 1:
+    if len(names) == 1 or len(cells) == 1 or len(cells) > len(names):
         names, cells = keys.split(), values.split()
     return dict(zip(names, cells, strict=False))
 
