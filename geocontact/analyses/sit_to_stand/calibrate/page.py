@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 import pandas as pd
 
-from geocontact.analyses.run_record import Record
-from geocontact.analyses.sit_to_stand.standing_page import write_motion_page
+from geocontact.analyses.sit_to_stand.standing_page import motion_page
 from geocontact.analyses.sit_to_stand.standing_scene import standing_curves, standing_scene
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
-from geocontact.view.page.content import Section
+from geocontact.view.page.content import Page, Section
 from geocontact.view.page.tables import frame_table
 
 MODEL = [
@@ -30,14 +28,13 @@ MODEL = [
 ]
 
 
-def write_standing_page(
-    path: Path,
-    record: Record,
+def calibration_page(
+    sentences: Sequence[str],
     given: StandingUpTrials,
     trials: Sequence[TrialResult],
     tables: Mapping[str, pd.DataFrame],
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+) -> Page:
+    """Moving chains with forces, curves, parameters, certificates."""
     sections: list[Section] = [
         standing_scene(given.subject, trials),
         *standing_curves(trials),
@@ -53,4 +50,4 @@ def write_standing_page(
         ("Residual between the points up to", f"{residual:.2g} N"),
         ("Ground reaction up to", f"{max(float(t.model.force[:, 1].max()) for t in trials):.0f} N"),
     ]
-    return write_motion_page(path, record, titles, sections, MODEL, facts)
+    return motion_page(titles, sentences, sections, MODEL, facts)

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import save_both
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.sit_to_stand.calibrate.numbers import calibration_numbers
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
-from geocontact.analyses.sit_to_stand.calibrate.page import write_standing_page
+from geocontact.analyses.sit_to_stand.calibrate.page import calibration_page
 from geocontact.analyses.sit_to_stand.calibrate.tables import (
     certificate_table,
     correlation_table,
@@ -28,11 +28,12 @@ from geocontact.analyses.sit_to_stand.standing_tables import errors_table, trial
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation.solve import CollocationResult
-from geocontact.io.text.results import write_table
 from geocontact.standing_up.calibrated_phase import CalibratedPhase
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -83,23 +84,20 @@ class StandingCalibrateResult(Result):
             **own,
         }
 
-    def figure(self) -> Figure:
-        """Ground reaction and centre of pressure, measured and modelled."""
-        return standing_figure(self.trials)
+    def figures(self) -> dict[str, Figure]:
+        """`standing_up`: ground reaction and centre of pressure, measured and modelled."""
+        return {"standing_up": standing_figure(self.trials)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Moving chains with forces, curves, parameters."""
+        return {REPORT: calibration_page(self.sentences, self.given, self.trials, self.tables())}
 
     def write_files(self, folder: Path) -> None:
-        """Tables, trajectories, model, figure, page."""
-        for name, rows in self.tables().items():
-            write_table(rows, folder, name)
+        """Trajectories and model, the strap's case for `gap gather`; tables, figure, page."""
         values = {n.name: n.value for n in self.phases[-1].numbers.numbers}
         for trial in self.trials:
             write_motion(folder, self.given.subject, trial, values, self.found.solved)
         write_standing_model(folder / "model.osim", self.given.subject, values, worn=self.given.exoskeleton)
         if self.phases[-1].name == "B":
             write_strap_case(folder / "gap", self.given.subject, self.given.trials, values)
-        save_both(self.figure(), folder, "standing_up")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """Moving chains with forces, curves, parameters, inputs."""
-        write_standing_page(file, self.record, self.given, self.trials, self.tables())
+        super().write_files(folder)

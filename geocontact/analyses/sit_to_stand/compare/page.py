@@ -3,22 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing
-from geocontact.analyses.run_record import Record
-from geocontact.analyses.sit_to_stand.standing_page import write_motion_page
+from geocontact.analyses.sit_to_stand.standing_page import motion_page
 from geocontact.analyses.sit_to_stand.standing_scene import standing_curves, standing_scene
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.standing_up.chain import Subject
-from geocontact.view.page.content import Picture, Section
+from geocontact.view.page.content import Page, Picture, Section
 from geocontact.view.page.tables import frame_table
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 MEANT = [
     "Given yes: that predictor is told the channel, so that its error there is no prediction.",
@@ -28,18 +21,17 @@ MEANT = [
 ]
 
 
-def write_compared_page(
-    path: Path,
-    record: Record,
+def compared_page(
+    sentences: Sequence[str],
     subject: Subject,
     trials: Sequence[TrialResult],
-    figure: Figure,
+    drawn: bytes,
     tables: Mapping[str, pd.DataFrame],
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+) -> Page:
+    """Moving chains, curves, errors by predictor."""
     sections: list[Section] = [
         standing_scene(subject, trials),
-        Picture("Angles and strap of the first trial", "Grey as recorded.", drawing(figure), wide=True),
+        Picture("Angles and strap of the first trial", "Grey as recorded.", drawn, wide=True),
         *standing_curves(trials),
         frame_table("Errors by trial, predictor and channel", tables["comparison"], 3),
         frame_table("Between and beyond the collocation points", tables["certificate"], 3),
@@ -48,4 +40,4 @@ def write_compared_page(
         "Standing up, predicted and recorded",
         f"{', '.join(t.recorded.name for t in trials)}; contacts calibrated on other trials",
     )
-    return write_motion_page(path, record, titles, sections, MEANT)
+    return motion_page(titles, sentences, sections, MEANT)

@@ -4,27 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import save_both
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.sit_to_stand.compare.figure import compared_figure
 from geocontact.analyses.sit_to_stand.compare.options import StandingCompareOptions
-from geocontact.analyses.sit_to_stand.compare.page import write_compared_page
+from geocontact.analyses.sit_to_stand.compare.page import compared_page
 from geocontact.analyses.sit_to_stand.numbers_table import ran_table
 from geocontact.analyses.sit_to_stand.predict.numbers import predicted_meshes, prediction_numbers
 from geocontact.analyses.sit_to_stand.predict.predicted_trial import ALL, PredictedTrial
 from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
 from geocontact.analyses.sit_to_stand.predict.searches import complete
 from geocontact.analyses.sit_to_stand.standing_tables import certificate_rows
-from geocontact.io.text.results import write_table
 from geocontact.standing_up.trials import StandingTrial
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -64,20 +63,14 @@ class StandingCompareResult(Result):
             "mesh": predicted_meshes(self.predictions),
         }
 
-    def figure(self) -> Figure:
-        """Angles and strap of the first trial."""
+    def figures(self) -> dict[str, Figure]:
+        """`comparison`: angles and strap of the first trial."""
         first = self.given.trials.trials[0]
         own = {one.name: one.trial.model for one in self.predictions if one.trial.recorded.name == first.name}
-        return compared_figure(first, {ALL: own[ALL], **self.trivial[first.name]})
+        return {"comparison": compared_figure(first, {ALL: own[ALL], **self.trivial[first.name]})}
 
-    def write_files(self, folder: Path) -> None:
-        """Tables, figure, page."""
-        for name, rows in self.tables().items():
-            write_table(rows, folder, name)
-        save_both(self.figure(), folder, "comparison")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """Moving chains, curves, errors by predictor, inputs."""
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Moving chains, curves, errors by predictor."""
         best = [one.trial for one in self.predictions if one.name == ALL]
-        write_compared_page(file, self.record, self.given.trials.subject, best, self.figure(), self.tables())
+        drawn, subject = drawings["comparison"], self.given.trials.subject
+        return {REPORT: compared_page(self.sentences, subject, best, drawn, self.tables())}

@@ -3,23 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing
-from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.design.chosen import CertifiedDesign
-from geocontact.analyses.sit_to_stand.standing_page import write_motion_page
+from geocontact.analyses.sit_to_stand.standing_page import motion_page
 from geocontact.analyses.sit_to_stand.standing_scene import at_parts, standing_scene
 from geocontact.standing_up.assistance.assisted_model import KNEE
 from geocontact.standing_up.chain import Subject
-from geocontact.view.page.content import Curve, Curves, Picture, Section
+from geocontact.view.page.content import Curve, Curves, Page, Picture, Section
 from geocontact.view.page.tables import frame_table
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 MODEL = [
     "The person stands up as in the trial with little jerk and torque, and does not give way to spare the strap.",
@@ -42,27 +35,26 @@ NAMES = {
 }
 
 
-def write_choice_page(
-    path: Path,
-    record: Record,
+def choice_page(
+    sentences: Sequence[str],
     subject: Subject,
     designs: Sequence[CertifiedDesign],
-    figure: Figure,
+    drawn: bytes,
     tables: Mapping[str, pd.DataFrame],
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+) -> Page:
+    """The chosen exoskeleton moving, curves of all, tables."""
     best = designs[-1]
     sections: list[Section] = [
         standing_scene(subject, best.trials),
         *_curves(designs),
-        Picture("Strap and knee of the first trial", "Grey without help.", drawing(figure), wide=True),
+        Picture("Strap and knee of the first trial", "Grey without help.", drawn, wide=True),
         *(frame_table(title, tables[name], 3) for name, title in NAMES.items() if name in tables),
     ]
     titles = (
         "An exoskeleton chosen for standing up",
         f"{', '.join(t.recorded.name for t in best.trials)}; {subject.mass:g} kg, {subject.height:g} m",
     )
-    return write_motion_page(path, record, titles, sections, MODEL)
+    return motion_page(titles, sentences, sections, MODEL)
 
 
 def _curves(designs: Sequence[CertifiedDesign]) -> list[Curves]:

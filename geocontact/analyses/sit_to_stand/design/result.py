@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import save_both
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.sit_to_stand.design.chosen import CertifiedDesign, DrawnGain
 from geocontact.analyses.sit_to_stand.design.figure import design_figure
 from geocontact.analyses.sit_to_stand.design.numbers import design_numbers
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
-from geocontact.analyses.sit_to_stand.design.page import write_choice_page
+from geocontact.analyses.sit_to_stand.design.page import choice_page
 from geocontact.analyses.sit_to_stand.design.read import TrialsToHelp
 from geocontact.analyses.sit_to_stand.design.tables import (
     certificates_table,
@@ -26,12 +26,13 @@ from geocontact.analyses.sit_to_stand.design.tables import (
 from geocontact.analyses.sit_to_stand.exports import write_motion
 from geocontact.analyses.sit_to_stand.model_file import write_standing_model
 from geocontact.analyses.sit_to_stand.numbers_table import mesh_table, ran_table
-from geocontact.io.text.results import write_table
 from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS, AssistedModel
 from geocontact.standing_up.assistance.peaks import MEASURES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -103,22 +104,20 @@ class StandingDesignResult(Result):
             found["draws"] = draws_table(self.draws, self.options.aim)
         return found
 
-    def figure(self) -> Figure:
-        """Strap and knee over the movement, and the front."""
-        return design_figure(self.designs, self.front, self.options.aim)
+    def figures(self) -> dict[str, Figure]:
+        """`design`: strap and knee over the movement, and the front."""
+        return {"design": design_figure(self.designs, self.front, self.options.aim)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """The chosen exoskeleton moving, curves of all, tables."""
+        subject, drawn = self.given.trials.subject, drawings["design"]
+        return {REPORT: choice_page(self.sentences, subject, self.designs, drawn, self.tables())}
 
     def write_files(self, folder: Path) -> None:
-        """Tables, trajectories, model, figure, page."""
-        for name, rows in self.tables().items():
-            write_table(rows, folder, name)
+        """Trajectories and model; tables, figure, page."""
         p = self.best.movement.found.p
         values = {of.name: of.value(float(value)) for of, value in zip(ASSISTED_PARAMETERS, p, strict=True)}
         for trial in self.best.trials:
             write_motion(folder, self.given.trials.subject, trial, values, self.best.movement.found.solved)
         write_standing_model(folder / "model.osim", self.given.trials.subject, values, worn=True)
-        save_both(self.figure(), folder, "design")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """The chosen exoskeleton moving, curves of all, tables, inputs."""
-        write_choice_page(file, self.record, self.given.trials.subject, self.designs, self.figure(), self.tables())
+        super().write_files(folder)

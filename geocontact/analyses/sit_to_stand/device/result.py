@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,14 +11,12 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.figure_files import drawing, save_both
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.sit_to_stand.device.figure import device_figure
 from geocontact.analyses.sit_to_stand.device.options import StandingDeviceOptions
 from geocontact.analyses.sit_to_stand.device.read import DeviceRecordings
-from geocontact.analyses.sit_to_stand.standing_page import write_motion_page
+from geocontact.analyses.sit_to_stand.standing_page import motion_page
 from geocontact.io.opensim.storage_writer import write_storage
-from geocontact.io.text.results import write_table
 from geocontact.standing_up.chain import JOINTS
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from geocontact.standing_up.exoskeleton_torque import UNITS, ExoskeletonDynamics, human_torque
@@ -26,6 +25,8 @@ from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 MEANT = [
     "The motors' torque is linear in the parameters, and least squares find them; bodies are those of both legs.",
@@ -102,27 +103,24 @@ class StandingDeviceResult(Result):
             }
         )
 
-    def figure(self) -> Figure:
-        """Motors' torque and the fit."""
-        return device_figure(*self.smooth)
+    def figures(self) -> dict[str, Figure]:
+        """`device`: the motors' torque and the fit."""
+        return {"device": device_figure(*self.smooth)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """The fit over time, parameters."""
+        sections: list[Section] = [
+            Picture("Torques of the motors without a person", "Grey as recorded.", drawings["device"], wide=True),
+            frame_table("Dynamic parameters", self.table("parameters"), 4),
+        ]
+        titles = ("Dynamics of the exoskeleton", "identified from a motion without a person")
+        return {REPORT: motion_page(titles, self.sentences, sections, MEANT)}
 
     def write_files(self, folder: Path) -> None:
-        """Tables, torques.sto of a trial as a study reads them, figure, page."""
-        for name, rows in self.tables().items():
-            write_table(rows, folder, name)
+        """torques.sto of a trial as a study reads them; tables, figure, page."""
         if (trial := self.given.trial) is not None:
             person = self.person_torque
             names = (*(() if person is None else JOINTS), *EXO_JOINTS)
             values = self.trial_torque if person is None else np.hstack([person, self.trial_torque])
             write_storage(folder / TORQUES, trial.time, names, values, title="Torques of both legs", degrees=False)
-        save_both(self.figure(), folder, "device")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """Fit over time, parameters, inputs."""
-        sections: list[Section] = [
-            Picture("Torques of the motors without a person", "Grey as recorded.", drawing(self.figure()), wide=True),
-            frame_table("Dynamic parameters", self.table("parameters"), 4),
-        ]
-        titles = ("Dynamics of the exoskeleton", "identified from a motion without a person")
-        write_motion_page(file, self.record, titles, sections, MEANT)
+        super().write_files(folder)

@@ -3,22 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing
-from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
-from geocontact.analyses.sit_to_stand.standing_page import write_motion_page
+from geocontact.analyses.sit_to_stand.standing_page import motion_page
 from geocontact.analyses.sit_to_stand.standing_scene import standing_curves, standing_scene
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
-from geocontact.view.page.content import Picture, Section
+from geocontact.view.page.content import Page, Picture, Section
 from geocontact.view.page.tables import frame_table
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 MODEL = [
     "Ground reaction, centre of pressure and torques are given over time, first and last posture within their noise.",
@@ -29,19 +22,18 @@ MODEL = [
 ]
 
 
-def write_prediction_page(
-    path: Path,
-    record: Record,
+def prediction_page(
+    sentences: Sequence[str],
     given: HeldOutTrials,
     trials: Sequence[TrialResult],
-    figure: Figure,
+    drawn: bytes,
     tables: Mapping[str, pd.DataFrame],
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+) -> Page:
+    """Moving chains with forces, curves, errors by predictor."""
     sections: list[Section] = [
         standing_scene(given.trials.subject, trials),
         *standing_curves(trials),
-        Picture("The strap by each predictor", "Grey as recorded.", drawing(figure)),
+        Picture("The strap by each predictor", "Grey as recorded.", drawn),
         frame_table("Root mean square differences", tables["errors"], 3),
         frame_table("Between and beyond the collocation points", tables["certificate"], 3),
     ]
@@ -49,4 +41,4 @@ def write_prediction_page(
         "Standing up, predicted",
         f"{', '.join(t.recorded.name for t in trials)}; contacts calibrated on other trials",
     )
-    return write_motion_page(path, record, titles, sections, MODEL)
+    return motion_page(titles, sentences, sections, MODEL)

@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.figure_files import save_both
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.sit_to_stand.exports import write_motion
 from geocontact.analyses.sit_to_stand.numbers_table import ran_table
 from geocontact.analyses.sit_to_stand.predict.figure import strap_figure
 from geocontact.analyses.sit_to_stand.predict.numbers import predicted_meshes, prediction_numbers
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
-from geocontact.analyses.sit_to_stand.predict.page import write_prediction_page
+from geocontact.analyses.sit_to_stand.predict.page import prediction_page
 from geocontact.analyses.sit_to_stand.predict.predicted_trial import ALL, MEAN, PredictedTrial
 from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
 from geocontact.analyses.sit_to_stand.predict.searches import complete
@@ -30,6 +29,8 @@ from geocontact.standing_up.trials import StandingTrial
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 COMPARED = ("coordinates", "force", "centre", "torque", "strap")
 
@@ -111,24 +112,26 @@ class StandingPredictResult(Result):
         ran = {"numbers": ran_table(prediction_numbers(self.predictions)), "mesh": predicted_meshes(self.predictions)}
         return {"errors": self.errors, "certificate": certificates, **ran, **own}
 
-    def figure(self) -> Figure:
-        """Force of the strap by all predictors."""
-        return strap_figure([(one.name, one.trial) for one in self.predictions], self.means)
+    def figures(self) -> dict[str, Figure]:
+        """`strap`: its force by all predictors."""
+        return {"strap": strap_figure([(one.name, one.trial) for one in self.predictions], self.means)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Moving chains with forces, curves, errors by predictor."""
+        return {REPORT: prediction_page(self.sentences, self.given, self.best, drawings["strap"], self.tables())}
 
     def write_files(self, folder: Path) -> None:
-        """Tables, trajectories, figure, page."""
-        self.write_numbers(folder)
-        save_both(self.figure(), folder, "strap")
-        self.write_page(folder / "report.html")
+        """Trajectories; tables, figure, page."""
+        self._write_motions(folder)
+        super().write_files(folder)
 
     def write_numbers(self, folder: Path) -> None:
         """Tables and trajectories of the trials that there are."""
         for name, rows in self.tables().items():
             write_table(rows, folder, name)
+        self._write_motions(folder)
+
+    def _write_motions(self, folder: Path) -> None:
         for one in self.predictions:
             if one.name == ALL:
                 write_motion(folder, self.given.trials.subject, one.trial, self.given.values, one.solved)
-
-    def write_page(self, file: Path) -> None:
-        """Moving chains with forces, curves, errors by predictor, inputs."""
-        write_prediction_page(file, self.record, self.given, self.best, self.figure(), self.tables())
