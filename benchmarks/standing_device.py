@@ -7,7 +7,7 @@ import time
 import numpy as np
 
 from benchmarks.machine import write_results
-from geocontact.analyses.sit_to_stand.device.read import DeviceMotion
+from geocontact.analyses.sit_to_stand.device.motion import DeviceMotion
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton_torque import identified
 from meshes.standing_unloaded import RATE, TURN_NOISE, planted, synthetic_unloaded

@@ -28,7 +28,7 @@ import geocontact as gc
 from benchmarks.machine import as_json, stamp
 from benchmarks.standing_refit import NAMED, refitted
 from benchmarks.standing_truth import PLANTED, PaddedStrap
-from geocontact.analyses.sit_to_stand.gap_files import write_strap_case
+from geocontact.analyses.sit_to_stand.exports import write_strap_case
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton import STRAP_PARAMETERS, STRAP_PLANTED, StrapLaw, with_exoskeleton
 from geocontact.standing_up.trials import StandingNoise, StandingTrial, recorded, standing_up, with_noise

@@ -32,7 +32,7 @@ def measured() -> list[dict[str, Any]]:
     import numpy as np
 
     from geocontact.analyses.run_record import Record
-    from geocontact.analyses.sit_to_stand.predict.searches import GIVEN, TOLERANCE
+    from geocontact.analyses.sit_to_stand.predict.predictions import GIVEN, TOLERANCE
     from geocontact.analyses.sit_to_stand.search_options import StandingSearchOptions
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.dynamics.collocation.blocks import sparse_program

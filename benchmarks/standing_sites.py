@@ -171,9 +171,8 @@ def predicted(out: Path, nodes: float) -> dict[str, Any]:
     import numpy as np
 
     from geocontact.analyses.run_record import Record
-    from geocontact.analyses.sit_to_stand.standing_tables import errors_table
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
-    from geocontact.analyses.sit_to_stand.trial_result import TrialResult
+    from geocontact.analyses.sit_to_stand.trial_result import TrialResult, errors_table
     from geocontact.dynamics.collocation.refinement import refined
     from geocontact.dynamics.collocation.solve import SolverOptions, solve
     from geocontact.io.recordings.contact_parameters import read_contact_parameters

@@ -41,11 +41,11 @@ PLACES = {
     "shoulder optimise": "shoulder.optimise.job:optimise",
     "shoulder simulate": "shoulder.simulate.job:simulate",
     "shoulder study": "shoulder.study.job:study",
-    "sit-to-stand calibrate": "sit_to_stand.calibrate.job:calibrate",
-    "sit-to-stand compare": "sit_to_stand.compare.job:compare",
-    "sit-to-stand design": "sit_to_stand.design.job:design",
-    "sit-to-stand device": "sit_to_stand.device.job:device",
-    "sit-to-stand predict": "sit_to_stand.predict.job:predict",
+    "sit-to-stand calibrate": "sit_to_stand.calibrate.result:calibrate",
+    "sit-to-stand compare": "sit_to_stand.compare.result:compare",
+    "sit-to-stand design": "sit_to_stand.design.result:design",
+    "sit-to-stand device": "sit_to_stand.device.result:device",
+    "sit-to-stand predict": "sit_to_stand.predict.result:predict",
 }
 
 

@@ -20,7 +20,7 @@ PAGE = (ROOT / "docs" / "reference" / "written_files.md").read_text(encoding="ut
 COLUMN = re.compile(r"\S.* \[[^\[\]]+\]")
 SI_FILES = ("gap/diagnose/tables.py", "gap/discriminability/tables.py", "virtual_markers/result.py")
 """Tables about gap cases, and the Python table beside a .trc."""
-NAMES = ("tables.py", "result.py", "load_table.py", "recorded.py")
+NAMES = ("tables.py", "result.py", "load_table.py", "recorded.py", "phases.py", "designs.py", "trial_result.py")
 """Modules that make tables."""
 BOTH = "mat/tables.py"
 """Has tables of results and of gap cases; which are which is asked when they are written."""

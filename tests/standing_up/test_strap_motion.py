@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 import geocontact as gc
-from geocontact.analyses.sit_to_stand.gap_files import motion_table, write_strap_case
+from geocontact.analyses.sit_to_stand.exports import motion_table, write_strap_case
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.data.parameter import Parameter
 from geocontact.standing_up.chain import Subject

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 from geocontact.analyses.package_of_jobs import PackageOfJobs
 
 if TYPE_CHECKING:
-    from geocontact.analyses.sit_to_stand.calibrate.job import calibrate
-    from geocontact.analyses.sit_to_stand.compare.job import compare
-    from geocontact.analyses.sit_to_stand.design.job import design
-    from geocontact.analyses.sit_to_stand.device.job import device
-    from geocontact.analyses.sit_to_stand.predict.job import predict
+    from geocontact.analyses.sit_to_stand.calibrate.result import calibrate
+    from geocontact.analyses.sit_to_stand.compare.result import compare
+    from geocontact.analyses.sit_to_stand.design.result import design
+    from geocontact.analyses.sit_to_stand.device.result import device
+    from geocontact.analyses.sit_to_stand.predict.result import predict
 
 __all__ = ["calibrate", "compare", "design", "device", "predict"]
 

@@ -1,31 +1,88 @@
-"""A motion that stands up for other programs: coordinates and external loads for OpenSim, lines for ParaView."""
+"""Standing up for other programs: motion, loads and model for OpenSim, lines for ParaView, a case for `gap gather`.
+
+A sphere slides and is pressed where OpenSim's is, half of its depth below the ground, and straps are its bushings: the
+accelerations of the equations are those of the model.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
+from xml.etree.ElementTree import Element
 
 import numpy as np
+import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.sit_to_stand.solution_file import write_solution
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.io.opensim.external_loads_writer import write_external_loads
+from geocontact.io.opensim.moco_trajectory_writer import write_moco_trajectory
+from geocontact.io.opensim.osim_contact_forces import bushing_force_between, smooth_sphere_force, torque_along
+from geocontact.io.opensim.osim_writer import ContactBall, write_osim
 from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.io.text.results import write_table
+from geocontact.io.text.written_units import CASES
 from geocontact.standing_up.chain import COORDINATES, TRUNK, TURNING, Subject, leg_chain
 from geocontact.standing_up.chair import SITS
-from geocontact.standing_up.exoskeleton import EXO_JOINTS, HEIGHT, two_chains
+from geocontact.standing_up.exoskeleton import DAMPING, EXO_JOINTS, HEIGHT, two_chains
+from geocontact.standing_up.feet import FRICTION
 from geocontact.standing_up.strap_force import StrapForce, strap_force
+from geocontact.standing_up.strap_motion import StrapMotion, strap_motion
 from geocontact.standing_up.strap_sites import StrapSite, sites_of
+from geocontact.standing_up.trials import StandingTrial
 from geocontact.view.surfaces.line_series import LineSeries, write_line_series
 
-FRAMES = 101
-"""Of what ParaView gets, evenly over the movement."""
+LINE_FRAMES = 101
+"""Frames that ParaView gets, evenly over the movement."""
 GROUND, CHAIR = "ground_force", "chair_force"
 PERSON = ("shank", "thigh", "trunk")
 EXOSKELETON = ("exo_shank", "exo_thigh", "exo_module")
 Vectors = Float[np.ndarray, "t 3"]
 Straps = list[tuple[StrapSite, StrapForce]]
+MODEL_NOTE = "Both legs are one planar chain: masses, torques, contacts and bushings are those of both."
+GATHER = """# One strap at the thigh: displacements of both chains as recorded, beside what the mat sees.
+# Trials of the calibration are no held-out ones: put trials that it did not use in their place.
+format = 1
+system = "sit_to_stand"
+calibration = {calibration}
+evaluation = {evaluation}
+
+{sources}[constants]
+b = {damping:g}
+
+[parameters.k_n_thigh]
+start = {stiffness:.6g}
+lower = {least:.6g}
+upper = {most:.6g}
+unit = "N/m"
+
+[parameters.rho_thigh]
+start = 0.0
+lower = -0.1
+upper = 0.1
+unit = "m"
+"""
+STIFFNESS_ROOM = 10.0
+"""Factor on the stiffness within which a fit may move it."""
+
+
+def write_solution(file: Path, trial: TrialResult, solved: bool) -> None:
+    """The motion at its collocation points as OpenSim's Moco reads it; torques are those of both legs [N m].
+
+    At these points it solves the equations; at the recording's own times something is left of the balance.
+    """
+    q, u = trial.points.q, trial.points.u
+    names = (*COORDINATES, *(EXO_JOINTS if q.shape[1] > len(COORDINATES) else ()))
+
+    def paths(ending: str, values: Float[np.ndarray, "t n"]) -> dict[str, Float[np.ndarray, " t"]]:
+        return {f"/jointset/{name}/{name}/{ending}": values[:, k] for k, name in enumerate(names)}
+
+    states = paths("value", q) | paths("speed", u)
+    torque = np.zeros((len(q), 0)) if trial.points.torque is None else trial.points.torque
+    controls = {f"/forceset/{name}_torque": column for name, column in zip(names[3:], torque.T, strict=True)}
+    write_moco_trajectory(file, trial.points.time, states, controls, paths("accel", trial.acceleration), solved)
 
 
 def write_motion(folder: Path, subject: Subject, trial: TrialResult, values: Mapping[str, float], solved: bool) -> None:
@@ -51,9 +108,7 @@ def write_motion(folder: Path, subject: Subject, trial: TrialResult, values: Map
 
 
 def _write_loads(folder: Path, trial: TrialResult, straps: Straps) -> None:
-    """Of both feet at their centre of pressure, of the chair, and of all straps on the person and back on the
-    exoskeleton.
-    """
+    """Forces on both feet at their centre of pressure, of the chair, and of all straps both ways."""
     name, none = trial.recorded.name, np.zeros((len(trial.recorded.time), 3))
     loads: dict[str, tuple[str, Vectors, Vectors, Vectors]] = {
         GROUND: ("foot", _ground(trial), _centre(trial), none),
@@ -80,7 +135,7 @@ def _write_loads(folder: Path, trial: TrialResult, straps: Straps) -> None:
 def _write_lines(folder: Path, subject: Subject, trial: TrialResult, straps: Straps) -> None:
     """Chains, the ground's force on both feet, and that of one strap at each site on the person."""
     time = trial.recorded.time
-    kept = np.unique(np.linspace(0, len(time) - 1, FRAMES).round().astype(int))
+    kept = np.unique(np.linspace(0, len(time) - 1, LINE_FRAMES).round().astype(int))
     poses = (two_chains(subject) if straps else leg_chain(subject)).poses(trial.model.q)
     tops = [(PERSON, "trunk", TRUNK.length * subject.height)]
     tops += [(EXOSKELETON, "exo_module", HEIGHT)] if straps else []
@@ -106,3 +161,85 @@ def _ground(trial: TrialResult) -> Vectors:
 
 def _centre(trial: TrialResult) -> Vectors:
     return np.column_stack([trial.model.centre, np.zeros((len(trial.recorded.time), 2))])
+
+
+def write_standing_model(file: Path, subject: Subject, values: Mapping[str, float], *, worn: bool) -> None:
+    """Spheres under the foot, straps as bushings where an exoskeleton is worn, torques of all joints.
+
+    Parameters
+    ----------
+    values
+        Of the parameters of feet and straps, in SI.
+    """
+    chain = two_chains(subject) if worn else leg_chain(subject)
+    height, factor = values["radius"] - values["bottom"], values["friction"]
+    friction = [float(each) for each in (FRICTION.v_t, FRICTION.mu_s * factor, FRICTION.mu_d * factor, FRICTION.mu_v)]
+    balls = [
+        ContactBall(name, "foot", np.array([values[name], height, 0.0]), values["radius"]) for name in ("heel", "toe")
+    ]
+    forces = [smooth_sphere_force(each.name, values["stiffness"], values["dissipation"], friction) for each in balls]
+    if worn:
+        forces += [_bushing(site, values) for site in sites_of(values)]
+    forces += [torque_along(each.name) for each in chain.coordinates[3:]]
+    write_osim(file, replace(chain, name="sit_to_stand"), balls=balls, forces=forces, note=MODEL_NOTE)
+
+
+def _bushing(site: StrapSite, values: Mapping[str, float]) -> Element:
+    """All straps of a site in one; called strap at the thigh, and shank_strap, pelvis_strap."""
+    normal, tangential, turning, place = (values[name] for name in site.names)
+    there = np.array([0.0, place, 0.0])
+    ends = [(site.person, there), (site.device, there - [0.0, site.above, 0.0])]
+    turns, moves = np.array([0.0, 0.0, site.count]), np.array([site.count, site.count, 0.0])
+    stiff = turns * turning, moves * [normal, tangential, 0.0]
+    name = site.names[0].removesuffix(" normal").replace(" ", "_")
+    return bushing_force_between(name, ends, stiff, (turns * site.turning_damping, moves * site.damping))
+
+
+def write_strap_case(
+    folder: Path,
+    subject: Subject,
+    trials: Sequence[StandingTrial],
+    values: Mapping[str, float],
+    held_out: int = 1,
+) -> None:
+    """NAME_strap.csv (displacements), NAME_mat.csv (normal force) and gather.toml, the last `held_out` to evaluate on.
+
+    Nothing for fewer trials with the thigh's strap than that and one more.
+
+    Parameters
+    ----------
+    values
+        Of the strap's parameters, in SI.
+    """
+    trials = [trial for trial in trials if trial.strap is not None and np.isfinite(trial.strap).all()]
+    if len(trials) <= held_out:
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    for trial in trials:
+        moved = strap_motion(subject, trial.q, values["strap place"])
+        write_table(motion_table(trial, moved), folder, f"{trial.name}_strap", CASES)
+        mat = pd.DataFrame({"time [s]": trial.time, "thigh_force [N]": trial.strap})
+        write_table(mat, folder, f"{trial.name}_mat", CASES)
+    names = [trial.name for trial in trials]
+    sources = "".join(f'[from.{n}]\ninputs = "{n}_strap.csv"\noutputs = "{n}_mat.csv"\n\n' for n in names)
+    stiffness = values["strap normal"]
+    text = GATHER.format(
+        calibration=json.dumps(names[:-held_out]),
+        evaluation=json.dumps(names[-held_out:]),
+        sources=sources,
+        damping=DAMPING,
+        stiffness=stiffness,
+        least=stiffness / STIFFNESS_ROOM,
+        most=stiffness * STIFFNESS_ROOM,
+    )
+    (folder / "gather.toml").write_text(text, encoding="utf-8")
+
+
+def motion_table(trial: StandingTrial, moved: StrapMotion) -> pd.DataFrame:
+    """Inputs of the base model."""
+    columns = {
+        "thigh_normal [m]": moved.normal,
+        "thigh_tangential [m]": moved.tangential,
+        "thigh_rotation [rad]": moved.rotation,
+    }
+    return pd.DataFrame({"time [s]": trial.time, **columns})

@@ -1,18 +1,38 @@
-"""One trial as it was recorded and as the model moves."""
+"""One trial as it was recorded and as the model moves: its channels, and tables of motions and numbers."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import pandas as pd
 from jaxtyping import Float
 
+from geocontact.dynamics.collocation.certificate import Certificate
+from geocontact.dynamics.collocation.motion import CollocatedMotion
+from geocontact.dynamics.collocation.refinement import MOST_HALVINGS
 from geocontact.standing_up.chain import COORDINATES
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from geocontact.standing_up.judged import JudgedMotion
+from geocontact.standing_up.numbers_that_ran import Ran
+from geocontact.standing_up.phase import PhaseProblem, PhaseSizes
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
 DEGREE, MILLIMETRE = float(np.degrees(1.0)), 1e3
+BEYOND = (
+    "after an interval [-]",
+    "after 0.2 s [-]",
+    "open loop [-]",
+    "open loop expected [-]",
+    "growth rate [1/s]",
+    "intervals [-]",
+    "shortest interval [s]",
+)
+"""Departures of coordinates from another integrator [rad, m], the growth of deviations, and the mesh."""
+Meshes = Sequence[tuple[str, Sequence[CollocatedMotion]]]
+"""Motions by the name of their phase, predictor or design."""
+FROM_FILE = "as the file of parameters gives it"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -71,7 +91,7 @@ class StandingChannel:
 
 
 def channels(seen: StandingTrial, model: StandingTrial, noise: StandingNoise) -> list[StandingChannel]:
-    """Of a trial as recorded and by a model, in the order of tables; what was not recorded is not a number there."""
+    """Columns of a trial as recorded and by a model, in the order of tables; NaN for what was not recorded."""
     found = []
     names = (*COORDINATES, *(EXO_JOINTS if model.q.shape[1] > len(COORDINATES) else ()))
     for k, name in enumerate(names):
@@ -98,3 +118,73 @@ def channels(seen: StandingTrial, model: StandingTrial, noise: StandingNoise) ->
         told = seen.elsewhere.get(site, none)
         found.append(StandingChannel("strap", f"{site} strap", "N", 1.0, told, force, noise.strap))
     return found
+
+
+def errors_table(trials: Sequence[TrialResult], noise: StandingNoise, tracks: Sequence[str]) -> pd.DataFrame:
+    """Root mean square difference of each channel, with the noise that it was said to have beside it."""
+    rows = [
+        {
+            "trial": trial.recorded.name,
+            "quantity": each.name,
+            "unit": each.unit,
+            "rmsd": each.factor * float(np.sqrt(np.mean((each.model - each.recorded) ** 2))),
+            "noise": each.factor * each.noise,
+        }
+        for trial in trials
+        for each in channels(trial.recorded, trial.model, noise)
+        if each.channel in tracks and np.isfinite(each.recorded).all()
+    ]
+    return pd.DataFrame(rows, columns=["trial", "quantity", "unit", "rmsd", "noise"])
+
+
+def certificate_rows(phase: str, names: Sequence[str], motions: Sequence[JudgedMotion]) -> list[dict[str, object]]:
+    """What lies between and beyond the points of each motion; empty cells where nothing was certified."""
+    rows = []
+    for name, seen in zip(names, motions, strict=True):
+        c = seen.certificate
+        told: dict[str, object] = {"phase": phase, "trial": name}
+        told["certified"] = "no" if c is None or not c.converged else "yes"
+        told |= {"residual [N]": float(seen.force.max()), "residual [N m]": float(seen.moment.max())}
+        sizes: tuple[float, ...] = (np.nan,) * len(BEYOND)
+        if c is not None:
+            sizes = c.interval, c.window, c.open_loop, c.expected, c.growth_rate, c.intervals, c.shortest
+        rows.append(told | dict(zip(BEYOND, sizes, strict=True)))
+    return rows
+
+
+def trial_table(trial: TrialResult, noise: StandingNoise, tracks: Sequence[str]) -> pd.DataFrame:
+    """Over time: channels as recorded and by the model, torques of both legs, residual."""
+    columns = {"time [s]": trial.recorded.time}
+    for each in channels(trial.recorded, trial.model, noise):
+        if each.channel == "rates":
+            continue
+        columns[f"{each.name} [{each.unit}]"] = each.factor * each.model
+        if each.channel in tracks and np.isfinite(each.recorded).all():
+            columns[f"recorded {each.name} [{each.unit}]"] = each.factor * each.recorded
+    columns["residual [N]"] = trial.residual(trial.judged.force)
+    columns["residual [N m]"] = trial.residual(trial.judged.moment)
+    return pd.DataFrame(columns)
+
+
+def ran_table(rows: Sequence[Ran]) -> pd.DataFrame:
+    """Every number in SI, and where it is from."""
+    return pd.DataFrame(rows, columns=list(Ran._fields))
+
+
+def mesh_table(of: str, meshes: Meshes) -> pd.DataFrame:
+    """Ends of the intervals, from the start of each motion to its end; `of` is what the motions are named by."""
+    rows = [(name, motion.name, float(at)) for name, motions in meshes for motion in motions for at in motion.breaks]
+    return pd.DataFrame(rows, columns=[of, "trial", "break [s]"])
+
+
+def sizes_of(phase: PhaseProblem) -> PhaseSizes:
+    """What its cost is measured by. ValueError where that is of another kind."""
+    if phase.sizes is None:
+        raise ValueError("this phase does not say what its cost is measured by")
+    return phase.sizes
+
+
+def not_certified(place: str, seen: Certificate) -> str:
+    """What failed, and how fine the mesh is that was refined as often as it may be."""
+    mesh = f"{seen.intervals} intervals down to {1e3 * seen.shortest:.2g} ms, each halved {MOST_HALVINGS} times at most"
+    return f"{place} is not certified: {'; '.join(seen.failed)}; on {mesh}; give more `nodes`"

@@ -14,4 +14,4 @@ and a trajectory for OpenSim's Moco for each trial, a figure, report.html and ru
 Ctrl-C ends the search and keeps its last iterate.
 """
 
-calibrate = Command("geocontact.analyses.sit_to_stand.calibrate.job:calibrate", StandingCalibrateOptions, HELP)
+calibrate = Command("geocontact.analyses.sit_to_stand.calibrate.result:calibrate", StandingCalibrateOptions, HELP)

@@ -12,4 +12,4 @@ without ground reaction, without torques, by the mean and by the nearest of the 
 numbers.csv and mesh.csv (all that ran), a figure, report.html and run.json into OUT.
 """
 
-compare = Command("geocontact.analyses.sit_to_stand.compare.job:compare", StandingCompareOptions, HELP)
+compare = Command("geocontact.analyses.sit_to_stand.compare.result:compare", StandingCompareOptions, HELP)

@@ -12,4 +12,4 @@ what is held), certificate.csv, numbers.csv and mesh.csv (all that ran), front.c
 trajectory for OpenSim's Moco for each trial, a figure, report.html and run.json into OUT.
 """
 
-design = Command("geocontact.analyses.sit_to_stand.design.job:design", StandingDesignOptions, HELP)
+design = Command("geocontact.analyses.sit_to_stand.design.result:design", StandingDesignOptions, HELP)

@@ -11,4 +11,4 @@ Writes parameters.csv (value, interval, and whether the motion tells it by itsel
 and of the fit), with a trial torque.csv and torques.sto, a figure, report.html and run.json into OUT.
 """
 
-device = Command("geocontact.analyses.sit_to_stand.device.job:device", StandingDeviceOptions, HELP)
+device = Command("geocontact.analyses.sit_to_stand.device.result:device", StandingDeviceOptions, HELP)

@@ -12,4 +12,4 @@ the calibration's trials), certificate.csv, numbers.csv and mesh.csv (all that r
 for OpenSim's Moco for each trial, a figure, report.html and run.json into OUT.
 """
 
-predict = Command("geocontact.analyses.sit_to_stand.predict.job:predict", StandingPredictOptions, HELP)
+predict = Command("geocontact.analyses.sit_to_stand.predict.result:predict", StandingPredictOptions, HELP)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import warnings
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -13,19 +14,22 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
-from geocontact.analyses.sit_to_stand.calibrate.read import read
-from geocontact.analyses.sit_to_stand.calibrate.run import run
-from geocontact.analyses.sit_to_stand.trial_channels import seat_off
+from geocontact.analyses.sit_to_stand.calibrate.phases import doubt_phase
+from geocontact.analyses.sit_to_stand.calibrate.result import read, run
+from geocontact.analyses.sit_to_stand.standing_trials import seat_off
 from geocontact.data.wrench import Wrench
 from geocontact.io.mocap.force_plates import ForcePlate
 from geocontact.io.opensim.moco_trajectory_writer import write_moco_trajectory
 from geocontact.standing_up.feet import FOOT_PARAMETERS
+from geocontact.standing_up.other_minima import Ended
 from tests import opensim_oracle
 from tests.analyses.sit_to_stand.ctrl_c import Interrupting
 from tests.cli.calls import MESHES
 from tests.elsewhere import Elsewhere
+from tests.unchecked import unchecked
 
 STUDY = MESHES / "standing_up" / "study.toml"
+BEST, SAME, WORSE = Ended(1.0, True, True), Ended(1.0005, True, True), Ended(3.0, True, False)
 
 
 def changed(folder: Path, *changes: tuple[str, str], file: str = "study.toml", trials: int = 3) -> Path:
@@ -173,3 +177,46 @@ def test_opensim_reads_the_trajectory(opensim: Elsewhere, tmp_path: Path) -> Non
     names, columns = opensim(opensim_oracle.moco_trajectory, str(file), list(states), [torque])
     assert names == list(states)
     np.testing.assert_allclose(columns, np.column_stack([time, *states.values(), 3 * time]), rtol=1e-9)
+
+
+def doubts(**other: object) -> tuple[list[str], list[str]]:
+    """Sentences and warnings of a phase without anything to doubt but what is given."""
+    numbers = SimpleNamespace(numbers=(SimpleNamespace(name="heel", verdict=other.pop("verdict", "known")),))
+    one = {
+        "name": "A",
+        "found": SimpleNamespace(solved=True, ending="solved", motions=()),
+        "doubt": "",
+        "motions": (),
+        "numbers": numbers,
+        "shares": {"force": 0.5, "rates": 0.5},
+        "ends": (BEST,),
+        "misfit": 0.8,
+    }
+    record = Record("sit-to-stand calibrate", {})
+    with unchecked():
+        doubt_phase(record, SimpleNamespace(**(one | other)))  # type: ignore[arg-type]
+    return list(record.sentences), list(record.warnings)
+
+
+@pytest.mark.filterwarnings("ignore::geocontact.InputWarning")
+@pytest.mark.parametrize(
+    ("other", "words"),
+    [
+        ({"shares": {"force": 0.995, "rates": 0.005}}, "99.5 % of the cost are force"),
+        ({"ends": (WORSE, BEST)}, "ends in a minimum that another start beats"),
+        ({"ends": (Ended(2.0, False, False), BEST)}, "ends in a minimum that another start beats"),
+        ({"ends": (Ended(1.0005, True, False), BEST)}, "ends in a minimum that another start beats"),
+        ({"misfit": 1.74}, "phase A leaves 1.7 times the squares that the noise makes"),
+        ({"verdict": "not separable"}, "not separable, with intervals that cover both: heel"),
+        ({"verdict": "on its bound"}, "on its bound, so that the value says where the bound is: heel"),
+        ({"verdict": "believed"}, "tell little more than what was believed of heel"),
+        ({"doubt": "it is singular"}, "phase A has no intervals: it is singular"),
+    ],
+)
+def test_what_changes_how_numbers_are_read_is_warned_of(other: dict[str, object], words: str) -> None:
+    assert any(words in line for line in doubts(**other)[1])
+
+
+def test_nothing_to_doubt_is_not_warned_of() -> None:
+    said, warned = doubts(ends=(BEST, SAME, WORSE))
+    assert not warned and said == ["phase A: 2 of 3 starts end in the best minimum, 3 in one"]

@@ -14,10 +14,8 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
-from geocontact.analyses.sit_to_stand.design.read import read
-from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult
-from geocontact.analyses.sit_to_stand.design.run import run
-from geocontact.analyses.sit_to_stand.design.words import doubt
+from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult, doubt, run
+from geocontact.analyses.sit_to_stand.design.search import read
 from tests.analyses.sit_to_stand.ctrl_c import Interrupting
 from tests.cli.calls import MESHES
 

@@ -10,18 +10,17 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.sit_to_stand.exports import write_motion
-from geocontact.analyses.sit_to_stand.model_file import write_standing_model
+from geocontact.analyses.sit_to_stand.exports import write_motion, write_solution, write_standing_model
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.io.opensim.external_loads import read_external_loads
 from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.exoskeleton import LEGS, STRAP_PLANTED, strapped
+from geocontact.standing_up.exoskeleton import LEGS, STRAP_PLANTED, WORN_PARAMETERS, strapped, with_exoskeleton
 from geocontact.standing_up.feet import EVERY_PLANTED
 from geocontact.standing_up.judged import JudgedMotion
 from geocontact.standing_up.strap_force import strap_force
 from geocontact.standing_up.strap_sites import STRAP_SITES
-from geocontact.standing_up.trials import StandingTrial
+from geocontact.standing_up.trials import StandingTrial, seen_in, standing_up
 from tests import opensim_oracle
 from tests.elsewhere import Elsewhere
 
@@ -34,6 +33,9 @@ BODIES = ["foot", "trunk", "thigh", "exo_thigh", "shank", "exo_shank", "trunk", 
 TIME = np.linspace(0.0, 1.0, 101)
 SEATED = np.array([0.0, 0.083, 0.0, -0.4, 1.6, -2.0, -0.42, 1.66, -1.9])
 UP = np.array([0.0, 0.083, 0.0, -0.07, 0.14, -0.14, -0.06, 0.13, -0.1])
+WORN_P = np.r_[EVERY_PLANTED, STRAP_PLANTED]
+WORN_NAMES = with_exoskeleton(Subject()).equations.names
+POSTURE = np.array([0.0, 0.083, 0.0, -0.3, 1.2, -1.6, -0.3, 1.2, -1.6])
 
 
 def moved() -> tuple[TrialResult, np.ndarray, np.ndarray]:
@@ -137,3 +139,47 @@ def test_straps_push_back_on_the_exoskeleton(written: Path) -> None:
 def test_opensim_reads_the_loads(opensim: Elsewhere, written: Path) -> None:
     loads = opensim(opensim_oracle.external_loads, written / "loads_T1.xml")
     assert [load[1] for load in loads] == BODIES
+
+
+def written_model(file: Path) -> Path:
+    """The model of planted parameters."""
+    values = {each.name: each.value(float(p)) for each, p in zip(WORN_PARAMETERS, WORN_P, strict=True)}
+    write_standing_model(file, Subject(), values, worn=True)
+    return file
+
+
+@pytest.mark.oracle
+def test_opensim_accelerates_the_written_chains_as_the_equations_do(opensim: Elsewhere, tmp_path: Path) -> None:
+    """On a standing foot and on one that slides, sinks and turns, with the strap displaced and turned."""
+    file, rng = written_model(tmp_path / "standing.osim"), np.random.default_rng(4)
+    q = POSTURE + rng.normal(size=(4, 9)) * np.r_[np.full(3, 1e-3), np.full(6, 1e-2)]
+    u = 0.1 * rng.normal(size=(4, 9))
+    still = u.copy()
+    still[:, :3] = 0.0
+    theirs = opensim(opensim_oracle.accelerations, file, WORN_NAMES, np.vstack([q, q]), np.vstack([still, u]))
+
+    own = with_exoskeleton(Subject()).equations.accelerations()
+    rates = zip(np.vstack([q, q]), np.vstack([still, u]), strict=True)
+    ours = np.array([own(a, b, [], np.zeros(6), WORN_P).full().ravel() for a, b in rates])
+    np.testing.assert_allclose(theirs, ours, rtol=1e-6, atol=1e-5)
+
+
+@pytest.mark.oracle
+def test_what_is_written_solves_the_model_that_is_written(opensim: Elsewhere, tmp_path: Path) -> None:
+    """A rise of both chains on few intervals: at its points OpenSim's accelerations are those of the file."""
+    model = with_exoskeleton(Subject())
+    _, found = standing_up(model, Subject(), planted=WORN_P, intervals=12)
+    (motion,), n = found.motions, model.count
+    points = seen_in(model, motion, WORN_P, motion.held_times[:-1], "T1")
+    none = np.zeros(len(points.time))
+    trial = TrialResult(
+        recorded=points,
+        model=points,
+        points=points,
+        acceleration=motion.state(points.time)[:, 2 * n : 3 * n],
+        judged=JudgedMotion(None, points.time, none, none),
+    )
+    write_solution(tmp_path / "solution_T1.sto", trial, found.solved)
+    told, theirs = opensim(opensim_oracle.solved, written_model(tmp_path / "model.osim"), tmp_path / "solution_T1.sto")
+    assert len(told) == 49 and np.abs(told).max() > 5.0
+    np.testing.assert_allclose(theirs, told, rtol=0.0, atol=1e-6)

@@ -19,9 +19,9 @@ from geocontact.analyses.result import Result
 from geocontact.analyses.sit_to_stand.calibrate.result import StandingCalibrateResult
 from geocontact.analyses.sit_to_stand.compare.result import StandingCompareResult
 from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult
-from geocontact.analyses.sit_to_stand.predict.predicted_trial import MEAN
+from geocontact.analyses.sit_to_stand.exports import write_solution
+from geocontact.analyses.sit_to_stand.predict.predictions import MEAN
 from geocontact.analyses.sit_to_stand.predict.result import StandingPredictResult
-from geocontact.analyses.sit_to_stand.solution_file import write_solution
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation import refinement
 from geocontact.dynamics.collocation.motion import CollocatedMotion

@@ -11,11 +11,10 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.sit_to_stand.predict import searches
+from geocontact.analyses.sit_to_stand.predict import predictions
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
-from geocontact.analyses.sit_to_stand.predict.predicted_trial import ALL
-from geocontact.analyses.sit_to_stand.predict.read import read
-from geocontact.analyses.sit_to_stand.predict.run import run
+from geocontact.analyses.sit_to_stand.predict.predictions import ALL, read
+from geocontact.analyses.sit_to_stand.predict.result import run
 from geocontact.standing_up.phase_c import TRACKS_C
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.standing_up.trivial_trials import mean_trial
@@ -82,7 +81,7 @@ def test_ctrl_c_keeps_what_there_is_and_a_trial_is_written_when_it_is_done(
     for file in HELD_OUT.parent.glob("P1_*"):
         (tmp_path / file.name).symlink_to(file)
     study.write_text("[[trials]]".join([head, *(trial.replace('"P1"', f'"P{k}"') for k in (1, 2, 3))]))
-    monkeypatch.setattr(searches, "GIVEN", {ALL: TRACKS_C})
+    monkeypatch.setattr(predictions, "GIVEN", {ALL: TRACKS_C})
     out = tmp_path / "pred"
     seen: list[set[str]] = []
 

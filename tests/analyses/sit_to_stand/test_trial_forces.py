@@ -10,8 +10,7 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
-from geocontact.analyses.sit_to_stand.trial_channels import chair_load, strap_force
+from geocontact.analyses.sit_to_stand.standing_trials import chair_load, standing_trials, strap_force
 from geocontact.data.wrench import Wrench
 from geocontact.io.mocap.force_plates import ForcePlate
 from geocontact.io.recordings.standing_study import read_standing_study

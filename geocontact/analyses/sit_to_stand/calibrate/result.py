@@ -1,4 +1,10 @@
-"""What a calibration gives: parameters with intervals, motions with certificates, channels over time."""
+"""Contacts from trials of standing up: `geocontact sit-to-stand calibrate`, `gc.sit_to_stand.calibrate`.
+
+>>> import geocontact as gc
+>>> result = gc.sit_to_stand.calibrate("meshes/standing_up/study.toml", nodes=5, resamples=0)
+>>> print(result.sentences[0])
+3 trials: ground reaction within … N, centre of pressure within … mm, angles within …° (largest RMSD of a trial)
+"""
 
 from __future__ import annotations
 
@@ -9,31 +15,43 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.job import Job
+from geocontact.analyses.page_words import counted
 from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.sit_to_stand.calibrate.numbers import calibration_numbers
+from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
-from geocontact.analyses.sit_to_stand.calibrate.page import calibration_page
-from geocontact.analyses.sit_to_stand.calibrate.tables import (
+from geocontact.analyses.sit_to_stand.calibrate.phases import (
+    calibration_numbers,
     certificate_table,
     correlation_table,
+    doubt_phase,
     parameters_table,
+    phases_sought,
     profile_table,
 )
-from geocontact.analyses.sit_to_stand.exports import write_motion
-from geocontact.analyses.sit_to_stand.gap_files import write_strap_case
-from geocontact.analyses.sit_to_stand.model_file import write_standing_model
-from geocontact.analyses.sit_to_stand.numbers_table import mesh_table, ran_table
-from geocontact.analyses.sit_to_stand.standing_figure import standing_figure
-from geocontact.analyses.sit_to_stand.standing_tables import errors_table, trial_table
-from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
-from geocontact.analyses.sit_to_stand.trial_result import TrialResult
+from geocontact.analyses.sit_to_stand.calibrate.show import calibration_page, standing_figure
+from geocontact.analyses.sit_to_stand.exports import write_motion, write_standing_model, write_strap_case
+from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, standing_trials
+from geocontact.analyses.sit_to_stand.trial_result import (
+    TrialResult,
+    errors_table,
+    mesh_table,
+    ran_table,
+    trial_table,
+)
 from geocontact.dynamics.collocation.solve import CollocationResult
 from geocontact.standing_up.calibrated_phase import CalibratedPhase
+from geocontact.standing_up.trials import seen_in
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from geocontact.view.page.content import Page
+
+
+def read(o: StandingCalibrateOptions, record: Record) -> StandingUpTrials:
+    """Everything in the study."""
+    return standing_trials(o.study, "study", record, o.c3d_unit)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -101,3 +119,70 @@ class StandingCalibrateResult(Result):
         if self.phases[-1].name == "B":
             write_strap_case(folder / "gap", self.given.subject, self.given.trials, values)
         super().write_files(folder)
+
+
+def run(given: StandingUpTrials, o: StandingCalibrateOptions, record: Record) -> StandingCalibrateResult:
+    """Parameters and motions of all trials."""
+    with record.listener.stages("calibrating") as stage:
+        phases = phases_sought(given, o, stage)
+    last = phases[-1]
+    n = last.model.count
+    trials = tuple(
+        TrialResult(
+            recorded=trial,
+            model=seen_in(last.model, motion, last.found.p, trial.time, trial.name),
+            points=seen_in(last.model, motion, last.found.p, motion.held_times, trial.name),
+            acceleration=motion.state(motion.held_times)[:, 2 * n : 3 * n],
+            judged=seen,
+        )
+        for trial, motion, seen in zip(given.trials, last.found.motions, last.motions, strict=True)
+    )
+    result = StandingCalibrateResult(record=record, options=o, given=given, phases=phases, trials=trials)
+    for phase in phases:
+        doubt_phase(record, phase)
+    _say(result)
+    return result
+
+
+def _say(r: StandingCalibrateResult) -> None:
+    record, errors = r.record, r.errors
+    numbers = [number for phase in r.phases for number in phase.numbers.numbers if number.verdict != "held"]
+    known = [number.name for number in numbers if number.verdict == "known"]
+    worst = {}
+    straps = errors["quantity"].str.endswith("strap")
+    for name, chosen in (("force", errors["unit"] == "N"), ("centre", errors["quantity"] == "centre")):
+        worst[name] = errors[chosen & ~straps]["rmsd"].max()
+    angle = errors[errors["unit"] == "deg"]["rmsd"].max()
+    worn = errors[straps].groupby("quantity", sort=False)["rmsd"].max()
+    also = "".join(f", {name} within {off:.1f} N" for name, off in worn.items())
+    record.say(
+        f"{counted(len(r.trials), 'trial')}: ground reaction within {worst['force']:.1f} N, centre of pressure within "
+        f"{worst['centre']:.1f} mm, angles within {angle:.2f}°{also} (largest RMSD of a trial)"
+    )
+    if r.found.solved:
+        seen = [each for phase in r.phases for each in phase.motions]
+        passed = sum(each.certificate is not None and each.certificate.converged for each in seen)
+        left = max(float(each.force.max()) for each in seen), max(float(each.moment.max()) for each in seen)
+        record.say(
+            f"{passed} of {counted(len(seen), 'motion')} certified: at most {left[0]:.2g} N and {left[1]:.2g} N m are "
+            "left of the balance between the points"
+        )
+    record.say(f"{len(known)} of {counted(len(numbers), 'parameter')} known: {', '.join(known) or 'none'}")
+    for phase in r.phases:
+        found = phase.found
+        record.results[f"phase {phase.name}"] = {
+            "solved": found.solved,
+            "ending": found.ending,
+            "iterations": found.iterations,
+            "cpu_seconds": round(found.seconds, 3),
+            "objective": found.objective,
+            "misfit": phase.misfit,
+            "starts": [{"objective": end.objective, "solved": end.solved, "same": end.same} for end in phase.ends],
+            "condition": None if phase.numbers.told_apart is None else phase.numbers.told_apart.condition,
+            "sharper_than_believed": phase.numbers.directions.tolist(),
+            "cost_shares": phase.shares,
+            "parameters": {n.name: n.value for n in phase.numbers.numbers},
+        }
+
+
+calibrate = Job("sit-to-stand calibrate", StandingCalibrateOptions, read, run)

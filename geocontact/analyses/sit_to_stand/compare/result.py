@@ -1,29 +1,52 @@
-"""What a comparison finds: errors by trial, channel and predictor, figure, page."""
+"""Predictions beside recordings: `geocontact sit-to-stand compare`, `gc.sit_to_stand.compare`.
+
+>>> import geocontact as gc
+>>> held_out, planted = "meshes/standing_up_held_out/study.toml", "meshes/standing_up_exoskeleton/truth.csv"
+>>> given = {"parameters": planted, "against": "meshes/standing_up_exoskeleton/study.toml", "nodes": 5}
+>>> gc.sit_to_stand.compare(held_out, **given).sentences[0]
+'P1: nearest by its first and last posture is T2'
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.job import Job
+from geocontact.analyses.page_words import counted
 from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.sit_to_stand.compare.figure import compared_figure
+from geocontact.analyses.results_folder import written_whole
+from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.compare.options import StandingCompareOptions
-from geocontact.analyses.sit_to_stand.compare.page import compared_page
-from geocontact.analyses.sit_to_stand.numbers_table import ran_table
-from geocontact.analyses.sit_to_stand.predict.numbers import predicted_meshes, prediction_numbers
-from geocontact.analyses.sit_to_stand.predict.predicted_trial import ALL, PredictedTrial
-from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
-from geocontact.analyses.sit_to_stand.predict.searches import complete
-from geocontact.analyses.sit_to_stand.standing_tables import certificate_rows
+from geocontact.analyses.sit_to_stand.compare.show import compared_figure, compared_page
+from geocontact.analyses.sit_to_stand.predict.predictions import (
+    ALL,
+    GIVEN,
+    MEAN,
+    HeldOutTrials,
+    PredictedTrial,
+    certificates_table,
+    complete,
+    predicted,
+    predicted_meshes,
+    prediction_numbers,
+    read,
+    trials_begun,
+)
+from geocontact.analyses.sit_to_stand.trial_result import channels, ran_table
+from geocontact.identify.signals.agreement import agreement
+from geocontact.io.text.results import write_table
 from geocontact.standing_up.trials import StandingTrial
+from geocontact.standing_up.trivial_trials import mean_trial, nearest_trial
+from geocontact.view.page.content import Page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from geocontact.view.page.content import Page
+NEAREST = "nearest of the calibration"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -53,12 +76,9 @@ class StandingCompareResult(Result):
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`comparison`, `certificate`, `numbers` and `mesh`."""
-        rows = []
-        for one in self.predictions:
-            rows += certificate_rows(one.name, [one.trial.recorded.name], [one.trial.judged])
         return {
             "comparison": self.errors,
-            "certificate": pd.DataFrame(rows).rename(columns={"phase": "predictor"}),
+            "certificate": certificates_table(self.predictions),
             "numbers": ran_table(prediction_numbers(self.predictions)),
             "mesh": predicted_meshes(self.predictions),
         }
@@ -74,3 +94,80 @@ class StandingCompareResult(Result):
         best = [one.trial for one in self.predictions if one.name == ALL]
         drawn, subject = drawings["comparison"], self.given.trials.subject
         return {REPORT: compared_page(self.sentences, subject, best, drawn, self.tables())}
+
+
+def run(given: HeldOutTrials, o: StandingCompareOptions, record: Record) -> StandingCompareResult:
+    """Predictions of phase C with all or parts of what is given, and two predictors without a model."""
+
+    def keep(predictions: Sequence[PredictedTrial]) -> None:
+        if record.out is not None:
+            with written_whole(record.out) as draft:
+                write_table(_compared(given, predictions, _trivial(given, predictions)), draft, "comparison")
+
+    predictions = predicted(given, o, record, keep)
+    trivial = _trivial(given, predictions)
+    for trial in trials_begun(predictions):
+        near = nearest_trial(given.known.trials, trial)
+        record.say(f"{trial.name}: nearest by its first and last posture is {near.name}")
+    errors = _compared(given, predictions, trivial)
+    result = StandingCompareResult(
+        record=record, options=o, given=given, predictions=predictions, trivial=trivial, errors=errors
+    )
+    _say(result)
+    return result
+
+
+def _trivial(given: HeldOutTrials, predictions: Sequence[PredictedTrial]) -> dict[str, dict[str, StandingTrial]]:
+    """Predictors without a model, by trial and name."""
+    known, found = given.known.trials, {}
+    for trial in trials_begun(predictions):
+        near = nearest_trial(known, trial)
+        found[trial.name] = {MEAN: mean_trial(known, trial.time), NEAREST: mean_trial([near], trial.time)}
+    return found
+
+
+def _compared(
+    given: HeldOutTrials,
+    predictions: Sequence[PredictedTrial],
+    trivial: Mapping[str, Mapping[str, StandingTrial]],
+) -> pd.DataFrame:
+    """One row for each trial, predictor and channel."""
+    rows: list[dict[str, object]] = []
+    for trial in trials_begun(predictions):
+        models = {one.name: one.trial.model for one in predictions if one.trial.recorded.name == trial.name}
+        for predictor, model in {**models, **trivial[trial.name]}.items():
+            rows += _rows(trial, model, predictor, given)
+    return pd.DataFrame(rows)
+
+
+def _rows(
+    trial: StandingTrial, model: StandingTrial, predictor: str, given: HeldOutTrials
+) -> Iterator[dict[str, object]]:
+    step = 1.0 / trial.rate
+    for each in channels(trial, model, given.trials.noise):
+        if each.channel != "rates":
+            a = agreement(each.model, each.recorded, step, 0.0)
+            off = {name: each.factor * getattr(a, name) for name in ("mae", "rmsd", "bias")}
+            told = {"trial": trial.name, "predictor": predictor, "quantity": each.name, "unit": each.unit}
+            known = each.channel in GIVEN.get(predictor, ())
+            yield {**told, "given": "yes" if known else "no", **off, "r2 [-]": a.r2, "noise": each.factor * each.noise}
+
+
+def _say(r: StandingCompareResult) -> None:
+    record, errors = r.record, r.errors
+    for quantity in ("strap", "knee"):
+        own = errors[errors["quantity"] == quantity]
+        each = own.groupby("predictor", sort=False)["rmsd"].max()
+        unit = str(own["unit"].iloc[0]).replace("deg", "°")
+        words = ", ".join(f"{name} {value:.3g} {unit}" for name, value in each.items())
+        record.say(f"{quantity}, largest RMSD of {counted(len(r.trivial), 'trial')}: {words}")
+        record.results[quantity] = {str(name): float(value) for name, value in each.items()}
+    best = errors[errors["predictor"] == ALL].set_index(["trial", "quantity"])["rmsd"]
+    others = errors[errors["predictor"].isin([MEAN, NEAREST])].groupby(["trial", "quantity"])["rmsd"].min()
+    free = errors[(errors["predictor"] == ALL) & (errors["given"] == "no")].set_index(["trial", "quantity"]).index
+    better = int((best[free] < others[free]).sum())
+    record.say(f"of {len(free)} channels that are not given, {better} are nearer than by either trivial predictor")
+    record.results["better than both"] = [better, len(free)]
+
+
+compare = Job("sit-to-stand compare", StandingCompareOptions, read, run)

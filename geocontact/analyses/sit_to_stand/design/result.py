@@ -1,4 +1,11 @@
-"""What a choice gives: designs with certificates, sensitivities, front and draws."""
+"""An exoskeleton chosen for standing up: `geocontact sit-to-stand design`, `gc.sit_to_stand.design`.
+
+>>> import geocontact as gc
+>>> held_out, planted = "meshes/standing_up_held_out/study.toml", "meshes/standing_up_exoskeleton/truth.csv"
+>>> result = gc.sit_to_stand.design(held_out, parameters=planted, vary="share", nodes=5)
+>>> print(result.sentences[0])
+peak force of the strap, smooth: without help … N, chosen … N
+"""
 
 from __future__ import annotations
 
@@ -7,32 +14,44 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pandas as pd
 
+from geocontact.analyses.job import Job
+from geocontact.analyses.page_words import counted
 from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.sit_to_stand.design.chosen import CertifiedDesign, DrawnGain
-from geocontact.analyses.sit_to_stand.design.figure import design_figure
-from geocontact.analyses.sit_to_stand.design.numbers import design_numbers
-from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
-from geocontact.analyses.sit_to_stand.design.page import choice_page
-from geocontact.analyses.sit_to_stand.design.read import TrialsToHelp
-from geocontact.analyses.sit_to_stand.design.tables import (
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.sit_to_stand.design.designs import (
+    ROBUST,
+    CertifiedDesign,
+    DrawnGain,
     certificates_table,
     chosen_table,
+    design_numbers,
     designs_table,
     draws_table,
+    gain_interval,
+    in_units,
     sensitivity_table,
 )
-from geocontact.analyses.sit_to_stand.exports import write_motion
-from geocontact.analyses.sit_to_stand.model_file import write_standing_model
-from geocontact.analyses.sit_to_stand.numbers_table import mesh_table, ran_table
+from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
+from geocontact.analyses.sit_to_stand.design.search import DesignSearch, TrialsToHelp, read
+from geocontact.analyses.sit_to_stand.design.show import choice_page, design_figure
+from geocontact.analyses.sit_to_stand.exports import write_motion, write_standing_model
+from geocontact.analyses.sit_to_stand.trial_result import mesh_table, not_certified, ran_table
+from geocontact.dynamics.collocation.solve import stopped_by_ctrl_c
 from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS, AssistedModel
-from geocontact.standing_up.assistance.peaks import MEASURES
+from geocontact.standing_up.assistance.peaks import MEASURES, UNITS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from geocontact.view.page.content import Page
+
+PARTS = {"share": "of the person's knee torque", "timing": "of the movement"}
+"""What numbers without a unit are parts of."""
+AIMS = {"strap": ("peak force of the strap", "smooth", "true"), "energy": ("energy of the strap", "mean", "largest")}
+"""What is least, how it is measured, and what is said beside it."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -121,3 +140,97 @@ class StandingDesignResult(Result):
             write_motion(folder, self.given.trials.subject, trial, values, self.best.movement.found.solved)
         write_standing_model(folder / "model.osim", self.given.trials.subject, values, worn=True)
         super().write_files(folder)
+
+
+def run(given: TrialsToHelp, o: StandingDesignOptions, record: Record) -> StandingDesignResult:
+    """Every design; InputError where the person does not stand up with the given parameters.
+
+    Ctrl-C ends the search: what was found until then is the result. KeyboardInterrupt where nothing was.
+    """
+    with record.listener.stages("choosing") as stage:
+        search = DesignSearch(given, o, stage)
+        with stopped_by_ctrl_c(search):
+            worn = search.worn()
+            designs = [worn, *search.chosen(worn)]
+            front = search.front(worn, next(one for one in designs[::-1] if one.name != ROBUST))
+            draws = search.drawn(designs)
+    result = StandingDesignResult(
+        record=record, options=o, given=given, model=search.model, designs=tuple(designs), front=front, draws=draws
+    )
+    doubt(result, stopped=search.stop)
+    _say(result, search.movements.solved, search.movements.seconds)
+    return result
+
+
+def doubt(r: StandingDesignResult, *, stopped: bool) -> None:
+    """Searches without an answer, movements without a certificate, numbers at the end of what can be built.
+
+    `stopped` by Ctrl-C: what was not begun is missing.
+    """
+    record = r.record
+    if stopped:
+        record.warn(f"interrupted after {r.best.name}: the last iterate is kept, and what would come next is missing")
+    for one in (*r.designs, *r.front):
+        if one.design is not None and not one.design.met and not one.design.stopped:
+            record.warn(f"{one.name}: {one.design.ending}; the knee's limit may be out of reach of what varies")
+        for trial in one.trials:
+            seen = trial.judged.certificate
+            if seen is not None and not seen.converged:
+                record.warn(not_certified(f"{trial.recorded.name} {one.name}", seen))
+    best = r.best.design
+    if best is not None and best.on_end.any():
+        names = ", ".join(name for name, end in zip(best.task.vary, best.on_end, strict=True) if end)
+        record.warn(f"at the end of what can be built, so that the value says where that is: {names}")
+    if len(r.draws) < r.options.draws and not stopped:
+        record.warn(f"{r.options.draws - len(r.draws)} of {r.options.draws} draws have no movement and are left out")
+
+
+def _say(r: StandingDesignResult, solved: int, seconds: float) -> None:
+    """The aim and the knee by each design, what was chosen, the gain, and what it cost to find."""
+    record, aim, unit = r.record, MEASURES.index(r.options.aim), UNITS[r.options.aim]
+    what, sought, beside = AIMS[r.options.aim]
+    asked = {one.name: one.movement.asked for one in r.designs}
+    for how, sizes in ((sought, "sizes"), (beside, "largest")):
+        each = ", ".join(f"{name} {getattr(of, sizes)[aim]:.3g} {unit}" for name, of in asked.items())
+        record.say(f"{what}, {how}: {each}")
+    record.say(_of_knee(r))
+    numbers = ", ".join(f"{name} {value:.3g} {PARTS.get(name, of)}" for name, value, of in in_units(r.best))
+    record.say(f"{r.best.name}: {numbers}")
+    gain, (low, high) = r.gain, gain_interval(r.draws)
+    also = f", {low:.0%} to {high:.0%} over {counted(len(r.draws), 'draw')}" if np.isfinite(low) else ""
+    both = f"{gain:.0%} ({sought}{also}), {r.true_gain:.0%} ({beside})"
+    record.say(f"gain over {r.reference.name}: {both}; shear of the strap is predicted, no mat sees it")
+    seen = [trial for one in (*r.designs, *r.front) for trial in one.trials]
+    passed = sum(t.judged.certificate is not None and t.judged.certificate.converged for t in seen)
+    record.say(
+        f"{passed} of {counted(len(seen), 'motion')} certified; {counted(solved, 'movement')} in {seconds:.0f} s"
+    )
+    record.results["design"] = {
+        "aim": r.options.aim,
+        "values": {one.name: dict(zip(MEASURES, one.movement.asked.sizes.tolist(), strict=True)) for one in r.designs},
+        "largest": {name: dict(zip(MEASURES, of.largest.tolist(), strict=True)) for name, of in asked.items()},
+        "chosen": {name: value for name, value, _ in in_units(r.best)},
+        "price": None if r.best.design is None else r.best.design.price,
+        "gain": gain,
+        "gain_interval": None if not np.isfinite(low) else [low, high],
+        "movements": solved,
+        "cpu_seconds": round(seconds, 3),
+    }
+
+
+def _of_knee(r: StandingDesignResult) -> str:
+    """How far the knee's true peak and its smooth one are below those without help."""
+    without, *others = r.designs
+    knee = MEASURES.index("knee")
+    parts = []
+    for one in others:
+        true, smooth = (
+            getattr(one.movement.asked, of)[knee] / getattr(without.movement.asked, of)[knee]
+            for of in ("largest", "sizes")
+        )
+        parts.append(f"{one.name} {true:.1%} (smooth {smooth:.1%})")
+    peak = without.movement.asked.largest[knee]
+    return f"knee at most {r.options.knee:.0%} of its true peak of {peak:.1f} N m without help: {', '.join(parts)}"
+
+
+design = Job("sit-to-stand design", StandingDesignOptions, read, run)

@@ -1,8 +1,15 @@
-"""What a prediction gives: motions beside the recorded ones, and how far each predictor is off."""
+"""Motion and strap force of held-out trials: `geocontact sit-to-stand predict`, `gc.sit_to_stand.predict`.
+
+>>> import geocontact as gc
+>>> held_out, planted = "meshes/standing_up_held_out/study.toml", "meshes/standing_up_exoskeleton/truth.csv"
+>>> given = {"parameters": planted, "against": "meshes/standing_up_exoskeleton/study.toml", "nodes": 5}
+>>> gc.sit_to_stand.predict(held_out, **given).sentences[0]
+"1 trial predicted: strap within … N, the person's angles within …° (largest RMSD)"
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,29 +17,100 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.job import Job
+from geocontact.analyses.page_words import counted
 from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.results_folder import written_whole
+from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.exports import write_motion
-from geocontact.analyses.sit_to_stand.numbers_table import ran_table
-from geocontact.analyses.sit_to_stand.predict.figure import strap_figure
-from geocontact.analyses.sit_to_stand.predict.numbers import predicted_meshes, prediction_numbers
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
-from geocontact.analyses.sit_to_stand.predict.page import prediction_page
-from geocontact.analyses.sit_to_stand.predict.predicted_trial import ALL, MEAN, PredictedTrial
-from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
-from geocontact.analyses.sit_to_stand.predict.searches import complete
-from geocontact.analyses.sit_to_stand.standing_tables import certificate_rows, errors_table, trial_table
-from geocontact.analyses.sit_to_stand.trial_result import DEGREE, TrialResult
+from geocontact.analyses.sit_to_stand.predict.predictions import (
+    ALL,
+    MEAN,
+    HeldOutTrials,
+    PredictedTrial,
+    certificates_table,
+    complete,
+    predicted,
+    predicted_meshes,
+    prediction_numbers,
+    read,
+    trials_begun,
+)
+from geocontact.analyses.sit_to_stand.show import motion_page, standing_curves, standing_scene
+from geocontact.analyses.sit_to_stand.trial_result import (
+    DEGREE,
+    TrialResult,
+    errors_table,
+    ran_table,
+    trial_table,
+)
 from geocontact.io.text.results import write_table
 from geocontact.standing_up.chain import COORDINATES
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from geocontact.standing_up.trials import StandingTrial
+from geocontact.standing_up.trivial_trials import mean_trial
+from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, panels
+from geocontact.view.page.content import Page, Picture, Section
+from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from geocontact.view.page.content import Page
-
+HEIGHT = 0.06
+"""Height of the drawing [m]."""
+MODEL = [
+    "Ground reaction, centre of pressure and torques are given over time, first and last posture within their noise.",
+    "Coordinates between them and the strap's force are predicted; parameters are held.",
+    "Without ground reaction, without torques: the same with less given.",
+    "Mean of the calibration: coordinates and strap of its trials over parts of the movement.",
+    "Both legs are one planar chain: torques and the ground's force are those of both, a strap is that of one.",
+]
 COMPARED = ("coordinates", "force", "centre", "torque", "strap")
+
+
+@in_style
+def strap_figure(predictions: Sequence[tuple[str, TrialResult]], means: Mapping[str, StandingTrial]) -> Figure:
+    """Grey as recorded, coloured the predictors, dotted the mean of other trials; a panel for each trial."""
+    names = list(means)
+    figure, axes = panels(1, len(names), DOUBLE, HEIGHT)
+    for ax, name in zip(axes, names, strict=True):
+        own = [(who, trial) for who, trial in predictions if trial.recorded.name == name]
+        seen = own[0][1].recorded
+        if seen.strap is not None:
+            ax.plot(seen.time, seen.strap, color=GREY, lw=1.0, label="recorded")
+        for k, (who, trial) in enumerate(own):
+            if trial.model.strap is not None:
+                ax.plot(seen.time, trial.model.strap, color=PALETTE[k], ls=LINES[k], lw=1.2, label=who)
+        if (mean := means[name].strap) is not None:
+            ax.plot(seen.time, mean, color="black", ls=":", lw=1.0, label="mean of the calibration")
+        ax.set_title(name)
+        ax.set_xlabel("time since seat-off [s]")
+        ax.set_ylabel("normal force of one strap [N]")
+    axes[0].legend(fontsize=6, frameon=False)
+    return figure
+
+
+def prediction_page(
+    sentences: Sequence[str],
+    given: HeldOutTrials,
+    trials: Sequence[TrialResult],
+    drawn: bytes,
+    tables: Mapping[str, pd.DataFrame],
+) -> Page:
+    """Moving chains with forces, curves, errors by predictor."""
+    sections: list[Section] = [
+        standing_scene(given.trials.subject, trials),
+        *standing_curves(trials),
+        Picture("The strap by each predictor", "Grey as recorded.", drawn),
+        frame_table("Root mean square differences", tables["errors"], 3),
+        frame_table("Between and beyond the collocation points", tables["certificate"], 3),
+    ]
+    titles = (
+        "Standing up, predicted",
+        f"{', '.join(t.recorded.name for t in trials)}; contacts calibrated on other trials",
+    )
+    return motion_page(titles, sentences, sections, MODEL)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -102,15 +180,11 @@ class StandingPredictResult(Result):
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`errors`, `certificate`, `numbers`, `mesh`, and `trial_NAME` by the predictor that is given everything."""
-        rows = []
-        for one in self.predictions:
-            rows += certificate_rows(one.name, [one.trial.recorded.name], [one.trial.judged])
-        certificates = pd.DataFrame(rows).rename(columns={"phase": "predictor"})
         own = {
             f"trial_{trial.recorded.name}": trial_table(trial, self.given.trials.noise, COMPARED) for trial in self.best
         }
         ran = {"numbers": ran_table(prediction_numbers(self.predictions)), "mesh": predicted_meshes(self.predictions)}
-        return {"errors": self.errors, "certificate": certificates, **ran, **own}
+        return {"errors": self.errors, "certificate": certificates_table(self.predictions), **ran, **own}
 
     def figures(self) -> dict[str, Figure]:
         """`strap`: its force by all predictors."""
@@ -135,3 +209,45 @@ class StandingPredictResult(Result):
         for one in self.predictions:
             if one.name == ALL:
                 write_motion(folder, self.given.trials.subject, one.trial, self.given.values, one.solved)
+
+
+def run(given: HeldOutTrials, o: StandingPredictOptions, record: Record) -> StandingPredictResult:
+    """Every trial by every predictor; tables and motions of a trial are written as soon as it is done."""
+
+    def result_of(predictions: Sequence[PredictedTrial]) -> StandingPredictResult:
+        means = {t.name: mean_trial(given.known.trials, t.time) for t in trials_begun(predictions)}
+        return StandingPredictResult(record=record, options=o, given=given, predictions=tuple(predictions), means=means)
+
+    def keep(predictions: Sequence[PredictedTrial]) -> None:
+        if record.out is not None:
+            with written_whole(record.out) as draft:
+                result_of(predictions).write_numbers(draft)
+
+    result = result_of(predicted(given, o, record, keep))
+    _say(result)
+    return result
+
+
+def _say(r: StandingPredictResult) -> None:
+    record, errors = r.record, r.errors
+    strap = errors[errors["quantity"].str.endswith("strap")].groupby("predictor", sort=False)["rmsd"].max()
+    turning = errors["quantity"].isin(COORDINATES) & (errors["unit"] == "deg")
+    angles = errors[turning].groupby("predictor", sort=False)["rmsd"].max()
+    record.say(
+        f"{counted(len(r.means), 'trial')} predicted: strap within {strap[ALL]:.1f} N, the person's "
+        f"angles within {angles[ALL]:.2f}° (largest RMSD)"
+    )
+    others = [f"{name} {strap[name]:.1f} N and {angles[name]:.2f}°" for name in strap.index if name != ALL]
+    record.say(f"beside it: {'; '.join(others)}")
+    seen = [one.trial.judged.certificate for one in r.predictions]
+    passed = sum(each is not None and each.converged for each in seen)
+    record.say(f"{passed} of {counted(len(seen), 'motion')} certified")
+    record.results["predict"] = {
+        "strap_rmsd_N": {str(name): float(value) for name, value in strap.items()},
+        "person_angle_rmsd_deg": {str(name): float(value) for name, value in angles.items()},
+        "cpu_seconds": [round(one.seconds, 3) for one in r.predictions],
+        "iterations": [one.iterations for one in r.predictions],
+    }
+
+
+predict = Job("sit-to-stand predict", StandingPredictOptions, read, run)

@@ -1,53 +1,84 @@
-"""Exoskeletons chosen one after the other: without help, share alone, all that varies, for the draws, and the front."""
+"""Exoskeletons sought one after the other: without help, share alone, all that varies, for the draws, and the front."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
+from scipy.stats import norm
 
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.sit_to_stand.design.chosen import ALONE, BEST, ROBUST, WORN, CertifiedDesign, DrawnGain
+from geocontact.analyses.sit_to_stand.design.designs import ALONE, BEST, ROBUST, WORN, CertifiedDesign, DrawnGain
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
-from geocontact.analyses.sit_to_stand.design.read import TrialsToHelp
-from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult
-from geocontact.analyses.sit_to_stand.design.words import doubt, say
+from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, standing_trials
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.data.errors import InputError
-from geocontact.dynamics.collocation.solve import SolverOptions, stopped_by_ctrl_c
-from geocontact.standing_up.assistance.assisted_model import SHARE, assisted_model, seen_assisted
+from geocontact.dynamics.collocation.solve import SolverOptions
+from geocontact.io.recordings.contact_parameters import read_contact_intervals, read_contact_parameters
+from geocontact.standing_up.assistance.assisted_model import ASSISTANCE_PARAMETERS, SHARE, assisted_model, seen_assisted
 from geocontact.standing_up.assistance.design import KNEE, HelpDesign, HelpTask, designed
 from geocontact.standing_up.assistance.movement import Movement, Movements, StoppedByHandError
 from geocontact.standing_up.assistance.peaks import MEASURES
+from geocontact.standing_up.contact_parameter import searched, usual
+from geocontact.standing_up.exoskeleton import WORN_PARAMETERS
 from geocontact.standing_up.judged import judged
 from geocontact.standing_up.phase import PhaseProblem
 
+LEVEL = 0.95
+"""Probability of a calibration's intervals."""
 TOLERANCE = 1e-8
 Vector = Float[np.ndarray, " p"]
 
 
-def run(given: TrialsToHelp, o: StandingDesignOptions, record: Record) -> StandingDesignResult:
-    """Every design; InputError where the person does not stand up with the given parameters.
+@dataclass(frozen=True, eq=False)
+class TrialsToHelp:
+    """Trials whose movement is to be kept.
 
-    Ctrl-C ends the search: what was found until then is the result. KeyboardInterrupt where nothing was.
+    Parameters
+    ----------
+    p
+        What is searched of all parameters of the assisted model, help as it usually is.
+    sd
+        Standard deviations of those that the calibration has intervals of, 0 for the others.
     """
-    with record.listener.stages("choosing") as stage:
-        search = _DesignSearch(given, o, stage)
-        with stopped_by_ctrl_c(search):
-            worn = search.worn()
-            designs = [worn, *search.chosen(worn)]
-            front = search.front(worn, next(one for one in designs[::-1] if one.name != ROBUST))
-            draws = search.drawn(designs)
-    result = StandingDesignResult(
-        record=record, options=o, given=given, model=search.model, designs=tuple(designs), front=front, draws=draws
-    )
-    doubt(result, stopped=search.stop)
-    say(result, search.movements.solved, search.movements.seconds)
-    return result
+
+    trials: StandingUpTrials
+    p: Float[np.ndarray, " p"]
+    sd: Float[np.ndarray, " p"]
 
 
-class _DesignSearch:
+def read(o: StandingDesignOptions, record: Record) -> TrialsToHelp:
+    """Everything the options name; InputError where no exoskeleton is worn or draws lack intervals."""
+    trials = standing_trials(o.study, "study", record, o.c3d_unit)
+    if not trials.exoskeleton:
+        what, remedy = "is not of a person with an exoskeleton", "write exoskeleton = true, and torques and strap"
+        raise InputError(o.study, "", what, remedy)
+    if len(trials.sites) > 1:
+        remedy = f"leave out {', '.join(f'strap_{site.name}' for site in trials.sites[1:])}"
+        raise InputError(o.study, "", "a design has one strap, at the thigh", remedy)
+    if trials.seated:
+        remedy = "leave sitting out: a movement that is kept begins at seat-off"
+        raise InputError(o.study, "sitting", "has no effect on a design", remedy)
+    bounds = {each.name: (each.least, each.most) for each in WORN_PARAMETERS}
+    values = read_contact_parameters(o.parameters, {each.name: each.unit for each in WORN_PARAMETERS}, bounds)
+    ends = read_contact_intervals(o.parameters, values)
+    record.add_input("`parameters`", o.parameters, parameters=len(values))
+    if o.draws and not ends:
+        remedy = "give parameters.csv of a calibration, or no draws"
+        raise InputError(o.parameters, "lower, upper", "has no intervals to draw from", remedy)
+    p = searched(WORN_PARAMETERS, [values[each.name] for each in WORN_PARAMETERS])
+    reach = 2.0 * float(norm.ppf(0.5 + 0.5 * LEVEL))
+    sd = np.zeros(len(p))
+    for k, each in enumerate(WORN_PARAMETERS):
+        if each.name in ends:
+            low, high = (each.searched(end) for end in ends[each.name])
+            sd[k] = (high - low) / reach
+    return TrialsToHelp(trials, np.r_[p, usual(ASSISTANCE_PARAMETERS)], np.r_[sd, np.zeros(len(ASSISTANCE_PARAMETERS))])
+
+
+class DesignSearch:
     """The trials' movements, and designs that are sought with them.
 
     Once `stop` is set by Ctrl-C it begins nothing new.
@@ -68,6 +99,7 @@ class _DesignSearch:
             raise StoppedByHandError("interrupted")
 
     def worn(self) -> CertifiedDesign:
+        """Without help; KeyboardInterrupt where Ctrl-C came before it was there."""
         without = self.given.p.copy()
         without[SHARE] = 0.0
         try:

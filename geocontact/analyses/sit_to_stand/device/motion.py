@@ -37,7 +37,7 @@ class DeviceMotion:
 
     @staticmethod
     def smoothed(time: Float[np.ndarray, " t"], q: Table, motors: Table, cutoff: float) -> DeviceMotion:
-        """Of angles as recorded; ValueError where they cannot be filtered."""
+        """The motion from angles as recorded; ValueError where they cannot be filtered."""
         step = float(np.ptp(time)) / (len(time) - 1)
         smooth = zero_lag(q, step, cutoff)
         u = np.gradient(smooth, step, axis=0)

@@ -1,59 +1,42 @@
-"""Contacts calibrated on all trials at once, phase by phase, the motions certified, and what the trials tell."""
+"""Phases of a calibration: searched on all trials at once, what makes their numbers doubtful, and tables."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
 import numpy as np
+import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
-from geocontact.analyses.sit_to_stand.calibrate.result import StandingCalibrateResult
-from geocontact.analyses.sit_to_stand.certificate_words import not_certified
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
-from geocontact.analyses.sit_to_stand.trial_result import TrialResult
+from geocontact.analyses.sit_to_stand.trial_result import certificate_rows, not_certified, sizes_of
 from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.standing_up.calibrated_phase import CalibratedPhase, PhaseSearch, calibrated_phase
-from geocontact.standing_up.contact_numbers import believed_covariance, held_covariance
+from geocontact.standing_up.contact_numbers import ContactNumber, believed_covariance, held_covariance
 from geocontact.standing_up.cost_shares import MOST_OF_IT
 from geocontact.standing_up.exoskeleton import strapped
 from geocontact.standing_up.feet import FOOT_PARAMETERS, feet_on_ground
+from geocontact.standing_up.numbers_that_ran import (
+    Ran,
+    belief_numbers,
+    model_numbers,
+    parameter_numbers,
+    search_numbers,
+    size_numbers,
+)
 from geocontact.standing_up.other_minima import DOUBTFUL
 from geocontact.standing_up.phase import PhaseProblem
 from geocontact.standing_up.phase_a import TRACKS, phase_a
 from geocontact.standing_up.phase_b import phase_b
-from geocontact.standing_up.trials import StandingTrial, seen_in
+from geocontact.standing_up.trials import StandingTrial
 
 TOLERANCE = 1e-7
 Start = Float[np.ndarray, " p"] | None
 
 
-def run(given: StandingUpTrials, o: StandingCalibrateOptions, record: Record) -> StandingCalibrateResult:
-    """Parameters and motions of all trials."""
-    with record.listener.stages("calibrating") as stage:
-        phases = _phases(given, o, stage)
-    last = phases[-1]
-    n = last.model.count
-    trials = tuple(
-        TrialResult(
-            recorded=trial,
-            model=seen_in(last.model, motion, last.found.p, trial.time, trial.name),
-            points=seen_in(last.model, motion, last.found.p, motion.held_times, trial.name),
-            acceleration=motion.state(motion.held_times)[:, 2 * n : 3 * n],
-            judged=seen,
-        )
-        for trial, motion, seen in zip(given.trials, last.found.motions, last.motions, strict=True)
-    )
-    result = StandingCalibrateResult(record=record, options=o, given=given, phases=phases, trials=trials)
-    for phase in phases:
-        _doubt(record, phase)
-    _say(result)
-    return result
-
-
-def _phases(
+def phases_sought(
     given: StandingUpTrials, o: StandingCalibrateOptions, stage: Callable[[str], None]
 ) -> tuple[CalibratedPhase, ...]:
     """A, and with an exoskeleton B on what A found; only A where its search has no answer."""
@@ -89,7 +72,7 @@ def _phases(
     return first, calibrated_phase("B", model, given.trials, given.noise, build_b, search, told("B"), known)
 
 
-def _doubt(record: Record, one: CalibratedPhase) -> None:
+def doubt_phase(record: Record, one: CalibratedPhase) -> None:
     """Everything that changes how the numbers of a phase are to be read."""
     phase = f"phase {one.name}"
     if not one.found.solved:
@@ -132,42 +115,76 @@ def _compare_starts(record: Record, one: CalibratedPhase) -> None:
         record.warn(f"phase {one.name} from where it starts by itself ends in a minimum that another start beats")
 
 
-def _say(r: StandingCalibrateResult) -> None:
-    record, errors = r.record, r.errors
-    numbers = [number for phase in r.phases for number in phase.numbers.numbers if number.verdict != "held"]
-    known = [number.name for number in numbers if number.verdict == "known"]
-    worst = {}
-    straps = errors["quantity"].str.endswith("strap")
-    for name, chosen in (("force", errors["unit"] == "N"), ("centre", errors["quantity"] == "centre")):
-        worst[name] = errors[chosen & ~straps]["rmsd"].max()
-    angle = errors[errors["unit"] == "deg"]["rmsd"].max()
-    worn = errors[straps].groupby("quantity", sort=False)["rmsd"].max()
-    also = "".join(f", {name} within {off:.1f} N" for name, off in worn.items())
-    record.say(
-        f"{counted(len(r.trials), 'trial')}: ground reaction within {worst['force']:.1f} N, centre of pressure within "
-        f"{worst['centre']:.1f} mm, angles within {angle:.2f}°{also} (largest RMSD of a trial)"
-    )
-    if r.found.solved:
-        seen = [each for phase in r.phases for each in phase.motions]
-        passed = sum(each.certificate is not None and each.certificate.converged for each in seen)
-        left = max(float(each.force.max()) for each in seen), max(float(each.moment.max()) for each in seen)
-        record.say(
-            f"{passed} of {counted(len(seen), 'motion')} certified: at most {left[0]:.2g} N and {left[1]:.2g} N m are "
-            "left of the balance between the points"
-        )
-    record.say(f"{len(known)} of {counted(len(numbers), 'parameter')} known: {', '.join(known) or 'none'}")
-    for phase in r.phases:
-        found = phase.found
-        record.results[f"phase {phase.name}"] = {
-            "solved": found.solved,
-            "ending": found.ending,
-            "iterations": found.iterations,
-            "cpu_seconds": round(found.seconds, 3),
-            "objective": found.objective,
-            "misfit": phase.misfit,
-            "starts": [{"objective": end.objective, "solved": end.solved, "same": end.same} for end in phase.ends],
-            "condition": None if phase.numbers.told_apart is None else phase.numbers.told_apart.condition,
-            "sharper_than_believed": phase.numbers.directions.tolist(),
-            "cost_shares": phase.shares,
-            "parameters": {n.name: n.value for n in phase.numbers.numbers},
+def parameters_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
+    """Value and interval in SI, and standard deviations of what is searched: lengths in m, others as logarithms."""
+    rows = [
+        {
+            "phase": phase.name,
+            "parameter": n.name,
+            "unit": n.unit,
+            "value": n.value,
+            "lower": n.lower,
+            "upper": n.upper,
+            "sd believed": n.before,
+            "sd with the trials": n.after if np.isfinite(n.after) else np.nan,
+            "sd of what is assumed": n.assumed,
+            "verdict": n.verdict,
         }
+        for phase in phases
+        for n in _own(phase)
+    ]
+    return pd.DataFrame(rows)
+
+
+def _own(phase: CalibratedPhase) -> list[ContactNumber]:
+    """Numbers of the feet in phase A, those of the strap in phase B."""
+    feet = {each.name for each in FOOT_PARAMETERS}
+    return [n for n in phase.numbers.numbers if (n.name in feet) == (phase.name == "A")]
+
+
+def correlation_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
+    """Correlation of the estimates of the parameters that were sought, phase by phase."""
+    parts = []
+    for phase in phases:
+        n = phase.numbers
+        columns = {name: n.correlation[:, k] for k, name in enumerate(n.names)}
+        parts.append(pd.DataFrame({"phase": phase.name, "parameter": list(n.names), **columns}))
+    return pd.concat(parts, ignore_index=True)
+
+
+def profile_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
+    """Rise of minus twice the log posterior where a parameter is held beside its best; 3.84 ends 95 %."""
+    parts = [
+        pd.DataFrame(
+            {
+                "phase": phase.name,
+                "parameter": each.name,
+                "unit": each.unit,
+                "distance in sd [-]": each.distance,
+                "value": each.places,
+                "rise [-]": each.rise,
+            }
+        )
+        for phase in phases
+        for each in phase.profiles
+    ]
+    return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame()
+
+
+def certificate_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
+    """What lies between and beyond the points of the motions of all phases."""
+    rows = []
+    for phase in phases:
+        rows += certificate_rows(phase.name, [motion.name for motion in phase.found.motions], phase.motions)
+    return pd.DataFrame(rows)
+
+
+def calibration_numbers(phases: Sequence[CalibratedPhase], trials: Sequence[StandingTrial]) -> list[Ran]:
+    """The model once; for each phase what it sought, its priors and weights, and its meshes."""
+    rows = model_numbers(phases[-1].model)
+    for one in phases:
+        prefix = f"phase {one.name} "
+        rows += parameter_numbers(one.phase.parameters, one.found.p, prefix, free=one.phase.free)
+        rows += belief_numbers(one.phase, prefix) + size_numbers(sizes_of(one.phase), prefix)
+        rows += search_numbers(one.found.motions, trials, prefix)
+    return rows

@@ -1,18 +1,25 @@
-"""The page of a choice: the chosen exoskeleton moving, forces by design, tables."""
+"""What a choice shows: the chosen exoskeleton moving, strap and knee by design, and the front."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
+import numpy as np
 import pandas as pd
 
-from geocontact.analyses.sit_to_stand.design.chosen import CertifiedDesign
-from geocontact.analyses.sit_to_stand.standing_page import motion_page
-from geocontact.analyses.sit_to_stand.standing_scene import at_parts, standing_scene
+from geocontact.analyses.sit_to_stand.design.designs import CertifiedDesign
+from geocontact.analyses.sit_to_stand.show import at_parts, motion_page, standing_scene
 from geocontact.standing_up.assistance.assisted_model import KNEE
+from geocontact.standing_up.assistance.peaks import MEASURES, UNITS
 from geocontact.standing_up.chain import Subject
+from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, panels
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section
 from geocontact.view.page.tables import frame_table
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 MODEL = [
     "The person stands up as in the trial with little jerk and torque, and does not give way to spare the strap.",
@@ -33,6 +40,8 @@ NAMES = {
     "draws": "With drawn parameters",
     "certificate": "Between and beyond the collocation points",
 }
+HEIGHT = 0.06
+"""Height of the drawing [m]."""
 
 
 def choice_page(
@@ -58,7 +67,7 @@ def choice_page(
 
 
 def _curves(designs: Sequence[CertifiedDesign]) -> list[Curves]:
-    """Of the first trial."""
+    """Strap and knee in the first trial."""
     strap, knee = [], []
     for k, one in enumerate(designs):
         trial = one.trials[0]
@@ -70,3 +79,31 @@ def _curves(designs: Sequence[CertifiedDesign]) -> list[Curves]:
         Curves("Normal force of one strap, forwards", "N", strap),
         Curves("Knee torque of both legs", "N m", knee),
     ]
+
+
+@in_style
+def design_figure(designs: Sequence[CertifiedDesign], front: Sequence[CertifiedDesign], aim: str) -> Figure:
+    """Strap and knee in the first trial, grey without help, and the front."""
+    figure, axes = panels(1, 3 if front else 2, DOUBLE, HEIGHT)
+    for k, one in enumerate(designs):
+        trial = one.trials[0].model
+        if trial.torque is None or trial.strap is None:
+            raise ValueError("no torque or strap")
+        colour, line = GREY if not k else PALETTE[k - 1], LINES[max(k - 1, 0)]
+        for ax, values in zip(axes, (trial.strap, trial.torque[:, KNEE]), strict=False):
+            ax.plot(trial.time, values, color=colour, ls=line, lw=1.2, label=one.name)
+    for ax, label in zip(axes, ("normal force of one strap [N]", "knee torque of both legs [N m]"), strict=False):
+        ax.set_xlabel("time since seat-off [s]")
+        ax.set_ylabel(label)
+    axes[0].legend(fontsize=6, frameon=False)
+    if front:
+        _front(axes[2], [*front, designs[-1]], aim)
+    return figure
+
+
+def _front(ax: Axes, each: Sequence[CertifiedDesign], aim: str) -> None:
+    limits = np.array([one.limit for one in each])
+    values = [one.movement.asked.sizes[MEASURES.index(aim)] for one in each]
+    ax.plot(100.0 * limits, values, "o-", color=PALETTE[0], ms=3, lw=1.2)
+    ax.set_xlabel("limit of the knee's true peak [% of without help]")
+    ax.set_ylabel(f"least {aim}, {'mean' if aim == 'energy' else 'smooth peak'} [{UNITS[aim]}]")

@@ -1,4 +1,4 @@
-"""Chains that stand up side by side with the forces on them, and curves over parts of the movement, for a page."""
+"""What the pages of standing up share: chains side by side with the forces on them, curves, words."""
 
 from __future__ import annotations
 
@@ -10,11 +10,13 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.standing_up.chain import COORDINATES, FOOT, TRUNK, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import HEIGHT, STRAP_PARAMETERS, two_chains
 from geocontact.standing_up.trials import StandingTrial
-from geocontact.view.page.content import Curve, Curves
+from geocontact.view.page.content import Curve, Curves, Page, Section, Words
 from geocontact.view.page.linkage import Linkage
 from geocontact.view.page.scene import Scene
 
@@ -34,6 +36,26 @@ DIRECTIONS = {
     "front (+x)": (1.0, 0.0, 0.0),
     "above (+y)": (0.0, 1.0, 0.0),
 }
+
+
+def motion_page(
+    titles: tuple[str, str],
+    sentences: Sequence[str],
+    sections: Sequence[Section],
+    words: Sequence[str],
+    facts: Sequence[tuple[str, str]] = (),
+) -> Page:
+    """Title and subtitle, what was found as the headline, sections, and what the numbers mean."""
+    title, subtitle = titles
+    return Page(
+        title=title,
+        subtitle=subtitle,
+        time=np.linspace(0.0, 100.0, FRAMES),
+        time_label="part of the movement [%]",
+        headline=headline(sentences),
+        facts=list(facts),
+        sections=(*sections, INPUTS, OPTIONS, Words("What the numbers mean", [*words, NOT_A_DEVICE])),
+    )
 
 
 def standing_scene(subject: Subject, trials: Sequence[TrialResult]) -> Scene:
