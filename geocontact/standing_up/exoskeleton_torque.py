@@ -13,14 +13,14 @@ both, rigidly coupled, asks for less that of the exoskeleton.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.data.multibody.model import GROUND
+from geocontact.data.multibody.model import GROUND, Multibody
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
 
@@ -145,16 +145,8 @@ def _names() -> tuple[str, ...]:
     return (*of_bodies, *(f"{joint} {what} friction" for joint in EXO_JOINTS for what in FRICTIONS))
 
 
-@cache
-def _of_bodies(subject: Subject) -> Function:
-    """(q, u, a) of the exoskeleton's hinges to the derivatives of the torques by the bodies' parameters, (3, 12)."""
-    from dataclasses import replace
-
-    from casadi import SX, Function, densify, jacobian, substitute, vertcat
-
-    from geocontact.dynamics.inverse_dynamics import generalised_forces
-    from geocontact.dynamics.tree import tree_of
-
+def device_alone(subject: Subject) -> Multibody:
+    """The exoskeleton's bodies and hinges, its foot plate the ground."""
     chain = two_chains(subject)
     joints = tuple(
         replace(joint, parent=GROUND) if joint.parent == "foot" else joint
@@ -162,7 +154,19 @@ def _of_bodies(subject: Subject) -> Function:
         if joint.name in EXO_JOINTS
     )
     names = [joint.child for joint in joints]
-    alone = replace(chain, bodies=tuple(body for body in chain.bodies if body.name in names), joints=joints)
+    return replace(chain, bodies=tuple(body for body in chain.bodies if body.name in names), joints=joints)
+
+
+@cache
+def _of_bodies(subject: Subject) -> Function:
+    """(q, u, a) of the exoskeleton's hinges to the derivatives of the torques by the bodies' parameters, (3, 12)."""
+    from casadi import SX, Function, densify, jacobian, substitute, vertcat
+
+    from geocontact.dynamics.inverse_dynamics import generalised_forces
+    from geocontact.dynamics.tree import tree_of
+
+    alone = device_alone(subject)
+    names = [joint.child for joint in alone.joints]
     p = SX.sym("p", len(OF_A_BODY), len(names))
     masses = {name: p[0, k] for k, name in enumerate(names)}
     centres = {name: vertcat(p[1, k], p[2, k], 0.0) / p[0, k] for k, name in enumerate(names)}

@@ -54,7 +54,7 @@ def model_numbers(model: StandingModel) -> list[Ran]:
         raise ValueError("this model does not say what it was built of")
     worn = bool(of.sites)
     rows = [row for body in of.chain.bodies if body.mass > 0.0 for row in _body(body, worn)]
-    rows += [*_joints(of.chain), *_ground(of.ground)]
+    rows += [*joint_numbers(of.chain), *_ground(of.ground)]
     return rows + [row for site in of.sites for row in _strap(site)]
 
 
@@ -149,7 +149,8 @@ def _body(body: Body, worn: bool) -> Iterator[Ran]:
     yield Ran(f"{name} inertia", float(body.inertia[2, 2]), "kg m^2", source, "about z through the mass centre")
 
 
-def _joints(chain: Multibody) -> Iterator[Ran]:
+def joint_numbers(chain: Multibody) -> Iterator[Ran]:
+    """Places of the joints between bodies with mass, and gravity."""
     for joint in chain.joints:
         if joint.parent in {body.name for body in chain.bodies if body.mass > 0.0}:
             source: Source = "invented" if joint.child.startswith("exo_") else "derived"

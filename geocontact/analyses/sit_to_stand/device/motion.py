@@ -52,6 +52,14 @@ class DeviceMotion:
         """Values at the times, without what lies above the cut-off [Hz]."""
         return zero_lag(values, self.step, cutoff)
 
+    def independent(self, cutoff: float) -> float:
+        """Part of the samples that is independent behind the filter.
+
+        What passes a filter at fc is correlated: of white noise 2 fc dt of the variance is left, in as many independent
+        samples, so that the variance of the unfiltered torque is that of the residual over 2 fc dt.
+        """
+        return min(2.0 * cutoff * self.step, 1.0)
+
     def inner(self, cutoff: float) -> Bool[np.ndarray, " t"]:
         """Where the ends do not show."""
         margin = MARGIN / cutoff

@@ -21,13 +21,25 @@ from jaxtyping import Float
 from geocontact.analyses.job import Job
 from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.sit_to_stand.device.motion import DeviceRecordings, read
+from geocontact.analyses.sit_to_stand.device.motion import MARGIN, DeviceMotion, DeviceRecordings, read
 from geocontact.analyses.sit_to_stand.device.options import StandingDeviceOptions
 from geocontact.analyses.sit_to_stand.show import motion_page
+from geocontact.analyses.sit_to_stand.trial_result import ran_table
+from geocontact.identify.signals.zero_lag import ORDER
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.standing_up.chain import JOINTS
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
-from geocontact.standing_up.exoskeleton_torque import UNITS, ExoskeletonDynamics, human_torque, identified
+from geocontact.standing_up.exoskeleton_torque import (
+    ALONE,
+    TURNS,
+    UNITS,
+    UNTOLD,
+    ExoskeletonDynamics,
+    device_alone,
+    human_torque,
+    identified,
+)
+from geocontact.standing_up.numbers_that_ran import Ran, joint_numbers
 from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
 from geocontact.view.page.content import Picture, Section
 from geocontact.view.page.tables import frame_table
@@ -98,13 +110,14 @@ class StandingDeviceResult(Result):
         return None if both is None else human_torque(both, self.trial_torque)
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`parameters`, `unloaded`, and `torque` where there is a trial."""
+        """`parameters`, `unloaded`, `numbers`, and `torque` where there is a trial."""
         fit = self.dynamics
         time, motors, again = self.smooth
         columns = {"time [s]": time}
         for k, name in enumerate(EXO_JOINTS):
             columns |= {f"{name} motor [N m]": motors[:, k], f"{name} fitted [N m]": again[:, k]}
         found = {"parameters": self._parameters(), "unloaded": pd.DataFrame(columns)}
+        found["numbers"] = ran_table(_numbers(self.given.unloaded, fit, self.options))
         if (trial := self.given.trial) is not None:
             friction, motors = fit.friction(trial.u), trial.smooth(trial.motors, self.options.cutoff)
             columns = {"time [s]": trial.time}
@@ -155,18 +168,41 @@ class StandingDeviceResult(Result):
         super().write_files(folder)
 
 
+def _numbers(of: DeviceMotion, fit: ExoskeletonDynamics, o: StandingDeviceOptions) -> list[Ran]:
+    """The exoskeleton as it was fitted, what its motion went through, and from when on a parameter is identified."""
+    asked = "as asked for"
+    rows = [
+        Ran("height", fit.subject.height, "m", "derived", f"of the person whom it is set to, {asked}"),
+        *joint_numbers(device_alone(fit.subject)),
+    ]
+    rows += [
+        Ran(name, float(value), unit, "derived", "found, by itself" if alone else "found, in sums or not at all")
+        for name, value, unit, alone in zip(fit.names, fit.values, UNITS, fit.alone, strict=True)
+    ]
+    return [
+        *rows,
+        Ran("Coulomb friction rate", TURNS, "rad/s", "invented", "friction is its size times tanh(rate / this)"),
+        Ran("filter cutoff", o.cutoff, "Hz", "derived", f"of angles and torques alike, {asked}"),
+        Ran("filter order", float(ORDER), "-", "paper", "Butterworth, run forwards and back: Winter (2009), sec. 3.4"),
+        Ran("margin", MARGIN / o.cutoff, "s", "invented", "at either end, left out of the fit"),
+        Ran("sample step", of.step, "s", "derived", "of the motion without a person"),
+        Ran("samples", float(of.inner(o.cutoff).sum()), "-", "derived", "without the ends"),
+        Ran("independent samples", of.independent(o.cutoff), "-", "derived", "part of them behind the filter"),
+        Ran("least singular value", UNTOLD, "-", "invented", "of the largest: a smaller one identifies nothing"),
+        Ran("least part", ALONE, "-", "invented", "of a parameter beyond what is identified, if by itself"),
+        Ran("level", o.level, "-", "derived", f"probability of the intervals, {asked}"),
+    ]
+
+
 def run(given: DeviceRecordings, o: StandingDeviceOptions, record: Record) -> StandingDeviceResult:
     """Fit, doubt, tell."""
     of = given.unloaded
-    # what passes a filter at fc is correlated: of white noise 2 fc dt of the variance is left, in as many independent
-    # samples, so that the variance of the unfiltered torque is that of the residual over 2 fc dt
-    left = min(2.0 * o.cutoff * of.step, 1.0)
-    inner = of.inner(o.cutoff)
+    inner, part = of.inner(o.cutoff), of.independent(o.cutoff)
 
     def through(values: Float[np.ndarray, "t ..."]) -> Float[np.ndarray, "s ..."]:
         return np.asarray(of.smooth(values, o.cutoff)[inner])
 
-    dynamics = identified(given.subject, of.q, of.u, of.a, of.motors, through=through, independent=left)
+    dynamics = identified(given.subject, of.q, of.u, of.a, of.motors, through=through, independent=part)
     spread = float(np.std(of.motors, axis=0).max())
     if dynamics.residual > POORLY * spread:
         record.warn(
