@@ -136,16 +136,7 @@ def channels_of(
         Of plates in a .c3d file whose own is empty.
     """
     place = f"[[trials]] {files.name}"
-    for channel, file, key in (
-        ("rates", files.rates, "rates"),
-        ("force", files.plates, "plates"),
-        ("centre", files.plates, "plates"),
-        ("torque", files.torques, "torques"),
-        ("strap", next(iter([*files.strap, *sum(files.elsewhere.values(), ())]), None), "strap"),
-    ):
-        if channel in tracks and file is None:
-            what = f"{channel} is tracked, and this trial has none"
-            raise InputError(study, place, what, f"name its file as {key}, or leave {channel} out of tracks")
+    _require_tracked(files, tracks, study, place)
     time, q = _motion(files.coordinates, chain, record, f"{files.name} coordinates")
     off, feet, chair = time >= time[0], None, None
     if files.plates is not None:
@@ -178,6 +169,19 @@ def channels_of(
     if files.sitting and chair is not None and files.plates is not None:
         sat_on = chair_load(files.plates, chair, time)
     return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on, elsewhere)
+
+
+def _require_tracked(files: StandingTrialFiles, tracks: tuple[str, ...], study: Path, place: str) -> None:
+    for channel, file, key in (
+        ("rates", files.rates, "rates"),
+        ("force", files.plates, "plates"),
+        ("centre", files.plates, "plates"),
+        ("torque", files.torques, "torques"),
+        ("strap", next(iter([*files.strap, *sum(files.elsewhere.values(), ())]), None), "strap"),
+    ):
+        if channel in tracks and file is None:
+            what = f"{channel} is tracked, and this trial has none"
+            raise InputError(study, place, what, f"name its file as {key}, or leave {channel} out of tracks")
 
 
 def chair_load(file: Path, chair: ForcePlate, time: Times) -> Table:
