@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import pandas as pd
 from jaxtyping import Float
 from numpy import ndarray
 
-from geocontact.analyses.figure_files import drawing
-from geocontact.analyses.options_table import options_table
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_words import headline
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from geocontact.view.page.tables import frame_table
 
 FIGURE = "Grey the plate, coloured the foot with the numbers below."
 POSES = [
@@ -44,16 +37,23 @@ READ = [
 ]
 
 
-def write_calibration_page(
-    path: Path,
-    record: Record,
-    figure: Figure,
+def calibration_page(
+    drawn: bytes,
     stance: RecordedStance,
     predicted: Float[ndarray, "t 4"],
     numbers: pd.DataFrame,
+    sentences: Sequence[str],
     walked: bool,
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+) -> Page:
+    """Curves, numbers and what they mean.
+
+    Parameters
+    ----------
+    drawn
+        The figure (SVG).
+    walked
+        Whether the numbers were found on the whole model.
+    """
     curves = [
         Curves(title, unit, [Curve("plate", factor * stance.measured[:, k]), Curve("model", factor * predicted[:, k])])
         for k, (title, unit, factor) in enumerate(
@@ -66,21 +66,19 @@ def write_calibration_page(
         )
     ]
     sections: list[Section] = [
-        Picture("Plate and model", FIGURE, drawing(figure)),
+        Picture("Plate and model", FIGURE, drawn),
         *curves,
         frame_table("Numbers of the zones", numbers, 3),
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         Words("What the numbers mean", (WALKED if walked else POSES) + READ),
     ]
-    page = Page(
+    return Page(
         title="Calibrated sole of a prosthetic foot",
         subtitle="Stiffness, damping and friction of five zones from one stance",
         time=stance.time,
         time_label="time [s]",
-        headline=headline(list(record.sentences)),
-        reservations=tuple(record.warnings),
+        headline=headline(sentences),
         sections=tuple(sections),
         plays=False,
     )
-    return write_page(page, path)

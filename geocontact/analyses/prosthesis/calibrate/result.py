@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from os import fspath
 from pathlib import Path
@@ -12,21 +13,21 @@ import pandas as pd
 from jaxtyping import Float
 from numpy import ndarray
 
-from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.prosthesis.calibrate.figure import stance_figure
 from geocontact.analyses.prosthesis.calibrate.law_file import law_toml
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
-from geocontact.analyses.prosthesis.calibrate.page import write_calibration_page
-from geocontact.analyses.result import Result
+from geocontact.analyses.prosthesis.calibrate.page import calibration_page
+from geocontact.analyses.result import REPORT, Result
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
 from geocontact.below_knee_prosthesis.calibration.known_numbers import KnownNumber
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
 from geocontact.identify.signals.agreement import Agreement
-from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 LAW = "law.toml"
 
@@ -101,21 +102,19 @@ class ProsthesisCalibrateResult(Result):
                 row |= {"along poses": before.value, "along poses verdict": before.verdict}
         return {"numbers": pd.DataFrame(rows), "stance": pd.DataFrame(columns)}
 
-    def figure(self) -> Figure:
-        """Measured and modelled force and centre of pressure."""
-        return stance_figure(self.stance, self.predicted)
+    def figures(self) -> dict[str, Figure]:
+        """`stance`: measured and modelled force and centre of pressure."""
+        return {"stance": stance_figure(self.stance, self.predicted)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Curves, numbers, and what they mean."""
+        numbers, walked = self.tables()["numbers"], self.whole is not None
+        page = calibration_page(drawings["stance"], self.stance, self.predicted, numbers, self.sentences, walked)
+        return {REPORT: page}
 
     def write_files(self, folder: Path) -> None:
-        """Tables, law, figure, page."""
-        for name, rows in self.tables().items():
-            write_table(rows, folder, name)
+        """law.toml besides."""
         named = fspath(self.options.static)
         standing = next(str(each["sha256"]) for each in self.record.inputs if each["file"] == named)
         (folder / LAW).write_text(law_toml(self.last, standing), encoding="utf-8", newline="\n")
-        save_both(self.figure(), folder, "stance")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """Curves, numbers, inputs."""
-        numbers, walked = self.tables()["numbers"], self.whole is not None
-        write_calibration_page(file, self.record, self.figure(), self.stance, self.predicted, numbers, walked)
+        super().write_files(folder)

@@ -3,26 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.figure_files import drawing
-from geocontact.analyses.options_table import options_table
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.compare.tables import UNITS, by_setting, curves_of, plain_curves
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.evaluation.judged_stance import JudgedStance
 from geocontact.below_knee_prosthesis.evaluation.trivial_predictors import ANOTHER, MEAN
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from geocontact.view.page.tables import frame_table
 
 FIGURE = (
     "Grey the plates, coloured the model: mean over a setting's stances, a band of one standard deviation. Dashed the "
@@ -53,31 +45,29 @@ MEASURES = [
 ]
 
 
-def write_comparison_page(
-    path: Path, record: Record, figure: Figure, stances: Sequence[JudgedStance], tables: Mapping[str, pd.DataFrame]
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+def comparison_page(
+    drawn: bytes, stances: Sequence[JudgedStance], tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]
+) -> Page:
+    """Ensembles, errors beside trivial predictors, outliers; `drawn` is the figure (SVG)."""
     sections: list[Section] = [
-        Picture("Ensembles by setting", FIGURE, drawing(figure), wide=True),
+        Picture("Ensembles by setting", FIGURE, drawn, wide=True),
         frame_table("Means by setting, beside predictors without a model", tables["summary"], 3),
         frame_table("Stances", tables["trials"], 3),
         *comparison_panels(stances),
         frame_table("Errors of each stance", tables["errors"], 3),
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         Words("How to read the numbers", [*WITHOUT, *MEASURES, NOT_A_DEVICE]),
     ]
-    page = Page(
+    return Page(
         title=f"{len(stances)} prosthetic stances beside their plates",
         subtitle="Ground reaction, centre of pressure and ankle moment of a variable-stiffness foot",
         time=100.0 * stances[0].errors.share,
         time_label="stance on the plate [%]",
-        headline=headline(record.sentences, most=2),
-        reservations=tuple(record.warnings),
+        headline=headline(sentences, most=2),
         sections=tuple(sections),
         plays=False,
     )
-    return write_page(page, path)
 
 
 def comparison_panels(stances: Sequence[JudgedStance]) -> list[Curves]:

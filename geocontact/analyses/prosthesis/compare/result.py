@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.prosthesis.compare.figure import ensemble_figure
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
-from geocontact.analyses.prosthesis.compare.page import write_comparison_page
+from geocontact.analyses.prosthesis.compare.page import comparison_page
 from geocontact.analyses.prosthesis.compare.tables import (
     ensembles_table,
     errors_table,
@@ -21,7 +20,7 @@ from geocontact.analyses.prosthesis.compare.tables import (
 )
 from geocontact.analyses.prosthesis.simulate.exports import write_coordinates, write_loads, write_spheres
 from geocontact.analyses.prosthesis.simulate.tables import numbers_of, numbers_table
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.below_knee_prosthesis.evaluation.judged_stance import JudgedStance
 from geocontact.below_knee_prosthesis.evaluation.outliers import Oddness
 from geocontact.below_knee_prosthesis.model.leg import Side
@@ -29,6 +28,8 @@ from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 TRIALS = "trials"
 """Folder with what other programs read, of each stance."""
@@ -61,14 +62,16 @@ class ProsthesisCompareResult(Result):
             "ensembles": ensembles_table(self.stances),
         }
 
-    def figure(self) -> Figure:
-        """Means and bands over the stances of each setting."""
-        return ensemble_figure(self.stances)
+    def figures(self) -> dict[str, Figure]:
+        """`ensembles`: means and bands over the stances of each setting."""
+        return {"ensembles": ensemble_figure(self.stances)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Ensembles, errors beside trivial predictors, outliers."""
+        return {REPORT: comparison_page(drawings["ensembles"], self.stances, self.tables(), self.sentences)}
 
     def write_files(self, folder: Path) -> None:
-        """Tables, figure, page; of each stance coordinates, loads, spheres and numbers as `prosthesis simulate`."""
-        for name, rows in self.tables().items():
-            write_table(rows, folder, name)
+        """Coordinates, loads, spheres and numbers of each stance besides, as `prosthesis simulate` writes them."""
         for one in self.stances:
             place = folder / TRIALS / one.name
             place.mkdir(parents=True)
@@ -76,9 +79,4 @@ class ProsthesisCompareResult(Result):
             write_loads(place, one.stance, self.sides[one.name])
             write_spheres(place / "paraview", one.stance, self.sides[one.name])
             write_table(numbers_table(numbers_of(one.stance)), place, "numbers")
-        save_both(self.figure(), folder, "ensembles")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """Ensembles, errors beside trivial predictors, outliers."""
-        write_comparison_page(file, self.record, self.figure(), self.stances, self.tables())
+        super().write_files(folder)

@@ -2,26 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from pathlib import Path
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing
-from geocontact.analyses.options_table import options_table
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.design.sweep import UNITS, Sweep
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES
 from geocontact.below_knee_prosthesis.design.terrain import words
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from geocontact.view.page.tables import frame_table
 
 FIGURE = (
     "Blue with the person's angles kept, orange with the ankle's torque kept, pink with the torques of hip and knee; "
@@ -52,10 +44,8 @@ LIMITS = [
 ]
 
 
-def write_design_page(
-    path: Path, record: Record, figure: Figure, sweep: Sweep, tables: Mapping[str, pd.DataFrame]
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+def design_page(drawn: bytes, sweep: Sweep, tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]) -> Page:
+    """Outcomes, answers, what they hang on, numbers; `drawn` is the figure (SVG)."""
     bands = sweep.bands
     curves = [
         Curves(
@@ -66,7 +56,7 @@ def write_design_page(
         for k, aim in enumerate(AIMS)
     ]
     sections: list[Section] = [
-        Picture("Outcomes and roll-over shapes", FIGURE, drawing(figure), wide=True),
+        Picture("Outcomes and roll-over shapes", FIGURE, drawn, wide=True),
         frame_table("What is best, and whether that can be told", tables["answers"], 3),
         *(frame_table(INTACT, tables["intact"], 3) for _ in range("intact" in tables)),
         *(frame_table(PAIRS, tables["pairs"], 3) for _ in range("pairs" in tables)),
@@ -74,20 +64,18 @@ def write_design_page(
         frame_table("On what the outcomes of the present foot hang", tables["sensitivities"], 3),
         *curves,
         frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         Words("What the numbers do and do not contain", [*LIMITS, NOT_A_DEVICE]),
     ]
     vary, where = sweep.knob.vary, words(sweep.knob.terrain)
     place = f"; {where}" if where else ""
-    page = Page(
+    return Page(
         title=f"Which {vary} of the foot suits this person",
         subtitle=f"Recorded at the fulcrum of {1e3 * sweep.knob.fulcrum:.0f} mm; {len(sweep.drawn)} draws{place}",
         time=sweep.shown,
         time_label=f"{vary} [{UNITS[vary]}]",
-        headline=headline(record.sentences, most=2),
-        reservations=tuple(record.warnings),
+        headline=headline(sentences, most=2),
         sections=tuple(sections),
         plays=False,
     )
-    return write_page(page, path)

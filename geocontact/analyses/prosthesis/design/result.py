@@ -4,31 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.prosthesis.design.figure import design_figure, stance_share
 from geocontact.analyses.prosthesis.design.intact_side import intact_table
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
-from geocontact.analyses.prosthesis.design.page import write_design_page
+from geocontact.analyses.prosthesis.design.page import design_page
 from geocontact.analyses.prosthesis.design.sensitivities_table import sensitivities_table
 from geocontact.analyses.prosthesis.design.sweep import SHOWN, UNITS, AimAnswer, Sweep, answers_table
 from geocontact.analyses.prosthesis.design.together import Together
 from geocontact.analyses.prosthesis.simulate.tables import numbers_table
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import Knob, Response
 from geocontact.below_knee_prosthesis.design.outcomes import Aim, shank_path
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity
 from geocontact.data.sourced_number import Number
-from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -84,20 +83,13 @@ class ProsthesisDesignResult(Result):
             told |= {"pairs": self.together.pairs(vary, self.answers), "together": self.together.table(vary)}
         return told
 
-    def figure(self) -> Figure:
-        """Outcomes with bands, roll-over shapes."""
-        return design_figure(self.sweep, self.answers, self.ends, self.shapes)
+    def figures(self) -> dict[str, Figure]:
+        """`design`: outcomes with bands, roll-over shapes."""
+        return {"design": design_figure(self.sweep, self.answers, self.ends, self.shapes)}
 
-    def write_files(self, folder: Path) -> None:
-        """Tables, figure, page."""
-        for name, rows in self.tables().items():
-            write_table(rows, folder, name)
-        save_both(self.figure(), folder, "design")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """Outcomes, answers, shapes, inputs."""
-        write_design_page(file, self.record, self.figure(), self.sweep, self.tables())
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Outcomes, answers, what they hang on, numbers."""
+        return {REPORT: design_page(drawings["design"], self.sweep, self.tables(), self.sentences)}
 
     def _shapes(self) -> pd.DataFrame:
         vary = self.ends.vary

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from pathlib import Path
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.motion.skeleton import MARKER, scene_of, skeleton
-from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.analyses.run_record import Record
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.view.page.content import IntervalRow, Intervals, Page, Section, Words
 from geocontact.view.page.linkage import Linkage
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
+from geocontact.view.page.tables import frame_table
 
 TRUNK = (
     "Trunk, head and arms are one rigid body with the pelvis, upright as while standing, arms hanging (de Leva): it "
@@ -33,15 +30,10 @@ HELD = (
 )
 
 
-def write_amputee_page(
-    path: Path,
-    title: str,
-    record: Record,
-    model: Multibody,
-    pose: Poses,
-    tables: Mapping[str, pd.DataFrame],
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+def amputee_page(
+    title: str, model: Multibody, pose: Poses, tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]
+) -> Page:
+    """The standing pose with its markers, segments, joints, numbers."""
     values = np.asarray(pose.values)
     places = Linkage("markers", model.marker_places(values), np.zeros((0, 2), dtype=np.int64), "seen", MARKER, 0.0)
     sections: list[Section] = [
@@ -50,25 +42,23 @@ def write_amputee_page(
         frame_table("Joints while standing", tables["joints"]),
         *_distances(tables),
         frame_table("Numbers of the segments in SI, and where they are from", tables["numbers"]),
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         Words("What the numbers do not contain", [TRUNK, SKIN, HELD, NOT_A_DEVICE]),
     ]
-    page = Page(
+    return Page(
         title=title,
         subtitle="Both legs of a person with a below-knee prosthesis, standing",
         time=np.zeros(1),
         time_label="",
-        headline=headline(record.sentences),
+        headline=headline(sentences),
         facts=[
             ("Mass", f"{model.mass:.4g} kg"),
             ("Coordinates", f"{len(model.coordinates)}"),
         ],
-        reservations=tuple(record.warnings),
         sections=tuple(sections),
         plays=False,
     )
-    return write_page(page, path)
 
 
 def _distances(tables: Mapping[str, pd.DataFrame]) -> list[Section]:

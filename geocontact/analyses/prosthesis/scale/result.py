@@ -5,21 +5,24 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
-from geocontact.analyses.prosthesis.scale.page import write_amputee_page
-from geocontact.analyses.result import Result
+from geocontact.analyses.prosthesis.scale.page import amputee_page
+from geocontact.analyses.result import REPORT, Result
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.from_markers.sides import of_side
 from geocontact.data.multibody.model import Multibody
 from geocontact.data.sourced_number import Number
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.io.opensim.osim_writer import ContactBall, write_osim
-from geocontact.io.text.results import write_table
+
+if TYPE_CHECKING:
+    from geocontact.view.page.content import Page
 
 FREE, HELD = "amputee.osim", "amputee_ik.osim"
 NOTE = (
@@ -95,20 +98,18 @@ class ProsthesisScaleResult(Result):
             tables["markers"] = pd.DataFrame({"marker": list(self.moved.markers), "off, rms [mm]": off})
         return tables
 
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """The standing pose with its markers, segments, joints, numbers."""
+        title = f"Model of {self.options.static.name}"
+        return {REPORT: amputee_page(title, self.held, self.pose, self.tables(), self.sentences)}
+
     def write_files(self, folder: Path) -> None:
-        """Both models, tables, page."""
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
+        """Both models for OpenSim besides."""
         end = f"_{self.options.side[0]}"
         springs = {f"{name}{end}": pair for name, pair in self.amputee.springs().items()}
         write_osim(folder / FREE, self.model, springs=springs, balls=self._balls(), note=NOTE)
         write_osim(folder / HELD, self.held, note=NOTE)
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """The standing pose with its markers, segments, joints, numbers."""
-        title = f"Model of {self.options.static.name}"
-        write_amputee_page(file, title, self.record, self.held, self.pose, self.tables())
+        super().write_files(folder)
 
     def _balls(self) -> list[ContactBall]:
         """Spheres of both soles on the bodies that carry them."""
