@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
-from geocontact.analyses.prosthesis.simulate.read import Walk
+from geocontact.analyses.prosthesis.simulate.read import Walk, fitted_walk
 from geocontact.analyses.prosthesis.simulate.read import read as read_walk
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.model.leg import RESIDUAL
@@ -36,7 +36,7 @@ def read(o: ProsthesisCompareOptions, record: Record) -> tuple[StudiedStance, ..
 def _stance(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions, record: Record) -> StudiedStance:
     asked = _asked(trial, person, o)
     own = Record("prosthesis simulate", {})
-    walk = read_walk(asked, own)
+    walk = fitted_walk(read_walk(asked, own), asked, own)
     for entry in own.inputs:
         record.inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
     for line in own.warnings:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
@@ -12,17 +13,18 @@ from geocontact.analyses.prosthesis.design.intact_side import OF_ONE_STEP, intac
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.read import FootAndTrial
 from geocontact.analyses.prosthesis.design.result import ProsthesisDesignResult
-from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, AimAnswer, Sweep, wanted_of
+from geocontact.analyses.prosthesis.design.sweep import AimAnswer, Sweep, value_words, wanted_of
 from geocontact.analyses.prosthesis.design.together import Together, pair_words
 from geocontact.analyses.prosthesis.foot_law import offset_words
 from geocontact.analyses.prosthesis.simulate.tables import leg_numbers, numbers_without_leg
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
 from geocontact.below_knee_prosthesis.design.choice import FootChoice, choose
-from geocontact.below_knee_prosthesis.design.drawn import draws
+from geocontact.below_knee_prosthesis.design.drawn import Draws, draws
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
-from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob, Vary
+from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob, Response, Vary
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim
-from geocontact.below_knee_prosthesis.design.sensitivities import Unknown, sensitivities
+from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity, Unknown, sensitivities
 from geocontact.below_knee_prosthesis.design.stance_again import TrialErrors, task_again
 from geocontact.below_knee_prosthesis.design.terrain import LEVEL, Terrain, words
 from geocontact.data.errors import InputError
@@ -36,16 +38,41 @@ ALIGNMENTS = np.radians([-6.0, -3.0, 0.0, 3.0, 6.0])
 """That go together with every value."""
 
 
-def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> ProsthesisDesignResult:
-    """Bands of every outcome over the values, the best value for every aim."""
-    trial, terrain = given.trial, Terrain(o.slope, o.edge)
-    knob = Knob(o.vary, VALUES[o.vary], trial.fulcrum, terrain)
+@dataclass(frozen=True, eq=False)
+class VariedFoot:
+    """A foot varied along a trial.
+
+    Parameters
+    ----------
+    task
+        What the foot carries.
+    drawn
+        Outcomes over the values, with what is not known drawn.
+    ends, shapes
+        First, present and last value, and the foot along the stance at each, with the numbers as they are.
+    held
+        How long joint torques alone hold the leg at each of the ends [s].
+    hangs_on
+        How far outcomes on the present foot hang on each number.
+    """
+
+    task: FootTask
+    drawn: Draws
+    ends: Knob
+    shapes: Mapping[Response, tuple[CarriedLoad, ...]]
+    held: tuple[float, ...]
+    hangs_on: tuple[FootSensitivity, ...]
+
+
+def varied_foot(given: FootAndTrial, knob: Knob, o: ProsthesisDesignOptions, record: Record) -> VariedFoot:
+    """Draws over the values, and both ends beside the present one; InputError where the foot finds no equilibrium."""
+    trial, ends = given.trial, _ends(knob)
     pitch = min(o.pitch_error, trial.offset.pitch_sd) if trial.offset.pitch_sd > 0.0 else o.pitch_error
     errors = TrialErrors(marker=o.marker_error, pitch=pitch, force=o.force_noise)
     try:
         task = trial.task()
         with record.listener.progress("feet", o.feet) as step:
-            found = draws(
+            drawn = draws(
                 knob,
                 given.foot,
                 task,
@@ -58,47 +85,64 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
                 alignments=ALIGNMENTS.tolist() if o.together else (),
             )
         unknown = Unknown(given.sd, errors.pitch, errors.gain)
-        hangs_on = sensitivities(given.foot, task, trial.fulcrum, terrain, unknown)
-        maps = _ends(knob).maps(given.foot, task)
-        shapes = _ends(knob).carried(maps, task)
-        held = _ends(knob).other_feet(maps, task, tracking=0.0).moved().held
+        hangs_on = sensitivities(given.foot, task, trial.fulcrum, knob.terrain, unknown)
+        maps = ends.maps(given.foot, task)
+        shapes = ends.carried(maps, task)
+        held = ends.other_feet(maps, task, tracking=0.0).moved().held
     except (ArithmeticError, ValueError) as error:
         if isinstance(error, InputError):
             raise
         remedy = "check `mass`, the plate and how flat the foot stood"
         raise InputError(o.markers, "", str(error), remedy) from error
-    sweep = Sweep(knob, found.drawn, found.free, o.level)
+    return VariedFoot(task, drawn, ends, shapes, tuple(held.tolist()), hangs_on)
+
+
+def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> ProsthesisDesignResult:
+    """Bands of every outcome over the values, the best value for every aim."""
+    trial = given.trial
+    knob = Knob(o.vary, VALUES[o.vary], trial.fulcrum, Terrain(o.slope, o.edge))
+    varied = varied_foot(given, knob, o, record)
+    sweep = Sweep(knob, varied.drawn.drawn, varied.drawn.free, o.level)
     near = {} if given.intact is None else given.intact.outcomes()
-    answers = tuple(_answer(sweep, wanted_now(AIMS[k], o, task, near), AIMS[k] in near, k) for k in range(len(AIMS)))
-    together = Together.of(knob.settings, ALIGNMENTS, found.beside, answers, o.level) if o.together else None
+    answers = tuple(
+        _answer(sweep, wanted_now(AIMS[k], o, varied.task, near), AIMS[k] in near, k) for k in range(len(AIMS))
+    )
+    beside = varied.drawn.beside
     result = ProsthesisDesignResult(
         record=record,
         options=o,
         sweep=sweep,
         answers=answers,
-        ends=_ends(knob),
-        shapes=shapes,
-        task=task,
-        held=tuple(held.tolist()),
-        hangs_on=hangs_on,
-        together=together,
+        ends=varied.ends,
+        shapes=varied.shapes,
+        task=varied.task,
+        held=varied.held,
+        hangs_on=varied.hangs_on,
+        together=Together.of(knob.settings, ALIGNMENTS, beside, answers, o.level) if o.together else None,
         numbers=leg_numbers(trial.leg) | numbers_without_leg(given.foot, trial.fulcrum),
         intact=None if given.intact is None else near,
     )
-    if found.lost:
-        record.warn(f"{found.lost} of {o.feet} drawn feet found no equilibrium and are left out")
-    record.warn(_words_of_torques(result))
-    if given.intact is not None:
-        record.warn(OF_ONE_STEP)
-    record.warn("bands are of one trial: how a person differs from step to step is not in them")
-    if o.vary != "alignment":
-        record.warn(f"the best {o.vary} is sought with the recorded load; how the load changes is in the bands only")
-    if terrain != LEVEL:
-        record.warn(f"judged {words(terrain)}: the stance was recorded on a floor, its load and its turns are kept")
+    _reserve(result, varied.drawn.lost)
     _say(result)
     if trial.offset.given:
         record.say(offset_words(trial.offset))
     return result
+
+
+def _reserve(r: ProsthesisDesignResult, lost: int) -> None:
+    """What is to be doubted; `lost` draws have no equilibrium."""
+    record, knob = r.record, r.sweep.knob
+    if lost:
+        record.warn(f"{lost} of {r.options.feet} drawn feet found no equilibrium and are left out")
+    record.warn(_words_of_torques(r))
+    if r.intact is not None:
+        record.warn(OF_ONE_STEP)
+    record.warn("bands are of one trial: how a person differs from step to step is not in them")
+    if knob.vary != "alignment":
+        record.warn(f"the best {knob.vary} is sought with the recorded load; how the load changes is in the bands only")
+    if knob.terrain != LEVEL:
+        where = words(knob.terrain)
+        record.warn(f"judged {where}: the stance was recorded on a floor, its load and its turns are kept")
 
 
 def _ends(knob: Knob) -> Knob:
@@ -121,10 +165,9 @@ def _answer(sweep: Sweep, target: float | None, of_intact: bool, k: int) -> AimA
 
 def _say(r: ProsthesisDesignResult) -> None:
     record, knob = r.record, r.sweep.knob
-    factor, unit = SHOWN[knob.vary]
 
     def shown(value: float) -> str:
-        return f"{factor * value:.{DIGITS[knob.vary]}f}{unit and ' '}{unit}"
+        return value_words(knob.vary, value)
 
     chosen = next(each for each in r.answers if each.aim == r.options.aim)
     measure, choice = MEASURES[chosen.aim], chosen.choice
@@ -169,11 +212,8 @@ def _say(r: ProsthesisDesignResult) -> None:
 
 def _words_of_torques(r: ProsthesisDesignResult) -> str:
     knob, lasting = r.ends, r.task.time[-1] - r.task.time[0]
-    factor, unit = SHOWN[knob.vary]
     far = [(value, time) for value, time in zip(knob.settings, r.held, strict=True) if time < lasting]
-    held = ", ".join(
-        f"{time:.2f} s at {factor * value:.{DIGITS[knob.vary]}f}{unit and ' '}{unit}" for value, time in far
-    )
+    held = ", ".join(f"{time:.2f} s at {value_words(knob.vary, value)}" for value, time in far)
     alone = f"torques alone hold the leg for {held}, of {lasting:.2f} s" if far else "torques alone hold the leg here"
     return f"joint torques kept: a weak spring at hip and knee goes with them ({alone})"
 

@@ -11,7 +11,7 @@ from geocontact.below_knee_prosthesis.design.knob import AIMS
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity, Unit
 
-SHOWN: dict[Unit, tuple[float, str]] = {
+STEPS: dict[Unit, tuple[float, str]] = {
     "m": (1e3, "mm"),
     "rad": (float(np.degrees(1.0)), "deg"),
     "-": (1.0, "-"),
@@ -23,7 +23,7 @@ def sensitivities_table(found: Sequence[FootSensitivity]) -> pd.DataFrame:
     """Long: one row for each number, response and outcome."""
     rows = []
     for each in found:
-        factor, shown = SHOWN[each.unit]
+        factor, shown = STEPS[each.unit]
         for response, change in each.change.items():
             for aim, value in zip(AIMS, change, strict=True):
                 row: dict[str, object] = {"number": each.name, "by": factor * each.by, "in": shown}

@@ -25,6 +25,12 @@ NO_DIFFERENCE = 1e-3
 """Of an outcome's size: a smaller difference is none."""
 
 
+def value_words(vary: Vary, value: float) -> str:
+    """A value with its unit."""
+    factor, unit = SHOWN[vary]
+    return f"{factor * value:.{DIGITS[vary]}f}{unit and ' '}{unit}"
+
+
 @dataclass(frozen=True, eq=False)
 class Sweep:
     """Outcomes of all draws over the values.

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, UNITS, AimAnswer
+from geocontact.analyses.prosthesis.design.sweep import SHOWN, UNITS, AimAnswer, value_words
 from geocontact.below_knee_prosthesis.design.choose_pair import PairChoice, choose_pair
 from geocontact.below_knee_prosthesis.design.knob import AIMS, JUDGED, Vary
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim
@@ -92,10 +92,9 @@ class Together:
 def pair_words(vary: Vary, answer: AimAnswer, together: Together) -> str:
     """Whether turning the foot as well is any better, for one aim."""
     one, measure = together.choices[answer.aim], MEASURES[answer.aim]
-    factor, unit = SHOWN[vary]
 
     def shown(value: float) -> str:
-        return f"{factor * value:.{DIGITS[vary]}f}{unit and ' '}{unit}"
+        return value_words(vary, value)
 
     turn = SHOWN["alignment"][0]
     gains = ", ".join(

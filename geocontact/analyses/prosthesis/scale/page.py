@@ -24,7 +24,7 @@ SKIN = (
     "Markers lie on skin. Centres from a functional trial are off by what skin moves, more if the joint moves little: "
     "how far a joint is off itself tells the first, not the second."
 )
-HELD = (
+HELD_PARTS = (
     "amputee_ik.osim holds socket and keel, of which markers tell nothing; in amputee.osim they are free, with springs "
     "of the fulcrum that was asked for."
 )
@@ -44,7 +44,7 @@ def amputee_page(
         frame_table("Numbers of the segments in SI, and where they are from", tables["numbers"]),
         INPUTS,
         OPTIONS,
-        Words("What the numbers do not contain", [TRUNK, SKIN, HELD, NOT_A_DEVICE]),
+        Words("What the numbers do not contain", [TRUNK, SKIN, HELD_PARTS, NOT_A_DEVICE]),
     ]
     return Page(
         title=title,

@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
+from scipy.spatial.transform import RigidTransform
 
-from geocontact.analyses.prosthesis.simulate.read import Walk
 from geocontact.below_knee_prosthesis.foot_in_plane import FootInPlane, RowNumbers, in_plane, row_numbers, rows_of
 from geocontact.below_knee_prosthesis.simulate import Stance
-from geocontact.below_knee_prosthesis.stance_errors import at_times, longest_stance
+from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times, longest_stance
 from geocontact.io.text.results import write_table
 from geocontact.io.text.written_units import CASES
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
@@ -41,25 +41,34 @@ v_th = {speed:.9g}
 """
 
 
-def write_plane(folder: Path, walk: Walk, found: Stance) -> None:
-    """foot.csv (x, y, pitch by markers), plate.csv where one was named, spheres.csv, foot.toml for a gather.toml."""
-    loaded = found.time, found.force[:, 1]
-    if walk.plate is not None:
-        loaded = walk.plate.time, walk.plate.force[:, 1]
+def write_plane(
+    folder: Path, time: Float[np.ndarray, " t"], poses: RigidTransform, plate: PlateStance | None, s: Stance
+) -> None:
+    """foot.csv (x, y, pitch by markers), plate.csv where one was named, spheres.csv, foot.toml for a gather.toml.
+
+    Parameters
+    ----------
+    time, poses
+        When the keel was seen [s], and its frame by the markers on the socket.
+    plate
+        Under the prosthetic foot; None where it is not named.
+    s
+        The stance that was simulated.
+    """
+    loaded = (s.time, s.force[:, 1]) if plate is None else (plate.time, plate.force[:, 1])
     span = longest_stance(*loaded)
     if span is None:
         return
-    kept = (walk.cluster.time >= span[0] - AROUND) & (walk.cluster.time <= span[1] + AROUND)
-    foot = in_plane(walk.cluster.time[kept], walk.cluster.poses[kept])
+    inside = (time >= span[0] - AROUND) & (time <= span[1] + AROUND)
+    foot = in_plane(time[inside], poses[inside])
     folder.mkdir(parents=True, exist_ok=True)
     write_table(pose_table(foot), folder, "foot", CASES)
-    if walk.plate is not None:
-        p = walk.plate
-        force, centre = (at_times(foot.time, p.time, each) for each in (p.force, p.centre))
+    if plate is not None:
+        force, centre = (at_times(foot.time, plate.time, each) for each in (plate.force, plate.centre))
         write_table(reaction_table(foot, *foot.reaction(force, centre)), folder, "plate", CASES)
-    simulated = in_plane(found.time, found.poses)
-    _, up, centre = simulated.reaction(found.force, found.centre("ground"))
-    spheres, law = found.foot.sole.spheres, found.foot.law
+    simulated = in_plane(s.time, s.poses)
+    _, up, centre = simulated.reaction(s.force, s.centre("ground"))
+    spheres, law = s.foot.sole.spheres, s.foot.law
     write_sole(folder, spheres, law, row_numbers(simulated, spheres, law, up, centre))
 
 

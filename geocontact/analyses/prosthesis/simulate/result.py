@@ -75,5 +75,6 @@ class ProsthesisSimulateResult(Result):
         write_loads(folder, self.stance, self.options.side)
         write_spheres(folder / "paraview", self.stance, self.options.side)
         if self.stance.ground == FLOOR:
-            write_plane(folder / "plane", self.walk, self.stance)
+            seen = self.walk.cluster
+            write_plane(folder / "plane", seen.time, seen.poses, self.walk.plate, self.stance)
         super().write_files(folder)

@@ -9,7 +9,7 @@ import numpy as np
 from geocontact.analyses.json_file import plain
 from geocontact.analyses.prosthesis.foot_law import offset_words
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
-from geocontact.analyses.prosthesis.simulate.read import Walk
+from geocontact.analyses.prosthesis.simulate.read import RecordedWalk, Walk, fitted_walk
 from geocontact.analyses.prosthesis.simulate.result import ProsthesisSimulateResult
 from geocontact.analyses.prosthesis.simulate.tables import all_numbers
 from geocontact.analyses.prosthesis.socket_words import counted_twice
@@ -30,8 +30,9 @@ TURNED = np.radians(20.0)
 """rad; of the socket, beyond which its bushing is doubted."""
 
 
-def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisSimulateResult:
-    """From before touch-down to after toe-off."""
+def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisSimulateResult:
+    """The walk, and its stance from before touch-down to after toe-off."""
+    walk = fitted_walk(recorded, o, record)
     numbers = all_numbers(walk.leg, walk.foot, walk.fulcrum, bushing_of(o))
     invented = sum(number.source == "invented" for number in numbers.values())
     record.warn(f"{invented} of {len(numbers)} numbers of leg and foot are invented, see numbers.csv")
@@ -41,7 +42,7 @@ def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisS
         raise InputError(
             o.markers, "", "the foot never touches the floor", "is `ground` right, y = 0 without it, and `mass`?"
         )
-    errors = _compared(walk, found)
+    errors = None if walk.plate is None else stance_errors(found, walk.plate)
     doubt(found, record)
     if not limb.settled:
         record.warn(counted_twice(limb))
@@ -94,12 +95,6 @@ def found_words(found: Stance, told: Mapping[str, float]) -> str:
         f"{told['vertical_max_BW']:.2f} BW, ankle moment up to {told['ankle_moment_max_N_m']:.0f} N m, keel "
         f"stores {told['stored_max_J']:.1f} J"
     )
-
-
-def _compared(walk: Walk, found: Stance) -> StanceErrors | None:
-    if walk.plate is None:
-        return None
-    return stance_errors(found, walk.plate)
 
 
 def beside_words(errors: StanceErrors) -> str:
