@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.prosthesis.simulate.run import doubt
+from geocontact.analyses.prosthesis.simulate.result import doubt
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.clocks import clock_offset
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from geocontact.analyses.prosthesis.calibrate.run import doubts
+from geocontact.analyses.prosthesis.calibrate.result import doubts
 
 
 @pytest.mark.parametrize(

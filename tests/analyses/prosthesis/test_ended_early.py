@@ -5,8 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.analyses.json_file import plain
-from geocontact.analyses.prosthesis.simulate.run import beside_words, doubt, found_words, summary
-from geocontact.analyses.prosthesis.simulate.tables import curves_table, errors_table
+from geocontact.analyses.prosthesis.simulate.result import (
+    beside_words,
+    curves_table,
+    doubt,
+    errors_table,
+    found_words,
+    summary,
+)
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.stance_errors import stance_errors
 from tests.below_knee_prosthesis.stances import a_stance

@@ -1,4 +1,4 @@
-"""The page of a stance: moving leg and foot with the ground's force and the centre of pressure, curves, numbers."""
+"""What is shown of a stance: moving leg and foot with force and centre of pressure, curves, numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a simulation starts from: the leg, its motion, the force that stands for the other leg, the plate."""
+"""A recorded walk: what its files hold, leg and motion fitted to it, and the stance simulated along it."""
 
 from __future__ import annotations
 
@@ -12,9 +12,8 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_errors import FAR, MOVING
-from geocontact.analyses.prosthesis.foot_law import foot_with_law, offset_of_law
-from geocontact.analyses.prosthesis.plausible_plate import require_one_clock, require_weight
-from geocontact.analyses.prosthesis.recorded_files import right_markers
+from geocontact.analyses.prosthesis.leg_and_foot import foot_with_law, offset_of_law
+from geocontact.analyses.prosthesis.recorded_files import require_one_clock, require_weight, right_markers
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.stance_from_markers import keel_poses
@@ -26,11 +25,14 @@ from geocontact.below_knee_prosthesis.from_markers.walking import Walked, functi
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket
 from geocontact.below_knee_prosthesis.model.foot_offset import FootOffset
 from geocontact.below_knee_prosthesis.model.leg import Leg, Person
+from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
-from geocontact.below_knee_prosthesis.simulate import GATE, Push
+from geocontact.below_knee_prosthesis.simulate import GATE, Push, Stance, simulate_stance
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times, longest_stance
+from geocontact.contact.bushing import PRINTED, SOCKET, Bushing
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.geometry.shapes import HalfSpace
@@ -47,7 +49,7 @@ LATE = 0.02
 
 @dataclass(frozen=True, eq=False)
 class RecordedWalk:
-    """What the files of a walk hold, as of a right leg.
+    """Contents of the files of a walk, of a right leg.
 
     Parameters
     ----------
@@ -221,3 +223,36 @@ def _require_clock(o: ProsthesisSimulateOptions, time: Float[np.ndarray, " t"], 
     if plate.time[0] > time[0] + LATE or plate.time[-1] < time[-1] - LATE:
         what = f"plates are from {plate.time[0]:.2f} to {plate.time[-1]:.2f} s, markers from {time[0]:.2f} to"
         raise InputError(cast(Path, o.plates), "", f"{what} {time[-1]:.2f} s", "both need one clock; cut with `time`")
+
+
+BEFORE, AFTER = 0.12, 0.1
+"""s; simulated before the plate's touch-down and after its toe-off, as far as the markers go."""
+INSIDE = 2
+"""Frames that are left out at both ends: the splines bend there."""
+
+
+def bushing_of(o: ProsthesisSimulateOptions) -> Bushing:
+    """Socket on the residual limb."""
+    return SOCKET if o.socket == "as_meant" else PRINTED
+
+
+def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> LimbInSocket:
+    """From before touch-down to after toe-off, with the socket's motion out of its markers; InputError where not."""
+    time = walk.walked.motion.time
+    span = (float(time[INSIDE]), float(time[-1 - INSIDE]))
+    if walk.plate is not None:
+        seen = longest_stance(walk.plate.time, walk.plate.force[:, 1])
+        if seen is not None:
+            span = max(span[0], seen[0] - BEFORE), min(span[1], seen[1] + AFTER)
+    bushing = bushing_of(o)
+    given = walk.foot, walk.fulcrum, walk.push, span
+
+    def along(motion: LegMotion) -> Stance:
+        return simulate_stance(motion, *given, bushing=bushing, ground=walk.ground, machine_code=o.machine_code)
+
+    cutoff = None if o.cutoff == 0.0 else o.cutoff
+    try:
+        return limb_in_socket(walk.seen, walk.walked, along, cutoff=cutoff, gap_limit=o.gap_limit, turns=o.socket_turns)
+    except (ArithmeticError, ValueError) as error:
+        remedy = "check `mass`, `side`, `axes` and the names of the markers; as_printed no gait can be walked"
+        raise InputError(o.markers, "", str(error), remedy) from error
