@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from importlib import import_module
+from importlib.util import find_spec
 from types import ModuleType
 from typing import Any
 
-from geocontact.analyses.job import Job
-
 
 class PackageOfJobs(ModuleType):
-    """Class of such a package: every name in its `__all__` is a job of its sub-package's module `result` or `job`."""
+    """Class of such a package: every name in its `__all__` is the job of its sub-package, in `job` or `result`."""
 
     def __getattribute__(self, name: str) -> Any:
         known = super().__getattribute__
         if name in known("__dict__").get("__all__", ()):  # importing a sub-package sets an attribute of its name
             home = f"{known('__name__')}.{name}"
-            made = getattr(import_module(f"{home}.result"), name, None)
-            return made if isinstance(made, Job) else getattr(import_module(f"{home}.job"), name)
+            place = f"{home}.result" if find_spec(f"{home}.job") is None else f"{home}.job"
+            return getattr(import_module(place), name)
         return known(name)

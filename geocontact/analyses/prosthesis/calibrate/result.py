@@ -221,11 +221,11 @@ def _summarise_fit(r: ProsthesisCalibrateResult) -> None:
         f"the foot is {offset.words} beside where its standing trial has it; prior {1e3 * e.standing:.1f} mm and "
         f"{np.degrees(e.pitch):.2f} degrees"
     )
-    for words in doubts(offset.height / e.standing, offset.pitch / e.pitch, r.residual, r.vertical.rmsd):
+    for words in doubts_of_fit(offset.height / e.standing, offset.pitch / e.pitch, r.residual, r.vertical.rmsd):
         record.warn(words)
 
 
-def doubts(height: float, pitch: float, residual: float, vertical: float) -> list[str]:
+def doubts_of_fit(height: float, pitch: float, residual: float, vertical: float) -> list[str]:
     """Reasons against a fit.
 
     Parameters
