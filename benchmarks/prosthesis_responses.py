@@ -15,7 +15,7 @@ import numpy as np
 
 from benchmarks.machine import write_results
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
-from geocontact.analyses.prosthesis.design.read import read
+from geocontact.analyses.prosthesis.design.trial import read
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES, Knob
 from geocontact.below_knee_prosthesis.design.terrain import Terrain, words

@@ -9,12 +9,12 @@ from typing import Any
 
 
 class PackageOfJobs(ModuleType):
-    """Class of such a package: every name in its `__all__` is in the module `job`, or `result`, of its sub-package."""
+    """Class of such a package: every name in its `__all__` is the job of its sub-package, in `job` or `result`."""
 
     def __getattribute__(self, name: str) -> Any:
         known = super().__getattribute__
         if name in known("__dict__").get("__all__", ()):  # importing a sub-package sets an attribute of its name
             home = f"{known('__name__')}.{name}"
-            module = "job" if find_spec(f"{home}.job") else "result"
-            return getattr(import_module(f"{home}.{module}"), name)
+            place = f"{home}.result" if find_spec(f"{home}.job") is None else f"{home}.job"
+            return getattr(import_module(place), name)
         return known(name)

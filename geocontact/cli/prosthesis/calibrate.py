@@ -12,4 +12,4 @@ calibrated force law, as `geocontact cop` reads it, and how the foot is beside i
 report.html and run.json into OUT.
 """
 
-calibrate = Command("geocontact.analyses.prosthesis.calibrate.job:calibrate", ProsthesisCalibrateOptions, HELP)
+calibrate = Command("geocontact.analyses.prosthesis.calibrate.result:calibrate", ProsthesisCalibrateOptions, HELP)

@@ -12,4 +12,4 @@ ensembles.csv, coordinates, external loads, spheres and numbers of each stance, 
 OUT.
 """
 
-compare = Command("geocontact.analyses.prosthesis.compare.job:compare", ProsthesisCompareOptions, HELP)
+compare = Command("geocontact.analyses.prosthesis.compare.result:compare", ProsthesisCompareOptions, HELP)

@@ -13,4 +13,4 @@ intact.csv (what a step of the intact foot has), numbers.csv (leg and foot as th
 report.html and run.json into OUT.
 """
 
-design = Command("geocontact.analyses.prosthesis.design.job:design", ProsthesisDesignOptions, HELP)
+design = Command("geocontact.analyses.prosthesis.design.result:design", ProsthesisDesignOptions, HELP)

@@ -11,4 +11,4 @@ Writes amputee.osim (socket and keel free, with springs), amputee_ik.osim (both 
 markers.csv, numbers.csv, report.html and run.json into OUT.
 """
 
-scale = Command("geocontact.analyses.prosthesis.scale.job:scale", ProsthesisScaleOptions, HELP)
+scale = Command("geocontact.analyses.prosthesis.scale.result:scale", ProsthesisScaleOptions, HELP)

@@ -12,4 +12,4 @@ coordinates.sto, ground_reaction.mot and .xml (external loads for OpenSim and `g
 report.html (moving foot with forces) and run.json into OUT.
 """
 
-simulate = Command("geocontact.analyses.prosthesis.simulate.job:simulate", ProsthesisSimulateOptions, HELP)
+simulate = Command("geocontact.analyses.prosthesis.simulate.result:simulate", ProsthesisSimulateOptions, HELP)

@@ -1,4 +1,4 @@
-"""What `simulate` and `calibrate` refuse alike, and what a simulated stance is doubted for."""
+"""What `simulate` and `calibrate` refuse alike, and what a simulated stance and a calibrated sole are doubted for."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.prosthesis.simulate.run import doubt
+from geocontact.analyses.prosthesis.calibrate.result import doubts_of_fit
+from geocontact.analyses.prosthesis.simulate.result import doubt
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.clocks import clock_offset
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
@@ -143,3 +144,22 @@ def test_a_ground_that_is_none_is_refused_before_anything_is_warned_of(tmp_path:
     refused = call("prosthesis", "simulate", TRIAL / "walking.trc", *typed)
     assert refused.code == 2 and refused.warnings == [] and len(refused.complaints) == 1
     assert "'hill' is neither a plane nor stairs" in refused.err and not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("height", "pitch", "residual", "vertical", "words"),
+    [
+        (0.5, -1.2, 0.3, 0.01, []),
+        (-2.5, 0.0, 0.3, 0.01, ["did the foot stand flat"]),
+        (0.0, 2.1, 0.3, 0.01, ["did the foot stand flat"]),
+        (0.0, 0.0, 0.4, 0.053, ["missed by 5.3% of body weight, the residual is 0.4 times its noise"]),
+        (0.0, 0.0, 2.5, 0.02, ["missed by 2.0% of body weight, the residual is 2.5 times its noise"]),
+        (0.0, -3.0, 0.4, 0.2, ["did the foot stand flat", "missed by 20.0% of body weight"]),
+    ],
+)
+def test_a_foot_out_of_flat_and_a_stance_that_is_missed_are_said(
+    height: float, pitch: float, residual: float, vertical: float, words: list[str]
+) -> None:
+    found = doubts_of_fit(height, pitch, residual, vertical)
+    assert len(found) == len(words)
+    assert all(each in line for each, line in zip(words, found, strict=True))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.prosthesis.compare.page import comparison_panels
+from geocontact.analyses.prosthesis.compare.show import comparison_panels
 from tests.cli.calls import MESHES
 
 PERSON = '[persons.P1]\nmass = {{ value = 77.3, unit = "kg" }}\nstatic = "{meshes}/gait_P1_medium_1/standing.trc"\n'

@@ -14,12 +14,13 @@ import geocontact as gc
 from geocontact.analyses.cop.foot import sole_law
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
-from geocontact.analyses.prosthesis.compare.read import read as read_study
+from geocontact.analyses.prosthesis.compare.stances import read as read_study
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
-from geocontact.analyses.prosthesis.design.read import read as read_design
-from geocontact.analyses.prosthesis.foot_law import offset_of_law
+from geocontact.analyses.prosthesis.design.trial import read as read_design
+from geocontact.analyses.prosthesis.leg_and_foot import offset_of_law
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
-from geocontact.analyses.prosthesis.simulate.read import read as read_walk
+from geocontact.analyses.prosthesis.simulate.walk import fitted_walk
+from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.model.foot_offset import AS_STOOD, FootOffset
 from geocontact.io.recordings.spheres import SphereTable
@@ -88,8 +89,9 @@ def test_simulate_compare_and_design_start_from_it(tmp_path: Path) -> None:
     given = {name: value for name, value in GIVEN.items() if name != "other_plate"}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        plain = read_walk(ProsthesisSimulateOptions(TRIAL / "walking.trc", **GIVEN), record()).leg
-        walk = read_walk(ProsthesisSimulateOptions(TRIAL / "walking.trc", **GIVEN, law=file), record())
+        asked = [ProsthesisSimulateOptions(TRIAL / "walking.trc", **GIVEN, **own) for own in ({}, {"law": file})]
+        without, walk = (fitted_walk(read_walk(o, record()), o, record()) for o in asked)
+        plain = without.leg
         (stance,) = read_study(ProsthesisCompareOptions(study), record())
         trial = read_design(ProsthesisDesignOptions(TRIAL / "walking.trc", **given, law=file), record()).trial
     for leg in (walk.leg, walk.walked.motion.leg, stance.walk.leg, trial.leg):

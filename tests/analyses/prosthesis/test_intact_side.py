@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from geocontact.analyses.prosthesis.design.intact_side import intact_side, intact_table, intact_words
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
+from geocontact.analyses.prosthesis.design.trial import intact_side, intact_table, intact_words
 from geocontact.analyses.prosthesis.recorded_files import plate_under_foot, right_markers
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.design.intact_step import IntactStep

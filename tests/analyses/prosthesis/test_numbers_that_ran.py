@@ -13,10 +13,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import geocontact as gc
+from geocontact.analyses.prosthesis.leg_and_foot import all_numbers, numbers_table
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
-from geocontact.analyses.prosthesis.simulate.read import Walk, read
-from geocontact.analyses.prosthesis.simulate.run import bushing_of
-from geocontact.analyses.prosthesis.simulate.tables import all_numbers, numbers_table
+from geocontact.analyses.prosthesis.simulate.walk import Walk, bushing_of, fitted_walk, read
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
@@ -116,7 +115,8 @@ def walk_and_table(folder: Path, **options: Any) -> tuple[Walk, ProsthesisSimula
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
         o = ProsthesisSimulateOptions(TRIAL / "walking.trc", **(GIVEN | options))
-        walk = read(o, Record("prosthesis simulate", {}))
+        record = Record("prosthesis simulate", {})
+        walk = fitted_walk(read(o, record), o, record)
     write_table(numbers_table(all_numbers(walk.leg, walk.foot, walk.fulcrum, bushing_of(o))), folder, "numbers")
     return walk, o, read_back(folder)
 

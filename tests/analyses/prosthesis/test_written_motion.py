@@ -10,7 +10,7 @@ import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
 import geocontact as gc
-from geocontact.analyses.prosthesis.simulate.exports import write_coordinates
+from geocontact.analyses.prosthesis.stance_files import write_coordinates
 from geocontact.below_knee_prosthesis.model.leg import Leg
 from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
 from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, SOCKET

@@ -11,9 +11,10 @@ from scipy.optimize import brentq
 
 import geocontact as gc
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
-from geocontact.analyses.prosthesis.scale.read import read as read_stood
+from geocontact.analyses.prosthesis.scale.standing import read as read_stood
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
-from geocontact.analyses.prosthesis.simulate.read import read as read_walk
+from geocontact.analyses.prosthesis.simulate.walk import fitted_walk
+from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_amputee
@@ -46,7 +47,8 @@ def test_one_person_has_one_residual_limb_in_both_commands() -> None:
     """1.915 kg in `simulate` and 1.801 kg in `scale` where each had a taper of its own."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        walk = read_walk(ProsthesisSimulateOptions(TRIAL / "walking.trc", **GIVEN), Record("simulate", {}))
+        o, record = ProsthesisSimulateOptions(TRIAL / "walking.trc", **GIVEN), Record("simulate", {})
+        walk = fitted_walk(read_walk(o, record), o, record)
         standing = MESHES / "amputee_P1" / "standing.trc"
         stood = read_stood(ProsthesisScaleOptions(standing, mass=77.3), Record("scale", {}))
     made = standing_amputee(stood.seen, stood.person, stood.foot, stood.fulcrum, 0.03)

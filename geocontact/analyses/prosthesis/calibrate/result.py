@@ -1,7 +1,17 @@
-"""What a calibration gives: numbers with intervals, curves, and the law as a file."""
+"""The sole's numbers from a stance: `geocontact prosthesis calibrate`, `gc.prosthesis.calibrate`.
+
+>>> import geocontact as gc
+>>> trial = "meshes/gait_P1_medium_1/"
+>>> given = {"static": trial + "standing.trc", "mass": 77.3, "plates": trial + "plates.mot", "plate": "own_force"}
+>>> result = gc.prosthesis.calibrate(trial + "walking.trc", starts=0, **given)
+>>> print(result.sentences[0])
+vertical force within … % of body weight (R² …), centre of pressure within … % of the foot (R² …); …
+"""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass
 from os import fspath
 from pathlib import Path
@@ -12,21 +22,66 @@ import pandas as pd
 from jaxtyping import Float
 from numpy import ndarray
 
-from geocontact.analyses.figure_files import save_both
-from geocontact.analyses.prosthesis.calibrate.figure import stance_figure
-from geocontact.analyses.prosthesis.calibrate.law_file import law_toml
+from geocontact.analyses.job import Job
+from geocontact.analyses.prosthesis.calibrate.foot_on_plate import FootOnPlate, along_poses, on_whole_model, read
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
-from geocontact.analyses.prosthesis.calibrate.page import write_calibration_page
-from geocontact.analyses.result import Result
+from geocontact.analyses.prosthesis.calibrate.show import calibration_page, stance_figure
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
 from geocontact.below_knee_prosthesis.calibration.known_numbers import KnownNumber
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
-from geocontact.identify.signals.agreement import Agreement
-from geocontact.io.text.results import write_table
+from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
+from geocontact.below_knee_prosthesis.model.foot_offset import FootOffset
+from geocontact.identify.signals.agreement import Agreement, agreement
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
+
+HEAD = """\
+# Force law of the sole, calibrated on one stance; SI units. Numbers marked unknown were never loaded; those marked
+# not identified the stance hardly tells: the prior has most of the say.
+"""
+FOOT = """
+[foot]  # beside where its standing trial has it, found with the law; `sd` are standard deviations
+height = {height!r}  # m, its middle raised
+height_sd = {height_sd!r}  # m
+pitch = {pitch!r}  # rad, the toes up
+pitch_sd = {pitch_sd!r}  # rad
+standing = "{standing}"  # SHA-256 of that trial: [foot] holds beside no other"""
+
+
+def law_toml(found: SoleCalibration | WholeCalibration, standing: str) -> str:
+    """Text of the file.
+
+    Parameters
+    ----------
+    standing
+        SHA-256 of the standing trial.
+    """
+    law = found.law
+    lines = [HEAD, f"n = {law.exponent!r}", f"delta_full = {law.full_depth!r}", f"v_th = {law.threshold_speed!r}"]
+    verdicts = {each.name: each.verdict for each in found.knowledge.numbers}
+    count = len(law.stiffness)
+    for zone, chosen in found.residuals.zones.sole.spheres.zones.items():
+        k = int(np.flatnonzero(chosen)[0])
+        static, kinetic = (float(np.broadcast_to(each, count)[k]) for each in (law.static, law.kinetic))
+        lines += ["", f"[zone.{zone}]"]
+        lines.append(f"k = {float(law.stiffness[k])!r}  # {verdicts[f'stiffness.{zone}']}")
+        lines.append(f"b = {float(law.damping[k])!r}  # {verdicts[f'damping.{zone}']}")
+        lines.append(f"mu_s = {static!r}  # its ratio to mu_k is kept")
+        lines.append(f"mu_k = {kinetic!r}  # {verdicts[f'friction.{zone}']}")
+    lines += [_foot(each, standing) for each in found.offsets[:1]]
+    return "\n".join(lines) + "\n"
+
+
+def _foot(offset: FootOffset, standing: str) -> str:
+    names = ("height", "height_sd", "pitch", "pitch_sd")
+    return FOOT.format(standing=standing, **{name: float(getattr(offset, name)) for name in names})
+
 
 LAW = "law.toml"
 
@@ -68,12 +123,12 @@ class ProsthesisCalibrateResult(Result):
 
     @property
     def residual(self) -> float:
-        """Of the data at the numbers found last, over their noise, root mean square."""
+        """Residual of the data at the last numbers, over their noise, root mean square."""
         return float(np.sqrt(np.mean(self.last.residuals.of_data(self.last.at) ** 2)))
 
     @property
     def last(self) -> SoleCalibration | WholeCalibration:
-        """What was found last."""
+        """The last calibration."""
         return self.calibration if self.whole is None else self.whole
 
     def tables(self) -> dict[str, pd.DataFrame]:
@@ -101,21 +156,146 @@ class ProsthesisCalibrateResult(Result):
                 row |= {"along poses": before.value, "along poses verdict": before.verdict}
         return {"numbers": pd.DataFrame(rows), "stance": pd.DataFrame(columns)}
 
-    def figure(self) -> Figure:
-        """Measured and modelled force and centre of pressure."""
-        return stance_figure(self.stance, self.predicted)
+    def figures(self) -> dict[str, Figure]:
+        """`stance`: measured and modelled force and centre of pressure."""
+        return {"stance": stance_figure(self.stance, self.predicted)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Curves, numbers, and what they mean."""
+        numbers, walked = self.tables()["numbers"], self.whole is not None
+        page = calibration_page(drawings["stance"], self.stance, self.predicted, numbers, self.sentences, walked)
+        return {REPORT: page}
 
     def write_files(self, folder: Path) -> None:
-        """Tables, law, figure, page."""
-        for name, rows in self.tables().items():
-            write_table(rows, folder, name)
+        """law.toml besides."""
         named = fspath(self.options.static)
         standing = next(str(each["sha256"]) for each in self.record.inputs if each["file"] == named)
         (folder / LAW).write_text(law_toml(self.last, standing), encoding="utf-8", newline="\n")
-        save_both(self.figure(), folder, "stance")
-        self.write_page(folder / "report.html")
+        super().write_files(folder)
 
-    def write_page(self, file: Path) -> None:
-        """Curves, numbers, inputs."""
-        numbers, walked = self.tables()["numbers"], self.whole is not None
-        write_calibration_page(file, self.record, self.figure(), self.stance, self.predicted, numbers, walked)
+
+FAR, LARGE = 2.0, 2.0
+"""Standard deviations of height and pitch, and residual over noise, root mean square, that are warned of."""
+MISSED = 0.04
+"""Vertical force that may be missed, root mean square, in body weights: stances that the model made leave 0.01 to 0.02,
+a foot that stood 0.57 degrees out of flat left 0.053 with height and pitch held. Their errors are in the residual's
+noise, so that it alone hardly says so."""
+SHARE_OF_DEPTH = 1.0
+"""Share of its radius that a sphere may sink before its centre is under the ground."""
+
+
+def run(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> ProsthesisCalibrateResult:
+    """Numbers of the zones, their intervals, and the stance with them."""
+    foot, stance = given.foot, given.stance
+    found = along_poses(given, o, record)
+    whole = on_whole_model(given, found, o, record)
+    motion, slip = found.residuals.motion(found.at, 0)
+    predicted = found.residuals.stance(found.at, 0).predicted(found.foot.at(stance.fulcrum), motion)
+    if whole is not None:
+        one = whole.residuals.whole(whole.at, 0)
+        predicted, slip = one.channels(one.shown(whole.foot)), 0.0 * slip
+    step = float(np.median(np.diff(stance.time)))
+    model, measured = predicted / stance.weight, stance.measured / stance.weight
+    result = ProsthesisCalibrateResult(
+        record=record,
+        options=o,
+        stance=stance,
+        calibration=found,
+        whole=whole,
+        predicted=predicted,
+        slip=slip,
+        vertical=agreement(model[:, 1], measured[:, 1], step, 0.0),
+        centre=agreement(predicted[:, 3], stance.centre, step, 0.0),
+    )
+    if (motion.loads.depth > SHARE_OF_DEPTH * foot.sole.spheres.radius).any():
+        record.warn("a sphere sinks beyond its radius: the foot is recorded too low, or the sole is too soft")
+    _summarise(result)
+    return result
+
+
+def _summarise_fit(r: ProsthesisCalibrateResult) -> None:
+    """How the foot stood, and what speaks against the fit."""
+    record, e = r.record, r.stance.errors
+    offset = r.last.offsets[0]
+    record.say(
+        f"the foot is {offset.words} beside where its standing trial has it; prior {1e3 * e.standing:.1f} mm and "
+        f"{np.degrees(e.pitch):.2f} degrees"
+    )
+    for words in doubts_of_fit(offset.height / e.standing, offset.pitch / e.pitch, r.residual, r.vertical.rmsd):
+        record.warn(words)
+
+
+def doubts_of_fit(height: float, pitch: float, residual: float, vertical: float) -> list[str]:
+    """Reasons against a fit.
+
+    Parameters
+    ----------
+    height, pitch
+        Of the foot beside its standing trial, in standard deviations of their errors.
+    residual
+        Root mean square over what plate, height and pitch leave.
+    vertical
+        Root mean square difference of the vertical force, in body weights.
+    """
+    reasons = []
+    if max(abs(height), abs(pitch)) > FAR:
+        what = "height or pitch of the foot is more than two standard deviations beside the standing trial"
+        reasons.append(f"{what}: did the foot stand flat in `static`?")
+    if residual > LARGE or vertical > MISSED:
+        reasons.append(
+            f"the vertical force is missed by {vertical:.1%} of body weight, the residual is {residual:.1f} times its "
+            "noise: the model does not fit this stance, its numbers and their intervals are not to be trusted; check "
+            "`mass`, `setting`, plate and markers"
+        )
+    return reasons
+
+
+def _summarise(r: ProsthesisCalibrateResult) -> None:
+    """Sentences, reservations and results of a calibration."""
+    record, found = r.record, r.last
+    verdicts = Counter(number.verdict for number in found.knowledge.numbers)
+    unknown = [number.name for number in found.knowledge.numbers if number.verdict == "unknown"]
+    if unknown:
+        record.warn(f"never loaded, so that their usual values say nothing: {', '.join(unknown)}")
+    if not found.converged:
+        record.warn("the search stopped before it settled; give more `starts`")
+    apart = found.knowledge.told_apart
+    along = f"is met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s beside the recorded speed"
+    if r.whole is not None:
+        off = (r.predicted - r.stance.measured)[:, 0] / r.stance.weight
+        along = f"fore and aft within {100.0 * float(np.sqrt(np.mean(off**2))):.1f} % of body weight"
+    record.say(
+        f"vertical force within {100.0 * r.vertical.rmsd:.1f} % of body weight (R² {r.vertical.r2:.3f}), centre of "
+        f"pressure within {100.0 * r.centre.rmsd:.1f} % of the foot (R² {r.centre.r2:.2f}); the force along the floor "
+        f"{along}"
+    )
+    _summarise_fit(r)
+    if r.whole is not None:
+        record.say(
+            f"on the whole model the cost falls from {r.whole.begun:.0f}, at the numbers along the recorded poses, to "
+            f"{r.whole.cost:.0f}"
+        )
+    record.say(
+        f"{verdicts['known']} of {len(found.knowledge.numbers)} numbers are known, {verdicts['not identified']} not "
+        f"identified, {verdicts['unknown']} unknown; {apart.verdict} (condition {apart.condition:.3g})"
+    )
+    factors = ", ".join(f"{kind} a factor {sd:g}" for kind, (sd, _) in PRIOR.items())
+    record.say(f"prior (invented), as one standard deviation about the usual number: {factors}")
+    offset = found.offsets[0]
+    record.results["calibrate"] = {
+        "height_m": offset.height,
+        "height_sd_m": offset.height_sd,
+        "pitch_rad": offset.pitch,
+        "pitch_sd_rad": offset.pitch_sd,
+        "residual_over_noise": r.residual,
+        "vertical_rmse_of_body_weight": r.vertical.rmsd,
+        "vertical_r2": r.vertical.r2,
+        "centre_rmse_of_foot": r.centre.rmsd,
+        "centre_r2": r.centre.r2,
+        "condition": apart.condition,
+        "solved": found.residuals.solved,
+        "numbers": {number.name: number.value for number in found.knowledge.numbers},
+    }
+
+
+calibrate = Job("prosthesis calibrate", ProsthesisCalibrateOptions, read, run)

@@ -1,4 +1,19 @@
-"""What a comparison of many stances finds: errors beside trivial predictors, ensembles, outliers."""
+r"""Many stances beside their plates: `geocontact prosthesis compare`, `gc.prosthesis.compare`.
+
+>>> import geocontact as gc
+>>> from pathlib import Path
+>>> trial = "meshes/gait_P1_medium_1/"
+>>> text = f'[persons.P1]\nmass = {{ value = 77.3, unit = "kg" }}\nstatic = "{trial}standing.trc"\n'
+>>> for name in ("low", "medium"):
+...     place = f"meshes/gait_P1_{name}_1/"
+...     text += f'[[trials]]\nname = "{name}"\nperson = "P1"\nsetting = "{name}"\nmarkers = "{place}walking.trc"\n'
+...     text += f'plates = "{place}plates.mot"\nplate = "own_force"\nother_plate = "other_force"\n'
+>>> _ = Path("study.toml").write_text(text)
+>>> print("\n".join(gc.prosthesis.compare("study.toml", workers=1).sentences[:2]))
+2 stances, 1 person, 2 settings of the foot
+resultant force: R² 0.95, 6.4% BW; without a model mean of the others 11.2% BW, another setting 11.2% BW; better than
+both on 2 of 2
+"""
 
 from __future__ import annotations
 
@@ -7,28 +22,40 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pandas as pd
 
-from geocontact.analyses.figure_files import save_both
-from geocontact.analyses.prosthesis.compare.figure import ensemble_figure
+from geocontact.analyses.job import Job
+from geocontact.analyses.json_file import plain
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
-from geocontact.analyses.prosthesis.compare.page import write_comparison_page
-from geocontact.analyses.prosthesis.compare.tables import (
+from geocontact.analyses.prosthesis.compare.show import comparison_page, ensemble_figure
+from geocontact.analyses.prosthesis.compare.stances import (
+    ALL,
+    StudiedStance,
     ensembles_table,
     errors_table,
+    judged_stance,
+    read,
+    simulated_stance,
     summary_table,
     trials_table,
 )
-from geocontact.analyses.prosthesis.simulate.exports import write_coordinates, write_loads, write_spheres
-from geocontact.analyses.prosthesis.simulate.tables import numbers_of, numbers_table
-from geocontact.analyses.result import Result
+from geocontact.analyses.prosthesis.leg_and_foot import counted_twice, numbers_of, numbers_table
+from geocontact.analyses.prosthesis.stance_files import write_coordinates, write_loads, write_spheres
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.workers import each
 from geocontact.below_knee_prosthesis.evaluation.judged_stance import JudgedStance
-from geocontact.below_knee_prosthesis.evaluation.outliers import Oddness
+from geocontact.below_knee_prosthesis.evaluation.outliers import FEWEST, Oddness, oddness, reasons
 from geocontact.below_knee_prosthesis.model.leg import Side
+from geocontact.below_knee_prosthesis.simulate import Stance
+from geocontact.data.errors import InputError
 from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 TRIALS = "trials"
 """Folder with what other programs read, of each stance."""
@@ -61,14 +88,16 @@ class ProsthesisCompareResult(Result):
             "ensembles": ensembles_table(self.stances),
         }
 
-    def figure(self) -> Figure:
-        """Means and bands over the stances of each setting."""
-        return ensemble_figure(self.stances)
+    def figures(self) -> dict[str, Figure]:
+        """`ensembles`: means and bands over the stances of each setting."""
+        return {"ensembles": ensemble_figure(self.stances)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Ensembles, errors beside trivial predictors, outliers."""
+        return {REPORT: comparison_page(drawings["ensembles"], self.stances, self.tables(), self.sentences)}
 
     def write_files(self, folder: Path) -> None:
-        """Tables, figure, page; of each stance coordinates, loads, spheres and numbers as `prosthesis simulate`."""
-        for name, rows in self.tables().items():
-            write_table(rows, folder, name)
+        """Coordinates, loads, spheres and numbers of each stance besides, as `prosthesis simulate` writes them."""
         for one in self.stances:
             place = folder / TRIALS / one.name
             place.mkdir(parents=True)
@@ -76,9 +105,114 @@ class ProsthesisCompareResult(Result):
             write_loads(place, one.stance, self.sides[one.name])
             write_spheres(place / "paraview", one.stance, self.sides[one.name])
             write_table(numbers_table(numbers_of(one.stance)), place, "numbers")
-        save_both(self.figure(), folder, "ensembles")
-        self.write_page(folder / "report.html")
+        super().write_files(folder)
 
-    def write_page(self, file: Path) -> None:
-        """Ensembles, errors beside trivial predictors, outliers."""
-        write_comparison_page(file, self.record, self.figure(), self.stances, self.tables())
+
+WORDS = {"resultant": "resultant force", "cop_ground": "centre of pressure", "ankle_moment": "ankle moment"}
+SAID = tuple(WORDS)
+"""Quantities that have a sentence."""
+PLAIN = ("mean of the others rmse", "another rmse")
+"""Columns of both predictors without a model."""
+
+
+def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions, record: Record) -> ProsthesisCompareResult:
+    """Every stance that can be simulated; InputError where none can."""
+    found: dict[str, Stance] = {}
+    with record.listener.progress("stances", len(given)) as step:
+        for one, became in each(simulated_stance, given, o.workers):
+            if isinstance(became, BaseException):
+                raise became
+            if isinstance(became, str):
+                record.warn(f"{one.trial.name} is left out: {became}")
+            else:
+                found[one.trial.name] = became.stance
+                if not became.settled:
+                    record.warn(f"{one.trial.name}: {counted_twice(became)}")
+            step()
+    if not found:
+        raise InputError(o.study, "[[trials]]", "no stance could be simulated", "look at one with prosthesis simulate")
+    stances = tuple(judged_stance(one, found[one.trial.name]) for one in given if one.trial.name in found)
+    transfer = [one for one in stances if not one.calibrated]
+    odd = oddness({one.name: one.errors.table["resultant"][1] for one in transfer})
+    result = ProsthesisCompareResult(
+        record=record,
+        options=o,
+        stances=stances,
+        sides={one.trial.name: one.person.side for one in given},
+        odd=odd,
+    )
+    _summarise(result)
+    return result
+
+
+def _summarise(r: ProsthesisCompareResult) -> None:
+    """Sentences, reservations and results of a comparison."""
+    record, stances = r.record, r.stances
+    fitted = [one.name for one in stances if one.calibrated]
+    transfer = len(stances) - len(fitted)
+    persons, settings = (len({getattr(one, key) for one in stances}) for key in ("person", "setting"))
+    record.say(
+        f"{transfer} stances, {persons} person{'s'[: persons - 1]}, {settings} setting{'s'[: settings - 1]} of the foot"
+        + (f", beside {len(fitted)} that a sole was fitted to: {', '.join(fitted)}" if fitted else "")
+    )
+    summary = summary_table(errors_table(stances))
+    rows = summary[summary["setting"] == ALL].set_index("quantity")
+    for name in SAID:
+        if name in rows.index:
+            record.say(_over_all(name, rows.loc[[name]].iloc[0]))
+    judged = list(dict.fromkeys(one.setting for one in stances if not one.calibrated))
+    for setting in judged if len(judged) > 1 else ():
+        own = summary[summary["setting"] == setting].set_index("quantity")
+        record.say(f"{setting}: {'; '.join(_of_setting(name, own.loc[[name]].iloc[0]) for name in SAID)}")
+    late = [one.errors.stance[0] - one.errors.stance[1] for one in stances if not one.calibrated]
+    late = [each for each in late if np.isfinite(each)]
+    turned = [one.stance.motion.leg.offset.given for one in stances]
+    if any(turned):
+        count = f"{sum(turned)} of {len(stances)} stances"
+        record.say(f"height and pitch of the foot beside its standing trial are taken from the law on {count}")
+    if late:
+        record.say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms)")
+    for one in stances:
+        if np.isnan(one.errors.stance[0]):
+            what = f"is simulated over {one.errors.simulated:.0%} of its stance, and ends before toe-off"
+            record.warn(f"{one.name} {what}: no stance time of it, errors over that part")
+        if (oddness_of := r.odd.get(one.name)) is not None and oddness_of.outlier:
+            seen = "; ".join(reasons(one)) or "nothing that is looked at tells why"
+            record.warn(f"{one.name} stands out with {one.errors.table['resultant'][1]:.1%} BW: {seen}")
+    if transfer < FEWEST:
+        record.warn(f"with {transfer} stances none can stand out: {FEWEST} are needed")
+    record.results["compare"] = plain({one.name: _numbers(one) for one in stances})
+
+
+def _of_setting(name: str, row: pd.Series) -> str:
+    """Errors of the model and of both predictors."""
+    plain_ones = [_size(name, row[column]) for column in PLAIN if np.isfinite(row[column])]
+    beside = f" (without a model {' and '.join(plain_ones)})" if plain_ones else ""
+    return f"{WORDS[name]} {_size(name, row['rmse'])}{beside}"
+
+
+def _size(name: str, value: float) -> str:
+    what = {"resultant": "BW", "cop_ground": "of the foot"}.get(name, "N m/kg")
+    return f"{value:.2f} {what}" if name == "ankle_moment" else f"{value:.1%} {what}"
+
+
+def _over_all(name: str, row: pd.Series) -> str:
+    plain_words = ", ".join(
+        f"{label} {_size(name, row[column])}"
+        for label, column in zip(("mean of the others", "another setting"), PLAIN, strict=True)
+        if np.isfinite(row[column])
+    )
+    beside = f"; without a model {plain_words}; better than both on {row['better']:.0f} of {row['trials']:.0f}"
+    return f"{WORDS[name]}: R² {row['r2 [-]']:.2f}, {_size(name, row['rmse'])}{beside if plain_words else ''}"
+
+
+def _numbers(one: JudgedStance) -> dict[str, object]:
+    return {
+        "calibrated": one.calibrated,
+        "stance_s": one.errors.stance[0],
+        "plate_stance_s": one.errors.stance[1],
+        **{name: {"r2": r2, "rmse": off} for name, (r2, off) in one.errors.table.items()},
+    }
+
+
+compare = Job("prosthesis compare", ProsthesisCompareOptions, read, run)

@@ -1,34 +1,57 @@
-"""What a choice of a foot finds: bands over what is varied, the best value for every aim, roll-over shapes."""
+"""Which foot for whom: `geocontact prosthesis design`, `gc.prosthesis.design`.
+
+>>> import geocontact as gc
+>>> trial = "meshes/gait_P1_medium_1/"
+>>> given = {"static": trial + "standing.trc", "mass": 77.3, "plates": trial + "plates.mot", "plate": "own_force"}
+>>> result = gc.prosthesis.design(trial + "walking.trc", feet=6, walks=1, **given)
+>>> print(result.sentences[0])
+radius of the roll-over shape, nearest to … m: …
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import save_both
-from geocontact.analyses.prosthesis.design.figure import design_figure, stance_share
-from geocontact.analyses.prosthesis.design.intact_side import intact_table
+from geocontact.analyses.job import Job
+from geocontact.analyses.json_file import plain
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
-from geocontact.analyses.prosthesis.design.page import write_design_page
-from geocontact.analyses.prosthesis.design.sensitivities_table import sensitivities_table
-from geocontact.analyses.prosthesis.design.sweep import SHOWN, UNITS, AimAnswer, Sweep, answers_table
-from geocontact.analyses.prosthesis.design.together import Together
-from geocontact.analyses.prosthesis.simulate.tables import numbers_table
-from geocontact.analyses.result import Result
+from geocontact.analyses.prosthesis.design.show import design_figure, design_page, stance_share
+from geocontact.analyses.prosthesis.design.sweep import (
+    ALIGNMENTS,
+    SHOWN,
+    UNITS,
+    VALUES,
+    AimAnswer,
+    Sweep,
+    Together,
+    answers_table,
+    pair_words,
+    sensitivities_table,
+    value_words,
+    varied_foot,
+    wanted_of,
+)
+from geocontact.analyses.prosthesis.design.trial import OF_ONE_STEP, FootAndTrial, intact_table, intact_words, read
+from geocontact.analyses.prosthesis.leg_and_foot import leg_numbers, numbers_table, numbers_without_leg, offset_words
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
+from geocontact.below_knee_prosthesis.design.choice import FootChoice, choose
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
-from geocontact.below_knee_prosthesis.design.knob import Knob, Response
-from geocontact.below_knee_prosthesis.design.outcomes import Aim, shank_path
+from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob, Response
+from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, shank_path
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity
+from geocontact.below_knee_prosthesis.design.terrain import LEVEL, Terrain, words
 from geocontact.data.sourced_number import Number
-from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -70,7 +93,7 @@ class ProsthesisDesignResult(Result):
     def tables(self) -> dict[str, pd.DataFrame]:
         """`answers`, `ranges`, `sensitivities`, `sweep`, `shapes`, `numbers`; `intact`; `pairs` and `together`."""
         vary = self.sweep.knob.vary
-        told = {
+        tables = {
             "answers": answers_table(self.answers, vary),
             "ranges": self.sweep.ranges(),
             "sensitivities": sensitivities_table(self.hangs_on),
@@ -79,25 +102,18 @@ class ProsthesisDesignResult(Result):
             "numbers": numbers_table(self.numbers),
         }
         if self.intact is not None:
-            told["intact"] = intact_table(self.intact)
+            tables["intact"] = intact_table(self.intact)
         if self.together is not None:
-            told |= {"pairs": self.together.pairs(vary, self.answers), "together": self.together.table(vary)}
-        return told
+            tables |= {"pairs": self.together.pairs(vary, self.answers), "together": self.together.table(vary)}
+        return tables
 
-    def figure(self) -> Figure:
-        """Outcomes with bands, roll-over shapes."""
-        return design_figure(self.sweep, self.answers, self.ends, self.shapes)
+    def figures(self) -> dict[str, Figure]:
+        """`design`: outcomes with bands, roll-over shapes."""
+        return {"design": design_figure(self.sweep, self.answers, self.ends, self.shapes)}
 
-    def write_files(self, folder: Path) -> None:
-        """Tables, figure, page."""
-        for name, rows in self.tables().items():
-            write_table(rows, folder, name)
-        save_both(self.figure(), folder, "design")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """Outcomes, answers, shapes, inputs."""
-        write_design_page(file, self.record, self.figure(), self.sweep, self.tables())
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Outcomes, answers, what they hang on, numbers."""
+        return {REPORT: design_page(drawings["design"], self.sweep, self.tables(), self.sentences)}
 
     def _shapes(self) -> pd.DataFrame:
         vary = self.ends.vary
@@ -117,3 +133,132 @@ class ProsthesisDesignResult(Result):
                 }
                 frames.append(pd.DataFrame(columns))
         return pd.concat(frames, ignore_index=True)
+
+
+def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> ProsthesisDesignResult:
+    """Bands of every outcome over the values, the best value for every aim."""
+    trial = given.trial
+    knob = Knob(o.vary, VALUES[o.vary], trial.fulcrum, Terrain(o.slope, o.edge))
+    varied = varied_foot(given, knob, o, record)
+    sweep = Sweep(knob, varied.drawn.drawn, varied.drawn.free, o.level)
+    near = {} if given.intact is None else given.intact.outcomes()
+    answers = tuple(
+        _answer(sweep, wanted_now(AIMS[k], o, varied.task, near), AIMS[k] in near, k) for k in range(len(AIMS))
+    )
+    beside = varied.drawn.beside
+    result = ProsthesisDesignResult(
+        record=record,
+        options=o,
+        sweep=sweep,
+        answers=answers,
+        ends=varied.ends,
+        shapes=varied.shapes,
+        task=varied.task,
+        held=varied.held,
+        hangs_on=varied.hangs_on,
+        together=Together.of(knob.settings, ALIGNMENTS, beside, answers, o.level) if o.together else None,
+        numbers=leg_numbers(trial.leg) | numbers_without_leg(given.foot, trial.fulcrum),
+        intact=None if given.intact is None else near,
+    )
+    _reserve(result, varied.drawn.lost)
+    _summarise(result)
+    if trial.offset.given:
+        record.say(offset_words(trial.offset))
+    return result
+
+
+def _reserve(r: ProsthesisDesignResult, lost: int) -> None:
+    """Reservations; `lost` draws have no equilibrium."""
+    record, knob = r.record, r.sweep.knob
+    if lost:
+        record.warn(f"{lost} of {r.options.feet} drawn feet found no equilibrium and are left out")
+    record.warn(_words_of_torques(r))
+    if r.intact is not None:
+        record.warn(OF_ONE_STEP)
+    record.warn("bands are of one trial: how a person differs from step to step is not in them")
+    if knob.vary != "alignment":
+        record.warn(f"the best {knob.vary} is sought with the recorded load; how the load changes is in the bands only")
+    if knob.terrain != LEVEL:
+        where = words(knob.terrain)
+        record.warn(f"judged {where}: the stance was recorded on a floor, its load and its turns are kept")
+
+
+def wanted_now(aim: Aim, o: ProsthesisDesignOptions, task: FootTask, near: Mapping[Aim, float]) -> float | None:
+    """Value of an aim that is wanted: a given one, else what the intact side has, else the usual one."""
+    if aim == o.aim and o.target is not None:
+        return o.target
+    return near.get(aim, wanted_of(aim, task))
+
+
+def _answer(sweep: Sweep, target: float | None, of_intact: bool, k: int) -> AimAnswer:
+    knob, measure = sweep.knob, MEASURES[AIMS[k]]
+    choice = choose(knob.settings, sweep.drawn[..., k], measure.sense, target, knob.present, sweep.level)
+    return AimAnswer(AIMS[k], target, choice, of_intact)
+
+
+def _summarise(r: ProsthesisDesignResult) -> None:
+    """Sentences and results of a choice."""
+    record, knob = r.record, r.sweep.knob
+
+    def shown(value: float) -> str:
+        return value_words(knob.vary, value)
+
+    chosen = next(each for each in r.answers if each.aim == r.options.aim)
+    measure, choice = MEASURES[chosen.aim], chosen.choice
+    place = words(knob.terrain)
+    what = f"{f'{place}, ' if place else ''}{measure.words}, {chosen.wanted}"
+    if not choice.told:
+        record.say(f"{what}: cannot tell which {knob.vary} is best: {choice.why}")
+    else:
+        record.say(
+            f"{what}: {knob.vary} {shown(choice.best)} ({shown(choice.lower)} to {shown(choice.upper)}) is best, "
+            f"{choice.why}"
+        )
+        record.say(_beside_present(choice, measure.unit, shown(knob.present)))
+        other = choice.sides["joint torques kept"]
+        own = f"{shown(other.best)} ({shown(other.lower)} to {shown(other.upper)})"
+        record.say(f"with the torques of hip and knee kept: {own if other.verdict == 'told' else other.verdict}")
+    if r.intact is not None:
+        record.say(intact_words(r.intact))
+        record.results["intact"] = plain(dict(r.intact))
+    if r.together is not None:
+        record.say(pair_words(knob.vary, chosen, r.together))
+    for response, rows in r.sweep.differences().items():
+        record.say(f"{response}, {shown(knob.settings[-1])} in place of {shown(knob.settings[0])}: {'; '.join(rows)}")
+    ends = r.sweep.ends
+    record.results["design_values"] = plain(r.sweep.shown.tolist())
+    record.results["torques_alone_hold_s"] = plain(r.held)
+    record.results["design"] = plain(
+        {
+            each.aim: {
+                "told": each.choice.told,
+                "best": each.choice.best,
+                "lower": each.choice.lower,
+                "upper": each.choice.upper,
+                "better_than_present": each.choice.better,
+                "least": ends[0, :, k].tolist(),
+                "most": ends[1, :, k].tolist(),
+            }
+            for k, each in enumerate(r.answers)
+        }
+    )
+
+
+def _words_of_torques(r: ProsthesisDesignResult) -> str:
+    knob, lasting = r.ends, r.task.time[-1] - r.task.time[0]
+    far = [(value, time) for value, time in zip(knob.settings, r.held, strict=True) if time < lasting]
+    held = ", ".join(f"{time:.2f} s at {value_words(knob.vary, value)}" for value, time in far)
+    alone = f"torques alone hold the leg for {held}, of {lasting:.2f} s" if far else "torques alone hold the leg here"
+    return f"joint torques kept: a weak spring at hip and knee goes with them ({alone})"
+
+
+def _beside_present(choice: FootChoice, unit: str, present: str) -> str:
+    gains = ", ".join(
+        f"{name} nearer by {median:.3g} ({lower:.3g} to {upper:.3g}) {unit}"
+        for name, (median, lower, upper) in choice.gain.items()
+    )
+    words = "it is better than" if choice.better else "cannot tell whether it is better than"
+    return f"{words} the present {present}: {gains}"
+
+
+design = Job("prosthesis design", ProsthesisDesignOptions, read, run)

@@ -1,25 +1,114 @@
-"""What a scaling gives: two models for OpenSim, tables of segments, joints and numbers, the standing pose."""
+"""A person with a below-knee prosthesis made to measure: `geocontact prosthesis scale`, `gc.prosthesis.scale`.
+
+>>> import geocontact as gc
+>>> stood = "meshes/amputee_P1/"
+>>> person = {"mass": 77.3, "height": 1.81}
+>>> result = gc.prosthesis.scale(stood + "standing.trc", functional=stood + "functional.trc", **person)
+>>> result
+both legs of 77.3 kg in 17 bodies with 36 coordinates, pelvis with all above it 46.9 kg, residual limb 1.78
+kg
+5 of 5 joint centres from the functional trial
+markers of the functional trial 3.7 mm from the model, root mean square, and 11.7 mm at most, LKNE at 37.8 s
+(OpenSim advises less than 20 and 40 mm)
+warning: 8 of 91 numbers of the segments are invented, see numbers.csv
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Float
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.job import Job
+from geocontact.analyses.json_file import plain
+from geocontact.analyses.motion.marker_errors import MOVING, MarkerErrors
+from geocontact.analyses.motion.skeleton import MARKER, scene_of, skeleton
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.prosthesis.leg_and_foot import numbers_table
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
-from geocontact.analyses.prosthesis.scale.page import write_amputee_page
-from geocontact.analyses.result import Result
+from geocontact.analyses.prosthesis.scale.standing import (
+    JointFound,
+    Stood,
+    as_standing,
+    fitted_pose,
+    joint_centres,
+    read,
+    standing_pose,
+    warn_of_legs,
+)
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
-from geocontact.below_knee_prosthesis.from_markers.sides import of_side
+from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
+from geocontact.below_knee_prosthesis.both_sides.standing import standing_amputee
+from geocontact.below_knee_prosthesis.from_markers.sides import as_right, of_side
+from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
+from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import Multibody
 from geocontact.data.sourced_number import Number
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.io.opensim.osim_writer import ContactBall, write_osim
-from geocontact.io.text.results import write_table
+from geocontact.view.page.content import IntervalRow, Intervals, Page, Section, Words
+from geocontact.view.page.linkage import Linkage
+from geocontact.view.page.tables import frame_table
+
+TRUNK = (
+    "Trunk, head and arms are one rigid body with the pelvis, upright as while standing, arms hanging (de Leva): it "
+    "leans with the pelvis only, and its arms do not swing. Moments on pelvis and hips are those of such a trunk."
+)
+SKIN = (
+    "Markers lie on skin. Centres from a functional trial are off by what skin moves, more if the joint moves little: "
+    "how far a joint is off itself tells the first, not the second."
+)
+HELD_PARTS = (
+    "amputee_ik.osim holds socket and keel, of which markers tell nothing; in amputee.osim they are free, with springs "
+    "of the fulcrum that was asked for."
+)
+
+
+def amputee_page(
+    title: str, model: Multibody, pose: Poses, tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]
+) -> Page:
+    """The standing pose with its markers, segments, joints, numbers."""
+    values = np.asarray(pose.values)
+    places = Linkage("markers", model.marker_places(values), np.zeros((0, 2), dtype=np.int64), "seen", MARKER, 0.0)
+    sections: list[Section] = [
+        scene_of(model, [skeleton(model, values), places]),
+        frame_table("Segments", tables["segments"]),
+        frame_table("Joints while standing", tables["joints"]),
+        *_distances(tables),
+        frame_table("Numbers of the segments in SI, and where they are from", tables["numbers"]),
+        INPUTS,
+        OPTIONS,
+        Words("What the numbers do not contain", [TRUNK, SKIN, HELD_PARTS, NOT_A_DEVICE]),
+    ]
+    return Page(
+        title=title,
+        subtitle="Both legs of a person with a below-knee prosthesis, standing",
+        time=np.zeros(1),
+        time_label="",
+        headline=headline(sentences),
+        facts=[
+            ("Mass", f"{model.mass:.4g} kg"),
+            ("Coordinates", f"{len(model.coordinates)}"),
+        ],
+        sections=tuple(sections),
+        plays=False,
+    )
+
+
+def _distances(tables: Mapping[str, pd.DataFrame]) -> list[Section]:
+    """Distances of the markers of the functional trial from the model, farthest first."""
+    if "markers" not in tables:
+        return []
+    table = tables["markers"].sort_values("off, rms [mm]", ascending=False)
+    rows = [IntervalRow(name, float(off)) for name, off in table.itertuples(index=False)]
+    return [Intervals("Markers of the functional trial off the model, root mean square", "mm", rows, bars=True)]
+
 
 FREE, HELD = "amputee.osim", "amputee_ik.osim"
 NOTE = (
@@ -28,26 +117,6 @@ NOTE = (
     "inertia: de Leva 1996), upright as while standing, arms hanging: they lean and turn with the pelvis alone, "
     "so that moments on pelvis and hips leave out what a trunk does by itself."
 )
-
-
-@dataclass(frozen=True)
-class JointFound:
-    """A joint of a person who stands.
-
-    Parameters
-    ----------
-    how
-        Its centre was found.
-    place
-        In the laboratory [m].
-    rms
-        How far both segments put it apart [m]; None where no functional trial tells it.
-    """
-
-    name: str
-    how: str
-    place: Float[np.ndarray, " 3"]
-    rms: float | None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -84,31 +153,28 @@ class ProsthesisScaleResult(Result):
         names = ["segment", "mass [kg]", *(f"centre_{a} [mm]" for a in "xyz"), *(f"I{a} [kg m^2]" for a in axes)]
         found = [(j.name, j.how, *(1e3 * j.place), np.nan if j.rms is None else 1e3 * j.rms) for j in self.joints]
         joints = ["joint", "how", "x [mm]", "y [mm]", "z [mm]", "off itself [mm]"]
-        told = [(name, number.value, number.source, number.note) for name, number in self.numbers.items()]
         tables = {
             "segments": pd.DataFrame(rows, columns=names),
             "joints": pd.DataFrame(found, columns=joints),
-            "numbers": pd.DataFrame(told, columns=["number", "value", "source", "note"]),
+            "numbers": numbers_table(self.numbers),
         }
         if self.moved is not None:
             off = 1e3 * np.sqrt(np.nanmean(self.moved.distances**2, axis=0))
             tables["markers"] = pd.DataFrame({"marker": list(self.moved.markers), "off, rms [mm]": off})
         return tables
 
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """The standing pose with its markers, segments, joints, numbers."""
+        title = f"Model of {self.options.static.name}"
+        return {REPORT: amputee_page(title, self.held, self.pose, self.tables(), self.sentences)}
+
     def write_files(self, folder: Path) -> None:
-        """Both models, tables, page."""
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
+        """Both models for OpenSim besides."""
         end = f"_{self.options.side[0]}"
         springs = {f"{name}{end}": pair for name, pair in self.amputee.springs().items()}
         write_osim(folder / FREE, self.model, springs=springs, balls=self._balls(), note=NOTE)
         write_osim(folder / HELD, self.held, note=NOTE)
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """The standing pose with its markers, segments, joints, numbers."""
-        title = f"Model of {self.options.static.name}"
-        write_amputee_page(file, title, self.record, self.held, self.pose, self.tables())
+        super().write_files(folder)
 
     def _balls(self) -> list[ContactBall]:
         """Spheres of both soles on the bodies that carry them."""
@@ -123,3 +189,55 @@ class ProsthesisScaleResult(Result):
             for centre, radius, zone in zip(spheres.centre, spheres.radius, spheres.zone, strict=True):
                 found.append(ContactBall(f"{zone}_{len(found) + 1}", body, of_side(centre, side), float(radius)))
         return found
+
+
+def run(stood: Stood, o: ProsthesisScaleOptions, record: Record) -> ProsthesisScaleResult:
+    """The model, its joints and its standing pose."""
+    below = sole_numbers()["below"].value
+    made = standing_amputee(stood.seen, stood.person, stood.foot, stood.fulcrum, below, stood.joints, o.height)
+    mass = made.pelvis_body()[0]
+    if not mass > 0.0:
+        what = f"the legs leave {mass:.1f} kg of {made.mass:g} kg for all above them"
+        raise InputError("", "`mass`", what, "check `mass` and `prosthesis_mass`")
+    held = amputee_tree(made, o.side, held=True)
+    pose = standing_pose(held, stood, o)
+    moved = None if stood.moving is None else fitted_pose(held, as_right(stood.moving, o.side))
+    joints = joint_centres(stood, made, held, pose, o)
+    numbers = made.numbers()
+    warn_of_legs(made, stood, o, record)
+    invented = sum(number.source == "invented" for number in numbers.values())
+    record.warn(f"{invented} of {len(numbers)} numbers of the segments are invented, see numbers.csv")
+    functional = [joint.how == "functional" for joint in joints]
+    record.say(
+        f"both legs of {made.mass:g} kg in {len(held.bodies)} bodies with {len(held.coordinates)} coordinates, "
+        f"pelvis with all above it {mass:.1f} kg, residual limb {made.prosthetic.residual_body()[0]:.2f} kg"
+    )
+    record.say(f"{sum(functional)} of {len(functional)} joint centres from the functional trial")
+    if moved is not None:
+        errors = MarkerErrors.of(moved)
+        errors.warn(record, MOVING)
+        record.say(f"markers of the functional trial {errors.words(MOVING)}")
+    record.results["scale"] = plain(
+        {
+            "mass_kg": held.mass,
+            "pelvis_kg": mass,
+            "residual_kg": made.prosthetic.residual_body()[0],
+            "density_kg_per_m3": made.intact.density,
+            "joints_off_themselves_mm": {joint.name: 1e3 * joint.rms for joint in joints if joint.rms is not None},
+            "functional_rms_mm": None if moved is None else 1e3 * float(np.sqrt(np.nanmean(moved.distances**2))),
+        }
+    )
+    return ProsthesisScaleResult(
+        record=record,
+        options=o,
+        amputee=made,
+        model=as_standing(amputee_tree(made, o.side), pose),
+        held=as_standing(held, pose),
+        pose=pose,
+        moved=moved,
+        joints=joints,
+        numbers=numbers,
+    )
+
+
+scale = Job("prosthesis scale", ProsthesisScaleOptions, read, run)

@@ -1,4 +1,16 @@
-"""What a simulation finds: tables, files for OpenSim and ParaView, page."""
+"""A stance of a below-knee prosthesis: `geocontact prosthesis simulate`, `gc.prosthesis.simulate`.
+
+>>> import geocontact as gc
+>>> trial = "meshes/gait_P1_medium_1/"
+>>> plates = {"plates": trial + "plates.mot", "plate": "own_force", "other_plate": "other_force"}
+>>> result = gc.prosthesis.simulate(trial + "walking.trc", static=trial + "standing.trc", mass=77.3, **plates)
+>>> result
+stance of 0.73 s at the fulcrum of 117 mm: vertical force up to 1.30 BW, ankle moment up to 100 N m, keel
+stores 11.0 J
+against the plate: R² 0.92, 7.8% BW; centre of pressure R² 1.00, 1.1% of the foot; stance -6 ms
+warning: the hip's centre is that of a regression; a `functional` trial tells it better
+warning: 79 of 142 numbers of leg and foot are invented, see numbers.csv
+"""
 
 from __future__ import annotations
 
@@ -7,26 +19,78 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pandas as pd
 
-from geocontact.analyses.figure_files import save_both
+from geocontact.analyses.job import Job
+from geocontact.analyses.json_file import plain
 from geocontact.analyses.motion.figure import curves_figure
-from geocontact.analyses.prosthesis.simulate.exports import write_coordinates, write_loads, write_spheres
+from geocontact.analyses.prosthesis.leg_and_foot import all_numbers, counted_twice, numbers_table, offset_words
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
-from geocontact.analyses.prosthesis.simulate.page import write_stance_page
-from geocontact.analyses.prosthesis.simulate.plane_files import write_plane
-from geocontact.analyses.prosthesis.simulate.read import Walk
-from geocontact.analyses.prosthesis.simulate.tables import curves_table, errors_table, numbers_table, stance_table
-from geocontact.analyses.result import Result
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.analyses.prosthesis.simulate.show import stance_page
+from geocontact.analyses.prosthesis.simulate.walk import RecordedWalk, Walk, bushing_of, fitted_walk, read, simulated
+from geocontact.analyses.prosthesis.stance_files import write_coordinates, write_loads, write_plane, write_spheres
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.from_markers.sides import of_side
+from geocontact.below_knee_prosthesis.model.leg import Side
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, SOCKET
 from geocontact.below_knee_prosthesis.model.stance_model import FLOOR
-from geocontact.below_knee_prosthesis.simulate import Stance
-from geocontact.below_knee_prosthesis.stance_errors import StanceErrors, at_times
+from geocontact.below_knee_prosthesis.simulate import GATE, Stance
+from geocontact.below_knee_prosthesis.stance_errors import StanceErrors, at_times, longest_stance, stance_errors
+from geocontact.contact.bushing import PISTONING
+from geocontact.data.errors import InputError
 from geocontact.data.sourced_number import Number
-from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
+
+UNITS = {"impulse": "s"}
+"""Units of quantities that are not shares: forces are over body weight, centres of pressure over the foot's length."""
+
+
+def stance_table(s: Stance, side: Side) -> pd.DataFrame:
+    """Over time; forces and places in the laboratory's frame."""
+    force, ground, sphere = (of_side(each, side) for each in (s.force, s.centre("ground"), s.centre("sphere")))
+    return pd.DataFrame(
+        {
+            "time [s]": s.time,
+            **{f"force_{axis} [N]": column for axis, column in zip("xyz", force.T, strict=True)},
+            **{f"cop_{axis} [mm]": 1e3 * column for axis, column in zip("xz", ground[:, ::2].T, strict=True)},
+            **{f"sphere_cop_{axis} [mm]": 1e3 * column for axis, column in zip("xz", sphere[:, ::2].T, strict=True)},
+            "cop along foot [-]": s.along_foot("ground"),
+            "sphere cop along foot [-]": s.along_foot("sphere"),
+            "ankle moment [N m]": s.ankle_moment,
+            "stored [J]": s.stored,
+            "lost [J]": s.lost,
+            **{
+                f"{name} [deg]": np.degrees(column)
+                for name, column in zip(SOCKET[:3], s.found.q[:, 2:5].T, strict=True)
+            },
+            **{f"{name} [mm]": 1e3 * column for name, column in zip(SOCKET[3:], s.found.q[:, 5:8].T, strict=True)},
+            **{f"{name} moment [N m]": column for name, column in zip(SOCKET[:3], s.socket[:, :3].T, strict=True)},
+            **{f"{name} force [N]": column for name, column in zip(SOCKET[3:], s.socket[:, 3:].T, strict=True)},
+            **{f"{zone} [N]": s.loads.pressing[:, of].sum(axis=1) for zone, of in s.foot.sole.spheres.zones.items()},
+        }
+    )
+
+
+def errors_table(errors: StanceErrors) -> pd.DataFrame:
+    """R² and root mean square error by quantity, and the stance's length."""
+    rows = [(name, UNITS.get(name, "-"), r2, off) for name, (r2, off) in errors.table.items()]
+    rows.append(("stance", "s", np.nan, errors.stance[0] - errors.stance[1]))
+    return pd.DataFrame(rows, columns=["quantity", "unit", "r2 [-]", "rmse"])
+
+
+def curves_table(errors: StanceErrors) -> pd.DataFrame:
+    """Simulated and measured curves over 101 points of the plate's stance."""
+    columns = {"stance [-]": errors.share}
+    for name, (model, measured) in errors.curves.items():
+        unit = UNITS.get(name, "-")
+        columns |= {f"{name} [{unit}]": model, f"{name} measured [{unit}]": measured}
+    return pd.DataFrame(columns)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -52,8 +116,8 @@ class ProsthesisSimulateResult(Result):
             told |= {"errors": errors_table(self.errors), "curves": curves_table(self.errors)}
         return told
 
-    def figure(self) -> Figure:
-        """Ground reaction and centre of pressure over time, beside the plate's."""
+    def figures(self) -> dict[str, Figure]:
+        """`stance`: ground reaction and centre of pressure over time, beside the plate's."""
         s, plate = self.stance, self.walk.plate
         weight = s.motion.leg.person.mass * GRAVITY
         force = {"vertical": s.force[:, 1] / weight, "fore and aft": s.force[:, 0] / weight}
@@ -62,20 +126,126 @@ class ProsthesisSimulateResult(Result):
             force |= {"vertical, plate": seen[:, 1], "fore and aft, plate": seen[:, 0]}
         along = {name: 1e2 * s.along_foot(name) for name in ("ground", "sphere")}
         panels = {"force [BW]": pd.DataFrame(force), "centre of pressure [% of the foot]": pd.DataFrame(along)}
-        return curves_figure(s.time, panels)
+        return {"stance": curves_figure(s.time, panels)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """The moving foot with its forces and the path of the centre of pressure, curves, tables."""
+        page = stance_page(self.options, self.stance, self.walk.plate, self.tables(), self.sentences)
+        return {REPORT: page}
 
     def write_files(self, folder: Path) -> None:
-        """Tables, coordinates and external loads for OpenSim, spheres for ParaView, page; a gap case if on a floor."""
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
+        """Coordinates and external loads for OpenSim, spheres for ParaView besides; a gap case if on a floor."""
         write_coordinates(folder, self.stance, self.options.side)
         write_loads(folder, self.stance, self.options.side)
         write_spheres(folder / "paraview", self.stance, self.options.side)
         if self.stance.ground == FLOOR:
-            write_plane(folder / "plane", self.walk, self.stance)
-        save_both(self.figure(), folder, "stance")
-        self.write_page(folder / "report.html")
+            seen = self.walk.cluster
+            write_plane(folder / "plane", seen.time, seen.poses, self.walk.plate, self.stance)
+        super().write_files(folder)
 
-    def write_page(self, file: Path) -> None:
-        """Moving foot with its forces and the path of the centre of pressure, curves, tables."""
-        write_stance_page(file, self.record, self.options, self.stance, self.walk.plate, self.tables())
+
+TURNED = np.radians(20.0)
+"""rad; of the socket, beyond which its bushing is doubted."""
+
+
+def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisSimulateResult:
+    """The walk, and its stance from before touch-down to after toe-off."""
+    walk = fitted_walk(recorded, o, record)
+    numbers = all_numbers(walk.leg, walk.foot, walk.fulcrum, bushing_of(o))
+    invented = sum(number.source == "invented" for number in numbers.values())
+    record.warn(f"{invented} of {len(numbers)} numbers of leg and foot are invented, see numbers.csv")
+    limb = simulated(walk, o)
+    found = limb.stance
+    if not found.on.any():
+        raise InputError(
+            o.markers, "", "the foot never touches the floor", "is `ground` right, y = 0 without it, and `mass`?"
+        )
+    errors = None if walk.plate is None else stance_errors(found, walk.plate)
+    doubt(found, record)
+    if not limb.settled:
+        record.warn(counted_twice(limb))
+    told = summary(found)
+    record.results["stance"] = plain(told)
+    record.results["socket"] = plain({"turns": limb.turns, "change_BW": limb.change, "settled": limb.settled})
+    record.say(found_words(found, told))
+    if errors is not None:
+        record.say(beside_words(errors))
+        record.results["errors"] = plain({name: {"r2": r2, "rmse": off} for name, (r2, off) in errors.table.items()})
+    if walk.leg.offset.given:
+        record.say(offset_words(walk.leg.offset))
+    return ProsthesisSimulateResult(record=record, options=o, walk=walk, stance=found, errors=errors, numbers=numbers)
+
+
+def found_words(found: Stance, told: Mapping[str, float]) -> str:
+    """The whole stance in a sentence, by `summary`."""
+    lasting = f"stance of {told['stance_s']:.2f} s"
+    if np.isnan(told["stance_s"]):
+        lasting = f"stance that is not over after {found.time[-1] - found.time[found.on][0]:.2f} s,"
+    return (
+        f"{lasting} at the fulcrum of {1e3 * found.fulcrum:.0f} mm: vertical force up to "
+        f"{told['vertical_max_BW']:.2f} BW, ankle moment up to {told['ankle_moment_max_N_m']:.0f} N m, keel "
+        f"stores {told['stored_max_J']:.1f} J"
+    )
+
+
+def beside_words(errors: StanceErrors) -> str:
+    """How far the stance is from its plate in a sentence."""
+    r2, off = errors.table["resultant"]
+    along = errors.table["cop_ground"]
+    return (
+        f"against the plate: R² {r2:.2f}, {off:.1%} BW; centre of pressure R² {along[0]:.2f}, {along[1]:.1%} of the "
+        f"foot; {_lasting(errors)}"
+    )
+
+
+def _lasting(errors: StanceErrors) -> str:
+    late = 1e3 * (errors.stance[0] - errors.stance[1])
+    if np.isfinite(late):
+        return f"stance {late:+.0f} ms"
+    return f"over the first {errors.simulated:.0%} of the plate's stance, for the simulation ended before toe-off"
+
+
+def doubt(found: Stance, record: Record) -> None:
+    """Reservations on a simulated stance."""
+    time, loads = found.time, found.loads
+    if loads.pressing[0].sum() > GATE:
+        record.warn(f"the foot is on the floor at the start, with {loads.pressing[0].sum():.0f} N: begin earlier")
+    if found.on[-1]:
+        what = f"the foot is still on the floor with {found.force[-1, 1]:.0f} N where the simulation ends"
+        record.warn(f"{what}, at {found.time[-1]:.2f} s: is `mass` right, and do the markers go on past toe-off?")
+    far, fast = found.beyond
+    if far.any():
+        most, limit = 1e3 * np.abs(found.pistoning).max(), 1e3 * PISTONING.travel
+        record.warn(f"the socket pistons by {most:.0f} mm, past {limit:.0f} mm, first at {time[far][0]:.2f} s")
+    if fast.any():
+        limit = 1e3 * PISTONING.speed
+        record.warn(f"the socket pistons faster than {limit:.0f} mm/s, first at {time[fast][0]:.2f} s")
+    turned = np.abs(found.found.q[:, 2:5]).max()
+    if turned > TURNED:
+        record.warn(f"the socket turns by {np.degrees(turned):.0f} degrees on its bushing")
+    sunk = loads.depth > found.foot.sole.spheres.radius
+    if sunk.any():
+        record.warn(
+            f"{int(sunk.any(axis=0).sum())} spheres sink beyond their radius, up to {1e3 * loads.depth.max():.0f} mm"
+        )
+    idle = [zone for zone, of in found.foot.sole.spheres.zones.items() if not (loads.pressing[:, of] > 0.0).any()]
+    if idle:
+        record.warn(f"never loaded: {', '.join(idle)}; its numbers stay unknown")
+
+
+def summary(found: Stance) -> dict[str, float]:
+    """Numbers of the whole stance."""
+    weight = found.motion.leg.person.mass * GRAVITY
+    span = longest_stance(found.time, found.force[:, 1])
+    return {
+        "stance_s": float("nan") if span is None else span[1] - span[0],
+        "vertical_max_BW": float(found.force[:, 1].max() / weight),
+        "ankle_moment_max_N_m": float(found.ankle_moment.max()),
+        "stored_max_J": float(found.stored.max()),
+        "lost_J": float(found.lost[-1]),
+        "pistoning_max_mm": float(1e3 * np.abs(found.pistoning).max()),
+        "steps": float(found.found.steps),
+    }
+
+
+simulate = Job("prosthesis simulate", ProsthesisSimulateOptions, read, run)

@@ -1,25 +1,113 @@
-"""Tables of a comparison: errors of each stance beside trivial predictors, means by setting, ensembles, outliers."""
+"""Stances of a study: each as a single simulation starts from it, simulated, and all of them in tables."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.below_knee_prosthesis.evaluation.judged_stance import ANKLE, QUANTITIES, JudgedStance
+from geocontact.analyses.motion.markers import unit_of_c3d
+from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
+from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
+from geocontact.analyses.prosthesis.simulate.walk import Walk, fitted_walk, simulated
+from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
+from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.evaluation.judged_stance import ANKLE, QUANTITIES, JudgedStance, judged
 from geocontact.below_knee_prosthesis.evaluation.outliers import Oddness, reasons
 from geocontact.below_knee_prosthesis.evaluation.trivial_predictors import ANOTHER, MEAN, MeasuredCurve, trivial_curves
+from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
+from geocontact.below_knee_prosthesis.model.leg import RESIDUAL
+from geocontact.below_knee_prosthesis.simulate import Stance
+from geocontact.below_knee_prosthesis.stance_errors import PlateStance
+from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import agreement
+from geocontact.io.recordings.gait_study import GaitPerson, GaitStance, read_gait_study
+
+
+@dataclass(frozen=True, eq=False)
+class StudiedStance:
+    """One stance of a study: as it is described, what a simulation of it is asked, and what its files hold."""
+
+    trial: GaitStance
+    person: GaitPerson
+    asked: ProsthesisSimulateOptions
+    walk: Walk
+    plate: PlateStance
+
+
+def read(o: ProsthesisCompareOptions, record: Record) -> tuple[StudiedStance, ...]:
+    """Every stance; what is warned of several is warned once."""
+    study = read_gait_study(o.study)
+    record.add_input("study", o.study, trials=len(study.trials), persons=len(study.persons))
+    return tuple(_stance(each, study.persons[each.person], o, record) for each in study.trials)
+
+
+def _stance(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions, record: Record) -> StudiedStance:
+    asked = _asked(trial, person, o)
+    own = Record("prosthesis simulate", {})
+    walk = fitted_walk(read_walk(asked, own), asked, own)
+    for entry in own.inputs:
+        record.inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
+    for line in own.warnings:
+        if not any(line in known for known in record.warnings):
+            record.warn(f"{trial.name}: {line}")
+    if walk.plate is None:  # every stance of a study names its plate
+        raise ValueError(f"{trial.name}: no plate")
+    return StudiedStance(trial, person, asked, walk, walk.plate)
+
+
+def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -> ProsthesisSimulateOptions:
+    return ProsthesisSimulateOptions(
+        trial.markers,
+        static=person.static,
+        mass=person.mass,
+        side=person.side,
+        sex=person.sex,
+        functional=person.functional,
+        setting=trial.setting or "medium",
+        fulcrum=trial.fulcrum,
+        law=trial.law or person.law,
+        ground=trial.ground,
+        socket=o.socket,
+        plates=trial.plates,
+        other_plate=trial.other_plate,
+        plate=trial.plate,
+        cutoff=o.cutoff,
+        socket_turns=o.socket_turns,
+        gap_limit=o.gap_limit,
+        machine_code=o.machine_code,
+        markers_map=o.markers_map,
+        axes=o.axes,
+        c3d_unit=unit_of_c3d(o.c3d_unit, trial.markers, trial.plates, person.static, person.functional),
+        residual=RESIDUAL if person.residual is None else person.residual,
+    )
+
+
+def simulated_stance(one: StudiedStance) -> LimbInSocket | str:
+    """A stance along the limb's motion, or why there is none; runs in a process of its own."""
+    try:
+        found = simulated(one.walk, one.asked)
+    except InputError as error:
+        return error.what
+    return found if found.stance.on.any() else "the foot never touches the floor"
+
+
+def judged_stance(one: StudiedStance, stance: Stance) -> JudgedStance:
+    """A simulated stance beside its plate."""
+    trial = one.trial
+    return judged(trial.name, trial.person, trial.foot, stance, one.plate, calibrated=trial.calibrated)
+
 
 ALL = "all"
 UNITS = {"impulse": "s", ANKLE: "N m/kg"}
-"""Of quantities that are no shares: forces are over body weight, centres over the foot's length."""
+"""Units of quantities that are no shares: forces are over body weight, centres over the foot's length."""
 
 
 def plain_curves(stances: Sequence[JudgedStance], name: str) -> dict[str, dict[str, Float[np.ndarray, " s"]]]:
-    """What both predictors without a model say of a quantity, by stance."""
+    """Curves of a quantity by both predictors without a model, by stance."""
     plates = [MeasuredCurve(each.name, each.person, each.setting, each.measured(name)) for each in stances]
     return {one.name: trivial_curves(plates, one) for one in plates}
 
@@ -131,7 +219,7 @@ def ensembles_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
 def curves_of(
     plain: Mapping[str, Mapping[str, Float[np.ndarray, " s"]]], own: Sequence[JudgedStance], label: str
 ) -> list[Float[np.ndarray, " s"]]:
-    """Of one predictor for some stances; nothing where it has none of one of them."""
+    """Curves of one predictor for some stances; nothing where it has none of one of them."""
     found = [plain[one.name].get(label) for one in own]
     return [] if any(each is None for each in found) else [each for each in found if each is not None]
 

@@ -1,19 +1,17 @@
-"""The page of a stance: moving leg and foot with the ground's force and the centre of pressure, curves, numbers."""
+"""What is shown of a stance: moving leg and foot with force and centre of pressure, curves, numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float, Int
 
-from geocontact.analyses.options_table import options_table
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.from_markers.sides import of_side
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Stance
@@ -22,8 +20,7 @@ from geocontact.loads.ground import Stairs
 from geocontact.view.page.content import Curve, Curves, Page, Section, Words
 from geocontact.view.page.linkage import Linkage
 from geocontact.view.page.scene import Scene
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
+from geocontact.view.page.tables import frame_table
 
 FRAMES = 300  # that the page shows at most
 METRES_PER_NEWTON = 6e-4
@@ -59,41 +56,38 @@ IN_TURNS = (
 )
 
 
-def write_stance_page(
-    path: Path,
-    record: Record,
+def stance_page(
     o: ProsthesisSimulateOptions,
     s: Stance,
     plate: PlateStance | None,
     tables: Mapping[str, pd.DataFrame],
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+    sentences: Sequence[str],
+) -> Page:
+    """The moving foot with its forces and the path of the centre of pressure, curves, tables."""
     shown = thinned(len(s.time), [s.force[:, 1], s.ankle_moment], most=FRAMES)
     sections: list[Section] = [
         Scene(directions=DIRECTIONS, up=(0.0, 1.0, 0.0), view=(0.3, 0.2, 1.0), linkages=_lines(s, o, shown)),
         *_curves(s, plate, shown),
         *([frame_table("Beside the force plate", tables["errors"])] if "errors" in tables else []),
         frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         Words("What the numbers do not contain", [ALONE, *_sole_and_socket(o), NOT_A_DEVICE]),
     ]
-    page = Page(
+    return Page(
         title=f"Prosthetic stance along {o.markers.name}",
         subtitle=f"Fulcrum at {1e3 * s.fulcrum:.0f} mm, {s.motion.leg.person.mass:g} kg, {o.side} side; x forward",
         time=s.time[shown],
         time_label="time [s]",
-        headline=headline(record.sentences, most=2),
+        headline=headline(sentences, most=2),
         facts=[
             ("Vertical force up to", f"{s.force[:, 1].max():.0f} N"),
             ("Ankle moment up to", f"{s.ankle_moment.max():.0f} N m"),
         ],
-        reservations=tuple(record.warnings),
         sections=tuple(sections),
         numbers=shown + 1,
         total=len(s.time),
     )
-    return write_page(page, path)
 
 
 def _sole_and_socket(o: ProsthesisSimulateOptions) -> list[str]:

@@ -1,4 +1,4 @@
-"""What a simulation starts from: the leg, its motion, the force that stands for the other leg, the plate."""
+"""A recorded walk: what its files hold, leg and motion fitted to it, and the stance simulated along it."""
 
 from __future__ import annotations
 
@@ -12,9 +12,8 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_errors import FAR, MOVING
-from geocontact.analyses.prosthesis.foot_law import foot_with_law, offset_of_law
-from geocontact.analyses.prosthesis.plausible_plate import require_one_clock, require_weight
-from geocontact.analyses.prosthesis.recorded_files import right_markers
+from geocontact.analyses.prosthesis.leg_and_foot import foot_with_law, offset_of_law
+from geocontact.analyses.prosthesis.recorded_files import require_one_clock, require_weight, right_markers
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.stance_from_markers import keel_poses
@@ -26,10 +25,14 @@ from geocontact.below_knee_prosthesis.from_markers.walking import Walked, functi
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket
+from geocontact.below_knee_prosthesis.model.foot_offset import FootOffset
 from geocontact.below_knee_prosthesis.model.leg import Leg, Person
+from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
-from geocontact.below_knee_prosthesis.simulate import GATE, Push
+from geocontact.below_knee_prosthesis.simulate import GATE, Push, Stance, simulate_stance
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times, longest_stance
+from geocontact.contact.bushing import PRINTED, SOCKET, Bushing
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.geometry.shapes import HalfSpace
@@ -42,6 +45,31 @@ FOOT_CUTOFF = 15.0
 """Hz; of the markers that tell where the foot is, as in a calibration: 6 Hz smooth the touch-down away."""
 LATE = 0.02
 """s; least time before touch-down that the recording must begin."""
+
+
+@dataclass(frozen=True, eq=False)
+class RecordedWalk:
+    """Contents of the files of a walk, of a right leg.
+
+    Parameters
+    ----------
+    standing, moving, seen
+        Markers while standing, of the functional trial (None without one), and while walking.
+    plates
+        All of the file, as recorded.
+    ground
+        That both feet walk on.
+    offset
+        The foot beside its standing trial.
+    """
+
+    standing: MarkerTrajectories
+    moving: MarkerTrajectories | None
+    seen: MarkerTrajectories
+    plates: tuple[ForcePlate, ...]
+    ground: HalfSpace | Stairs
+    foot: VariableStiffnessFoot
+    offset: FootOffset
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,43 +111,56 @@ class Walk:
     seen: MarkerTrajectories
 
 
-def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
+def read(o: ProsthesisSimulateOptions, record: Record) -> RecordedWalk:
     """Everything the options name."""
+    given = o.side, o.axes, o.markers_map, o.c3d_unit
     ground = _ground(o)
     foot = foot_with_law(record, vsf_foot(), o.law)
-    fulcrum = fulcrum_of(o.setting, "pinned") if o.fulcrum is None else o.fulcrum
-    standing = right_markers(record, "`static`", cast(Path, o.static), o.side, o.axes, o.markers_map, o.c3d_unit)
-    person = Person(cast(float, o.mass), o.sex, o.residual)
-    stood = standing_leg(standing, person, foot.keel, sole_numbers()["below"].value, _hip(o, standing, record))
-    leg = stood.with_foot(offset_of_law(record, o.law, cast(Path, o.static)))
-    seen = right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map, o.c3d_unit, o.time)
-    found = walked(seen, leg, cutoff=None if o.cutoff == 0.0 else o.cutoff, gap_limit=o.gap_limit)
-    plates = read_force_plates(cast(Path, o.plates), o.c3d_unit)
-    record.add_input("`plates`", cast(Path, o.plates), plates=len(plates))
-    other = plate_named(plates, o.other_plate, cast(Path, o.plates), "`other_plate`")
-    _require_fit(seen, found, record)
-    require_weight(cast(Path, o.plates), "`other_plate`", other.name, other.wrench.force[:, 1], person.mass * GRAVITY)
-    push = Push(other.time, of_side(np.nan_to_num(other.wrench.force), o.side))
-    _require_clock(o, found.motion.time, other)
-    own = _own(o, plates, found, foot, ground)
-    poses = keel_poses(seen, leg, seen.time, FOOT_CUTOFF, o.gap_limit)
-    return Walk(leg, found, ground, foot, fulcrum, push, own, SeenFoot(seen.time, poses), seen)
-
-
-def _hip(o: ProsthesisSimulateOptions, standing: MarkerTrajectories, record: Record) -> Float[np.ndarray, " 3"] | None:
+    standing = right_markers(record, "`static`", cast(Path, o.static), *given)
+    moving = None
     if o.functional is None:
         record.warn("the hip's centre is that of a regression; a `functional` trial tells it better")
+    else:
+        moving = right_markers(record, "`functional`", o.functional, *given)
+    offset = offset_of_law(record, o.law, cast(Path, o.static))
+    seen = right_markers(record, "markers", o.markers, *given, o.time)
+    plates = read_force_plates(cast(Path, o.plates), o.c3d_unit)
+    record.add_input("`plates`", cast(Path, o.plates), plates=len(plates))
+    return RecordedWalk(standing, moving, seen, plates, ground, foot, offset)
+
+
+def fitted_walk(recorded: RecordedWalk, o: ProsthesisSimulateOptions, record: Record) -> Walk:
+    """The leg by the standing trial, its motion by the walking one; InputError where plates and markers do not fit."""
+    foot, seen, file = recorded.foot, recorded.seen, cast(Path, o.plates)
+    person = Person(cast(float, o.mass), o.sex, o.residual)
+    stood = standing_leg(recorded.standing, person, foot.keel, sole_numbers()["below"].value, _hip(recorded, record))
+    leg = stood.with_foot(recorded.offset)
+    fit = walked(seen, leg, cutoff=None if o.cutoff == 0.0 else o.cutoff, gap_limit=o.gap_limit)
+    other = plate_named(recorded.plates, o.other_plate, file, "`other_plate`")
+    _require_fit(seen, fit, record)
+    require_weight(file, "`other_plate`", other.name, other.wrench.force[:, 1], person.mass * GRAVITY)
+    push = Push(other.time, of_side(np.nan_to_num(other.wrench.force), o.side))
+    _require_clock(o, fit.motion.time, other)
+    fulcrum = fulcrum_of(o.setting, "pinned") if o.fulcrum is None else o.fulcrum
+    own = _own_plate(o, recorded, fit)
+    poses = keel_poses(seen, leg, seen.time, FOOT_CUTOFF, o.gap_limit)
+    return Walk(leg, fit, recorded.ground, foot, fulcrum, push, own, SeenFoot(seen.time, poses), seen)
+
+
+def _hip(recorded: RecordedWalk, record: Record) -> Float[np.ndarray, " 3"] | None:
+    """Centre by the functional trial in the pelvis' frame [m]; None without such a trial."""
+    if recorded.moving is None:
         return None
+    standing = recorded.standing
     places = np.nanmedian(standing.of(PELVIS), axis=0)
     frame = pelvis_frame(dict(zip(PELVIS, places, strict=True)), standing.source)
-    moving = right_markers(record, "`functional`", o.functional, o.side, o.axes, o.markers_map, o.c3d_unit)
-    found = functional_hip(moving, frame.inv().apply(places))
-    record.say(f"hip centre from the functional trial, {1e3 * found.rms:.1f} mm off itself")
-    return found.first
+    hip = functional_hip(recorded.moving, frame.inv().apply(places))
+    record.say(f"hip centre from the functional trial, {1e3 * hip.rms:.1f} mm off itself")
+    return hip.first
 
 
-def _require_fit(seen: MarkerTrajectories, found: Walked, record: Record) -> None:
-    off = float(np.nanmedian(found.off))
+def _require_fit(seen: MarkerTrajectories, fit: Walked, record: Record) -> None:
+    off = float(np.nanmedian(fit.off))
     if off > FAR:
         what = f"markers are {1e3 * off:.0f} mm from the standing leg in the median"
         raise InputError(seen.source, "", what, "the same person and markers? are left and right exchanged?")
@@ -139,36 +180,30 @@ def _ground(o: ProsthesisSimulateOptions) -> HalfSpace | Stairs:
     return HalfSpace((point[0], point[1], point[2]), (normal[0], normal[1], normal[2]))
 
 
-def _own(
-    o: ProsthesisSimulateOptions,
-    plates: tuple[ForcePlate, ...],
-    found: Walked,
-    foot: VariableStiffnessFoot,
-    ground: HalfSpace | Stairs,
-) -> PlateStance | None:
+def _own_plate(o: ProsthesisSimulateOptions, recorded: RecordedWalk, fit: Walked) -> PlateStance | None:
     """Force and centre of pressure under the prosthetic foot; InputError where it is not the foot that stands there."""
     if o.plate is None:
         return None
     file = cast(Path, o.plates)
-    plate = plate_named(plates, o.plate, file, "`plate`")
+    plate = plate_named(recorded.plates, o.plate, file, "`plate`")
     force = of_side(np.nan_to_num(plate.wrench.force), o.side)
-    require_weight(file, "`plate`", plate.name, force[:, 1], found.motion.leg.person.mass * GRAVITY)
+    require_weight(file, "`plate`", plate.name, force[:, 1], fit.motion.leg.person.mass * GRAVITY)
     centre = of_side(plate.centre_of_pressure(GATE), o.side)
     span = longest_stance(plate.time, force[:, 1])
     if span is None:
         raise InputError(
             file, "`plate`", f"{plate.name} carries no whole stance above {GATE:g} N", "give another plate"
         )
-    start, stop = found.motion.time[[0, -1]]
+    start, stop = fit.motion.time[[0, -1]]
     if span[0] < start + LATE or span[1] > stop:
         what = f"the stance on {plate.name} is from {span[0]:.2f} to {span[1]:.2f} s, the markers from {start:.2f} to"
         raise InputError(
             file, "`plate`", f"{what} {stop:.2f} s", "markers must begin before touch-down and end after it"
         )
     stance = PlateStance(plate.time, force, centre)
-    motion, leg = found.motion, found.motion.leg
+    motion, leg = fit.motion, fit.motion.leg
     keel = recorded_tree(leg).poses(motion.values)["shank"] * RigidTransform.from_components(leg.keel, leg.turn)
-    height = lowest_sphere(keel, foot.sole.spheres, ground)
+    height = lowest_sphere(keel, recorded.foot.sole.spheres, recorded.ground)
     require_one_clock(file, "`plate`", plate.name, clock_offset(motion.time, height, stance.time, force[:, 1]))
     _require_under_the_foot(file, plate.name, stance, keel, motion.time)
     return stance
@@ -188,3 +223,36 @@ def _require_clock(o: ProsthesisSimulateOptions, time: Float[np.ndarray, " t"], 
     if plate.time[0] > time[0] + LATE or plate.time[-1] < time[-1] - LATE:
         what = f"plates are from {plate.time[0]:.2f} to {plate.time[-1]:.2f} s, markers from {time[0]:.2f} to"
         raise InputError(cast(Path, o.plates), "", f"{what} {time[-1]:.2f} s", "both need one clock; cut with `time`")
+
+
+BEFORE, AFTER = 0.12, 0.1
+"""s; simulated before the plate's touch-down and after its toe-off, as far as the markers go."""
+INSIDE = 2
+"""Frames that are left out at both ends: the splines bend there."""
+
+
+def bushing_of(o: ProsthesisSimulateOptions) -> Bushing:
+    """Socket on the residual limb."""
+    return SOCKET if o.socket == "as_meant" else PRINTED
+
+
+def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> LimbInSocket:
+    """From before touch-down to after toe-off, with the socket's motion out of its markers; InputError where not."""
+    time = walk.walked.motion.time
+    span = (float(time[INSIDE]), float(time[-1 - INSIDE]))
+    if walk.plate is not None:
+        seen = longest_stance(walk.plate.time, walk.plate.force[:, 1])
+        if seen is not None:
+            span = max(span[0], seen[0] - BEFORE), min(span[1], seen[1] + AFTER)
+    bushing = bushing_of(o)
+    given = walk.foot, walk.fulcrum, walk.push, span
+
+    def along(motion: LegMotion) -> Stance:
+        return simulate_stance(motion, *given, bushing=bushing, ground=walk.ground, machine_code=o.machine_code)
+
+    cutoff = None if o.cutoff == 0.0 else o.cutoff
+    try:
+        return limb_in_socket(walk.seen, walk.walked, along, cutoff=cutoff, gap_limit=o.gap_limit, turns=o.socket_turns)
+    except (ArithmeticError, ValueError) as error:
+        remedy = "check `mass`, `side`, `axes` and the names of the markers; as_printed no gait can be walked"
+        raise InputError(o.markers, "", str(error), remedy) from error

@@ -1,22 +1,23 @@
-"""Both legs of a person, their joints, and the pose in which the markers were seen."""
+"""A person who stands: markers, joints of a functional trial, both legs made to measure, and the pose that was seen."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import cast
 
 import numpy as np
+from jaxtyping import Float
 
-from geocontact.analyses.json_file import plain
-from geocontact.analyses.motion.marker_errors import MOVING, MarkerErrors
+from geocontact.analyses.prosthesis.recorded_files import right_markers
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
-from geocontact.analyses.prosthesis.scale.read import Stood
-from geocontact.analyses.prosthesis.scale.result import JointFound, ProsthesisScaleResult
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
-from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
-from geocontact.below_knee_prosthesis.both_sides.standing import standing_amputee
+from geocontact.below_knee_prosthesis.both_sides.functional import FunctionalJoints
+from geocontact.below_knee_prosthesis.both_sides.standing import NO_JOINTS, standing_joints
 from geocontact.below_knee_prosthesis.from_markers.sides import as_right
-from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.model.leg import Person
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_tasks import MarkerTasks
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
@@ -24,10 +25,76 @@ from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses, inverse_kinematics
 from geocontact.dynamics.tree import tree_of
 
+MOVED = 0.02
+"""m that a marker may move while standing without a word."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stood:
+    """Markers of a person who stands, as of a right prosthesis, and what is known beside them."""
+
+    seen: MarkerTrajectories
+    moving: MarkerTrajectories | None
+    joints: FunctionalJoints
+    person: Person
+    foot: VariableStiffnessFoot
+    fulcrum: float
+
+
+def read(o: ProsthesisScaleOptions, record: Record) -> Stood:
+    """Everything the options name."""
+    seen = right_markers(record, "static", o.static, o.side, o.axes, o.markers_map, o.c3d_unit)
+    _warn_of_motion(seen, record)
+    moving = None
+    if o.functional is not None:
+        moving = right_markers(record, "`functional`", o.functional, o.side, o.axes, o.markers_map, o.c3d_unit)
+    joints = NO_JOINTS if moving is None else standing_joints(seen, moving)
+    foot = vsf_foot()
+    keel = foot.keel.posterior_mass + foot.keel.joints * foot.keel.segment_mass
+    mass = cast(float, o.mass)
+    person = Person(mass, o.sex, o.residual)
+    if o.prosthesis_mass is not None:
+        if o.prosthesis_mass <= keel:
+            what = f"{o.prosthesis_mass:g} kg are less than the keel alone, {keel:.2f} kg"
+            raise InputError("", "`prosthesis_mass`", what, "give that of socket, pylon and foot")
+        person = Person(mass, o.sex, o.residual, o.prosthesis_mass - keel)
+    fulcrum = fulcrum_of(o.setting, "pinned") if o.fulcrum is None else o.fulcrum
+    return Stood(seen, moving, joints, person, foot, fulcrum)
+
+
+def _warn_of_motion(seen: MarkerTrajectories, record: Record) -> None:
+    off = np.linalg.norm(seen.positions - np.nanmedian(seen.positions, axis=0), axis=2)
+    far = np.nanmax(off, axis=0)
+    if np.nanmax(far) > MOVED:
+        name = seen.names[int(np.nanargmax(far))]
+        what = f"{name} moves {1e3 * np.nanmax(far):.0f} mm away from its median: is this standing still?"
+        record.warn(f"{seen.source}: {what}")
+
+
+@dataclass(frozen=True)
+class JointFound:
+    """A joint of a person who stands.
+
+    Parameters
+    ----------
+    how
+        Its centre was found.
+    place
+        In the laboratory [m].
+    rms
+        How far both segments put it apart [m]; None where no functional trial tells it.
+    """
+
+    name: str
+    how: str
+    place: Float[np.ndarray, " 3"]
+    rms: float | None
+
+
 LEGS, USUAL = (0.36, 0.62), (0.44, 0.54)
 """Thigh and shank over the height: what is refused beyond, and what is usual (Drillis & Contini 1966: 0.491)."""
 EVEN = 0.1
-"""Relative difference of both thighs, or of both shanks, from which on it is told."""
+"""Relative difference of both thighs, or of both shanks, from which on it is a reservation."""
 FAR = 0.015
 """m by which a functional joint may be off itself without a word."""
 JOINTS = {
@@ -39,53 +106,12 @@ JOINTS = {
 }
 
 
-def run(stood: Stood, o: ProsthesisScaleOptions, record: Record) -> ProsthesisScaleResult:
-    """The model, its joints and its standing pose."""
-    below = sole_numbers()["below"].value
-    made = standing_amputee(stood.seen, stood.person, stood.foot, stood.fulcrum, below, stood.joints, o.height)
-    mass = made.pelvis_body()[0]
-    if not mass > 0.0:
-        what = f"the legs leave {mass:.1f} kg of {made.mass:g} kg for all above them"
-        raise InputError("", "`mass`", what, "check `mass` and `prosthesis_mass`")
-    held = amputee_tree(made, o.side, held=True)
-    pose = _pose(held, stood, o)
-    moved = None if stood.moving is None else _fitted(held, as_right(stood.moving, o.side))
-    joints = _joints(stood, made, held, pose, o)
-    numbers = made.numbers()
-    _doubt(made, stood, o, record)
-    invented = sum(number.source == "invented" for number in numbers.values())
-    record.warn(f"{invented} of {len(numbers)} numbers of the segments are invented, see numbers.csv")
-    told = [joint.how == "functional" for joint in joints]
-    record.say(
-        f"both legs of {made.mass:g} kg in {len(held.bodies)} bodies with {len(held.coordinates)} coordinates, "
-        f"pelvis with all above it {mass:.1f} kg, residual limb {made.prosthetic.residual_body()[0]:.2f} kg"
-    )
-    record.say(f"{sum(told)} of {len(told)} joint centres from the functional trial")
-    if moved is not None:
-        errors = MarkerErrors.of(moved)
-        errors.warn(record, MOVING)
-        record.say(f"markers of the functional trial {errors.words(MOVING)}")
-    record.results["scale"] = plain(
-        {
-            "mass_kg": held.mass,
-            "pelvis_kg": mass,
-            "residual_kg": made.prosthetic.residual_body()[0],
-            "density_kg_per_m3": made.intact.density,
-            "joints_off_themselves_mm": {joint.name: 1e3 * joint.rms for joint in joints if joint.rms is not None},
-            "functional_rms_mm": None if moved is None else 1e3 * float(np.sqrt(np.nanmean(moved.distances**2))),
-        }
-    )
-    return ProsthesisScaleResult(
-        record=record,
-        options=o,
-        amputee=made,
-        model=_standing(amputee_tree(made, o.side), pose),
-        held=_standing(held, pose),
-        pose=pose,
-        moved=moved,
-        joints=joints,
-        numbers=numbers,
-    )
+def standing_pose(held: Multibody, stood: Stood, o: ProsthesisScaleOptions) -> Poses:
+    """Pose of the standing trial; its markers are where the model has them, for it was made of them."""
+    pose = fitted_pose(held, _mean(stood, o))
+    if not pose.settled.all():
+        raise InputError(o.static, "", "no pose of the model fits the markers", "are the markers named right?")
+    return pose
 
 
 def _mean(stood: Stood, o: ProsthesisScaleOptions) -> MarkerTrajectories:
@@ -94,22 +120,15 @@ def _mean(stood: Stood, o: ProsthesisScaleOptions) -> MarkerTrajectories:
     return MarkerTrajectories(seen.time[:1], np.nanmedian(seen.positions, axis=0)[None], seen.names, seen.source)
 
 
-def _pose(held: Multibody, stood: Stood, o: ProsthesisScaleOptions) -> Poses:
-    """Of the standing trial; its markers are where the model has them, for it was made of them."""
-    pose = _fitted(held, _mean(stood, o))
-    if not pose.settled.all():
-        raise InputError(o.static, "", "no pose of the model fits the markers", "are the markers named right?")
-    return pose
-
-
-def _fitted(held: Multibody, seen: MarkerTrajectories) -> Poses:
+def fitted_pose(held: Multibody, seen: MarkerTrajectories) -> Poses:
+    """Poses of the model whose markers are nearest to those that were seen; InputError where markers are missing."""
     try:
         return inverse_kinematics(tree_of(held), seen, MarkerTasks(dict.fromkeys((m.name for m in held.markers), 1.0)))
     except ValueError as error:
         raise InputError(seen.source, "", str(error), "are the markers named right?") from error
 
 
-def _standing(model: Multibody, pose: Poses) -> Multibody:
+def as_standing(model: Multibody, pose: Poses) -> Multibody:
     """The standing pose as the defaults of the coordinates that markers tell."""
     at = dict(zip(pose.names, np.asarray(pose.values)[0].tolist(), strict=True))
     joints = tuple(
@@ -119,7 +138,7 @@ def _standing(model: Multibody, pose: Poses) -> Multibody:
     return replace(model, joints=joints)
 
 
-def _joints(
+def joint_centres(
     stood: Stood, made: Amputee, held: Multibody, pose: Poses, o: ProsthesisScaleOptions
 ) -> tuple[JointFound, ...]:
     """Centres in the laboratory, of the person's own side."""
@@ -142,7 +161,8 @@ def _joints(
     return tuple(found)
 
 
-def _doubt(made: Amputee, stood: Stood, o: ProsthesisScaleOptions, record: Record) -> None:
+def warn_of_legs(made: Amputee, stood: Stood, o: ProsthesisScaleOptions, record: Record) -> None:
+    """Reservations on lengths and joints of the legs; InputError for legs that no person of that height has."""
     own, intact = made.prosthetic, made.intact
     if o.height is not None:
         share = (intact.thigh + intact.shank) / o.height

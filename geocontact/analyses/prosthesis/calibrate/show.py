@@ -1,25 +1,43 @@
-"""The page of a calibration: curves by the plate and by the model, numbers with intervals."""
+"""What is shown of a calibration: curves by the plate and by the model, numbers with intervals."""
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import pandas as pd
 from jaxtyping import Float
 from numpy import ndarray
 
-from geocontact.analyses.figure_files import drawing
-from geocontact.analyses.options_table import options_table
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_words import headline
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
+from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+HEIGHT = 0.09
+"""Height of the drawing [m]."""
+TITLES = ("x, along the walk", "y, upwards", "z, to the right")
+
+
+@in_style
+def stance_figure(stance: RecordedStance, predicted: Float[ndarray, "t 4"]) -> Figure:
+    """Grey the plate, coloured the model."""
+    figure, axes = panels(2, 2, DOUBLE, HEIGHT)
+    for k, title in enumerate((*TITLES, "centre of pressure")):
+        factor = 1.0 if k < 3 else 100.0
+        axes[k].plot(stance.time, factor * stance.measured[:, k], color=GREY, lw=1.6, label="plate")
+        axes[k].plot(stance.time, factor * predicted[:, k], color=PALETTE[0], lw=1.0, label="model")
+        axes[k].set_title(title)
+        axes[k].set_xlabel("time [s]")
+        axes[k].set_ylabel("force [N]" if k < 3 else "from the heel [% of the foot]")
+    axes[0].legend(fontsize=6, frameon=False)
+    return figure
+
 
 FIGURE = "Grey the plate, coloured the foot with the numbers below."
 POSES = [
@@ -44,16 +62,23 @@ READ = [
 ]
 
 
-def write_calibration_page(
-    path: Path,
-    record: Record,
-    figure: Figure,
+def calibration_page(
+    drawn: bytes,
     stance: RecordedStance,
     predicted: Float[ndarray, "t 4"],
     numbers: pd.DataFrame,
+    sentences: Sequence[str],
     walked: bool,
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+) -> Page:
+    """Curves, numbers and what they mean.
+
+    Parameters
+    ----------
+    drawn
+        The figure (SVG).
+    walked
+        Whether the numbers were found on the whole model.
+    """
     curves = [
         Curves(title, unit, [Curve("plate", factor * stance.measured[:, k]), Curve("model", factor * predicted[:, k])])
         for k, (title, unit, factor) in enumerate(
@@ -66,21 +91,19 @@ def write_calibration_page(
         )
     ]
     sections: list[Section] = [
-        Picture("Plate and model", FIGURE, drawing(figure)),
+        Picture("Plate and model", FIGURE, drawn),
         *curves,
         frame_table("Numbers of the zones", numbers, 3),
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         Words("What the numbers mean", (WALKED if walked else POSES) + READ),
     ]
-    page = Page(
+    return Page(
         title="Calibrated sole of a prosthetic foot",
         subtitle="Stiffness, damping and friction of five zones from one stance",
         time=stance.time,
         time_label="time [s]",
-        headline=headline(list(record.sentences)),
-        reservations=tuple(record.warnings),
+        headline=headline(sentences),
         sections=tuple(sections),
         plays=False,
     )
-    return write_page(page, path)

@@ -1,28 +1,77 @@
-"""The page of a comparison: ensembles, errors beside trivial predictors, outliers."""
+"""What is shown of a comparison: ensembles by setting, errors beside trivial predictors, outliers."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.figure_files import drawing
-from geocontact.analyses.options_table import options_table
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.analyses.prosthesis.compare.tables import UNITS, by_setting, curves_of, plain_curves
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.prosthesis.compare.stances import UNITS, by_setting, curves_of, plain_curves
 from geocontact.below_knee_prosthesis.evaluation.judged_stance import JudgedStance
 from geocontact.below_knee_prosthesis.evaluation.trivial_predictors import ANOTHER, MEAN
+from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
+from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+ROWS = {
+    "resultant": ("resultant [BW]", 1.0),
+    "impulse": ("impulse [BW s]", 1.0),
+    "cop_ground": ("centre of pressure [% of the foot]", 100.0),
+    "ankle_moment": ("ankle moment [N m/kg]", 1.0),
+}
+"""Quantity, its axis and factor."""
+HEIGHT = 0.045
+"""Height of a row [m]."""
+MOST = 5
+"""Settings that are drawn."""
+
+
+@in_style
+def ensemble_figure(stances: Sequence[JudgedStance]) -> Figure:
+    """Grey the plates, coloured the model: mean, a band of one standard deviation; dashed the means without a model."""
+    settings = dict(list(by_setting(stances).items())[:MOST])
+    figure, axes = panels(len(ROWS), len(settings), DOUBLE, HEIGHT * len(ROWS))
+    for row, (name, (label, factor)) in enumerate(ROWS.items()):
+        plain = plain_curves(stances, name)
+        for column, (setting, own) in enumerate(settings.items()):
+            panel = axes[row * len(settings) + column]
+            _bands(panel, own, name, factor)
+            for colour, predictor in zip(PALETTE[1:], (MEAN, ANOTHER), strict=False):
+                if curves := curves_of(plain, own, predictor):
+                    mean = factor * np.mean(curves, axis=0)
+                    panel.plot(100.0 * own[0].errors.share, mean, color=colour, lw=0.9, ls="--", label=predictor)
+            if row == 0:
+                panel.set_title(f"{setting}, {len(own)} stances")
+            if column == 0:
+                panel.set_ylabel(label)
+            if row == len(ROWS) - 1:
+                panel.set_xlabel("stance on the plate [%]")
+    axes[0].legend(fontsize=6, frameon=False)
+    return figure
+
+
+def _bands(panel: Axes, own: Sequence[JudgedStance], name: str, factor: float) -> None:
+    share = 100.0 * own[0].errors.share
+    pairs = (("plate", GREY, [one.measured(name) for one in own]), ("model", PALETTE[0], _model(own, name)))
+    for label, colour, curves in pairs:
+        mean, sd = factor * np.mean(curves, axis=0), factor * np.std(curves, axis=0)
+        panel.plot(share, mean, color=colour, lw=1.2, label=label)
+        if len(own) > 1:
+            panel.fill_between(share, mean - sd, mean + sd, color=colour, alpha=0.25, lw=0)
+
+
+def _model(own: Sequence[JudgedStance], name: str) -> list[np.ndarray]:
+    return [one.simulated(name) for one in own]
+
 
 FIGURE = (
     "Grey the plates, coloured the model: mean over a setting's stances, a band of one standard deviation. Dashed the "
@@ -53,35 +102,33 @@ MEASURES = [
 ]
 
 
-def write_comparison_page(
-    path: Path, record: Record, figure: Figure, stances: Sequence[JudgedStance], tables: Mapping[str, pd.DataFrame]
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+def comparison_page(
+    drawn: bytes, stances: Sequence[JudgedStance], tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]
+) -> Page:
+    """Ensembles, errors beside trivial predictors, outliers; `drawn` is the figure (SVG)."""
     sections: list[Section] = [
-        Picture("Ensembles by setting", FIGURE, drawing(figure), wide=True),
+        Picture("Ensembles by setting", FIGURE, drawn, wide=True),
         frame_table("Means by setting, beside predictors without a model", tables["summary"], 3),
         frame_table("Stances", tables["trials"], 3),
         *comparison_panels(stances),
         frame_table("Errors of each stance", tables["errors"], 3),
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         Words("How to read the numbers", [*WITHOUT, *MEASURES, NOT_A_DEVICE]),
     ]
-    page = Page(
+    return Page(
         title=f"{len(stances)} prosthetic stances beside their plates",
         subtitle="Ground reaction, centre of pressure and ankle moment of a variable-stiffness foot",
         time=100.0 * stances[0].errors.share,
         time_label="stance on the plate [%]",
-        headline=headline(record.sentences, most=2),
-        reservations=tuple(record.warnings),
+        headline=headline(sentences, most=2),
         sections=tuple(sections),
         plays=False,
     )
-    return write_page(page, path)
 
 
 def comparison_panels(stances: Sequence[JudgedStance]) -> list[Curves]:
-    """Of each quantity and setting: plate and model with a band of one standard deviation, both predictors."""
+    """Curves of each quantity and setting: plate and model with a band of one standard deviation, both predictors."""
     return [
         _panel(f"{title}: {setting}", name, own, plain_curves(stances, name))
         for name, title in SHOWN.items()

@@ -1,20 +1,28 @@
-"""What a calibration starts from: the foot, and a stance on a plate along the markers of the socket."""
+"""A foot and its stance on a plate along the markers of the socket, and the sole's numbers sought in it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypedDict
 
 import numpy as np
 
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
-from geocontact.analyses.prosthesis.foot_law import foot_with_law
-from geocontact.analyses.prosthesis.plausible_plate import require_one_clock, require_under_foot, require_weight
-from geocontact.analyses.prosthesis.recorded_files import plate_under_foot, right_markers
+from geocontact.analyses.prosthesis.leg_and_foot import counted_twice, foot_with_law
+from geocontact.analyses.prosthesis.ranges import TURNS
+from geocontact.analyses.prosthesis.recorded_files import (
+    plate_under_foot,
+    require_one_clock,
+    require_under_foot,
+    require_weight,
+    right_markers,
+)
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import Errors, RecordedStance
 from geocontact.below_knee_prosthesis.calibration.stance_from_markers import recorded_heights, stance_from_markers
 from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedStance
+from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration, calibrate_whole
 from geocontact.below_knee_prosthesis.clocks import clock_offset
 from geocontact.below_knee_prosthesis.from_markers.sides import of_side
 from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
@@ -22,9 +30,11 @@ from geocontact.below_knee_prosthesis.from_markers.walking import Walked, walked
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.limb_in_socket import limb_in_socket
 from geocontact.below_knee_prosthesis.model.leg import Person
+from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
-from geocontact.below_knee_prosthesis.simulate import Push
+from geocontact.below_knee_prosthesis.simulate import Push, Stance, simulate_stance
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
@@ -82,7 +92,7 @@ def read(o: ProsthesisCalibrateOptions, record: Record) -> FootOnPlate:
 
 
 def _walked(o: ProsthesisCalibrateOptions, record: Record, found: Walked, stance: RecordedStance) -> WalkedStance:
-    """Of the stance: InputError where the markers, or the other plate, do not cover enough of it."""
+    """The stance on the whole model; InputError where the markers, or the other plate, do not cover enough of it."""
     other = plate_named(read_force_plates(o.plates, o.c3d_unit), o.other_plate, o.plates, "`other_plate`")
     require_weight(o.plates, "`other_plate`", other.name, other.wrench.force[:, 1], o.mass * GRAVITY)
     motion, time = found.motion, stance.time
@@ -96,3 +106,37 @@ def _walked(o: ProsthesisCalibrateOptions, record: Record, found: Walked, stance
         raise InputError(o.plates, "", f"{what} {motion.time[-1]:.2f} s", "both need one clock")
     record.warn("the hip's centre is that of a regression")
     return WalkedStance(stance, motion, Push(other.time, of_side(np.nan_to_num(other.wrench.force), o.side)))
+
+
+def along_poses(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> SoleCalibration:
+    """The sole's numbers along the recorded poses; InputError where the keel finds no equilibrium."""
+    try:
+        with record.listener.stages("calibrating"):
+            return calibrate([given.stance], given.foot, starts=o.starts, seed=o.seed, level=o.level)
+    except ArithmeticError as error:
+        remedy = "check height and pitch of the foot; the sole must press and not sink"
+        raise InputError(o.markers, "", str(error), remedy) from error
+
+
+def on_whole_model(
+    given: FootOnPlate, found: SoleCalibration, o: ProsthesisCalibrateOptions, record: Record
+) -> WholeCalibration | None:
+    """The numbers sought on with the whole model; None where that is not asked for."""
+    if given.walked is None or given.fit is None:
+        return None
+    stance, offset = given.walked, found.offsets[0]
+    fit = replace(given.fit, motion=replace(given.fit.motion, leg=given.fit.motion.leg.with_foot(offset)))
+    push, span = stance.push, (stance.begin, float(stance.recorded.time[-1]))
+
+    def along(motion: LegMotion) -> Stance:
+        return simulate_stance(motion, found.foot, given.stance.fulcrum, push, span, machine_code=o.machine_code)
+
+    try:
+        with record.listener.stages("calibrating on the whole model"):
+            limb = limb_in_socket(given.seen, fit, along, cutoff=ANGLES_CUTOFF, gap_limit=o.gap_limit, turns=TURNS)
+            if not limb.settled:
+                record.warn(counted_twice(limb))
+            stances = [replace(stance, motion=replace(limb.walked.motion, leg=given.fit.motion.leg))]
+            return calibrate_whole(stances, given.foot, found.at, level=o.level, machine_code=o.machine_code)
+    except ArithmeticError as error:
+        raise InputError(o.markers, "", str(error), "check `mass`, `side` and `axes`, or leave `full` out") from error
