@@ -140,7 +140,7 @@ class Result(ABC):
         from geocontact.io.text.results import write_table
 
         for name, table in self.tables().items():
-            if name in self.elsewhere:
+            if name in self.elsewhere or not len(table.columns):  # nothing that a file could hold
                 continue
             _make_room(folder / name)
             write_table(table, folder, name, self.units(name))

@@ -4,26 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.figure_files import save_both
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.motion.figure import curves_figure
-from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
 from geocontact.analyses.shoulder.recorded_channels import ELEVATION
 from geocontact.identify.signals.agreement import Agreement
-from geocontact.io.text.results import write_table
 from geocontact.view.page.content import Curve, Curves, Page, Words
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
+from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -68,23 +64,17 @@ class ShoulderCompareResult(Result):
                 rows.append({"channel": one.channel, "phase": phase, "unit": unit, **errors, **told})
         return {"comparison": pd.DataFrame(rows)}
 
-    def figure(self) -> Figure:
-        """Each channel, recorded and simulated."""
+    def figures(self) -> dict[str, Figure]:
+        """`comparison`: each channel, recorded and simulated."""
         panels = {}
         for one in self.channels:
             unit, factor = one.shown_in
             both = {"recorded": factor * one.measured, "simulated": factor * one.model}
             panels[f"{one.channel} [{unit.replace('deg', '°')}]"] = pd.DataFrame(both)
-        return curves_figure(self.channels[0].time, panels)
+        return {"comparison": curves_figure(self.channels[0].time, panels)}
 
-    def write_files(self, folder: Path) -> None:
-        """comparison.csv, figure, page."""
-        write_table(self.table(), folder, "comparison")
-        save_both(self.figure(), folder, "comparison")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """ArmAndRecording curves and errors by phase."""
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Both curves of each channel, and errors by phase."""
         time = self.channels[0].time
         shown = thinned(len(time), [values for one in self.channels for values in (one.measured, one.model)])
         panels = []
@@ -99,15 +89,14 @@ class ShoulderCompareResult(Result):
             time=time[shown],
             time_label="time [s]",
             headline=headline(self.sentences, most=2),
-            reservations=self.warnings,
             sections=(
                 *panels,
                 frame_table("Errors by channel and phase", self.table()),
-                inputs_table(self.record.inputs),
-                options_table(self.record),
+                INPUTS,
+                OPTIONS,
                 Words("What the numbers do not contain", [MAT, NOT_A_DEVICE]),
             ),
             numbers=shown + 1,
             total=len(time),
         )
-        write_page(page, file)
+        return {REPORT: page}

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 HEIGHT = 0.045
-"""Of a row of panels [m]."""
+"""Height of a row of panels [m]."""
 COLOURS = {"dominant": PALETTE[0], "other": PALETTE[1]}
 
 

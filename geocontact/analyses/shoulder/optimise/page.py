@@ -3,22 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing
-from geocontact.analyses.options_table import options_table
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.analyses.run_record import Record
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from geocontact.view.page.tables import frame_table
 
 FIGURE = (
     "Dashed the torque that the shoulder needs without support, solid the support torque, dotted the elevation of the "
@@ -30,10 +22,11 @@ MODEL = (
 )
 
 
-def write_profile_page(
-    path: Path, record: Record, figure: Figure, tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+def profile_page(figure: bytes, tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]) -> Page:
+    """The page of support profiles.
+
+    `figure` is the drawing (SVG), `tables` those of the result.
+    """
     front = tables["front"]
     limits, reserves, taken = (front[name].to_numpy(float) for name in front.columns)
     curves = [
@@ -41,7 +34,7 @@ def write_profile_page(
     ]
     held = tables["held_out"]
     sections: list[Section] = [
-        Picture("Torque needed and support", FIGURE, drawing(figure)),
+        Picture("Torque needed and support", FIGURE, figure),
         frame_table("Factors of support", tables["factors"], 2),
         *(
             [frame_table("Factors in proportion to the weight of the arm", tables["scales"], 2)]
@@ -52,18 +45,16 @@ def write_profile_page(
         frame_table("Simulated with the device's own motion", tables["simulated"], 3),
         frame_table("What each profile does, as planned around the profile of all persons", tables["outcomes"], 3),
         Curves("Taken away over the limit of interface force", "%", curves),
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         Words("What the numbers do not contain", [MODEL, NOT_A_DEVICE]),
     ]
-    page = Page(
+    return Page(
         title="Support profile of a shoulder exoskeleton",
         subtitle="Factors by work phase, hand and task that never push the arm up",
         time=np.unique(limits),
         time_label="force limit [N]",
         headline=headline(sentences),
-        reservations=tuple(record.warnings),
         sections=tuple(sections),
         plays=False,
     )
-    return write_page(page, path)

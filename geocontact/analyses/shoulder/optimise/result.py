@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.figure_files import save_both
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.shoulder.optimise.figure import profile_figure
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
-from geocontact.analyses.shoulder.optimise.page import write_profile_page
+from geocontact.analyses.shoulder.optimise.page import profile_page
 from geocontact.analyses.shoulder.support_profiles import factors_written
-from geocontact.io.text.results import write_table
 from geocontact.shoulder_exoskeleton.support.arm_scales import scales_of
 from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome
@@ -25,6 +22,8 @@ from geocontact.shoulder_exoskeleton.support.support_case import SupportCase
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True)
@@ -111,21 +110,13 @@ class ShoulderOptimiseResult(Result):
             ),
         }
 
-    def figure(self) -> Figure:
-        """Torque that the shoulder needs and torque of the support, as the paper's fig. 14."""
-        return profile_figure(self.corrected, self.elevations, self.profiles[0].factors)
+    def figures(self) -> dict[str, Figure]:
+        """`profile`: torque that the shoulder needs and torque of the support, as the paper's fig. 14."""
+        return {"profile": profile_figure(self.corrected, self.elevations, self.profiles[0].factors)}
 
-    def write_files(self, folder: Path) -> None:
-        """Tables, figure, page."""
-        for name, rows in self.tables().items():
-            if len(rows):
-                write_table(rows, folder, name)
-        save_both(self.figure(), folder, "profile")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Torques, factors, what they do, held-out persons, fronts."""
-        write_profile_page(file, self.record, self.figure(), self.tables(), list(self.sentences))
+        return {REPORT: profile_page(drawings["profile"], self.tables(), self.sentences)}
 
     def _rows(self, outcomes: Mapping[str, Mapping[str, SupportOutcome]]) -> pd.DataFrame:
         rows = []
@@ -162,7 +153,7 @@ class ShoulderOptimiseResult(Result):
         return pd.DataFrame(rows)
 
     def _scale_of_others(self, person: str) -> float:
-        """Of a person's arm among those of the others, who made the profile."""
+        """Scale of a person's arm among those of the others, who made the profile."""
         makers = set(self.held_out) - {person}
         return scales_of(self.moments, makers)[person] if self.scales else 1.0
 

@@ -94,7 +94,7 @@ def run(given: WorkersAndDevice, o: ShoulderOptimiseOptions, record: Record) -> 
 
 
 def _found(o: ShoulderOptimiseOptions, what: Callable[[], T]) -> T:
-    """Of a study whose arms can be simulated and which has a profile."""
+    """What is made of a study; InputError where its arms cannot be simulated, or there is no profile."""
     try:
         return what()
     except OutOfCuffError as error:

@@ -11,16 +11,14 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.motion.figure import curves_figure
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.shoulder.simulate.exports import write_angles, write_external_loads, write_lines
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
-from geocontact.analyses.shoulder.simulate.page import write_simulation_page
+from geocontact.analyses.shoulder.simulate.page import simulation_page
 from geocontact.analyses.shoulder.simulate.plane_files import write_plane
 from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
 from geocontact.analyses.shoulder.simulate.tables import arm_table, numbers_table, sensitivity_table
-from geocontact.io.text.results import write_table
 from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
 from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFrame
@@ -28,6 +26,8 @@ from geocontact.shoulder_exoskeleton.sensitivity import Influence
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -63,8 +63,8 @@ class ShoulderSimulateResult(Result):
             told["sensitivity"] = pd.concat(parts, ignore_index=True)
         return told
 
-    def figure(self) -> Figure:
-        """Elevations, supporting force and shear of both arms over time."""
+    def figures(self) -> dict[str, Figure]:
+        """`shoulder`: elevations, supporting force and shear of both arms over time."""
         time = self.arms[0].simulation.motion.time
         elevation, force = {}, {}
         for each in self.arms:
@@ -74,12 +74,14 @@ class ShoulderSimulateResult(Result):
             force[f"supporting, {side}"] = s.supporting
             force[f"shear, {side}"] = s.shear
         panels = {"elevation [deg]": pd.DataFrame(elevation), "interface force [N]": pd.DataFrame(force)}
-        return curves_figure(time, panels)
+        return {"shoulder": curves_figure(time, panels)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Moving arms with the forces in their cuffs, curves, tables."""
+        return {REPORT: simulation_page(self.options, self.arms, self.markers, self.tables(), self.sentences)}
 
     def write_files(self, folder: Path) -> None:
-        """Tables, angles and external loads for OpenSim, lines for ParaView, figure, page."""
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
+        """Angles and external loads for OpenSim, lines for ParaView, a case in the plane besides."""
         simulations = [each.simulation for each in self.arms]
         write_angles(folder, simulations)
         write_external_loads(folder, simulations, self.frame)
@@ -87,9 +89,4 @@ class ShoulderSimulateResult(Result):
         for each in self.arms:
             if each.factor is None:  # the base model's support has a level for the whole trial
                 write_plane(folder / "plane", each)
-        save_both(self.figure(), folder, "shoulder")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
-        """Moving arms with the forces in their cuffs, curves, tables."""
-        write_simulation_page(file, self.record, self.options, self.arms, self.markers, self.tables())
+        super().write_files(folder)

@@ -30,5 +30,5 @@ class SimulatedArm:
 
     @property
     def side(self) -> Side:
-        """Of the wearer."""
+        """Side of the wearer."""
         return self.simulation.motion.side

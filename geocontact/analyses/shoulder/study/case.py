@@ -42,7 +42,7 @@ class StudyCase:
 
     @property
     def name(self) -> str:
-        """Of trial and arm."""
+        """Trial and arm."""
         return f"{self.trial.name}, {self.within.side} arm"
 
 

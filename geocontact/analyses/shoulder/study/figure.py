@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 WIDE, HIGH = 3.2, 1.35
-"""Of a panel [inch]."""
+"""Size of a panel [inch]."""
 MOST = 24
 """Arms that are drawn."""
 LABELS = {ELEVATION: "elevation [°]", FORCE: "force [N]"}

@@ -66,7 +66,7 @@ def _trial(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOption
 
 
 def _sides(study: OverheadStudy, trial: StudyTrial) -> tuple[Side, Side]:
-    """Of the dominant arm and of the other."""
+    """Sides of the dominant arm and of the other."""
     return ("right", "left") if study.persons[trial.person].dominant == "right" else ("left", "right")
 
 

@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
-from geocontact.analyses.options_table import options_table
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.shoulder.study.case import StudyCase
 from geocontact.analyses.shoulder.study.figure import study_figure
 from geocontact.analyses.shoulder.study.options import StudyOptions
 from geocontact.analyses.shoulder.study.tables import difference_table, error_table, passive_table, summary_table
-from geocontact.io.text.results import write_table
 from geocontact.shoulder_exoskeleton.device import Device
 from geocontact.view.page.content import Page, Picture, Words
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
+from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -50,18 +47,11 @@ class StudyResult(Result):
             "passive": passive_table(self.cases),
         }
 
-    def figure(self) -> Figure:
-        """Elevation and supporting force of each arm: recorded, and simulated along both motions."""
-        return study_figure(self.cases)
+    def figures(self) -> dict[str, Figure]:
+        """`study`: elevation and supporting force of each arm, recorded, and simulated along both motions."""
+        return {"study": study_figure(self.cases)}
 
-    def write_files(self, folder: Path) -> None:
-        """Tables, figure, page."""
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
-        save_both(self.figure(), folder, "study")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Figure and tables."""
         tables = self.tables()
         words = {
@@ -76,13 +66,12 @@ class StudyResult(Result):
             time=np.zeros(1),
             time_label="",
             headline=headline(self.sentences, most=2),
-            reservations=self.warnings,
             sections=(
-                Picture("Every arm in its trial", CAPTION, drawing(self.figure()), wide=True),
+                Picture("Every arm in its trial", CAPTION, drawings["study"], wide=True),
                 *(frame_table(title, tables[name], 3) for name, title in words.items() if len(tables[name])),
-                inputs_table(self.record.inputs),
-                options_table(self.record),
+                INPUTS,
+                OPTIONS,
                 Words("What the numbers do not contain", [PASSIVE, NOT_A_DEVICE]),
             ),
         )
-        write_page(page, file)
+        return {REPORT: page}
