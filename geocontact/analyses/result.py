@@ -140,10 +140,11 @@ class Result(ABC):
         from geocontact.io.text.results import write_table
 
         for name, table in self.tables().items():
-            if name in self.elsewhere or not len(table.columns):  # nothing that a file could hold
+            if name in self.elsewhere:
                 continue
             _make_room(folder / name)
-            write_table(table, folder, name, self.units(name))
+            if len(table.columns):  # without any there is nothing that a file could hold
+                write_table(table, folder, name, self.units(name))
             if about := self.refers_to(name):
                 self.record.tables[f"{name}.csv"] = about
         drawings = {}

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.shoulder.recordings import current_at
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
-from geocontact.analyses.shoulder.tool import current_at
 from geocontact.data.errors import InputError
 from geocontact.shoulder_exoskeleton.support.phase_machine import detected
 from geocontact.shoulder_exoskeleton.support.phases import LIFT, LOWER, SCREW

@@ -1,4 +1,14 @@
-"""What a simulation finds: tables for each arm, files for OpenSim and ParaView, page."""
+"""A shoulder exoskeleton along human motion: `geocontact shoulder simulate`, `gc.shoulder.simulate`.
+
+>>> import geocontact as gc
+>>> result = gc.shoulder.simulate("meshes/overhead_P1T1S100/markers.trc", level=1.0, side="right")
+>>> result
+right arm: elevation up to 113.9 deg (shoulder 120.9), supporting force 6.7 … 56.5 N, slip 179 mm
+warning: no `person`: the device is adjusted to an upper arm of 300 mm and shoulders 400 mm wide (invented)
+warning: T10 is taken to lie straight below Lucy_MC: no span of upright stance was named
+warning: lucy: 54 of 63 numbers are invented, see numbers.csv
+warning: right arm: passive_1 is at a stop for 66% of the time, first at 0.00 s
+"""
 
 from __future__ import annotations
 
@@ -11,18 +21,27 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.motion.figure import curves_figure
+from geocontact.analyses.job import Job
+from geocontact.analyses.json_file import plain
 from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.shoulder.simulate.exports import write_angles, write_external_loads, write_lines
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.shoulder.simulate.arms import (
+    Worn,
+    arm_table,
+    numbers_table,
+    read,
+    sensitivity_table,
+    simulated_along,
+    summary_of,
+)
+from geocontact.analyses.shoulder.simulate.exports import write_angles, write_external_loads, write_lines, write_plane
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
-from geocontact.analyses.shoulder.simulate.page import simulation_page
-from geocontact.analyses.shoulder.simulate.plane_files import write_plane
-from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
-from geocontact.analyses.shoulder.simulate.tables import arm_table, numbers_table, sensitivity_table
+from geocontact.analyses.shoulder.simulate.show import arm_figure, simulation_page
+from geocontact.analyses.shoulder.simulated_arm import SimulatedArm
 from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
 from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFrame
-from geocontact.shoulder_exoskeleton.sensitivity import Influence
+from geocontact.shoulder_exoskeleton.sensitivity import Influence, influences
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -65,16 +84,7 @@ class ShoulderSimulateResult(Result):
 
     def figures(self) -> dict[str, Figure]:
         """`shoulder`: elevations, supporting force and shear of both arms over time."""
-        time = self.arms[0].simulation.motion.time
-        elevation, force = {}, {}
-        for each in self.arms:
-            s, side = each.simulation, each.side
-            elevation[f"shoulder, {side}"] = np.degrees(s.motion.elevation)
-            elevation[f"exoskeleton, {side}"] = np.degrees(s.elevation)
-            force[f"supporting, {side}"] = s.supporting
-            force[f"shear, {side}"] = s.shear
-        panels = {"elevation [deg]": pd.DataFrame(elevation), "interface force [N]": pd.DataFrame(force)}
-        return {"shoulder": curves_figure(time, panels)}
+        return {"shoulder": arm_figure(self.arms)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Moving arms with the forces in their cuffs, curves, tables."""
@@ -90,3 +100,33 @@ class ShoulderSimulateResult(Result):
             if each.factor is None:  # the base model's support has a level for the whole trial
                 write_plane(folder / "plane", each)
         super().write_files(folder)
+
+
+def run(worn: Worn, o: ShoulderSimulateOptions, record: Record) -> ShoulderSimulateResult:
+    """Each arm by itself; they share the device's frame only."""
+    invented = sum(number.source == "invented" for number in worn.device.numbers.values())
+    record.warn(f"{worn.device.name}: {invented} of {len(worn.device.numbers)} numbers are invented, see numbers.csv")
+    record.results["device"] = {
+        "name": worn.device.name,
+        "peak_force_N": worn.device.peak_force,
+        "peak_torque_N_m": worn.device.peak_torque,
+    }
+    arms = tuple(simulated_along(worn, arm, o, record) for arm in worn.arms)
+    record.results["arms"] = plain({each.side: summary_of(each) for each in arms})
+    found = {
+        each.side: tuple(influences(each.simulation.motion, worn.device, worn.wearer, o.level, o.cuff, each.factor))
+        for each in (arms if o.sensitivity else ())
+    }
+    return ShoulderSimulateResult(
+        record=record,
+        options=o,
+        arms=arms,
+        frame=worn.frame,
+        markers=worn.markers,
+        device=worn.device,
+        wearer=worn.wearer,
+        influences=found,
+    )
+
+
+simulate = Job("shoulder simulate", ShoulderSimulateOptions, read, run)

@@ -1,24 +1,29 @@
-"""The page of a simulation: moving arms with the forces in their cuffs, curves, numbers of the device."""
+"""What is shown of a simulation: moving arms with the forces in their cuffs, curves, numbers of the device."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float, Int
 
 from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
-from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
+from geocontact.analyses.shoulder.simulated_arm import SimulatedArm
 from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Words
 from geocontact.view.page.linkage import Linkage, Tone
 from geocontact.view.page.scene import Scene
 from geocontact.view.page.tables import frame_table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 METRES_PER_NEWTON = 5e-3
 """A force of 100 N is drawn 0.5 m long."""
@@ -45,6 +50,19 @@ FRAME = (
     "The human arm is recorded: the exoskeleton does not change its motion. The device's frame moves with the trunk; "
     "gravity turns with it, accelerations of the trunk do not act on the exoskeleton's arms."
 )
+
+
+def arm_figure(arms: Sequence[SimulatedArm]) -> Figure:
+    """Elevations, supporting force and shear of the arms over time."""
+    elevation, force = {}, {}
+    for each in arms:
+        s, side = each.simulation, each.side
+        elevation[f"shoulder, {side}"] = np.degrees(s.motion.elevation)
+        elevation[f"exoskeleton, {side}"] = np.degrees(s.elevation)
+        force[f"supporting, {side}"] = s.supporting
+        force[f"shear, {side}"] = s.shear
+    panels = {"elevation [deg]": pd.DataFrame(elevation), "interface force [N]": pd.DataFrame(force)}
+    return curves_figure(arms[0].simulation.motion.time, panels)
 
 
 def simulation_page(
