@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.analyses.misalignment.identify.figure import Boxes, conditions_figure, told_figure
+from geocontact.analyses.misalignment.identify.show import Boxes, conditions_figure, told_figure
 from geocontact.analyses.misalignment.simulate.show import surface_figure
 from geocontact.analyses.misalignment.simulate.trials import surfaces
 from geocontact.axis_misalignment.end_stop import BinMeans, RecordedStroke
