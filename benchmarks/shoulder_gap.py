@@ -36,8 +36,8 @@ from benchmarks.shoulder_planted import (
 )
 from benchmarks.shoulder_trials import dominant_arm, wearer_of
 from benchmarks.shoulder_truth import LOGGER, Measured
-from geocontact.analyses.shoulder.simulate.plane_files import write_plane
-from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
+from geocontact.analyses.shoulder.simulate.exports import write_plane
+from geocontact.analyses.shoulder.simulated_arm import SimulatedArm
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
 from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial
 

@@ -93,7 +93,7 @@ def phases(seeds: int) -> dict[str, Any]:
 
 def profiles(draws: int) -> dict[str, Any]:
     """Factors by certainty, what they take away, held-out persons, seconds of a linear program and of a closed loop."""
-    from geocontact.analyses.shoulder.optimise.read import support_of
+    from geocontact.analyses.shoulder.optimise.profiles import support_of
     from geocontact.shoulder_exoskeleton.lucy import lucy_new_cylinder
     from geocontact.shoulder_exoskeleton.support.arm_scales import scales_of
     from geocontact.shoulder_exoskeleton.support.arm_trial import support_case
@@ -167,7 +167,7 @@ def simulated(seeds: int) -> dict[str, Any]:
     """
     import numpy as np
 
-    from geocontact.analyses.shoulder.optimise.read import support_of
+    from geocontact.analyses.shoulder.optimise.profiles import support_of
     from geocontact.shoulder_exoskeleton.lucy import lucy_new_cylinder
     from geocontact.shoulder_exoskeleton.support.arm_trial import support_case
     from geocontact.shoulder_exoskeleton.support.best_profile import best_profile, scaled

@@ -34,7 +34,7 @@ class Typed:
         A value as Python writes it, for the help of the call.
     read
         Function of `analyses.quantities` that takes the text and the option's name and gives the value in SI; as
-        "misalignment.parameters:numbers" of another module of the analyses.
+        "misalignment.law_numbers:numbers" of another module of the analyses.
     hint
         What the help of the command line says of units.
     kind

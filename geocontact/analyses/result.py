@@ -143,7 +143,8 @@ class Result(ABC):
             if name in self.elsewhere:
                 continue
             _make_room(folder / name)
-            write_table(table, folder, name, self.units(name))
+            if len(table.columns):  # without any there is nothing that a file could hold
+                write_table(table, folder, name, self.units(name))
             if about := self.refers_to(name):
                 self.record.tables[f"{name}.csv"] = about
         drawings = {}

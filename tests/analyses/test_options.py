@@ -63,7 +63,7 @@ class Example(Options):
     kind: Literal["a", "b"] = "a"
     other: Annotated[str | None, Excludes("radius"), Needs("depth", "give 4mm")] = None
     span: TimeSpan | None = None
-    course: Annotated[Path | Mapping[str, tuple[float, ...]] | None, Typed("m", "misalignment.drift:typed", "")] = None
+    course: Annotated[Path | Mapping[str, tuple[float, ...]] | None, Typed("m", "misalignment.planar:drift", "")] = None
 
     def refuse_impossible(self) -> None:
         if self.depth is not None and not self.depth > 0.0:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.analyses.shoulder.optimise.read import support_of
+from geocontact.analyses.shoulder.optimise.profiles import support_of
 from geocontact.shoulder_exoskeleton import in_cuff
 from geocontact.shoulder_exoskeleton.in_cuff import OutOfCuffError
 from geocontact.shoulder_exoskeleton.lucy import lucy_new_cylinder

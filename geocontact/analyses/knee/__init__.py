@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from geocontact.analyses.package_of_jobs import PackageOfJobs
 
 if TYPE_CHECKING:
-    from geocontact.analyses.knee.settle.job import settle
+    from geocontact.analyses.knee.settle.result import settle
 
 __all__ = ["settle"]
 

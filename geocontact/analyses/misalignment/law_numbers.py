@@ -1,15 +1,17 @@
-"""Numbers of the elbow's law: their units where people write them, and what they cannot be. Light to import."""
+"""Numbers of the elbow's law: units that people write, what they cannot be, how they are typed. Light to import."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
+from geocontact.analyses import quantities
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import ByName, ByPlace, Plausible
 from geocontact.data.ranges import ATTACHMENT, DAMPING
 from geocontact.data.units import Unit, mm
-from geocontact.io.text.units import DIMENSIONS
+from geocontact.io.text.units import ANGLE, DIMENSIONS
 
+EXAMPLE = "l=169,z=127 (N/m, mm, N s/m, 1/mmHg, mm/N)"
 MMHG = DIMENSIONS["Pa"]["mmHg"]
 PER_SI = {"k": 1.0, "x": 1e3, "y": 1e3, "l": 1e3, "z": 1e3, "b": 1.0, "s": MMHG, "c": 1e3}
 """How many of the unit written one SI unit is."""
@@ -60,3 +62,65 @@ def require_names(names: Mapping[str, object] | None, option: str) -> None:
     for name in names or {}:
         if name not in PER_SI:
             raise InputError("", option, f"{name!r} is no number of the law", f"these are {', '.join(PER_SI)}")
+
+
+def numbers(text: str, option: str) -> dict[str, float]:
+    """ "l=169,z=127" to numbers in SI by name."""
+    return {name: _in_si(name, value, option) for name, value in _assignments(text, option).items()}
+
+
+def pairs(text: str, option: str) -> dict[str, tuple[float, float]]:
+    """ "x=-60:60" to pairs of numbers in SI by name."""
+    found = {}
+    for name, value in _assignments(text, option).items():
+        first, last = _ends(value, option)
+        found[name] = _in_si(name, first, option), _in_si(name, last, option)
+    return found
+
+
+def names(text: str, option: str) -> tuple[str, ...]:
+    """ "b,s" to names."""
+    return tuple(name.strip() for name in text.split(","))
+
+
+def pair(text: str, option: str) -> tuple[float, float]:
+    """ "0.05:0.35" to two numbers."""
+    first, last = (quantities.number(end, option, "5:95") for end in _ends(text, option))
+    return first, last
+
+
+def degrees(text: str, option: str) -> tuple[float, float]:
+    """ "8:92" in degrees to two angles [rad]."""
+    first, last = pair(text, option)
+    return first * ANGLE["deg"], last * ANGLE["deg"]
+
+
+def mercury(text: str, option: str) -> tuple[float, float]:
+    """ "10:60" in mmHg to two pressures [Pa]."""
+    first, last = pair(text, option)
+    return first * MMHG, last * MMHG
+
+
+def _assignments(text: str, option: str) -> dict[str, str]:
+    """ "l=169,z=120:6" to what is written for each name."""
+    found: dict[str, str] = {}
+    for part in text.split(","):
+        name, equals, value = (piece.strip() for piece in part.partition("="))
+        if not equals or not value:
+            raise InputError("", option, f"{part.strip()!r} is not name=value", f"write for example {EXAMPLE}")
+        if name in found:
+            raise InputError("", option, f"{name} is given twice", "give each once")
+        found[name] = value
+    require_names(found, option)
+    return found
+
+
+def _in_si(name: str, text: str, option: str) -> float:
+    return quantities.number(text, option, EXAMPLE) / PER_SI[name]
+
+
+def _ends(text: str, option: str) -> tuple[str, str]:
+    first, colon, last = text.partition(":")
+    if not colon:
+        raise InputError("", option, f"{text!r} is not a pair of numbers", "write them with a colon, as in 5:95")
+    return first, last

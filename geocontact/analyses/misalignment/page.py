@@ -1,4 +1,4 @@
-"""What the pages of an elbow have in common."""
+"""What pages and figures of an elbow have in common."""
 
 from __future__ import annotations
 
@@ -9,7 +9,12 @@ from jaxtyping import Float
 
 from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.analyses.run_record import Record
+from geocontact.view.curves.quantity import Quantity
 from geocontact.view.page.content import Page, Section, Words
+
+ANGLE = "exoskeleton angle β [°]"
+CONSTRAINT = Quantity("constraint force", "N")
+
 
 FACTS = 5  # at most
 FRAMES = 601  # samples that a page shows at most

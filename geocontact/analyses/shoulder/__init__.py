@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from geocontact.analyses.package_of_jobs import PackageOfJobs
 
 if TYPE_CHECKING:
-    from geocontact.analyses.shoulder.compare.job import compare
-    from geocontact.analyses.shoulder.optimise.job import optimise
-    from geocontact.analyses.shoulder.simulate.job import simulate
-    from geocontact.analyses.shoulder.study.job import study
+    from geocontact.analyses.shoulder.compare.result import compare
+    from geocontact.analyses.shoulder.optimise.result import optimise
+    from geocontact.analyses.shoulder.simulate.result import simulate
+    from geocontact.analyses.shoulder.study.result import study
 
 __all__ = ["compare", "optimise", "simulate", "study"]
 

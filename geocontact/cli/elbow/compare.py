@@ -10,4 +10,4 @@ HELP = """Errors of a model of the elbow beside recordings: mean absolute, root 
 Writes comparison.csv, a figure for each channel, report.html and run.json into OUT.
 """
 
-compare = Command("geocontact.analyses.misalignment.compare.job:compare", CompareOptions, HELP)
+compare = Command("geocontact.analyses.misalignment.compare.result:compare", CompareOptions, HELP)

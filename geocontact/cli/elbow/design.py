@@ -11,4 +11,4 @@ For the elbow, and for the knee, the hip or any joint of one degree of freedom; 
 map.csv, boundary.csv, sensitivity.csv, force.csv, design.png, design.svg, report.html and run.json into OUT.
 """
 
-design = Command("geocontact.analyses.misalignment.design.job:design", DesignOptions, HELP)
+design = Command("geocontact.analyses.misalignment.design.result:design", DesignOptions, HELP)

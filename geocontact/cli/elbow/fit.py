@@ -12,4 +12,4 @@ and run.json into OUT, with `unlocked` also conditions.csv and boxes_free.csv. k
 factor only, unless one of them comes from elsewhere.
 """
 
-fit = Command("geocontact.analyses.misalignment.identify.job:identify", IdentifyOptions, HELP)
+fit = Command("geocontact.analyses.misalignment.identify.result:identify", IdentifyOptions, HELP)

@@ -11,4 +11,4 @@ Writes population.json, quantiles.csv, exceedance.csv, influence.csv, population
 run.json into OUT. All samples are synthetic: drawn, not measured.
 """
 
-population = Command("geocontact.analyses.misalignment.population.job:population", PopulationOptions, HELP)
+population = Command("geocontact.analyses.misalignment.population.result:population", PopulationOptions, HELP)

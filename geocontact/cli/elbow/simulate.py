@@ -12,4 +12,4 @@ numbers.csv with the source of every number, surfaces.csv and a figure of the di
 report.html and run.json into OUT. The tables say that they are synthetic.
 """
 
-simulate = Command("geocontact.analyses.misalignment.simulate.job:simulate", SimulateOptions, HELP)
+simulate = Command("geocontact.analyses.misalignment.simulate.result:simulate", SimulateOptions, HELP)

@@ -11,4 +11,4 @@ Writes settle.csv, poses.csv and settled.mot (motions for `geocontact area`), a 
 OUT, contact_loads.mot and .xml with `bodies` (external loads for OpenSim), and pressures for ParaView with `paraview`.
 """
 
-settle = Command("geocontact.analyses.knee.settle.job:settle", SettleOptions, HELP)
+settle = Command("geocontact.analyses.knee.settle.result:settle", SettleOptions, HELP)

@@ -10,4 +10,4 @@ HELP = """Errors of a simulated exoskeleton arm beside its logger and a pressure
 Writes comparison.csv, a figure, report.html and run.json into OUT.
 """
 
-compare = Command("geocontact.analyses.shoulder.compare.job:compare", ShoulderCompareOptions, HELP)
+compare = Command("geocontact.analyses.shoulder.compare.result:compare", ShoulderCompareOptions, HELP)

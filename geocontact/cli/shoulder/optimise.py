@@ -12,4 +12,4 @@ outcomes.csv (planned), held_out.csv (made for the others, judged on one, with i
 report.html and run.json into OUT.
 """
 
-optimise = Command("geocontact.analyses.shoulder.optimise.job:optimise", ShoulderOptimiseOptions, HELP)
+optimise = Command("geocontact.analyses.shoulder.optimise.result:optimise", ShoulderOptimiseOptions, HELP)

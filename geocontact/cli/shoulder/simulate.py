@@ -12,4 +12,4 @@ Writes right.csv and left.csv, numbers.csv with the source of every number of th
 plane (for `geocontact gap gather`), a figure, report.html (moving arms with forces) and run.json into OUT.
 """
 
-simulate = Command("geocontact.analyses.shoulder.simulate.job:simulate", ShoulderSimulateOptions, HELP)
+simulate = Command("geocontact.analyses.shoulder.simulate.result:simulate", ShoulderSimulateOptions, HELP)

@@ -10,4 +10,4 @@ HELP = """Simulate the arms of a study along the motion in the device and along 
 Writes summary.csv, errors.csv, differences.csv, passive.csv, a figure, report.html and run.json into OUT.
 """
 
-study = Command("geocontact.analyses.shoulder.study.job:study", StudyOptions, HELP)
+study = Command("geocontact.analyses.shoulder.study.result:study", StudyOptions, HELP)

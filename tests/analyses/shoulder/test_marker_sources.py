@@ -14,9 +14,9 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
-from geocontact.analyses.shoulder.optimise.read import read as read_workers
+from geocontact.analyses.shoulder.optimise.profiles import read as read_workers
+from geocontact.analyses.shoulder.study.cases import read as read_study
 from geocontact.analyses.shoulder.study.options import StudyOptions
-from geocontact.analyses.shoulder.study.read import read as read_study
 from geocontact.io.mocap.markers import read_markers
 from geocontact.io.mocap.trc_writer import write_trc
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion

@@ -12,11 +12,10 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.run_record import Record
+from geocontact.analyses.shoulder.devices import read_profiles
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
-from geocontact.analyses.shoulder.optimise.read import read, support_of
+from geocontact.analyses.shoulder.optimise.profiles import WORST, of_others, read, support_of
 from geocontact.analyses.shoulder.optimise.result import ShoulderOptimiseResult
-from geocontact.analyses.shoulder.optimise.run import WORST, of_others
-from geocontact.analyses.shoulder.support_profiles import read_profiles
 from geocontact.data.errors import InputError
 from geocontact.io.text.results import write_table
 from geocontact.shoulder_exoskeleton.lucy import lucy, lucy_new_cylinder

@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.shoulder.study.case import COPIED
+from geocontact.analyses.shoulder.study.cases import COPIED
 from geocontact.analyses.shoulder.study.result import StudyResult
 from tests.cli.calls import MESHES
 

@@ -294,7 +294,7 @@ class Settled:
 
     @property
     def largest_strain(self) -> float:
-        """Of the layer [-]."""
+        """Largest strain of the layer [-]."""
         thickness = self.inputs.bed.layer.thickness
         states = [f.rest.total.foundation for f in self.frames if f.rest and f.converged]
         return max(float((state.depth / thickness[state.pressed]).max()) for state in states)

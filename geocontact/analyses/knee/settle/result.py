@@ -1,4 +1,15 @@
-"""What a contact equilibrium is, frame after frame: found, in tables, with its files, figure and page."""
+r"""A contact equilibrium of a knee implant under load: `geocontact knee settle`, `gc.knee.settle`.
+
+>>> import geocontact as gc
+>>> from pathlib import Path
+>>> rows = Path("meshes/gait.csv").read_text().splitlines()[:2]
+>>> _ = Path("first.csv").write_text("\n".join(rows))
+>>> moving, fixed = (f"meshes/{name}_right_coarse.stl" for name in ("femoral_component", "tibial_insert"))
+>>> layer = {"modulus": gc.MPa(463), "poisson": 0.46, "region": "ny>0.25"}
+>>> result = gc.knee.settle(moving, fixed, unit="mm", motion="first.csv", side="right", load=2000.0, **layer)
+>>> print(f"{result.table()['peak [MPa]'][0]:.1f} MPa")
+31.8 MPa
+"""
 
 from __future__ import annotations
 
@@ -13,7 +24,8 @@ from jaxtyping import Float
 
 from geocontact.analyses.contact_loads import write_contact_loads
 from geocontact.analyses.finished_page import Thinned
-from geocontact.analyses.knee.settle.equilibrium import SIDES, Settled, SettleInputs
+from geocontact.analyses.job import Job
+from geocontact.analyses.knee.settle.equilibrium import SIDES, Settled, SettleInputs, read
 from geocontact.analyses.knee.settle.options import SettleOptions
 from geocontact.analyses.knee.settle.show import thinned_page
 from geocontact.analyses.pressure_figure import PressureMap, pressure_figure
@@ -231,3 +243,6 @@ def _summarise(i: SettleInputs, s: Settled, balance: EnergyBalance | None, recor
         if balance.difference > BALANCED:
             record.warn(f"work and stored energy differ by {balance.difference:.1%}; give a smaller `piece`")
     record.results["equilibrium"] = found
+
+
+settle = Job("knee settle", SettleOptions, read, run)

@@ -7,20 +7,12 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
-from geocontact.analyses.misalignment.checks import require_stroke
-from geocontact.analyses.misalignment.column_options import ColumnOptions
-from geocontact.analyses.misalignment.law_numbers import STROKE
-from geocontact.analyses.options import Degrees, Requires, Spelled, Typed
+from geocontact.analyses.misalignment.shared_options import ColumnOptions, Stroke, require_stroke
+from geocontact.analyses.options import Degrees, Requires, Spelled
 from geocontact.analyses.page_words import counted
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import BIN
 
-Stroke = Annotated[
-    tuple[float, float],
-    Typed("m", "length_span", "gc.mm(-20, 35)"),
-    Spelled("stroke-mm", "stroke_mm", dashed=True),
-    STROKE,
-]
 TWO_DEGREES = math.radians(2.0)
 
 

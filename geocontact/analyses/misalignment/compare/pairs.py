@@ -8,23 +8,28 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.misalignment.compare.options import CompareOptions
-from geocontact.analyses.misalignment.labels import CONSTRAINT
 from geocontact.analyses.misalignment.law_numbers import MMHG, PER_SI, key_of
+from geocontact.analyses.misalignment.page import CONSTRAINT
 from geocontact.analyses.misalignment.recordings import recordings
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.law import NAMES
+from geocontact.axis_misalignment.synthetic import ideal
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import LARGEST_MEANT
-from geocontact.identify.signals.agreement import Agreement
+from geocontact.identify.signals.agreement import Agreement, agreement
 from geocontact.identify.signals.angle_bins import angle_bins, edges_over
+from geocontact.identify.signals.even_times import at_times, even_times
 from geocontact.view.curves.quantity import Quantity
 
 QUANTITIES = {"force": CONSTRAINT, "displacement": Quantity("displacement of the joint", "mm", 1e3)}
 """What channels are called and shown in."""
+SAME_MOTION = float(np.radians(2.0))
+"""rad, root mean square, that angles of a recording and its model may be apart."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,3 +90,68 @@ def _law(file: Path) -> ComparedLaw:
     except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise InputError(file, "", f"holds no law of an elbow ({error})", "give elbow.json of elbow fit") from error
     return ComparedLaw(numbers, float(centre) * MMHG)
+
+
+def compared_pairs(both: Both, o: CompareOptions) -> tuple[Pair, ...]:
+    """Every channel that a recording and its model have."""
+    measured = both.measured
+    models = _simulated(both.model, o, measured) if isinstance(both.model, ComparedLaw) else both.model
+    each = zip(o.recordings, measured, models, strict=True)
+    return tuple(pair for path, r, model in each for pair in _pairs(path, r, model))
+
+
+def _simulated(law: ComparedLaw, o: CompareOptions, measured: Sequence[ElbowRecording]) -> list[ElbowRecording]:
+    """The identified law along each recording's angle and cuff pressure."""
+    found = []
+    for path, r in zip(o.recordings, measured, strict=True):
+        if law.numbers["s"] != 0.0 and r.pressure is None:
+            raise InputError(path, "", "the law's stiffness follows the cuff's pressure, which is not here", "add it")
+        pressure = 0.0 if r.pressure is None else r.pressure - law.pressure
+        try:
+            force, joint = ideal(r.time, r.beta, law.numbers, o.stroke, pressure)
+        except ValueError as error:
+            raise InputError(path, "", str(error), "the identified law does not reach these angles") from error
+        found.append(ElbowRecording(r.name, r.time, r.beta, force, None if o.stroke is None else joint, r.pressure))
+    return found
+
+
+def _pairs(path: Path, measured: ElbowRecording, model: ElbowRecording) -> list[Pair]:
+    """Channels that both have, at the measured trial's even times within both."""
+    time, step = even_times(measured.time)
+    inside = (time >= model.time[0]) & (time <= model.time[-1])
+    if inside.sum() < 2:
+        spans = f"{measured.time[0]:g} to {measured.time[-1]:g} s, the model {model.time[0]:g} to {model.time[-1]:g} s"
+        raise InputError(path, "", f"runs from {spans}", "shift the clock of one of them")
+    both = [("force", measured.force, model.force)]
+    if measured.displacement is not None and model.displacement is not None:
+        both.append(("displacement", measured.displacement, model.displacement))
+    beta = at_times(measured.time, measured.beta, time, step)[inside]
+    apart = float(np.sqrt(np.nanmean((beta - np.interp(time[inside], model.time, model.beta)) ** 2)))
+    if apart > SAME_MOTION:
+        what = f"its angle is {np.degrees(apart):.1f} degrees, root mean square, from that of the model's recording"
+        raise InputError(path, "", what, "give the simulated recordings in the same order")
+    found = []
+    for channel, ours, theirs in both:
+        here = at_times(measured.time, ours, time, step)[inside]
+        there = np.interp(time[inside], model.time, theirs)
+        found.append(Pair(measured.name, channel, time[inside], beta, here, there, agreement(there, here, step)))
+    return found
+
+
+def comparison_table(pairs: Sequence[Pair]) -> pd.DataFrame:
+    """One row for each trial and channel; lengths in mm."""
+    rows = [
+        {
+            "trial": p.trial,
+            "channel": p.channel,
+            "unit": q.unit,
+            "mae": a.mae * q.per_si,
+            "rmse": a.rmsd * q.per_si,
+            "bias": a.bias * q.per_si,
+            "r2 [-]": a.r2,
+            "lag [s]": a.lag,
+            "samples": a.samples,
+        }
+        for p, a, q in ((p, p.agreement, QUANTITIES[p.channel]) for p in pairs)
+    ]
+    return pd.DataFrame(rows)

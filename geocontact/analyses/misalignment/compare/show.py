@@ -10,8 +10,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.misalignment.compare.pairs import QUANTITIES, Pair
-from geocontact.analyses.misalignment.labels import ANGLE
-from geocontact.analyses.misalignment.page import FRAMES, NOT_IN_THE_NUMBERS, elbow_page
+from geocontact.analyses.misalignment.page import ANGLE, FRAMES, NOT_IN_THE_NUMBERS, elbow_page
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.view.curves.quantity import FORCE, Quantity

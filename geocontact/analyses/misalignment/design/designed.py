@@ -11,8 +11,7 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.misalignment.design.options import DesignOptions
-from geocontact.analyses.misalignment.drift import axis_drift
-from geocontact.analyses.misalignment.planar_words import STATES, WITHOUT_FORCE, rounded
+from geocontact.analyses.misalignment.planar import STATES, WITHOUT_FORCE, axis_drift, rounded
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.axis_drift import AxisDrift
 from geocontact.axis_misalignment.compensation import Compensation, needed_ends

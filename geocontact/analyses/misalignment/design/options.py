@@ -7,24 +7,19 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
-from geocontact.analyses.misalignment.checks import (
+from geocontact.analyses.misalignment.law_numbers import ACROSS, DRIFT, LINK, OFFSET
+from geocontact.analyses.misalignment.shared_options import (
+    Stroke,
     require_drift,
     require_span,
     require_stroke,
 )
-from geocontact.analyses.misalignment.law_numbers import ACROSS, DRIFT, LINK, OFFSET, STROKE
 from geocontact.analyses.options import Millimetres, Options, Spelled, Typed
 from geocontact.data.plausible import Plausible
 from geocontact.data.ranges import ATTACHMENT, JOINT_ANGLE, LIMIT, SHIFT
 from geocontact.data.units import mm
 
 Angles = Annotated[tuple[float, float], Typed("rad", "angle_span", "gc.deg(0, 120)"), Spelled(dashed=True), JOINT_ANGLE]
-Stroke = Annotated[
-    tuple[float, float],
-    Typed("m", "length_span", "gc.mm(-20, 35)"),
-    Spelled("stroke-mm", "stroke_mm", dashed=True),
-    STROKE,
-]
 Offset = Annotated[
     tuple[float, float],
     Typed("m", "length_pair", "gc.mm(5, -3)"),
@@ -33,7 +28,7 @@ Offset = Annotated[
 ]
 Drift = Annotated[
     Path | Mapping[str, tuple[float, ...]],
-    Typed("-", "misalignment.drift:typed", '{"x": gc.mm(0, -8, 2)}'),
+    Typed("-", "misalignment.planar:drift", '{"x": gc.mm(0, -8, 2)}'),
     Spelled(dashed=True),
     DRIFT,
 ]

@@ -165,7 +165,7 @@ class ShownInterval:
 
     @property
     def parts(self) -> list[tuple[float, float]]:
-        """As of the profile."""
+        """Lower and upper end of each part of the profile's interval."""
         return [(low * self.per, high * self.per) for low, high in self.profile.parts]
 
     @property
@@ -210,7 +210,7 @@ class ShownInterval:
 
 
 def intervals(data: Binned, e: ElbowFit, replicates: int) -> tuple[ShownInterval, ...]:
-    """Of each free number; where nothing sets the scale, of k l, x/l, y/l, z/l in place of k and the lengths.
+    """One for each free number; where nothing sets the scale, for k l, x/l, y/l, z/l in place of k and the lengths.
 
     `replicates` of the bootstrap are drawn, none for 0.
     """

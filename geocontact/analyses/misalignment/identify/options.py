@@ -8,31 +8,31 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
-from geocontact.analyses.misalignment.column_options import ColumnOptions
 from geocontact.analyses.misalignment.law_numbers import MEANS, NUMBERS, TOPS, require_names
+from geocontact.analyses.misalignment.shared_options import ColumnOptions
 from geocontact.analyses.options import Degrees, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import BIN
 
 Numbers = Annotated[
     Mapping[str, float],
-    Typed("-", "misalignment.parameters:numbers", '{"l": 0.169, "z": 0.127}'),
+    Typed("-", "misalignment.law_numbers:numbers", '{"l": 0.169, "z": 0.127}'),
     Spelled(dashed=True),
     NUMBERS,
 ]
 Spreads = Annotated[
     Mapping[str, tuple[float, float]],
-    Typed("-", "misalignment.parameters:pairs", '{"l": gc.mm(185, 10)}'),
+    Typed("-", "misalignment.law_numbers:pairs", '{"l": gc.mm(185, 10)}'),
     Spelled(dashed=True),
     MEANS,
 ]
 Bounds = Annotated[
     Mapping[str, tuple[float, float]],
-    Typed("-", "misalignment.parameters:pairs", '{"l": gc.mm(160, 210)}'),
+    Typed("-", "misalignment.law_numbers:pairs", '{"l": gc.mm(160, 210)}'),
     Spelled(dashed=True),
     TOPS,
 ]
-Names = Annotated[tuple[str, ...], Typed("-", "misalignment.parameters:names", '("b", "s")')]
+Names = Annotated[tuple[str, ...], Typed("-", "misalignment.law_numbers:names", '("b", "s")')]
 REPLICATES = 100, 100_000
 TWO_DEGREES, TEN_DEGREES = math.radians(2.0), math.radians(10.0)
 

@@ -1,4 +1,13 @@
-"""What an identification finds: numbers of the law with intervals, what is not told, tables, figures, page."""
+"""Stiffness, link and offsets of an exoskeleton: `geocontact elbow fit`, `gc.misalignment.identify`.
+
+>>> import geocontact as gc
+>>> trials = gc.misalignment.simulate(rate=20.0, seconds=20.0, trials=2, seed=3).write("trials")
+>>> locked = sorted(trials.glob("locked_*.csv"))
+>>> known = {"l": gc.mm(169), "z": gc.mm(127)}
+>>> result = gc.misalignment.identify(locked, known=known, bootstrap=0)
+>>> {name: round(result.numbers[name], 3) for name in ("k", "x", "y")}
+{'k': 234.884, 'x': 0.045, 'y': 0.059}
+"""
 
 from __future__ import annotations
 
@@ -12,21 +21,22 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.job import Job
 from geocontact.analyses.json_file import write_json
-from geocontact.analyses.misalignment.identify.figure import (
+from geocontact.analyses.misalignment.identify.fitted import Fitted, ShownInterval, fitted, require_bins
+from geocontact.analyses.misalignment.identify.free_joint import Free, free_joint
+from geocontact.analyses.misalignment.identify.inputs import IdentifyInputs, read
+from geocontact.analyses.misalignment.identify.options import IdentifyOptions
+from geocontact.analyses.misalignment.identify.sentences import described, reserve, say
+from geocontact.analyses.misalignment.identify.show import (
     Boxes,
     Over,
     conditions_figure,
+    fit_page,
     force_figure,
     residual_figure,
     told_figure,
 )
-from geocontact.analyses.misalignment.identify.fitted import Fitted, ShownInterval, fitted, require_bins
-from geocontact.analyses.misalignment.identify.free_joint import Free, free_joint
-from geocontact.analyses.misalignment.identify.inputs import IdentifyInputs
-from geocontact.analyses.misalignment.identify.options import IdentifyOptions
-from geocontact.analyses.misalignment.identify.sentences import described, reserve, say
-from geocontact.analyses.misalignment.identify.show import fit_page
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
@@ -286,3 +296,6 @@ def _scaled_by(record: Record, problem: ElbowProblem, free: Free) -> ElbowProble
         + ("" if free.rotary_free else ", and no other joint of the device free beside it (else `rotary_free`)")
     )
     return replace(problem, scale=free.scale)
+
+
+identify = Job("elbow fit", IdentifyOptions, read, run)

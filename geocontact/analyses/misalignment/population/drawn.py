@@ -13,9 +13,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float, Int
 
-from geocontact.analyses.misalignment.drift import axis_drift
 from geocontact.analyses.misalignment.law_numbers import NUMBERS
-from geocontact.analyses.misalignment.planar_words import STATES, WITHOUT_FORCE, rounded
+from geocontact.analyses.misalignment.planar import STATES, WITHOUT_FORCE, axis_drift, rounded
 from geocontact.analyses.misalignment.population.options import PopulationOptions
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.axis_drift import AxisDrift

@@ -7,27 +7,22 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
-from geocontact.analyses.misalignment.checks import (
+from geocontact.analyses.misalignment.law_numbers import DRIFT
+from geocontact.analyses.misalignment.shared_options import (
+    Stroke,
     require_at_least_0,
     require_drift,
     require_span,
     require_stroke,
     require_within,
 )
-from geocontact.analyses.misalignment.law_numbers import DRIFT, STROKE
 from geocontact.analyses.options import Options, Spelled, Typed
 from geocontact.data.ranges import JOINT_ANGLE, LIMIT
 
 Angles = Annotated[tuple[float, float], Typed("rad", "angle_span", "gc.deg(0, 120)"), Spelled(dashed=True), JOINT_ANGLE]
-Stroke = Annotated[
-    tuple[float, float],
-    Typed("m", "length_span", "gc.mm(-20, 35)"),
-    Spelled("stroke-mm", "stroke_mm", dashed=True),
-    STROKE,
-]
 Drift = Annotated[
     Path | Mapping[str, tuple[float, ...]],
-    Typed("-", "misalignment.drift:typed", '{"x": gc.mm(0, -8, 2)}'),
+    Typed("-", "misalignment.planar:drift", '{"x": gc.mm(0, -8, 2)}'),
     Spelled(dashed=True),
     DRIFT,
 ]

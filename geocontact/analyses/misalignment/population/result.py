@@ -1,4 +1,14 @@
-"""What a population tells: quantiles, exceedance, where the spread comes from, figure, page."""
+r"""How the largest force spreads over people: `geocontact elbow population`, `gc.misalignment.population`.
+
+>>> import geocontact as gc
+>>> from pathlib import Path
+>>> text = 'k = { value = 222, unit = "N/m" }\nl = { value = 169, unit = "mm" }\nz = { value = 127, unit = "mm" }\n'
+>>> text += "".join(f'{name} = {{ unit = "mm", normal = {{ mean = 0, sd = 15 }} }}\n' for name in "xy")
+>>> _ = Path("people.toml").write_text(text)
+>>> result = gc.misalignment.population("people.toml", range=gc.deg(0, 120), limit=10.0, samples=20_000)
+>>> print(result.sentences[0])
+largest |F| of 20000 synthetic people: median … N (… … …), 95 % below … N (… … …)
+"""
 
 from __future__ import annotations
 
@@ -11,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.job import Job
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.misalignment.population.drawn import (
     SHOWN,
@@ -21,6 +32,7 @@ from geocontact.analyses.misalignment.population.drawn import (
     exceedance_table,
     influence_table,
     quantile_table,
+    read,
     sample_table,
 )
 from geocontact.analyses.misalignment.population.options import PopulationOptions
@@ -107,3 +119,6 @@ def _say(record: Record, d: Drawn) -> None:
 
 def _said(e: IntervalEstimate) -> str:
     return f"{e.value:.3f} N ({e.lower:.3f} … {e.upper:.3f})" if math.isfinite(e.value) else "infinite"
+
+
+population = Job("elbow population", PopulationOptions, read, run)

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.misalignment.planar_words import MODEL, STATES, WITHOUT_FORCE, page_table
+from geocontact.analyses.misalignment.planar import MODEL, STATES, WITHOUT_FORCE, page_table
 from geocontact.analyses.misalignment.population.drawn import Drawn, influence_table, quantile_table
 from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.identify.intervals.quantile_intervals import IntervalEstimate

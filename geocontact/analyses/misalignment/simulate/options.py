@@ -7,14 +7,15 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.misalignment.checks import (
+from geocontact.analyses.misalignment.law_numbers import NUMBERS, TORQUE, TURNING, require_names
+from geocontact.analyses.misalignment.shared_options import (
+    Stroke,
     require_at_least_0,
     require_rising,
     require_span,
     require_stroke,
     require_within,
 )
-from geocontact.analyses.misalignment.law_numbers import NUMBERS, STROKE, TORQUE, TURNING, require_names
 from geocontact.analyses.options import AngleUnit, Excludes, Expression, Millimetres, Options, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.file_names import same_place
@@ -26,21 +27,15 @@ ELBOW = Plausible("an angle of an elbow", deg, (-30.0, 180.0))
 ALONG = Excludes("recordings", "has no effect along a recording")
 Numbers = Annotated[
     Mapping[str, float],
-    Typed("-", "misalignment.parameters:numbers", '{"l": 0.169, "z": 0.127}'),
+    Typed("-", "misalignment.law_numbers:numbers", '{"l": 0.169, "z": 0.127}'),
     Spelled(dashed=True),
     NUMBERS,
 ]
-Band = Annotated[tuple[float, float], Typed("Hz", "misalignment.parameters:pair", "(0.05, 0.35)"), BAND]
+Band = Annotated[tuple[float, float], Typed("Hz", "misalignment.law_numbers:pair", "(0.05, 0.35)"), BAND]
 Angles = Annotated[
-    tuple[float, float], Typed("rad", "misalignment.parameters:degrees", "gc.deg(8, 92)"), Spelled(dashed=True), ELBOW
+    tuple[float, float], Typed("rad", "misalignment.law_numbers:degrees", "gc.deg(8, 92)"), Spelled(dashed=True), ELBOW
 ]
-Stroke = Annotated[
-    tuple[float, float],
-    Typed("m", "length_span", "gc.mm(-20, 35)"),
-    Spelled("stroke-mm", "stroke_mm", dashed=True),
-    STROKE,
-]
-Pressures = Annotated[tuple[float, float], Typed("Pa", "misalignment.parameters:mercury", "gc.mmHg(10, 60)"), CUFF]
+Pressures = Annotated[tuple[float, float], Typed("Pa", "misalignment.law_numbers:mercury", "gc.mmHg(10, 60)"), CUFF]
 FEWEST = 4
 """Trials of a gap case: two to fit to, two held out."""
 

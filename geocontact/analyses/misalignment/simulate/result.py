@@ -1,4 +1,10 @@
-"""What a simulation makes: synthetic trials with their true numbers, and surfaces of the displacement."""
+"""Synthetic recordings of an exoskeleton at an elbow: `geocontact elbow simulate`, `gc.misalignment.simulate`.
+
+>>> import geocontact as gc
+>>> result = gc.misalignment.simulate(seconds=5.0, trials=1, seed=3)
+>>> result
+locked_1, synthetic: -10.0 … 8.1 N over 8 … 92°, 5 s
+"""
 
 from __future__ import annotations
 
@@ -11,12 +17,22 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.job import Job
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.misalignment.law_numbers import with_units
-from geocontact.analyses.misalignment.simulate.numbers import numbers_table
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
 from geocontact.analyses.misalignment.simulate.show import simulation_page, surface_figure
-from geocontact.analyses.misalignment.simulate.trials import UNITS, LoadedTrial, Surfaces, gap_case, loaded, surfaces
+from geocontact.analyses.misalignment.simulate.trials import (
+    UNITS,
+    USUAL,
+    LoadedTrial,
+    Surfaces,
+    gap_case,
+    loaded,
+    numbers_table,
+    read,
+    surfaces,
+)
 from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.explicit import Offsets, require_no_pole, require_reach
@@ -96,7 +112,6 @@ class SimulateResult(Result):
 
 
 TRIALS, SEED = 6, 0
-USUAL = Design()
 GRID = 181  # angles at which a pole is looked for
 
 
@@ -196,3 +211,6 @@ def _refuse_numbers(numbers: Mapping[str, float], beta: Float[np.ndarray, " n"])
         require_no_pole(beta, offsets)
     except ValueError as error:
         raise InputError("", "`numbers`", str(error), "give smaller offsets or a longer link") from error
+
+
+simulate = Job("elbow simulate", SimulateOptions, read, run)

@@ -9,9 +9,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.misalignment.labels import ANGLE
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
-from geocontact.analyses.misalignment.page import FRAMES, NOT_IN_THE_NUMBERS, elbow_page
+from geocontact.analyses.misalignment.page import ANGLE, FRAMES, NOT_IN_THE_NUMBERS, elbow_page
 from geocontact.analyses.misalignment.simulate.trials import LoadedTrial, Surfaces
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record

@@ -1,8 +1,8 @@
-"""The trials that are made: what is read, loads on cuff and joint, displacement over offsets, a gap case of them."""
+"""The trials that are made: loads on cuff and joint, displacement over offsets, a gap case, numbers that ran."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,13 +13,14 @@ from geocontact.analyses.misalignment.law_numbers import MMHG
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.explicit import Offsets, displacement
-from geocontact.axis_misalignment.synthetic import SyntheticElbowTrial, at_rest
+from geocontact.axis_misalignment.synthetic import PAPER, Design, SyntheticElbowTrial, at_rest
 from geocontact.axis_misalignment.transmission import CuffLoads, cuff_loads
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.data.gap.case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
+from geocontact.data.sourced_number import Source
 from geocontact.data.trial import Trial
 from geocontact.io.recordings.elbow_recording import BETA, PRESSURE, TORQUE, read_elbow_recording
 from geocontact.io.text.columns import parse_map
@@ -170,3 +171,62 @@ def gap_case(trials: Sequence[ElbowRecording], numbers: Mapping[str, float]) -> 
 
 def _trial(r: ElbowRecording) -> Trial:
     return Trial(r.name, Signals(r.time, np.column_stack([r.beta, r.force]), ("beta", "force"), ("rad", "N")))
+
+
+COLUMNS = ["number", "value", "unit", "source", "note"]
+LAW = {"k": "N/m", "x": "m", "y": "m", "l": "m", "z": "m", "b": "N s/m", "s": "1/Pa", "c": "m/N"}
+"""Units of the law's numbers."""
+Row = tuple[str, float, str, Source, str]
+Named = tuple[str, float | tuple[float, float], str, Source]
+USUAL = Design()
+
+
+def numbers_table(made: Sequence[LoadedTrial], design: Design | None) -> pd.DataFrame:
+    """Numbers of the experiment once, then of every trial: the law as it was there, stroke, pressure, turning."""
+    rows = [] if design is None else [*_of_design(design)]
+    for each in made:
+        rows += _of_trial(each)
+    return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def _of_design(design: Design) -> Iterator[Row]:
+    each: list[Named] = [
+        ("seconds", design.seconds, "s", "paper"),
+        ("rate", design.rate, "Hz", "paper"),
+        ("band", design.band, "Hz", "paper"),
+        ("reach", design.reach, "rad", "invented"),
+        ("noise", design.noise, "N", "invented"),
+        ("memory", design.memory, "s", "invented"),
+        ("donning", design.donning, "m", "invented"),
+        ("bits", design.bits, "-", "paper"),
+        ("sines", design.sines, "-", "invented"),
+        ("amplitudes", design.amplitudes, "-", "invented"),
+    ]
+    for name, value, unit, source in each:
+        told = source if value == getattr(USUAL, name) else "derived"
+        yield from _ends(name, value, unit, told, "" if told == source else "asked for")
+    if design.pressures is not None:
+        yield from _ends("pressures", design.pressures, "Pa", "derived", "asked for")
+    for channel, unit in (("beta", "rad"), ("force", "N"), ("displacement", "m")):
+        yield f"full_scale {channel}", design.full_scale[channel], unit, "invented", "of the converter"
+
+
+def _of_trial(made: LoadedTrial) -> Iterator[Row]:
+    name = made.recording.name
+    for number, unit in LAW.items():
+        value = made.numbers[number]
+        paper = value == PAPER[number]
+        yield f"{name} {number}", value, unit, "paper" if paper else "derived", "" if paper else "asked for, and donned"
+    if made.stroke is not None:
+        yield from _ends(f"{name} stroke", made.stroke, "m", "derived", "asked for")
+    yield f"{name} mean_pressure", made.mean_pressure, "Pa", "derived", "at which the stiffness is k"
+    yield f"{name} turning", made.turning, "N m/rad", "derived", "stiffness of the cuff against turning"
+
+
+def _ends(name: str, value: int | float | tuple[float, float], unit: str, source: Source, note: str) -> Iterator[Row]:
+    """One row, or one for each end of a range."""
+    if isinstance(value, tuple):
+        for end, at in zip(("least", "most"), value, strict=True):
+            yield f"{name} {end}", float(at), unit, source, note
+    else:
+        yield name, float(value), unit, source, note

@@ -1,29 +1,46 @@
-"""What a comparison finds: errors by channel and phase, figure, page."""
+"""A simulated arm beside logger and mat: `geocontact shoulder compare`, `gc.shoulder.compare`.
+
+>>> import geocontact as gc
+>>> trial = "meshes/overhead_P1T1S100/markers.trc"
+>>> full = gc.shoulder.simulate(trial, level=1.0, side="right").table("right")
+>>> recorded = full[["time [s]", "elevation [deg]", "supporting [N]"]]
+>>> recorded.rename(columns={"supporting [N]": "force [N]"}).to_csv("recorded.csv", index=False)
+>>> half = gc.shoulder.simulate(trial, level=0.5, side="right").write("half") / "right.csv"
+>>> gc.shoulder.compare(half, "recorded.csv")
+elevation, all: MAE 4.02, RMSD 4.51 deg
+elevation, work: MAE 4.93, RMSD 5.12 deg
+force, all: MAE 13.4, RMSD 14.7 N
+force, work: MAE 16.1, RMSD 16.6 N
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
 import pandas as pd
-from jaxtyping import Float
 
-from geocontact.analyses.figure_files import save_both
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.job import Job
+from geocontact.analyses.json_file import plain
 from geocontact.analyses.motion.figure import curves_figure
-from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.shoulder.compare.errors import (
+    ArmAndRecording,
+    ComparedChannel,
+    compared,
+    comparison_table,
+    read,
+)
 from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
-from geocontact.analyses.shoulder.recorded_channels import ELEVATION
-from geocontact.identify.signals.agreement import Agreement
-from geocontact.io.text.results import write_table
+from geocontact.analyses.shoulder.recordings import ALL, WORK, shown_in
+from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
 from geocontact.view.page.content import Curve, Curves, Page, Words
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
+from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -34,20 +51,42 @@ MAT = (
 )
 
 
-@dataclass(frozen=True, eq=False)
-class ComparedChannel:
-    """One channel at the simulation's even times [rad or N], and errors by phase."""
+def channel_figure(channels: Sequence[ComparedChannel]) -> Figure:
+    """Each channel, recorded and simulated."""
+    panels = {}
+    for one in channels:
+        unit, factor = shown_in(one.channel)
+        both = {"recorded": factor * one.measured, "simulated": factor * one.model}
+        panels[f"{one.channel} [{unit.replace('deg', '°')}]"] = pd.DataFrame(both)
+    return curves_figure(channels[0].time, panels)
 
-    channel: str
-    time: Float[np.ndarray, " t"]
-    model: Float[np.ndarray, " t"]
-    measured: Float[np.ndarray, " t"]
-    errors: Mapping[str, Agreement]
 
-    @property
-    def shown_in(self) -> tuple[str, float]:
-        """Unit of tables, and how many of it one SI unit is."""
-        return ("deg", float(np.degrees(1.0))) if self.channel == ELEVATION else ("N", 1.0)
+def comparison_page(recorded: str, channels: Sequence[ComparedChannel], sentences: Sequence[str]) -> Page:
+    """Both curves of each channel, and errors by phase; `recorded` is the name of the recording."""
+    time = channels[0].time
+    shown = thinned(len(time), [values for one in channels for values in (one.measured, one.model)])
+    panels = []
+    for one in channels:
+        unit, factor = shown_in(one.channel)
+        both = (("recorded", one.measured), ("simulated", one.model))
+        curves = [Curve(name, factor * values[shown]) for name, values in both]
+        panels.append(Curves(one.channel.capitalize(), unit, curves))
+    return Page(
+        title=f"Simulated arm beside {recorded}",
+        subtitle="Shoulder exoskeleton: elevation of its arm, force in its cuff",
+        time=time[shown],
+        time_label="time [s]",
+        headline=headline(sentences, most=2),
+        sections=(
+            *panels,
+            frame_table("Errors by channel and phase", comparison_table(channels)),
+            INPUTS,
+            OPTIONS,
+            Words("What the numbers do not contain", [MAT, NOT_A_DEVICE]),
+        ),
+        numbers=shown + 1,
+        total=len(time),
+    )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -59,55 +98,30 @@ class ShoulderCompareResult(Result):
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`comparison`: one row per channel and phase."""
-        rows = []
-        for one in self.channels:
-            unit, factor = one.shown_in
-            for phase, a in one.errors.items():
-                errors = {"mae": a.mae * factor, "rmsd": a.rmsd * factor, "bias": a.bias * factor}
-                told = {"r2 [-]": a.r2, "lag [s]": a.lag, "samples": a.samples}
-                rows.append({"channel": one.channel, "phase": phase, "unit": unit, **errors, **told})
-        return {"comparison": pd.DataFrame(rows)}
+        return {"comparison": comparison_table(self.channels)}
 
-    def figure(self) -> Figure:
-        """Each channel, recorded and simulated."""
-        panels = {}
-        for one in self.channels:
-            unit, factor = one.shown_in
-            both = {"recorded": factor * one.measured, "simulated": factor * one.model}
-            panels[f"{one.channel} [{unit.replace('deg', '°')}]"] = pd.DataFrame(both)
-        return curves_figure(self.channels[0].time, panels)
+    def figures(self) -> dict[str, Figure]:
+        """`comparison`: each channel, recorded and simulated."""
+        return {"comparison": channel_figure(self.channels)}
 
-    def write_files(self, folder: Path) -> None:
-        """comparison.csv, figure, page."""
-        write_table(self.table(), folder, "comparison")
-        save_both(self.figure(), folder, "comparison")
-        self.write_page(folder / "report.html")
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Both curves of each channel, and errors by phase."""
+        return {REPORT: comparison_page(self.options.recorded.name, self.channels, self.sentences)}
 
-    def write_page(self, file: Path) -> None:
-        """ArmAndRecording curves and errors by phase."""
-        time = self.channels[0].time
-        shown = thinned(len(time), [values for one in self.channels for values in (one.measured, one.model)])
-        panels = []
-        for one in self.channels:
-            unit, factor = one.shown_in
-            both = (("recorded", one.measured), ("simulated", one.model))
-            curves = [Curve(name, factor * values[shown]) for name, values in both]
-            panels.append(Curves(one.channel.capitalize(), unit, curves))
-        page = Page(
-            title=f"Simulated arm beside {self.options.recorded.name}",
-            subtitle="Shoulder exoskeleton: elevation of its arm, force in its cuff",
-            time=time[shown],
-            time_label="time [s]",
-            headline=headline(self.sentences, most=2),
-            reservations=self.warnings,
-            sections=(
-                *panels,
-                frame_table("Errors by channel and phase", self.table()),
-                inputs_table(self.record.inputs),
-                options_table(self.record),
-                Words("What the numbers do not contain", [MAT, NOT_A_DEVICE]),
-            ),
-            numbers=shown + 1,
-            total=len(time),
-        )
-        write_page(page, file)
+
+def run(both: ArmAndRecording, o: ShoulderCompareOptions, record: Record) -> ShoulderCompareResult:
+    """Errors of every channel that was recorded, and what is to be said of them."""
+    channels = compared(both, o, record)
+    reserved = out_of_cuff_words(both.out_of_cuff)
+    for one in channels:
+        unit, factor = shown_in(one.channel)
+        for name in (name for name in (ALL, WORK) if name in one.errors):
+            a = one.errors[name]
+            record.say(f"{one.channel}, {name}: MAE {factor * a.mae:.3g}, RMSD {factor * a.rmsd:.3g} {unit}{reserved}")
+    record.results["comparison"] = plain(
+        {each.channel: {name: vars(error) for name, error in each.errors.items()} for each in channels}
+    )
+    return ShoulderCompareResult(record=record, options=o, channels=channels)
+
+
+compare = Job("shoulder compare", ShoulderCompareOptions, read, run)

@@ -6,13 +6,11 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import C3dUnit, Expression, Options, Requires, Spelled, Typed
+from geocontact.analyses.options import C3dUnit, Expression, Options, Requires, Spelled
+from geocontact.analyses.shoulder.shared_options import TORQUE_RATE, Share, require_share
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import PLAIN, Plausible
 from geocontact.data.ranges import CUTOFF, GAP, LIMIT
 
-TORQUE_RATE = Plausible("a rate of torque in N m/s", PLAIN, (1e-3, 1e5), (1.0, 1000.0))
-Share = Annotated[float, Typed("-", "shoulder.level:level", "0.5")]
 FEWEST_DRAWS = 20
 
 
@@ -93,14 +91,10 @@ class ShoulderOptimiseOptions(Options):
 
     def refuse_impossible(self) -> None:
         """Shares that are none, too few draws for an interval, a share that has no effect."""
-        for name in ("reserve", "dominant_share"):
-            value = getattr(self, name)
-            if not 0.0 <= value <= 1.0:
-                raise InputError("", f"`{name}`", f"{100.0 * value:g} % is not 0 to 100 %", "give for example 10%")
-        if self.certainty is not None and not 0.0 <= self.certainty <= 1.0:
-            raise InputError(
-                "", "`certainty`", f"{100.0 * self.certainty:g} % is not 0 to 100 %", "give for example 95%"
-            )
+        require_share(self.reserve, "reserve", "10%")
+        require_share(self.dominant_share, "dominant_share", "10%")
+        if self.certainty is not None:
+            require_share(self.certainty, "certainty", "95%")
         if self.reserve >= 1.0:
             raise InputError("", "`reserve`", "100 % leaves no support", "give less")
         if self.worst_share is not None and self.aim != "cvar":

@@ -6,14 +6,9 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import C3dUnit, Expression, Needs, Options, Requires, Spelled, TimeSpan, Typed
-from geocontact.data.errors import InputError
-from geocontact.data.plausible import Plausible
+from geocontact.analyses.options import C3dUnit, Expression, Needs, Options, Requires, TimeSpan
+from geocontact.analyses.shoulder.shared_options import CURRENT, Level, require_share
 from geocontact.data.ranges import CUTOFF, GAP
-from geocontact.data.units import Unit
-
-CURRENT = Plausible("the current of a tool", Unit("A", "A", 1.0), (0.0, 1000.0), (0.0, 100.0))
-Level = Annotated[float, Typed("-", "shoulder.level:level", "0.5"), Spelled(default="100%", dashed=True)]
 
 
 @dataclass(frozen=True)
@@ -101,5 +96,4 @@ class ShoulderSimulateOptions(Options):
 
     def refuse_impossible(self) -> None:
         """A level that no cylinder has."""
-        if not 0.0 <= self.level <= 1.0:
-            raise InputError("", "`level`", f"{100.0 * self.level:g} % is not 0 to 100 %", "give for example 50%")
+        require_share(self.level, "level", "50%")

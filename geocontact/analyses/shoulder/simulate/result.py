@@ -1,4 +1,14 @@
-"""What a simulation finds: tables for each arm, files for OpenSim and ParaView, page."""
+"""A shoulder exoskeleton along human motion: `geocontact shoulder simulate`, `gc.shoulder.simulate`.
+
+>>> import geocontact as gc
+>>> result = gc.shoulder.simulate("meshes/overhead_P1T1S100/markers.trc", level=1.0, side="right")
+>>> result
+right arm: elevation up to 113.9 deg (shoulder 120.9), supporting force 6.7 … 56.5 N, slip 179 mm
+warning: no `person`: the device is adjusted to an upper arm of 300 mm and shoulders 400 mm wide (invented)
+warning: T10 is taken to lie straight below Lucy_MC: no span of upright stance was named
+warning: lucy: 54 of 63 numbers are invented, see numbers.csv
+warning: right arm: passive_1 is at a stop for 66% of the time, first at 0.00 s
+"""
 
 from __future__ import annotations
 
@@ -11,23 +21,32 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.figure_files import save_both
-from geocontact.analyses.motion.figure import curves_figure
-from geocontact.analyses.result import Result
-from geocontact.analyses.shoulder.simulate.exports import write_angles, write_external_loads, write_lines
+from geocontact.analyses.job import Job
+from geocontact.analyses.json_file import plain
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.shoulder.simulate.arms import (
+    Worn,
+    arm_table,
+    numbers_table,
+    read,
+    sensitivity_table,
+    simulated_along,
+    summary_of,
+)
+from geocontact.analyses.shoulder.simulate.exports import write_angles, write_external_loads, write_lines, write_plane
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
-from geocontact.analyses.shoulder.simulate.page import write_simulation_page
-from geocontact.analyses.shoulder.simulate.plane_files import write_plane
-from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
-from geocontact.analyses.shoulder.simulate.tables import arm_table, numbers_table, sensitivity_table
-from geocontact.io.text.results import write_table
+from geocontact.analyses.shoulder.simulate.show import arm_figure, simulation_page
+from geocontact.analyses.shoulder.simulated_arm import SimulatedArm
 from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
 from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFrame
-from geocontact.shoulder_exoskeleton.sensitivity import Influence
+from geocontact.shoulder_exoskeleton.sensitivity import Influence, influences
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -63,23 +82,16 @@ class ShoulderSimulateResult(Result):
             told["sensitivity"] = pd.concat(parts, ignore_index=True)
         return told
 
-    def figure(self) -> Figure:
-        """Elevations, supporting force and shear of both arms over time."""
-        time = self.arms[0].simulation.motion.time
-        elevation, force = {}, {}
-        for each in self.arms:
-            s, side = each.simulation, each.side
-            elevation[f"shoulder, {side}"] = np.degrees(s.motion.elevation)
-            elevation[f"exoskeleton, {side}"] = np.degrees(s.elevation)
-            force[f"supporting, {side}"] = s.supporting
-            force[f"shear, {side}"] = s.shear
-        panels = {"elevation [deg]": pd.DataFrame(elevation), "interface force [N]": pd.DataFrame(force)}
-        return curves_figure(time, panels)
+    def figures(self) -> dict[str, Figure]:
+        """`shoulder`: elevations, supporting force and shear of both arms over time."""
+        return {"shoulder": arm_figure(self.arms)}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Moving arms with the forces in their cuffs, curves, tables."""
+        return {REPORT: simulation_page(self.options, self.arms, self.markers, self.tables(), self.sentences)}
 
     def write_files(self, folder: Path) -> None:
-        """Tables, angles and external loads for OpenSim, lines for ParaView, figure, page."""
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
+        """Angles and external loads for OpenSim, lines for ParaView, a case in the plane besides."""
         simulations = [each.simulation for each in self.arms]
         write_angles(folder, simulations)
         write_external_loads(folder, simulations, self.frame)
@@ -87,9 +99,34 @@ class ShoulderSimulateResult(Result):
         for each in self.arms:
             if each.factor is None:  # the base model's support has a level for the whole trial
                 write_plane(folder / "plane", each)
-        save_both(self.figure(), folder, "shoulder")
-        self.write_page(folder / "report.html")
+        super().write_files(folder)
 
-    def write_page(self, file: Path) -> None:
-        """Moving arms with the forces in their cuffs, curves, tables."""
-        write_simulation_page(file, self.record, self.options, self.arms, self.markers, self.tables())
+
+def run(worn: Worn, o: ShoulderSimulateOptions, record: Record) -> ShoulderSimulateResult:
+    """Each arm by itself; they share the device's frame only."""
+    invented = sum(number.source == "invented" for number in worn.device.numbers.values())
+    record.warn(f"{worn.device.name}: {invented} of {len(worn.device.numbers)} numbers are invented, see numbers.csv")
+    record.results["device"] = {
+        "name": worn.device.name,
+        "peak_force_N": worn.device.peak_force,
+        "peak_torque_N_m": worn.device.peak_torque,
+    }
+    arms = tuple(simulated_along(worn, arm, o, record) for arm in worn.arms)
+    record.results["arms"] = plain({each.side: summary_of(each) for each in arms})
+    found = {
+        each.side: tuple(influences(each.simulation.motion, worn.device, worn.wearer, o.level, o.cuff, each.factor))
+        for each in (arms if o.sensitivity else ())
+    }
+    return ShoulderSimulateResult(
+        record=record,
+        options=o,
+        arms=arms,
+        frame=worn.frame,
+        markers=worn.markers,
+        device=worn.device,
+        wearer=worn.wearer,
+        influences=found,
+    )
+
+
+simulate = Job("shoulder simulate", ShoulderSimulateOptions, read, run)

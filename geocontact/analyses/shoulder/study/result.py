@@ -1,36 +1,98 @@
-"""What a study finds: errors, differences of both groups, figure, page."""
+r"""A study of a shoulder exoskeleton: `geocontact shoulder study`, `gc.shoulder.study`.
+
+>>> import geocontact as gc
+>>> from pathlib import Path
+>>> text = '[tasks.T1]\ntool = { value = 1.3, unit = "kg" }\npush = { value = 35, unit = "N" }\n'
+>>> text += '[persons.P1]\nmass = { value = 82, unit = "kg" }\nsex = "male"\ndominant = "right"\n'
+>>> text += 'upper_arm = { value = 296, unit = "mm" }\n[[trials]]\nname = "t1"\nperson = "P1"\ntask = "T1"\n'
+>>> text += 'markers = "meshes/overhead_P1T1S100/markers.trc"\ntool = "meshes/overhead_P1T1S100/tool.csv"\n'
+>>> _ = Path("study.toml").write_text(text + 'level = "100%"\n')
+>>> result = gc.shoulder.study("study.toml")
+>>> sorted(result.tables())
+['differences', 'errors', 'passive', 'summary']
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
-from geocontact.analyses.figure_files import drawing, save_both
-from geocontact.analyses.options_table import options_table
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.job import Job
+from geocontact.analyses.json_file import plain
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.analyses.result import Result
-from geocontact.analyses.shoulder.study.case import StudyCase
-from geocontact.analyses.shoulder.study.figure import study_figure
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.shoulder.recordings import ELEVATION, FORCE
+from geocontact.analyses.shoulder.simulated_arm import SimulatedArm, out_of_cuff_clause
+from geocontact.analyses.shoulder.study.cases import (
+    StudyCase,
+    StudyTrialInputs,
+    difference_table,
+    error_table,
+    passive_table,
+    read,
+    study_case,
+    summary_table,
+)
 from geocontact.analyses.shoulder.study.options import StudyOptions
-from geocontact.analyses.shoulder.study.tables import difference_table, error_table, passive_table, summary_table
-from geocontact.io.text.results import write_table
 from geocontact.shoulder_exoskeleton.device import Device
+from geocontact.view.curves.sheet import sheet
+from geocontact.view.curves.style import PALETTE, in_style
 from geocontact.view.page.content import Page, Picture, Words
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
+from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+WIDE, HIGH = 3.2, 1.35
+"""Size of a panel [inch]."""
+MOST = 24
+"""Arms that are drawn."""
 CAPTION = "Elevation of the exoskeleton's arm and force that lifts the human one: recorded, and simulated twice."
 PASSIVE = (
     "What turns the passive joints is the sphere's push sideways; about the third direction only friction, stops and "
     "joint damping hold them, so their angles hang on numbers that are invented."
 )
+LABELS = {ELEVATION: "elevation [°]", FORCE: "force [N]"}
+
+
+@in_style
+def study_figure(cases: Sequence[StudyCase]) -> Figure:
+    """A row for each arm in its trial, the first 24: what was recorded, and what was simulated along both motions."""
+    shown = cases[:MOST]
+    figure = sheet(2 * WIDE, HIGH * len(shown) + 0.6)
+    rows = figure.subplots(len(shown), 2, sharex="row", squeeze=False)
+    for case, row in zip(shown, rows, strict=True):
+        for axes, channel in zip(row, (ELEVATION, FORCE), strict=True):
+            _panel(axes, case, channel)
+        row[0].set_title(case.name, loc="left", fontsize="small")
+    for axes in rows[-1]:
+        axes.set_xlabel("time [s]")
+    lines, names = rows[0, 0].get_legend_handles_labels()
+    figure.legend(lines, names, loc="outside upper center", ncols=3, fontsize="small")
+    return figure
+
+
+def _panel(axes: Axes, case: StudyCase, channel: str) -> None:
+    factor = float(np.degrees(1.0)) if channel == ELEVATION else 1.0
+    if case.recorded is not None and channel in case.recorded.curves:
+        axes.plot(case.recorded.time, factor * case.recorded.curves[channel], color="0.45", label="recorded")
+    arms = (("motion in the device", case.within), ("motion without it", case.without))
+    for (name, arm), color, line in zip(arms, PALETTE, ("-", "--"), strict=False):
+        if arm is not None:
+            axes.plot(arm.simulation.motion.time, factor * _curve(arm, channel), color=color, ls=line, label=name)
+    axes.set_ylabel(LABELS[channel], fontsize="small")
+
+
+def _curve(arm: SimulatedArm, channel: str) -> Float[np.ndarray, " t"]:
+    return arm.simulation.elevation if channel == ELEVATION else arm.simulation.supporting
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -50,18 +112,11 @@ class StudyResult(Result):
             "passive": passive_table(self.cases),
         }
 
-    def figure(self) -> Figure:
-        """Elevation and supporting force of each arm: recorded, and simulated along both motions."""
-        return study_figure(self.cases)
+    def figures(self) -> dict[str, Figure]:
+        """`study`: elevation and supporting force of each arm, recorded, and simulated along both motions."""
+        return {"study": study_figure(self.cases)}
 
-    def write_files(self, folder: Path) -> None:
-        """Tables, figure, page."""
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
-        save_both(self.figure(), folder, "study")
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Figure and tables."""
         tables = self.tables()
         words = {
@@ -76,13 +131,49 @@ class StudyResult(Result):
             time=np.zeros(1),
             time_label="",
             headline=headline(self.sentences, most=2),
-            reservations=self.warnings,
             sections=(
-                Picture("Every arm in its trial", CAPTION, drawing(self.figure()), wide=True),
+                Picture("Every arm in its trial", CAPTION, drawings["study"], wide=True),
                 *(frame_table(title, tables[name], 3) for name, title in words.items() if len(tables[name])),
-                inputs_table(self.record.inputs),
-                options_table(self.record),
+                INPUTS,
+                OPTIONS,
                 Words("What the numbers do not contain", [PASSIVE, NOT_A_DEVICE]),
             ),
         )
-        write_page(page, file)
+        return {REPORT: page}
+
+
+def run(trials: tuple[StudyTrialInputs, ...], o: StudyOptions, record: Record) -> StudyResult:
+    """Trial by trial, arm by arm; each is 0.03 s of work."""
+    cases = []
+    with record.listener.progress("trials", len(trials)) as step:
+        for each in trials:
+            cases += [study_case(each, arm, o, record) for arm in each.within.arms]
+            step()
+    device = trials[0].within.device
+    invented = sum(number.source == "invented" for number in device.numbers.values())
+    record.warn(f"{device.name}: {invented} of {len(device.numbers)} numbers are invented")
+    result = StudyResult(record=record, options=o, cases=tuple(cases), device=device)
+    within = [case.within.simulation for case in cases]
+    without = [case.without.simulation for case in cases if case.without is not None]
+    out, out_of_both = out_of_cuff_clause(*within), out_of_cuff_clause(*within, *without)
+    for row in summary_table(result.cases).to_dict("records"):
+        if row["part"] in ("all", "work"):
+            record.say(
+                f"{row['channel']}, {row['part']}: MAE {row['mae']:.3g}, RMSD {row['rmsd']:.3g} {row['unit']} "
+                f"over {row['arms']} arms in their trials{out}"
+            )
+    for row in difference_table(result.cases).to_dict("records"):
+        if row["trial"] == "mean":
+            record.say(
+                f"screw-in, motion in the device against without it, mean size over the arms: "
+                f"exoskeleton {row['exoskeleton [deg]']:.3g} deg, shoulder {row['shoulder [deg]']:.3g} deg, "
+                f"force {row['force [N]']:.3g} N; shoulder less exoskeleton "
+                f"{row['shoulder less exoskeleton [deg]']:.3g} deg{out_of_both}"
+            )
+    record.results["study"] = plain(
+        {c.name: {ch: {part: vars(a) for part, a in e.items()} for ch, e in c.errors.items()} for c in cases}
+    )
+    return result
+
+
+study = Job("shoulder study", StudyOptions, read, run)

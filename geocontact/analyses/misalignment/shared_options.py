@@ -1,15 +1,51 @@
-"""Values of options that cannot be. Light to import."""
+"""Options of several analyses of the elbow, and values of options that cannot be. Light to import."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass
+from typing import Annotated
 
+from geocontact.analyses.misalignment.law_numbers import STROKE
+from geocontact.analyses.options import AngleUnit, Expression, ForceUnit, Options, Spelled, Typed
 from geocontact.data.errors import InputError
+from geocontact.data.ranges import CUTOFF
 
+Stroke = Annotated[
+    tuple[float, float],
+    Typed("m", "length_span", "gc.mm(-20, 35)"),
+    Spelled("stroke-mm", "stroke_mm", dashed=True),
+    STROKE,
+]
 SMALLEST_SPAN = math.radians(5.0)
 """rad; nobody asks for what happens within less, but radians are taken for degrees."""
 MIXED_UP = "are degrees and radians mixed up?"
+
+
+@dataclass(frozen=True)
+class ColumnOptions(Options):
+    """How the columns of recordings are read and filtered.
+
+    Parameters
+    ----------
+    Columns and units
+    -----------------
+    map
+        Columns by what they are, where they have other names: beta=elbow_flexion,force=-Fx.
+    angles
+        Unit of the angle where its file does not say.
+    unit
+        Unit of the force where its file does not say.
+    cutoff
+        Cut-off of a zero-lag low-pass over the measured channels [Hz]; none unless given.
+    """
+
+    _: KW_ONLY
+    map: Expression | None = None
+    angles: AngleUnit | None = None
+    unit: ForceUnit | None = None
+    cutoff: Annotated[float | None, CUTOFF] = None
 
 
 def require_rising(ends: tuple[float, float] | None, option: str) -> None:

@@ -1,20 +1,112 @@
-"""What is said of support profiles: shares by one measure, what a person held out gets, what sensors leave of it."""
+"""What is shown of support profiles: sentences, torques beside the support, page."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
+from jaxtyping import Float
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.optimise.profiles import GROUP, MadeProfiles
-from geocontact.analyses.shoulder.reservations import out_of_cuff_words
+from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial
 from geocontact.shoulder_exoskeleton.support.best_profile import Aim, measured
 from geocontact.shoulder_exoskeleton.support.closed_loop_profile import SLACK, ClosedLoop, SettledProfile
 from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport
-from geocontact.shoulder_exoskeleton.support.outcome import SupportOutcome
+from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome
+from geocontact.shoulder_exoskeleton.support.phases import SCREW
 from geocontact.shoulder_exoskeleton.support.profile_limits import Limits
+from geocontact.shoulder_exoskeleton.support.support_case import SupportCase
+from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
+from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
+from geocontact.view.page.tables import frame_table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FIGURE = (
+    "Dashed the torque that the shoulder needs without support, solid the support torque, dotted the elevation of the "
+    "arm; the grey span is the phase screw-in as the controller detects it."
+)
+MODEL = (
+    "Profiles are chosen by linear programs that are corrected by the simulation of every arm until both agree. The "
+    "person moves as without the device."
+)
+HEIGHT = 0.045
+"""Height of a row of panels [m]."""
+COLOURS = {"dominant": PALETTE[0], "other": PALETTE[1]}
+
+
+@in_style
+def profile_figure(
+    cases: Sequence[SupportCase], elevations: Mapping[str, Float[np.ndarray, " t"]], factors: Factors
+) -> Figure:
+    """Dashed what is needed [N m], solid the support, dotted the elevation [°]; grey while the tool runs."""
+    tasks = list(dict.fromkeys(case.task for case in cases))
+    persons = list(dict.fromkeys(case.person for case in cases))
+    figure, axes = panels(len(persons), len(tasks), DOUBLE, HEIGHT * len(persons))
+    for k, (person, task) in enumerate((person, task) for person in persons for task in tasks):
+        own = [case for case in cases if (case.person, case.task) == (person, task)]
+        panel = axes[k]
+        angle = panel.twinx()
+        for case in own[:2]:
+            colour = COLOURS[case.hand]
+            panel.plot(case.time, case.needed, color=colour, ls="--", lw=0.9, label=f"needed, {case.hand}")
+            panel.plot(case.time, case.support(factors), color=colour, lw=1.3, label=f"support, {case.hand}")
+            angle.plot(case.time, np.degrees(elevations[case.name]), color=colour, ls=":", lw=0.8)
+            running = case.time[case.phase == SCREW]
+            if len(running):
+                panel.axvspan(running[0], running[-1], color=GREY, alpha=0.08, lw=0)
+        panel.set_title(f"{person}, {task}")
+        panel.set_ylabel("torque [N m]")
+        angle.set_ylabel("elevation [°]")
+        panel.set_xlabel("time [s]")
+        if k == 0:
+            panel.legend(loc="upper left", fontsize=6, frameon=False)
+    return figure
+
+
+def profile_page(figure: bytes, tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]) -> Page:
+    """The page of support profiles.
+
+    `figure` is the drawing (SVG), `tables` those of the result.
+    """
+    front = tables["front"]
+    limits, reserves, taken = (front[name].to_numpy(float) for name in front.columns)
+    curves = [
+        Curve(f"reserve {100.0 * reserve:g} %", 100.0 * taken[reserves == reserve]) for reserve in np.unique(reserves)
+    ]
+    held = tables["held_out"]
+    sections: list[Section] = [
+        Picture("Torque needed and support", FIGURE, figure),
+        frame_table("Factors of support", tables["factors"], 2),
+        *(
+            [frame_table("Factors in proportion to the weight of the arm", tables["scales"], 2)]
+            if len(tables["scales"])
+            else []
+        ),
+        *([frame_table("Made for the others, judged on this person", held, 3)] if len(held) else []),
+        frame_table("Simulated with the device's own motion", tables["simulated"], 3),
+        frame_table("What each profile does, as planned around the profile of all persons", tables["outcomes"], 3),
+        Curves("Taken away over the limit of interface force", "%", curves),
+        INPUTS,
+        OPTIONS,
+        Words("What the numbers do not contain", [MODEL, NOT_A_DEVICE]),
+    ]
+    return Page(
+        title="Support profile of a shoulder exoskeleton",
+        subtitle="Factors by work phase, hand and task that never push the arm up",
+        time=np.unique(limits),
+        time_label="force limit [N]",
+        headline=headline(sentences),
+        sections=tuple(sections),
+        plays=False,
+    )
 
 
 def say_profiles(record: Record, made: MadeProfiles, loop: ClosedLoop, trials: Sequence[ArmTrial]) -> dict[str, float]:

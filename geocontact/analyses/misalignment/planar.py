@@ -1,21 +1,36 @@
-"""How the joint's axis wanders with the angle, as the options tell it: coefficients, or a table."""
+"""What designs and populations share: how the joint's axis wanders, states in words, tables of the page."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
+
+import pandas as pd
 
 from geocontact.analyses import quantities
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.axis_drift import STILL, AxisDrift, from_instant_centre, polynomial, table
+from geocontact.axis_misalignment.planar_joint import FOLD, LOST, POLE, SOUND
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.axis_drift import read_axis_drift
+from geocontact.view.page.content import Table
 
+MODEL = (
+    "A spring between limb and attachment, the joint a hinge whose axis stays or drifts as told, slow motion: no "
+    "damping, no friction in the compensation joint, no slip of the cuff, a rigid upper attachment. Stiffness and all "
+    "lengths together are known up to one factor only, F(k/s, s · lengths) = F: a force measured at some angles tells "
+    "the product, not its parts."
+)
+STATES = {SOUND: "ok", POLE: "pole", FOLD: "fold", LOST: "lost"}
+WITHOUT_FORCE = (POLE, FOLD, LOST)
+DIGITS = 9
+"""Decimals of a number in the JSON: nanometres where it is in mm."""
 EXAMPLE = "x=0:-8:2,y=0:5"
 
 
-def typed(text: str, option: str) -> Path | dict[str, tuple[float, ...]]:
+def drift(text: str, option: str) -> Path | dict[str, tuple[float, ...]]:
     """ "x=0:-8:2,y=0:5" (mm, mm/rad, mm/rad²) to coefficients in SI; else the file of that name."""
     path = quantities.named_file(text)
     if path is not None or "=" not in text:
@@ -55,3 +70,20 @@ def _table(record: Record, file: Path, span: tuple[float, float]) -> AxisDrift:
         return table(told.angle, told.x, told.y, over_joint=told.tells == "joint")
     except ValueError as error:
         raise InputError(file, "", str(error), "give rising angles that hold the whole range") from error
+
+
+def page_table(title: str, rows: pd.DataFrame) -> Table:
+    """The table with four digits, for the page."""
+    texts = rows.map(lambda value: f"{value:.4g}" if isinstance(value, float) else str(value))
+    return Table(title, tuple(map(str, rows.columns)), texts.to_numpy().tolist())
+
+
+def rounded(value: Any) -> Any:
+    """The same with numbers rounded, and None for what is not finite."""
+    if isinstance(value, dict):
+        return {key: rounded(each) for key, each in value.items()}
+    if isinstance(value, list):
+        return [rounded(each) for each in value]
+    if isinstance(value, float):
+        return round(value, DIGITS) if math.isfinite(value) else None
+    return value

@@ -1,20 +1,50 @@
-"""A simulation under a support profile: factors of 1 and 0 are known cases, phases those of the device's own arm."""
+"""Device files with every documented number, and support profiles that a simulation is driven by."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.shoulder.devices import device_named
+from geocontact.analyses.shoulder.recordings import current_at
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
-from geocontact.analyses.shoulder.tool import current_at
 from geocontact.data.errors import InputError
+from geocontact.shoulder_exoskeleton.device import QUANTITIES
+from geocontact.shoulder_exoskeleton.lucy import lucy
 from geocontact.shoulder_exoskeleton.support.phase_machine import detected
 from geocontact.shoulder_exoskeleton.support.phases import LIFT, LOWER, SCREW
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 from tests.analyses.shoulder.test_simulate import TRIAL, simulated
+
+PAGE = Path(__file__).resolve().parents[3] / "docs" / "reference" / "input_files.md"
+
+
+def documented() -> dict[str, str]:
+    """Unit by number."""
+    text = PAGE.read_text(encoding="utf-8")
+    section = text[text.index("| numbers | unit | what |") : text.index("**Person**")]
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in section.splitlines() if "`" in line]
+    return {name: unit for names, unit, _ in rows for name in re.findall(r"`(\w+)`", names)}
+
+
+def test_a_file_with_every_documented_number_is_the_device_itself(tmp_path: Path) -> None:
+    units, device = documented(), lucy()
+    assert set(units) == set(QUANTITIES)
+    lines = [
+        f'{name} = {{ value = {number.value * QUANTITIES[name].written[1]!r}, unit = "{units[name]}" }}'
+        for name, number in device.numbers.items()
+    ]
+    file = tmp_path / "same.toml"
+    file.write_text("[numbers]\n" + "\n".join(lines) + "\n", encoding="utf-8")
+    read = device_named(Record("shoulder simulate", {}), str(file))
+    for name, number in device.numbers.items():
+        assert read[name] == pytest.approx(number.value, rel=1e-12, abs=1e-15), name
+
 
 HEAD = "profile,task,hand,lift,screw-in,lower"
 ROWS = "mine,T1,dominant,0.6,1.0,0.3\nmine,T1,other,0.5,0.7,0.2\n"

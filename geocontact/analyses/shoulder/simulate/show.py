@@ -1,27 +1,29 @@
-"""The page of a simulation: moving arms with the forces in their cuffs, curves, numbers of the device."""
+"""What is shown of a simulation: moving arms with the forces in their cuffs, curves, numbers of the device."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float, Int
 
-from geocontact.analyses.options_table import options_table
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
-from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
+from geocontact.analyses.shoulder.simulated_arm import SimulatedArm
 from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Words
 from geocontact.view.page.linkage import Linkage, Tone
 from geocontact.view.page.scene import Scene
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
+from geocontact.view.page.tables import frame_table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 METRES_PER_NEWTON = 5e-3
 """A force of 100 N is drawn 0.5 m long."""
@@ -50,15 +52,35 @@ FRAME = (
 )
 
 
-def write_simulation_page(
-    path: Path,
-    record: Record,
+def arm_figure(arms: Sequence[SimulatedArm]) -> Figure:
+    """Elevations, supporting force and shear of the arms over time."""
+    elevation, force = {}, {}
+    for each in arms:
+        s, side = each.simulation, each.side
+        elevation[f"shoulder, {side}"] = np.degrees(s.motion.elevation)
+        elevation[f"exoskeleton, {side}"] = np.degrees(s.elevation)
+        force[f"supporting, {side}"] = s.supporting
+        force[f"shear, {side}"] = s.shear
+    panels = {"elevation [deg]": pd.DataFrame(elevation), "interface force [N]": pd.DataFrame(force)}
+    return curves_figure(arms[0].simulation.motion.time, panels)
+
+
+def simulation_page(
     o: ShoulderSimulateOptions,
     arms: Sequence[SimulatedArm],
     markers: Float[np.ndarray, "t m 3"],
     tables: Mapping[str, pd.DataFrame],
-) -> int:
-    """Write the self-contained page; returns its size in bytes."""
+    sentences: Sequence[str],
+) -> Page:
+    """The page of simulated arms.
+
+    Parameters
+    ----------
+    markers
+        All that were recorded, in the device's frame [m].
+    tables, sentences
+        Those of the result.
+    """
     time = arms[0].simulation.motion.time
     shown = thinned(len(time), [np.linalg.norm(each.simulation.told["force"], axis=1) for each in arms])
     changed = [tables[name] for name in ("sensitivity",) if name in tables]
@@ -68,23 +90,21 @@ def write_simulation_page(
         Readout([row for each in arms for row in _phases(each, shown)]),
         *(frame_table("What each number of the device changes, root mean square", table) for table in changed),
         frame_table("Numbers of the device, and where they are from", tables["numbers"]),
-        inputs_table(record.inputs),
-        options_table(record),
+        INPUTS,
+        OPTIONS,
         Words("What the numbers do not contain", [SURFACE if o.cuff == "surface" else POINT, FRAME, NOT_A_DEVICE]),
     ]
-    page = Page(
+    return Page(
         title=f"Shoulder exoskeleton along {o.markers.name}",
         subtitle=f"Support level {o.level:.0%}; the device's frame: x to the left, y backwards, z up",
         time=time[shown],
         time_label="time [s]",
-        headline=headline(record.sentences, most=2),
+        headline=headline(sentences, most=2),
         facts=[fact for each in arms for fact in _facts(each)],
-        reservations=tuple(record.warnings),
         sections=tuple(sections),
         numbers=shown + 1,
         total=len(time),
     )
-    return write_page(page, path)
 
 
 def _lines(

@@ -1,0 +1,167 @@
+"""Recordings beside the markers: elevation of the exoskeleton's arm, force in its cuff, current of the tool."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from geocontact.analyses.options import AngleUnit, ForceUnit
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.identify.signals.agreement import Agreement, agreement, over_stretches
+from geocontact.io.recordings.load_cells import column_in_newtons
+from geocontact.io.text.columns import angles_of, parse_map, resolve
+from geocontact.io.text.tables import TextTable, listed, read_table
+from geocontact.io.text.units import split_header
+from geocontact.shoulder_exoskeleton.work_phases import PHASES
+
+ELEVATION, FORCE = "elevation", "force"
+
+
+def shown_in(channel: str) -> tuple[str, float]:
+    """Unit of a channel in tables and sentences, and how many of it one SI unit is."""
+    return ("N", 1.0) if channel == FORCE else ("deg", float(np.degrees(1.0)))
+
+
+@dataclass(frozen=True, eq=False)
+class Channels:
+    """Channels over a clock of their own [rad, N]."""
+
+    time: Float[np.ndarray, " t"]
+    curves: Mapping[str, Float[np.ndarray, " t"]]
+
+
+def recorded_channels(
+    path: Path,
+    named: str | None = None,
+    angles: AngleUnit | None = None,
+    unit: ForceUnit | None = None,
+    delay: float = 0.0,
+) -> Channels:
+    """Columns elevation and force of a table, or those that `named` maps to them; InputError where there is neither.
+
+    Parameters
+    ----------
+    angles, unit
+        Of columns whose header has no unit.
+    delay
+        How much the recording's clock is late [s].
+    """
+    table = read_table(path)
+    if table.time_unit != "s":
+        raise InputError(path, "", "time is in per cent of a cycle", "give a recording in seconds")
+    mapping = {} if named is None else parse_map(named, (ELEVATION, FORCE))
+    values = {}
+    for channel in (ELEVATION, FORCE):
+        column = _column(table, channel, mapping)
+        if column is not None:
+            sign, name = column
+            found = angles_of(table, [name], angles)[:, 0] if channel == ELEVATION else _force(table, name, unit)
+            values[channel] = sign * found
+    if not values:
+        what = f"no column elevation or force; columns are: {listed(table.channels)}"
+        raise InputError(path, "", what, "name them: `map` elevation=NAME,force=NAME")
+    return Channels(table.time - delay, values)
+
+
+def _column(table: TextTable, channel: str, mapping: Mapping[str, tuple[float, str]]) -> tuple[float, str] | None:
+    sign, name = mapping.get(channel, (1.0, channel))
+    found = resolve(table, name)
+    if found is None and channel in mapping:
+        what = f"no column '{name}' for {channel}; columns are: {listed(table.channels)}"
+        raise InputError(table.file, "`map`", what, f"name it: `map` {channel}=NAME")
+    return None if found is None else (sign, found)
+
+
+def _force(table: TextTable, name: str, unit: ForceUnit | None) -> Float[np.ndarray, " t"]:
+    return column_in_newtons(table, name, unit)[0]
+
+
+ALL, WORK = "all", "work"
+"""The whole trial; from the beginning of lifting to the end of lowering, as the study of the exoskeleton takes it."""
+
+
+def phase_errors(
+    model: Float[np.ndarray, " t"],
+    measured: Float[np.ndarray, " t"],
+    step: float,
+    phase: np.ndarray,
+    inside: Bool[np.ndarray, " t"],
+) -> dict[str, Agreement]:
+    """Agreement by part: `ALL`, `WORK`, and each phase that there is.
+
+    Parameters
+    ----------
+    step
+        Between samples [s].
+    phase
+        Word of each sample, of `PHASES`.
+    inside
+        Samples that were recorded.
+    """
+    parts = {ALL: inside, WORK: inside & (phase != PHASES[0])} | {name: inside & (phase == name) for name in PHASES[1:]}
+    return {name: _agreement(model, measured, step, part) for name, part in parts.items() if part.any()}
+
+
+def _agreement(model: np.ndarray, measured: np.ndarray, step: float, part: Bool[np.ndarray, " t"]) -> Agreement:
+    if part.all():
+        return agreement(model, measured, step)
+    runs = [[i for i, _ in group] for inside, group in groupby(enumerate(part), lambda pair: bool(pair[1])) if inside]
+    return over_stretches(model, measured, step, [(run[0], run[-1] + 1) for run in runs])
+
+
+EVENT, CURRENT = "event", "current"
+RUNNING = 4.0
+"""Current that an event of 1 stands for [A]; a screwdriver takes as much."""
+
+
+def tool_runs(record: Record, file: Path, threshold: float, time: Float[np.ndarray, " t"]) -> Bool[np.ndarray, " t"]:
+    """Whether the tool runs at these times [s]; InputError for events that are neither 0 nor 1.
+
+    Parameters
+    ----------
+    threshold
+        Current from which the tool counts as running [A], for a file with a column `current [A]`.
+    """
+    table, current, binary = _current(file)
+    on = current > (0.5 if binary else threshold)
+    record.add_input("`tool`", file, samples=len(table.time))
+    if not on.any():
+        raise InputError(file, "`tool`", "the tool never runs", "give a smaller `tool_current`, or leave it out")
+    last = np.clip(np.searchsorted(table.time, time + 1e-9, "right") - 1, 0, len(on) - 1)
+    return np.asarray(on[last])
+
+
+def tool_current(record: Record, file: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
+    """Current of the tool at these times [A], as far as the file goes; that of events is 0 or `RUNNING`."""
+    table, current, _ = _current(file)
+    record.add_input("`tool`", file, samples=len(table.time))
+    return np.asarray(np.interp(time, table.time, current))
+
+
+def current_at(file: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
+    """The same of a file that is an input already."""
+    table, current, _ = _current(file)
+    return np.asarray(np.interp(time, table.time, current))
+
+
+def _current(file: Path) -> tuple[TextTable, Float[np.ndarray, " s"], bool]:
+    """The table, its current [A], and whether that stands for events of 0 and 1."""
+    table = read_table(file)
+    named = {split_header(name)[0]: name for name in table.channels}
+    if EVENT in named:
+        values = table.column(named[EVENT])
+        odd = np.flatnonzero(~np.isin(values, (0.0, 1.0)))
+        if len(odd):
+            what = f"event is {values[odd[0]]:g} at {table.time[odd[0]]:g} s, neither 0 nor 1"
+            raise InputError(file, "", what, "give 1 while the tool runs and 0 else")
+        return table, RUNNING * values, True
+    if CURRENT in named:
+        return table, table.column(named[CURRENT]), False
+    what = f"no column event or current; columns are: {listed(table.channels)}"
+    raise InputError(file, "", what, "name it event [-] or current [A]")

@@ -1,0 +1,33 @@
+"""Options that only analyses of the shoulder have: support levels, shares, quantities. Light to import."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from geocontact.analyses import quantities
+from geocontact.analyses.options import Spelled, Typed
+from geocontact.data.errors import InputError
+from geocontact.data.plausible import PLAIN, Plausible
+from geocontact.data.units import Unit
+
+EXAMPLE = "100%"
+CURRENT = Plausible("the current of a tool", Unit("A", "A", 1.0), (0.0, 1000.0), (0.0, 100.0))
+TORQUE_RATE = Plausible("a rate of torque in N m/s", PLAIN, (1e-3, 1e5), (1.0, 1000.0))
+
+
+def level(text: str, option: str) -> float:
+    """ "100%" or "0.5" to a share; 0 is no support."""
+    value = quantities.number(text.strip().rstrip("% "), option, EXAMPLE)
+    if "%" not in text and value > 1.0:
+        raise InputError("", option, f"{text!r} may be meant in per cent", f"write {text}% or {0.01 * value:g}")
+    return value * (0.01 if "%" in text else 1.0)
+
+
+def require_share(value: float, option: str, example: str) -> None:
+    """Refuse what is below 0 or above 1."""
+    if not 0.0 <= value <= 1.0:
+        raise InputError("", f"`{option}`", f"{100.0 * value:g} % is not 0 to 100 %", f"give for example {example}")
+
+
+Share = Annotated[float, Typed("-", "shoulder.shared_options:level", "0.5")]
+Level = Annotated[float, Typed("-", "shoulder.shared_options:level", "0.5"), Spelled(default=EXAMPLE, dashed=True)]

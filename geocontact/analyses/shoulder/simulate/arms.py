@@ -1,0 +1,264 @@
+"""Arms of an exoskeleton on a person who moves: what is read, controllers, simulation of each arm, tables."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Bool, Float
+from scipy.spatial.transform import Rotation, Slerp
+
+from geocontact.analyses.motion.markers import markers_given, renamed_as_told
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.shoulder.devices import device_named, read_profiles, wearer_named
+from geocontact.analyses.shoulder.recordings import current_at, tool_runs
+from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
+from geocontact.analyses.shoulder.simulated_arm import SimulatedArm, out_of_cuff_clause, warn_of
+from geocontact.data.errors import InputError
+from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
+from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Wearer
+from geocontact.shoulder_exoskeleton.from_markers.arm_motions import SIDES, MarkerSettings, arm_motions
+from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFrame
+from geocontact.shoulder_exoskeleton.in_cuff import OutOfCuffError
+from geocontact.shoulder_exoskeleton.sensitivity import Influence
+from geocontact.shoulder_exoskeleton.simulate import simulate_arm
+from geocontact.shoulder_exoskeleton.smoothed_motion import smoothed_motion
+from geocontact.shoulder_exoskeleton.support.controlled_arm import Controller, controlled_arm
+from geocontact.shoulder_exoskeleton.support.outcome import Factors
+from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds
+from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, Hand
+from geocontact.shoulder_exoskeleton.work_phases import PHASES, work_phases
+
+CURRENT = 1.0
+"""A; a tool that idles takes less."""
+WAYS = ("distal", "medial", "raising")
+"""Axes of the cuff."""
+
+
+@dataclass(frozen=True, eq=False)
+class Worn:
+    """A device on a person who moves.
+
+    Parameters
+    ----------
+    arms
+        Filtered, without gaps, at even times.
+    frame
+        The device in the laboratory at the same times.
+    markers
+        All that were recorded, in the device's frame at the same times [m]; NaN where they were not seen.
+    tool
+        Whether the tool runs; None where nobody told.
+    controllers
+        By side; None where the support is constant.
+    """
+
+    arms: tuple[ArmMotion, ...]
+    frame: DeviceFrame
+    markers: Float[np.ndarray, "t m 3"]
+    device: Device
+    wearer: Wearer
+    tool: Bool[np.ndarray, " t"] | None
+    controllers: Mapping[Side, Controller] | None
+
+
+def read(o: ShoulderSimulateOptions, record: Record) -> Worn:
+    """Everything the options name."""
+    return worn_along(o, wearer_named(record, o.person), record)
+
+
+def worn_along(o: ShoulderSimulateOptions, wearer: Wearer, record: Record) -> Worn:
+    """The same on a wearer who is known."""
+    device = device_named(record, o.device)
+    seen = renamed_as_told(record, markers_given(o.markers, o.axes, o.time, o.c3d_unit), o.markers_map)
+    record.add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
+    found = arm_motions(seen, MarkerSettings(upright=o.upright, gap_limit=o.gap_limit))
+    for note in found.notes:
+        record.warn(note)
+    wanted = tuple(arm for arm in found.arms if o.side in ("both", arm.side))
+    if not wanted:
+        have = " and ".join(arm.side for arm in found.arms)
+        raise InputError(o.markers, "`side`", f"the {o.side} arm was not recorded", f"recorded: {have}")
+    if o.side == "both" and len(wanted) == 1:
+        record.warn(f"only the {wanted[0].side} arm was recorded")
+    arms = tuple(_smoothed(arm, o) for arm in wanted)
+    time = arms[0].time
+    frame = _frame_at(wanted[0].time, found.frame, time)
+    tool = (
+        None
+        if o.tool is None
+        else tool_runs(record, o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
+    )
+    nearest = np.clip(np.searchsorted(0.5 * (seen.time[1:] + seen.time[:-1]), time), 0, len(seen) - 1)
+    places = np.stack([frame.points(each) for each in seen.positions[nearest].swapaxes(0, 1)], axis=1)
+    return Worn(arms, frame, places, device, wearer, tool, controllers(o, time, record))
+
+
+def _smoothed(arm: ArmMotion, o: ShoulderSimulateOptions) -> ArmMotion:
+    try:
+        return smoothed_motion(arm, None if o.cutoff == 0.0 else o.cutoff, o.gap_limit)
+    except ValueError as error:
+        raise InputError(o.markers, "", f"{arm.side} arm: {error}", "give another `cutoff` or `gap_limit`") from error
+
+
+def _frame_at(time: Float[np.ndarray, " t"], frame: DeviceFrame, wanted: Float[np.ndarray, " e"]) -> DeviceFrame:
+    """The device in the laboratory at other times: origin linear, turns along the shortest arcs."""
+    known = np.isfinite(frame.rotation).all(axis=(1, 2)) & np.isfinite(frame.origin).all(axis=1)
+    at = np.clip(wanted, time[known][0], time[known][-1])
+    origin = np.column_stack([np.interp(at, time[known], column) for column in frame.origin[known].T])
+    turns = Slerp(time[known], Rotation.from_matrix(frame.rotation[known]))(at)
+    return DeviceFrame(origin, turns.as_matrix())
+
+
+def controllers(
+    o: ShoulderSimulateOptions, time: Float[np.ndarray, " t"], record: Record
+) -> Mapping[Side, Controller] | None:
+    """By side; None where the support is constant."""
+    if o.profile is None or o.tool is None:
+        return None
+    profiles = read_profiles(o.profile)
+    record.add_input("`profile`", o.profile, profiles=len(profiles))
+    name = next(iter(profiles)) if o.profile_name is None else o.profile_name
+    if name not in profiles:
+        raise InputError(o.profile, "`profile_name`", f"no profile {name!r}", f"there are {', '.join(profiles)}")
+    factors = profiles[name]
+    task = _task(o.profile, factors, o.task)
+    record.results["profile"] = {"name": name, "task": task}
+    current = current_at(o.tool, time)
+    found: dict[Side, Controller] = {}
+    for side in SIDES if o.side == "both" else (o.side,):
+        hand: Hand = "dominant" if side == (o.dominant or "right") else "other"
+        keys = [FactorKey(task, hand, phase) for phase in PHASES]
+        if not any(key in factors for key in keys):
+            raise InputError(o.profile, name, f"no factors of the {hand} hand for {task}", "add a row")
+        found[side] = Controller(np.array([factors.get(key, 0.0) for key in keys]), current, Thresholds())
+    return found
+
+
+def _task(file: Path, factors: Factors, named: str | None) -> str:
+    tasks = tuple(dict.fromkeys(key.task for key in factors))
+    if named is None and len(tasks) > 1:
+        raise InputError(file, "`task`", f"factors of {len(tasks)} tasks", f"say which: {', '.join(tasks)}")
+    if named is not None and named not in tasks:
+        raise InputError(file, "`task`", f"no factors of {named!r}", f"there are {', '.join(tasks)}")
+    return tasks[0] if named is None else named
+
+
+def simulated_along(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions, record: Record) -> SimulatedArm:
+    """One arm along the human one, and what is to be said of it."""
+    control = None if worn.controllers is None else worn.controllers[arm.side]
+    detected, factor = None, None
+    try:
+        if control is None:
+            found = simulate_arm(arm, worn.device, worn.wearer, o.level, cuff=o.cuff)
+        else:
+            led = controlled_arm(arm, worn.device, worn.wearer, o.level, control, o.cuff)
+            found, detected, factor = led.simulation, led.phase, led.factor
+    except OutOfCuffError as error:
+        raise InputError(o.markers, "", f"{arm.side} arm: {error.what}", error.cause) from error
+    except ArithmeticError as error:
+        remedy = "check `person`, `device`, and the unit and names of the markers"
+        raise InputError(o.markers, "", f"{arm.side} arm: {error}", remedy) from error
+    try:
+        phase = work_phases(arm.elevation, worn.tool)
+    except ValueError as error:
+        raise InputError(o.tool or o.markers, "`tool`", f"{arm.side} arm: {error}", "check its clock") from error
+    warn_of(found, record)
+    one = SimulatedArm(found, phase, detected, factor)
+    told = summary_of(one)
+    record.say(
+        f"{arm.side} arm: elevation up to {told['elevation_max_deg']:.1f} deg (shoulder "
+        f"{told['shoulder_max_deg']:.1f}), supporting force {told['supporting_min_N']:.1f} … "
+        f"{told['supporting_max_N']:.1f} N, slip {told['slip_mm']:.0f} mm{out_of_cuff_clause(found)}"
+    )
+    if control is not None and detected is not None:
+        shares = ", ".join(f"{name} {share:.2f}" for name, share in zip(PHASES, control.factors, strict=True))
+        changes = f"{np.count_nonzero(np.diff(detected))} changes"
+        record.say(f"{arm.side} arm: support by phase: {shares}; {changes}{out_of_cuff_clause(found)}")
+    return one
+
+
+def summary_of(one: SimulatedArm) -> dict[str, float]:
+    """Numbers of the whole trial, and means of the screw-in."""
+    s = one.simulation
+    working = one.phase == PHASES.index("screw-in")
+    told = {
+        "elevation_max_deg": np.degrees(s.elevation.max()),
+        "shoulder_max_deg": np.degrees(s.motion.elevation.max()),
+        "supporting_min_N": s.supporting.min(),
+        "supporting_max_N": s.supporting.max(),
+        "shear_max_N": s.shear.max(),
+        "slip_mm": 1e3 * s.slip[-1],
+        "support_torque_max_N_m": s.told["support"].max(),
+        "out_of_cuff_share": s.out_of_cuff.mean(),
+        "steps": float(s.steps),
+    }
+    if working.any():
+        told["screw_in_elevation_deg"] = np.degrees(s.elevation[working].mean())
+        told["screw_in_shoulder_minus_exoskeleton_deg"] = np.degrees((s.motion.elevation - s.elevation)[working].mean())
+        told["screw_in_supporting_N"] = s.supporting[working].mean()
+    return {name: float(value) for name, value in told.items()}
+
+
+def arm_table(arm: SimulatedArm) -> pd.DataFrame:
+    """Angles, forces and slip over time; forces of the cuff on the arm, in the device's frame and in the cuff's."""
+    s = arm.simulation
+    told, motion = s.told, s.motion
+    led = {}
+    if arm.detected is not None and arm.factor is not None:
+        led = {"detected phase": np.array(PHASES)[arm.detected], "factor [-]": arm.factor}
+    slide = 1e3 * told["sliding"]
+    columns = {
+        "time [s]": motion.time,
+        "phase": np.array(PHASES)[arm.phase],
+        **led,
+        "shoulder elevation [deg]": np.degrees(motion.elevation),
+        **{f"{joint} [deg]": np.degrees(column) for joint, column in zip(JOINTS, s.angles.T, strict=True)},
+        "support torque [N m]": told["support"][:, 0],
+        "cylinder [N]": s.cylinder,
+        **{f"force_{axis} [N]": column for axis, column in zip("xyz", told["force"].T, strict=True)},
+        "distal [N]": told["in_cuff"][:, 0],
+        "medial [N]": told["in_cuff"][:, 1],
+        "supporting [N]": told["in_cuff"][:, 2],
+        "normal [N]": told["pressing"][:, 0],
+        "shear [N]": s.shear,
+        "sliding along [mm/s]": slide[:, 0],
+        "sliding across [mm/s]": np.hypot(slide[:, 1], slide[:, 2]),
+        "slip [mm]": 1e3 * s.slip,
+        "place in the cuff [mm]": 1e3 * told["place"][:, 0],
+        "off its axis [mm]": 1e3 * np.hypot(told["place"][:, 1], told["place"][:, 2]),
+        "out of the cuff": s.out_of_cuff.astype(int),
+        **{f"{joint} at a stop": column.astype(int) for joint, column in zip(JOINTS, s.at_stop.T, strict=True)},
+    }
+    if s.cuff == "surface":
+        columns |= {
+            **{f"couple {way} [N m]": column for way, column in zip(WAYS, told["couple"].T, strict=True)},
+            "centre of pressure [mm]": 1e3 * told["centre"][:, 0],
+            "peak pressure [Pa]": told["peak"][:, 0],
+            "pressed share [-]": told["share"][:, 0],
+        }
+    return pd.DataFrame(columns)
+
+
+def numbers_table(device: Device) -> pd.DataFrame:
+    """Every number of the device in the unit that files have, and where it is from."""
+    rows = []
+    for name, number in device.numbers.items():
+        unit, factor = QUANTITIES[name].written
+        rows.append((name, number.value * factor, unit, number.source, number.note or QUANTITIES[name].what))
+    return pd.DataFrame(rows, columns=["number", "value", "unit", "source", "note"])
+
+
+def sensitivity_table(side: str, found: Sequence[Influence]) -> pd.DataFrame:
+    """What each number changes, root mean square; the largest change of the supporting force first."""
+    rows = []
+    for one in sorted(found, key=lambda each: -each.supporting):
+        unit, factor = QUANTITIES[one.number].written
+        changed = (np.degrees(one.elevation), one.supporting, one.shear, one.most)
+        rows.append((side, one.number, one.source, one.step * factor, unit, *changed))
+    names = ["side", "number", "source", "step", "unit", "elevation [deg]", "supporting [N]", "shear [N]"]
+    names.append("supporting at most [N]")
+    return pd.DataFrame(rows, columns=names)
