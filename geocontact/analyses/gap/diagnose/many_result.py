@@ -9,9 +9,8 @@ from pathlib import Path
 import pandas as pd
 
 from geocontact.analyses.gap.diagnose.options import ManyOptions
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import Part, Result
 from geocontact.analyses.results_folder import Scratch
-from geocontact.io.text.results import write_table
 
 SUMMARY = "summary"
 FAILED = 1
@@ -77,12 +76,17 @@ class ManyResult(Result):
         """With the folder of the cases."""
         return f"Gap diagnoses of {self.options.case.name}"
 
+    @property
+    def parts(self) -> frozenset[Part]:
+        """The summary alone; pages are those of the cases."""
+        return frozenset(("tables",))
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`summary`: a row for each case that could be diagnosed."""
         return {SUMMARY: pd.DataFrame([dict(one.row) for one in self.done])}
 
     def write_files(self, folder: Path) -> None:
-        """The summary, and all results of each case in a sub-folder of its name."""
+        """Also all results of each case in a sub-folder of its name."""
+        super().write_files(folder)
         for one in self.done:
             shutil.copytree(self.scratch.folder / one.name, folder / one.name)
-        write_table(self.table(), folder, SUMMARY)

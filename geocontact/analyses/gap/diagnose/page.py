@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from io import StringIO
-from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.gap.diagnose.curves import resampled
 from geocontact.analyses.gap.diagnose.figures import SURFACE, effect_words, quantity_of
 from geocontact.analyses.gap.diagnose.page_tables import (
@@ -34,12 +33,8 @@ from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.gap.held_out import HeldOut
 from geocontact.gap.diagnose import Findings
 from geocontact.view.curves.quantity import Quantity
-from geocontact.view.curves.style import in_style
 from geocontact.view.curves.text import number
-from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Words
 
 FRAMES = 201
 PANELS = 12  # held-out trials times channels; more are left to the tables
@@ -81,9 +76,7 @@ HELD_OUT = (
 def gap_page(
     case: GapCase,
     findings: Findings,
-    figures: Mapping[str, Figure],
-    provenance: Sequence[Table] = (),
-    warnings: Sequence[str] = (),
+    drawings: Mapping[str, bytes],
 ) -> Page:
     """The self-contained page of one diagnosis, before it becomes a file.
 
@@ -91,26 +84,22 @@ def gap_page(
     ----------
     case, findings
         What was diagnosed, and what was found.
-    figures
-        From `figures.gap_figures`; those that `CAPTIONS` and `LEFT_OVER` name are shown, and those of surfaces.
-    provenance
-        Further tables: inputs with hashes, options, versions.
-    warnings
-        Reservations that came up on the way.
+    drawings
+        `gap_figures` as SVG; those that `CAPTIONS` and `LEFT_OVER` name are shown, and those of surfaces.
     """
     d = findings.diagnosis
     phase = np.linspace(0.0, 1.0, FRAMES)
     panels, missing = _panels(findings, phase)
     sentences = verdict_sentences(d, findings.cells)
-    surfaces = {name: ("Where on the surface", SURFACE_WORDS) for name in figures if name.startswith(SURFACE)}
-    sections: list[Section] = [*_pictures(figures, CAPTIONS)]
+    surfaces = {name: ("Where on the surface", SURFACE_WORDS) for name in drawings if name.startswith(SURFACE)}
+    sections: list[Section] = [*_pictures(drawings, CAPTIONS)]
     sections += [Words("Verdict", [f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences])]
-    sections += [*_pictures(figures, surfaces)]
-    sections += [*panels, _readout(findings, phase), *_pictures(figures, LEFT_OVER)]
+    sections += [*_pictures(drawings, surfaces)]
+    sections += [*panels, _readout(findings, phase), *_pictures(drawings, LEFT_OVER)]
     sections += [gap_table(findings), ranking_table(findings)]
     sections += [trials_table(findings)] if findings.trials else []
     sections += [parameters_table(d), cells_table(findings)]
-    sections += [_confounded(d), *provenance, _limits(case, d, missing)]
+    sections += [_confounded(d), INPUTS, OPTIONS, _limits(case, d, missing)]
     window = d.where[0].phase if d.where else (0.5, 0.5)
     return Page(
         title=d.case,
@@ -119,18 +108,17 @@ def gap_page(
         time_label="phase of the trial [%]",
         headline=headline(sentences, most=1),
         facts=facts_of(findings),
-        reservations=tuple(warnings),
         start_frame=round(0.5 * sum(window) * (FRAMES - 1)),
         sections=tuple(sections),
         plays=False,
-        answers=sum(name in figures for name in CAPTIONS),
+        answers=sum(name in drawings for name in CAPTIONS),
     )
 
 
-def _pictures(figures: Mapping[str, Figure], captions: Mapping[str, tuple[str, str]]) -> list[Picture]:
+def _pictures(drawings: Mapping[str, bytes], captions: Mapping[str, tuple[str, str]]) -> list[Picture]:
     """Those that there are, in the order of their captions."""
-    shown = [name for name in captions if name in figures]
-    return [Picture(*captions[name], _svg(figures[name]), wide=name not in CAPTIONS) for name in shown]
+    shown = [name for name in captions if name in drawings]
+    return [Picture(*captions[name], drawings[name], wide=name not in CAPTIONS) for name in shown]
 
 
 def _subtitle(case: GapCase, d: Diagnosis) -> str:
@@ -220,13 +208,6 @@ def _row(
     shown = quantity.shown(np.sqrt(mean))
     scale = float(np.nanmax(shown, initial=0.0))
     return Row(label, quantity.unit, [number(value, scale) for value in shown])
-
-
-@in_style
-def _svg(figure: Figure) -> bytes:
-    text = StringIO()
-    figure.savefig(text, format="svg", metadata={"Date": None})
-    return text.getvalue().encode()
 
 
 def _confounded(d: Diagnosis) -> Words:

@@ -9,24 +9,21 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.gap.diagnose.figures import gap_figures, map_figure
 from geocontact.analyses.gap.diagnose.options import DiagnoseOptions
 from geocontact.analyses.gap.diagnose.page import gap_page
 from geocontact.analyses.gap.diagnose.tables import diagnosis_tables
 from geocontact.analyses.json_file import write_json
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import PARTS, REPORT, Part, Result
 from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.gap.diagnose import Findings
-from geocontact.io.text.results import write_table
 from geocontact.io.text.written_units import CASES
-from geocontact.view.page.tables import inputs_table
-from geocontact.view.page.write import write_page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -50,9 +47,23 @@ class DiagnoseResult(Result):
         """The answer, as in diagnosis.json."""
         return self.findings.diagnosis
 
+    @property
+    def title(self) -> str:
+        """Name of the case."""
+        return self.diagnosis.case
+
+    @property
+    def parts(self) -> frozenset[Part]:
+        """Tables alone where no more is wanted."""
+        return frozenset(("tables",)) if self.options.bare else PARTS
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`gap_map`, `ranking`, `held_out`; `trials` where something is named, `surface` where a mat has cells."""
         return diagnosis_tables(self.findings)
+
+    def units(self, table: str) -> Mapping[str, str]:
+        """SI, as in the case."""
+        return CASES
 
     def figure(self) -> Figure:
         """Where the gap is."""
@@ -62,22 +73,11 @@ class DiagnoseResult(Result):
         """All figures by the name of their files."""
         return gap_figures(self.findings)
 
-    def write_files(self, folder: Path) -> None:
-        """Answer and tables, and unless they are not wanted figures and page."""
-        write_json(folder / "diagnosis.json", self.diagnosis.as_dict())
-        for name, table in self.tables().items():
-            write_table(table, folder, name, CASES)
-        if self.options.bare:
-            return
-        figures = self.figures()
-        for name, figure in figures.items():
-            save_both(figure, folder, name)
-        self._write_page(folder / "report.html", figures)
-
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Verdict, curves of held-out trials, figures and tables."""
-        self._write_page(file, self.figures())
+        return {REPORT: gap_page(self.case, self.findings, drawings)}
 
-    def _write_page(self, file: Path, figures: Mapping[str, Figure]) -> None:
-        provenance = [inputs_table(self.record.inputs), options_table(self.record)]
-        write_page(gap_page(self.case, self.findings, figures, provenance, self.warnings), file)
+    def write_files(self, folder: Path) -> None:
+        """Also the answer."""
+        super().write_files(folder)
+        write_json(folder / "diagnosis.json", self.diagnosis.as_dict())

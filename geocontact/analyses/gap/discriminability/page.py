@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.gap.discriminability.words import confusion_sentences
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.gap.identifiability.discriminability import Discriminability
@@ -25,13 +26,7 @@ LIMITS = (
 )
 
 
-def confusion_page(
-    title: str,
-    found: Discriminability,
-    drawings: Mapping[str, bytes],
-    provenance: Sequence[Table] = (),
-    warnings: Sequence[str] = (),
-) -> Page:
+def confusion_page(title: str, found: Discriminability, drawings: Mapping[str, bytes]) -> Page:
     """The self-contained page, before it becomes a file.
 
     Parameters
@@ -42,15 +37,11 @@ def confusion_page(
         What was found.
     drawings
         `confusion_figures` as SVG.
-    provenance
-        Further tables: inputs with hashes, options, versions.
-    warnings
-        Reservations that came up on the way.
     """
     sentences = confusion_sentences(found)
     sections: list[Section] = [Picture(*CAPTIONS[name], svg, wide=True) for name, svg in drawings.items()]
     sections.append(Words("What these trials can tell", [f"{s[0].upper()}{s[1:]}." for s in sentences]))
-    sections += [_sizes(found), *provenance, Words("What the numbers do not contain", [LIMITS, NOT_A_DEVICE])]
+    sections += [_sizes(found), INPUTS, OPTIONS, Words("What the numbers do not contain", [LIMITS, NOT_A_DEVICE])]
     seen = sum(one.smallest is not None for one in found.detectabilities)
     return Page(
         title=title,
@@ -58,7 +49,6 @@ def confusion_page(
         time=np.zeros(1),
         time_label="time [s]",
         headline=headline(sentences, most=1),
-        reservations=tuple(warnings),
         facts=(
             ("effects that would be seen", f"{seen} of {len(found.detectabilities)}"),
             ("groups not to be told apart", str(len(found.classes))),

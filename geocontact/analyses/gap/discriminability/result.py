@@ -9,24 +9,21 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
 from geocontact.analyses.gap.discriminability.answer import answer
-from geocontact.analyses.gap.discriminability.figures import confusion_figures, matrix_figure
+from geocontact.analyses.gap.discriminability.figures import confusion_figures
 from geocontact.analyses.gap.discriminability.options import DiscriminabilityOptions
 from geocontact.analyses.gap.discriminability.page import confusion_page
 from geocontact.analyses.gap.discriminability.tables import detectability_table, separability_table
 from geocontact.analyses.json_file import write_json
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import PARTS, REPORT, Part, Result
 from geocontact.data.gap.case import GapCase
 from geocontact.gap.identifiability.discriminability import Discriminability
-from geocontact.io.text.results import write_table
 from geocontact.io.text.written_units import CASES
-from geocontact.view.page.tables import inputs_table
-from geocontact.view.page.write import write_page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -45,31 +42,33 @@ class DiscriminabilityResult(Result):
     case: GapCase
     found: Discriminability
 
+    @property
+    def title(self) -> str:
+        """Name of the case."""
+        return self.case.name
+
+    @property
+    def parts(self) -> frozenset[Part]:
+        """Tables alone where no more is wanted."""
+        return frozenset(("tables",)) if self.options.bare else PARTS
+
+    def units(self, table: str) -> Mapping[str, str]:
+        """SI, as in the case."""
+        return CASES
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`separability`: a row per pair of effects; `detectability`: the smallest amplitude of each."""
         return {"separability": separability_table(self.found), "detectability": detectability_table(self.found)}
 
-    def figure(self) -> Figure:
-        """Who is told from whom."""
-        return matrix_figure(self.found)
-
     def figures(self) -> dict[str, Figure]:
-        """Matrix and smallest amplitudes, by the name of their files."""
+        """`separability`: who is told from whom; `detectability`: from which size on effects are seen."""
         return confusion_figures(self.found)
 
-    def write_files(self, folder: Path) -> None:
-        """Answer and tables, and unless they are not wanted figures and page."""
-        write_json(folder / "confuse.json", answer(self.case, self.found, self.options.nats))
-        for name, table in self.tables().items():
-            write_table(table, folder, name, CASES)
-        if not self.options.bare:
-            drawings = {name: save_both(figure, folder, name) for name, figure in self.figures().items()}
-            self._write_page(folder / "report.html", drawings)
-
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Sentences, matrix, smallest amplitudes."""
-        self._write_page(file, {name: drawing(figure) for name, figure in self.figures().items()})
+        return {REPORT: confusion_page(self.title, self.found, drawings)}
 
-    def _write_page(self, file: Path, drawings: Mapping[str, bytes]) -> None:
-        provenance = [inputs_table(self.record.inputs), options_table(self.record)]
-        write_page(confusion_page(self.case.name, self.found, drawings, provenance, self.warnings), file)
+    def write_files(self, folder: Path) -> None:
+        """Also the answer."""
+        super().write_files(folder)
+        write_json(folder / "confuse.json", answer(self.case, self.found, self.options.nats))

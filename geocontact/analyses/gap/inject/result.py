@@ -14,7 +14,7 @@ from geocontact.analyses.gap.inject.answer import answer, parameter_rows
 from geocontact.analyses.gap.inject.judged import Judgement
 from geocontact.analyses.gap.inject.options import InjectOptions
 from geocontact.analyses.json_file import write_json
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import Part, Result
 from geocontact.analyses.results_folder import Scratch
 from geocontact.chain.candidate import Candidate
 from geocontact.data.gap.diagnosis import Diagnosis
@@ -57,18 +57,32 @@ class InjectResult(Result):
         """The answer, as in diagnosis/diagnosis.json."""
         return self.diagnosed.diagnosis
 
+    @property
+    def title(self) -> str:
+        """Which effect was put into which case."""
+        return f"{self.effect.label} in {self.diagnosis.case}"
+
+    @property
+    def parts(self) -> frozenset[Part]:
+        """None: the diagnosis writes its own, planted.json has the effect's parameters."""
+        return frozenset()
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`planted`: parameters of the effect as they were put in and found; `diagnosis/ranking` and so on."""
         rows = parameter_rows(self.effect, self.planted, self.diagnosis)
         found = {f"{DIAGNOSIS}/{name}": table for name, table in self.diagnosed.tables().items()}
         return {"planted": pd.DataFrame(rows, columns=COLUMNS), **found}
 
+    def figures(self) -> dict[str, Figure]:
+        """Those of the diagnosis: `diagnosis/gap_map` and so on."""
+        return {f"{DIAGNOSIS}/{name}": figure for name, figure in self.diagnosed.figures().items()}
+
     def figure(self) -> Figure:
         """Where the gap is."""
         return self.diagnosed.figure()
 
     def write_files(self, folder: Path) -> None:
-        """The case, its diagnosis, and what was put in."""
+        """The case, its diagnosis with a record of its own, and what was put in."""
         shutil.copytree(self.scratch.folder / CASE, folder / CASE)
         (folder / DIAGNOSIS).mkdir()
         self.diagnosed.put(folder / DIAGNOSIS)
