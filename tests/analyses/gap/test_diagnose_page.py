@@ -13,10 +13,9 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.figure_files import Drawings
 from geocontact.analyses.finished_page import finished
-from geocontact.analyses.gap.diagnose.figures import axis_units, gap_figures
-from geocontact.analyses.gap.diagnose.page import facts_of, gap_page
-from geocontact.analyses.gap.diagnose.words import states, untried_law, verdict_sentences
-from geocontact.analyses.gap.words import percent
+from geocontact.analyses.gap.case import percent
+from geocontact.analyses.gap.diagnose.answer import axis_units, facts_of, states, untried_law, verdict_sentences
+from geocontact.analyses.gap.diagnose.show import gap_figures, gap_page
 from geocontact.analyses.run_record import Record
 from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase

@@ -1,46 +1,71 @@
-"""The page of a gap diagnosis: what, where, how far and how sure at the top; curves of held-out trials after that."""
+"""A diagnosis in figures and on its page: what, where, how far and how sure; curves of held-out trials after that."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.gap.diagnose.curves import resampled
-from geocontact.analyses.gap.diagnose.figures import SURFACE, effect_words, quantity_of
-from geocontact.analyses.gap.diagnose.page_tables import (
-    cells_table,
-    gap_table,
-    parameters_table,
-    ranking_table,
-    trials_table,
-)
-from geocontact.analyses.gap.diagnose.words import (
-    in_part,
+from geocontact.analyses.gap.case import names, percent
+from geocontact.analyses.gap.diagnose.answer import (
+    axis_units,
+    facts_of,
     in_question,
-    not_ruled_out,
-    one_law_words,
-    place,
     verdict_sentences,
-    with_classes,
 )
-from geocontact.analyses.gap.words import names, percent
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.gap.held_out import HeldOut
 from geocontact.gap.diagnose import Findings
+from geocontact.view.curves.diagnosis.before_after import SIDE_BY_SIDE, before_after
+from geocontact.view.curves.diagnosis.gap_map import SIGNIFICANT, gap_map_figure
+from geocontact.view.curves.diagnosis.gap_residuals import PHASE, gap_residuals
+from geocontact.view.curves.diagnosis.gap_surface import gap_surface_figure
+from geocontact.view.curves.diagnosis.ranking import ranking_figure
+from geocontact.view.curves.diagnosis.reductions import reductions_figure
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.curves.text import number
-from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Words
+from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+GRID = np.linspace(0.0, 1.0, 401)
+SURFACE = "gap_surface_"
+PRINTED = {"N m": ("N m", 1.0), "N": ("N", 1.0), "m": ("mm", 1e3), "rad": ("°", 180.0 / np.pi)}
+CELLS = 12  # of the gap map that the page lists
+GAP_HEADER = (
+    "channel",
+    "unit",
+    "error before",
+    "error after",
+    "noise floor",
+    "reduction",
+    "95 % interval",
+    "unexplained",
+    "part of the whole gap",
+    "phase with 70 % of it",
+    "p",
+)
+CELLS_HEADER = (
+    "channel",
+    "along",
+    "between",
+    "share of the channel's gap",
+    "95 % interval",
+    "floor: of the squared residual, no gap",
+    "p, whole map",
+)
 FRAMES = 201
 PANELS = 12  # held-out trials times channels; more are left to the tables
 STROKES = {"measured": 0, "base model": 1}
 """Colours that hold in all panels; the model with the effect has the next."""
-WORDS = {"explained": "explained", "no_gap": "no gap", "unknown": "unknown", "unresolved": "unresolved"}
 MAP = (
     "Share of each channel's squared residual over the phase of the trial, over inputs, their rates and the load (cut "
     "at quantiles), over frequency bands, and over the phase again of what is faster than 5 Hz; all trials, base model."
@@ -71,6 +96,159 @@ HELD_OUT = (
     "Errors and reduction are those of predictions from measured inputs on trials that no parameter was fitted to; the "
     "interval is for the reduction on fresh trials of the same kind."
 )
+
+
+def resampled(
+    trial: HeldOut, values: Float[np.ndarray, "t c"], phase: Float[np.ndarray, " p"]
+) -> Float[np.ndarray, "p c"]:
+    """Columns of a trial at other phases, by linear interpolation; NaN next to what is not there."""
+    return np.stack([np.interp(phase, trial.phase, column) for column in values.T], axis=1)
+
+
+def quantity_of(findings: Findings, channel: str) -> Quantity:
+    """A channel as it is drawn: lengths in mm, angles in degrees."""
+    unit = findings.attribution.problem.system.unit(channel)
+    printed, per_si = PRINTED.get(unit, (unit, 1.0))
+    return Quantity(channel, printed, per_si)
+
+
+def map_figure(findings: Findings) -> Figure:
+    """Where the gap is."""
+    return gap_map_figure(findings.cells, axis_units(findings))
+
+
+def gap_figures(findings: Findings) -> dict[str, Figure]:
+    """Map, errors, ranking, residuals, cells of each mat, and curves of each channel where something was named."""
+    found = {
+        "gap_map": map_figure(findings),
+        "reductions": _reductions(findings),
+        "ranking": ranking_figure(findings.ranking),
+        "gap_residuals": _residuals(findings),
+    }
+    found |= {f"{SURFACE}{_file_name(one.site, k)}": gap_surface_figure(one) for k, one in enumerate(findings.surface)}
+    for c, name in enumerate(findings.attribution.problem.system.outputs):
+        drawn = _before_after(findings, c)
+        found |= {} if drawn is None else {f"before_after_{_file_name(name, c)}": drawn}
+    return found
+
+
+def _reductions(findings: Findings) -> Figure:
+    d = findings.diagnosis
+    effect = effect_words(findings) if any(t.named is not None for t in findings.held_out) else ""
+    return reductions_figure(d.gap, [quantity_of(findings, name) for name in d.gap], effect)
+
+
+def _residuals(findings: Findings) -> Figure:
+    d, trials = findings.diagnosis, findings.held_out
+    channels = findings.attribution.problem.system.outputs
+    base = np.array([resampled(t, t.measured - t.base, GRID) for t in trials])
+    named = [resampled(t, t.measured - t.named, GRID) for t in trials if t.named is not None]
+    return gap_residuals(
+        GRID,
+        [quantity_of(findings, name) for name in channels],
+        base,
+        np.array(named) if named else None,
+        {name: g.noise_floor for name, g in d.gap.items()},
+        {w.channel: w.phase for w in d.where},
+        effect_words(findings),
+    )
+
+
+def _before_after(findings: Findings, c: int) -> Figure | None:
+    """One channel on the first held-out trials that have it; None where nothing is named, or gaps hide a phase."""
+    trials = findings.held_out
+    shown = [t for t in trials if np.isfinite(t.measured[:, c]).any()][:SIDE_BY_SIDE]
+    if all(t.named is None for t in trials) or not shown:
+        return None
+    measured, before, after = (
+        np.array([resampled(t, part, GRID)[:, c] for t, part in zip(shown, parts, strict=True)])
+        for parts in ([t.measured for t in shown], [t.base for t in shown], [_named(t) for t in shown])
+    )
+    if not np.isfinite(measured + before + after).any(axis=1).all():
+        return None
+    quantity = quantity_of(findings, findings.attribution.problem.system.outputs[c])
+    names, effect = [t.name for t in shown], effect_words(findings)
+    return before_after(100.0 * GRID, measured, before, after, quantity, effect, range(len(shown)), names, PHASE)
+
+
+def effect_words(findings: Findings) -> str:
+    """What the curves are drawn with."""
+    return " + ".join(findings.diagnosis.effects) or "the most probable candidate"
+
+
+def _named(trial: HeldOut) -> Float[np.ndarray, "t c"]:
+    return trial.base if trial.named is None else trial.named
+
+
+def _file_name(channel: str, number: int) -> str:
+    return channel if re.fullmatch(r"\w{1,60}", channel, re.ASCII) else str(number + 1)
+
+
+def gap_table(findings: Findings) -> Table:
+    """Errors, reduction and place of each channel."""
+    d = findings.diagnosis
+    where = {w.channel: w for w in d.where}
+    rows = []
+    for name, g in d.gap.items():
+        quantity, w = quantity_of(findings, name), where.get(name)
+        sizes = [
+            number(float(quantity.shown(np.array(value)))) for value in (g.rmse_before, g.rmse_after, g.noise_floor)
+        ]
+        interval = f"{percent(g.ci95[0])} … {percent(g.ci95[1])} %"
+        rest = "–" if g.unexplained is None else f"{percent(g.unexplained)} %"
+        window = ["–"] * 3
+        if w is not None:
+            window = [f"{percent(w.share)} %", f"{percent(w.phase[0])}–{percent(w.phase[1])} %", f"{w.p_value:.2g}"]
+        rows.append((name, quantity.unit, *sizes, f"{percent(g.reduction)} %", interval, rest, *window))
+    return Table("How far the gap shrinks, held-out trials (root mean squares)", GAP_HEADER, rows)
+
+
+def ranking_table(findings: Findings) -> Table:
+    """Every model that was tried."""
+    rows = []
+    for one in findings.ranking:
+        probability = "" if one.probability is None else f"{one.probability:.3f}"
+        rows.append((one.label, one.effects, number(one.gain, 10.0), number(one.calibration, 10.0), probability))
+    header = ("model", "answer", "gain, all trials [nats]", "gain, calibration trials [nats]", "probability")
+    return Table("Ranking", header, rows)
+
+
+def trials_table(findings: Findings) -> Table:
+    """What each trial gains when it is predicted from all others."""
+    rows = [(one.trial, "yes" if one.held_out else "no", number(one.nats, 10.0)) for one in findings.trials]
+    better = sum(one.nats > 0.0 for one in findings.trials)
+    title = f"Each trial predicted from all others: better with what is named in {better} of {len(rows)}"
+    return Table(title, ("trial", "held out", "gain [nats]"), rows)
+
+
+def parameters_table(d: Diagnosis) -> Table:
+    """Parameters of the answer with intervals."""
+    rows = [
+        (name, f"{e.value:.5g}", f"{e.ci95[0]:.5g} … {e.ci95[1]:.5g}", e.unit, "yes" if e.identifiable else "no")
+        for name, e in d.parameters.items()
+    ]
+    return Table(
+        "Parameters of the answer", ("parameter", "value", "95 % interval", "unit", "told by the trials"), rows
+    )
+
+
+def cells_table(findings: Findings) -> Table:
+    """The most significant cells of the gap map."""
+    units = axis_units(findings)
+    cells = sorted((c for c in findings.cells if c.p_value <= SIGNIFICANT), key=lambda c: (c.p_value, -c.share))
+    rows = [
+        (
+            c.channel,
+            c.axis,
+            f"{c.low:.4g} … {c.high:.4g} {units.get(c.axis, '')}".replace("inf", "∞"),
+            f"{percent(c.share)} %",
+            " … ".join(percent(part) for part in c.ci95) + " %",
+            f"{percent(c.floor)} %",
+            f"{c.p_value:.2g}",
+        )
+        for c in cells[:CELLS]
+    ]
+    return Table(f"Gap map: {len(rows)} of {len(cells)} significant cells", CELLS_HEADER, rows)
 
 
 def gap_page(
@@ -128,37 +306,6 @@ def _subtitle(case: GapCase, d: Diagnosis) -> str:
         f"Gap diagnosis, {kind}base model {d.system}: {len(case.calibration)} trials fitted to, "
         f"{len(case.evaluation)} held out"
     )
-
-
-def facts_of(findings: Findings) -> list[tuple[str, str]]:
-    """What is missing, where, how far, how sure."""
-    d = findings.diagnosis
-    answer = {"explained": with_classes(d, d.effects), "no_gap": "nothing beyond noise"}.get(
-        d.verdict, WORDS[d.verdict]
-    )
-    lines = [("What is missing", answer)]
-    if d.where:
-        lines.append(("Where", place(d.where[0], findings.cells)))
-        gap = d.gap[d.where[0].channel]
-        if d.effects:
-            low, high = gap.ci95
-            reduction = f"{percent(gap.reduction)} % [{percent(low)}, {percent(high)}] of the error of "
-            lines.append(("Adding it removes", f"{reduction}{d.where[0].channel} on trials not used"))
-    if d.partial is not None:
-        lines.append(("Explained in part", in_part(d.partial)))
-    alive = ", ".join(f"{name} {value:.2f}" for name, value in _likeliest(d) if value >= 0.005)
-    lines.append(("Probabilities", alive))
-    if d.one_law:
-        lines.append(("What it cannot be told from", "; ".join(one_law_words(d))))
-    if d.verdict == "unresolved":
-        lines.append(("Cannot be told apart", names(d.ambiguity)))
-    elif rest := not_ruled_out(d) if d.effects else d.ambiguity:
-        lines.append(("Not ruled out", "; ".join(rest)))
-    return lines
-
-
-def _likeliest(d: Diagnosis, most: int = 5) -> list[tuple[str, float]]:
-    return sorted(d.probabilities.items(), key=lambda pair: -pair[1])[:most]
 
 
 def _panels(findings: Findings, phase: Float[np.ndarray, " p"]) -> tuple[list[Curves], int]:
