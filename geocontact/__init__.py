@@ -56,7 +56,7 @@ if TYPE_CHECKING:
     from geocontact.io.cases.gap_case import read_gap_case
     from geocontact.io.mesh.meshes import read_mesh
     from geocontact.io.motion.motion import read_motion
-    from geocontact.study.job import cohort
+    from geocontact.study.result import cohort
     from geocontact.systems.base import Base, require_numbers
     from geocontact.systems.catalogue import system_of
     from geocontact.systems.external.simulator import simulator_base
@@ -92,7 +92,7 @@ _PLACES = {
     "fit_shape": "analyses.shape.result",
     "load_cells": "analyses.loadcells.result",
     "modulus": "analyses.modulus.result",
-    "cohort": "study.job",
+    "cohort": "study.result",
     "mat": "analyses.mat.result",
     "scale": "analyses.motion.scale.result",
     "functional_joint": "analyses.motion.functional_joint.result",

@@ -12,9 +12,9 @@ from jaxtyping import Float
 
 from geocontact.data.errors import InputError
 from geocontact.io.results.netcdf import coordinates_of, over_time
-from geocontact.study.description.study_file import StudyFile
-from geocontact.study.description.trials import CohortTrial
+from geocontact.study.description import StudyFile
 from geocontact.study.store import Store
+from geocontact.study.trials import CohortTrial
 
 STEPS = np.linspace(0.0, 100.0, 101)
 """Places on the curves [%]."""

@@ -204,6 +204,8 @@ def _told(error: Exception) -> str:
 class Journal:
     """What was worked by the same sources; of any seed, so that runs can be put together.
 
+    The file is only added to: an end in between costs the case at hand.
+
     Parameters
     ----------
     path

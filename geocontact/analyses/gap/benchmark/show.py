@@ -28,7 +28,6 @@ from geocontact.view.curves.diagnosis.reliability import Stated, reliability_fig
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-
 DRAWN = {"diagnosis": "diagnosis", "regression_aware": "residual regression"}
 """Whose reliability is drawn."""
 

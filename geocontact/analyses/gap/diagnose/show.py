@@ -35,7 +35,6 @@ from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-
 GRID = np.linspace(0.0, 1.0, 401)
 SURFACE = "gap_surface_"
 PRINTED = {"N m": ("N m", 1.0), "N": ("N", 1.0), "m": ("mm", 1e3), "rad": ("°", 180.0 / np.pi)}

@@ -21,6 +21,7 @@ from geocontact.view.page.content import Page, Picture, Section, Table, Words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
 MATRIX = (
     "Nats by which an effect (row) beats a model that is fitted instead (column), base parameters refitted. The column "
     "none is the base model alone: what is visible of the effect."
