@@ -98,7 +98,7 @@ def _columns(table: pd.DataFrame, over: str) -> tuple[str, ...]:
 
 
 def _curves(study: StudyFile, file: Path, columns: Sequence[str]) -> Float[np.ndarray, "c 101"]:
-    """Of one trial: rows that are chosen, over their span."""
+    """Curves of one trial: rows that are chosen, over their span."""
     asked = study.summary
     table = pd.read_parquet(file)
     missing = next((name for name in (*columns, asked.over, *asked.where) if name not in table.columns), None)

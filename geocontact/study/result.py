@@ -187,7 +187,7 @@ class CohortResult(Result):
 
     @property
     def title(self) -> str:
-        """As the description says it."""
+        """Heading that the description has."""
         return self.planned.file.title
 
     def figures(self) -> dict[str, Figure]:

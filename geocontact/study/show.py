@@ -69,7 +69,7 @@ def _drawn(one: StudyCurves) -> dict[str, np.ndarray]:
 
 
 def _printed(unit: str | None) -> str:
-    """As figures and pages show it: mm² for mm^2."""
+    """A unit in print: mm² for mm^2."""
     return (unit or "-").replace("^2", "²").replace("^3", "³")
 
 

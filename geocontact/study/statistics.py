@@ -70,7 +70,7 @@ class Reliability:
 
 
 def reliability(values: Float[np.ndarray, "n k"], confidence: float = 0.95) -> Reliability:
-    """Of n subjects, each measured once under every one of k conditions; at least two of both, no NaN."""
+    """Reliability over n subjects, each measured once under every one of k conditions; at least two of both, no NaN."""
     n, k = values.shape
     if n < 2 or k < 2 or not np.isfinite(values).all():
         raise ValueError(f"{n} subjects under {k} conditions, expected at least two of both and finite values")

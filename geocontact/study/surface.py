@@ -77,7 +77,7 @@ class _Places:
 
 
 def surface_values(study: StudyFile, done: Sequence[tuple[CohortTrial, str]], store: Store) -> SurfaceValues | None:
-    """Of all trials that are done; None where the study asks for nothing on a surface."""
+    """Distances of all trials that are done; None where the study asks for nothing on a surface."""
     asked = study.surface
     if asked is None or not done:
         return None

@@ -66,7 +66,7 @@ class BenchmarkOutcome:
 
     @property
     def same(self) -> Rate:
-        """Of those diagnosed twice, how many got the same answer."""
+        """How many of those diagnosed twice got the same answer."""
         return Rate.of(one.same for one in self.cases if one.same is not None)
 
     @property
@@ -76,14 +76,14 @@ class BenchmarkOutcome:
 
     @property
     def imitated(self) -> Rate:
-        """Of the visible effects outside the table, how many a candidate imitates."""
+        """How many of the visible effects outside the table a candidate imitates."""
         strange = [label for label in self.labels.values() if label["kind"] == "outside" and visible(label)]
         return Rate.of(bool(label.get("imitated")) for label in strange)
 
 
 @dataclass(frozen=True)
 class Alarms:
-    """Of the cases of a system and a laboratory, or of all: those with a false alarm, the certain and harmful ones."""
+    """Cases of a system and a laboratory, or all: those with a false alarm, the certain and the harmful ones."""
 
     system: str
     laboratory: str

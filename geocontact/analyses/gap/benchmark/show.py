@@ -33,7 +33,7 @@ DRAWN = {"diagnosis": "diagnosis", "regression_aware": "residual regression"}
 
 
 def stated_figure(outcome: BenchmarkOutcome) -> Figure:
-    """Of the diagnosis and of the better opponent."""
+    """Reliability of the diagnosis and of the better opponent."""
     return reliability_figure({words: _stated(outcome, who) for who, words in DRAWN.items()})
 
 

@@ -96,7 +96,7 @@ def _with_loads(table: TrialTable, one: GatheredTrial) -> TrialTable:
 
 
 def _mats(record: Record, path: Path, plan: Gathering, site: str) -> dict[str, MatFolder]:
-    """Of one site, by trial."""
+    """Mats of one site, by trial."""
     found = {}
     for name, source in plan.sources.items():
         if site not in source.mats:
