@@ -187,8 +187,8 @@ def of_the_study() -> dict[str, float]:
     """
     from geocontact.analyses.job import Call, execute
     from geocontact.analyses.listener import Listener
-    from geocontact.study.job import cohort
     from geocontact.study.options import CohortOptions
+    from geocontact.study.result import cohort
     from tests.study.quick import study
 
     spent: dict[str, list[float]] = {"first": [], "again": []}

@@ -21,8 +21,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.machine import as_json, commit, machine
-from geocontact.analyses.gap.benchmark.case import Worked
-from geocontact.analyses.gap.benchmark.journal import Journal
+from geocontact.analyses.gap.benchmark.case import Journal, Worked
 from geocontact.gap_benchmark.drawing import SYSTEMS, Lot
 from geocontact.gap_benchmark.generalisation import NUMBERS, LaboratoryFigures, figures_of, losses
 from geocontact.gap_benchmark.rates import Rate

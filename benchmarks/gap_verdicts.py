@@ -149,7 +149,7 @@ def report(o: argparse.Namespace, what: str, rows: Sequence[Mapping[str, Any]]) 
 
 def main() -> int:
     """Attribute, score, write."""
-    from geocontact.analyses.gap.benchmark.run import mixed
+    from geocontact.analyses.gap.benchmark.result import mixed
     from geocontact.data.errors import InputError
     from geocontact.gap_benchmark.synthetic.cases import NotFoundError
 

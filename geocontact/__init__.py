@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     from geocontact.analyses import knee, misalignment, prosthesis, shoulder, sit_to_stand
     from geocontact.analyses.area.result import area, pressure
     from geocontact.analyses.cop.result import centre_of_pressure
-    from geocontact.analyses.gap.diagnose.job import diagnose
-    from geocontact.analyses.gap.discriminability.job import discriminability
-    from geocontact.analyses.gap.gather.job import gather
-    from geocontact.analyses.gap.inject.job import inject
+    from geocontact.analyses.gap.diagnose.result import diagnose
+    from geocontact.analyses.gap.discriminability.result import discriminability
+    from geocontact.analyses.gap.gather.result import gather
+    from geocontact.analyses.gap.inject.result import inject
     from geocontact.analyses.loadcells.result import load_cells
     from geocontact.analyses.mat.result import mat
     from geocontact.analyses.modulus.result import modulus
@@ -56,7 +56,7 @@ if TYPE_CHECKING:
     from geocontact.io.cases.gap_case import read_gap_case
     from geocontact.io.mesh.meshes import read_mesh
     from geocontact.io.motion.motion import read_motion
-    from geocontact.study.job import cohort
+    from geocontact.study.result import cohort
     from geocontact.systems.base import Base, require_numbers
     from geocontact.systems.catalogue import system_of
     from geocontact.systems.external.simulator import simulator_base
@@ -92,17 +92,17 @@ _PLACES = {
     "fit_shape": "analyses.shape.result",
     "load_cells": "analyses.loadcells.result",
     "modulus": "analyses.modulus.result",
-    "cohort": "study.job",
+    "cohort": "study.result",
     "mat": "analyses.mat.result",
     "scale": "analyses.motion.scale.result",
     "functional_joint": "analyses.motion.functional_joint.result",
     "inverse_kinematics": "analyses.motion.inverse_kinematics.result",
     "inverse_dynamics": "analyses.motion.inverse_dynamics.result",
     "virtual_markers": "analyses.motion.virtual_markers.result",
-    "diagnose": "analyses.gap.diagnose.job",
-    "discriminability": "analyses.gap.discriminability.job",
-    "inject": "analyses.gap.inject.job",
-    "gather": "analyses.gap.gather.job",
+    "diagnose": "analyses.gap.diagnose.result",
+    "discriminability": "analyses.gap.discriminability.result",
+    "inject": "analyses.gap.inject.result",
+    "gather": "analyses.gap.gather.result",
     "Base": "systems.base",
     "require_numbers": "systems.base",
     "simulator_base": "systems.external.simulator",

@@ -54,8 +54,8 @@ def _joint_motion(path: Path) -> Any:
 
 
 def _study(path: Path) -> Any:
-    from geocontact.study.description.study_file import read_study_file
-    from geocontact.study.description.trials import trials_of
+    from geocontact.study.description import read_study_file
+    from geocontact.study.trials import trials_of
 
     return trials_of(read_study_file(path))
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from html import escape
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record
@@ -25,6 +25,10 @@ if TYPE_CHECKING:
 
 REPORT = "report.html"
 """Page of a folder of results."""
+
+Part = Literal["tables", "figures", "pages"]
+PARTS: frozenset[Part] = frozenset(("tables", "figures", "pages"))
+"""What the frame writes."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -79,6 +83,11 @@ class Result(ABC):
     def folders(self) -> tuple[str, ...]:
         """Sub-folders that `write` fills, each with a `run.json` of its own, as "" the folder itself."""
         return ("",)
+
+    @property
+    def parts(self) -> frozenset[Part]:
+        """What `write` leaves in the folder: all `PARTS`, but for those not wanted, or written as further files."""
+        return PARTS
 
     @abstractmethod
     def tables(self) -> dict[str, pd.DataFrame]:
@@ -139,7 +148,8 @@ class Result(ABC):
         from geocontact.analyses.finished_page import write_finished
         from geocontact.io.text.results import write_table
 
-        for name, table in self.tables().items():
+        parts = self.parts
+        for name, table in self.tables().items() if "tables" in parts else ():
             if name in self.elsewhere:
                 continue
             _make_room(folder / name)
@@ -148,10 +158,10 @@ class Result(ABC):
             if about := self.refers_to(name):
                 self.record.tables[f"{name}.csv"] = about
         drawings = {}
-        for name, figure in self.figures().items():
+        for name, figure in self.figures().items() if "figures" in parts else ():
             _make_room(folder / name)
             drawings[name] = save_both(figure, folder, name)
-        for name, page in self._pages(drawings).items():
+        for name, page in self._pages(drawings).items() if "pages" in parts else ():
             _make_room(folder / name)
             home = name.rpartition("/")[0]
             write_finished(page, folder / name, self.record, home, self.reservations(home))

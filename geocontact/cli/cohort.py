@@ -12,4 +12,4 @@ Writes results/… (a folder for each trial), trials.csv (what became of each), 
 missing is evaluated, and the tables are the same. A trial that cannot be evaluated is one line, the others go on.
 """
 
-cohort = Command("geocontact.study.job:cohort", CohortOptions, HELP)
+cohort = Command("geocontact.study.result:cohort", CohortOptions, HELP)

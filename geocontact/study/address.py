@@ -37,7 +37,7 @@ class Digests:
         self._known: dict[tuple[str, int, int], str] = {}
 
     def of(self, file: Path) -> str:
-        """Of one file."""
+        """The digest of one file."""
         state = file.stat()
         place = (str(file.absolute()), state.st_size, state.st_mtime_ns)
         if place not in self._known:

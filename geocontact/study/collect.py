@@ -11,8 +11,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from geocontact.io.results.ragged_netcdf import RaggedTable, write_ragged
-from geocontact.study.description.trials import CohortTrial
 from geocontact.study.store import Store
+from geocontact.study.trials import CohortTrial
 
 NAME = "name"
 ROWS = 1 << 16

@@ -12,9 +12,9 @@ from jaxtyping import Float
 
 from geocontact.data.errors import InputError
 from geocontact.io.results.netcdf import coordinates_of, over_time
-from geocontact.study.description.study_file import StudyFile
-from geocontact.study.description.trials import CohortTrial
+from geocontact.study.description import StudyFile
 from geocontact.study.store import Store
+from geocontact.study.trials import CohortTrial
 
 STEPS = np.linspace(0.0, 100.0, 101)
 """Places on the curves [%]."""
@@ -98,7 +98,7 @@ def _columns(table: pd.DataFrame, over: str) -> tuple[str, ...]:
 
 
 def _curves(study: StudyFile, file: Path, columns: Sequence[str]) -> Float[np.ndarray, "c 101"]:
-    """Of one trial: rows that are chosen, over their span."""
+    """Curves of one trial: rows that are chosen, over their span."""
     asked = study.summary
     table = pd.read_parquet(file)
     missing = next((name for name in (*columns, asked.over, *asked.where) if name not in table.columns), None)

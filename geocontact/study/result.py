@@ -1,40 +1,95 @@
-"""What a study comes to: the manifest of its trials, and their tables together."""
+r"""Studies: `geocontact cohort`, `gc.cohort`.
+
+>>> import geocontact as gc
+>>> from pathlib import Path
+>>> text = 'analysis = "fit"\noptions = { shape = "sphere", unit = "mm" }\n'
+>>> text += 'sweep = { mesh = ["meshes/sphere_r18.stl", "meshes/sphere_r20.stl"] }\n'
+>>> _ = Path("study.toml").write_text(text)
+>>> gc.cohort("study.toml", workers=1)
+2 of 2 trials of fit have results, 2 of them new
+"""
 
 from __future__ import annotations
 
+import errno
+import secrets
 import shutil
-from contextlib import ExitStack
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, chdir
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import pandas as pd
 
-from geocontact.analyses.figure_files import save_both
-from geocontact.analyses.result import Result
-from geocontact.analyses.results_folder import Scratch
-from geocontact.io.text.results import write_table
+from geocontact.analyses import source_digest
+from geocontact.analyses.catalogue import job_named
+from geocontact.analyses.job import Job
+from geocontact.analyses.page_words import counted
+from geocontact.analyses.result import REPORT, Result
+from geocontact.analyses.results_folder import Scratch, is_kept
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.io.text.units import split_header
+from geocontact.study.address import Digests, address_of, options_of
 from geocontact.study.collect import collect
-from geocontact.study.curves import StudyCurves
-from geocontact.study.description.trials import CohortTrial
-from geocontact.study.latex import latex
-from geocontact.study.page import REPORT, study_figure, study_page
-from geocontact.study.read import PlannedStudy
+from geocontact.study.curves import STEPS, StudyCurves, curves_of
+from geocontact.study.description import StudyFile, read_study_file
+from geocontact.study.options import CohortOptions
+from geocontact.study.show import study_figure, study_page
 from geocontact.study.store import RESULTS, Store
-from geocontact.study.surface.tables import surface_difference_table, surface_fields, surface_table
-from geocontact.study.surface.values import SurfaceValues
-from geocontact.study.tables import agreement_table, difference_table, ensemble_table, outlier_table, value_table
-from geocontact.study.trial_run import DONE, WRONG, TrialOutcome
-from geocontact.view.page.write import write_page
+from geocontact.study.surface import (
+    SurfaceValues,
+    surface_difference_table,
+    surface_differences,
+    surface_fields,
+    surface_table,
+    surface_values,
+)
+from geocontact.study.tables import (
+    agreement_table,
+    difference_table,
+    differences_of,
+    ensemble_table,
+    latex,
+    outlier_table,
+    value_table,
+)
+from geocontact.study.trial_run import DONE, STOPPED, WRONG, TrialOutcome, TrialTask
+from geocontact.study.trials import CohortTrial, trials_of
+from geocontact.study.workers import outcomes, workers_of
 from geocontact.view.surfaces.points_vtp import write_points_vtp
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from geocontact.view.page.content import Page
+
 MANIFEST = "trials"
 PRINTED = ("values", "agreement")
 """Tables that are written as LaTeX too."""
 WRONG_CODE, FAILED_CODE = 2, 1
+LEVEL = 0.05
+
+
+@dataclass(frozen=True)
+class PlannedStudy:
+    """The description, and the trials that it comes to."""
+
+    file: StudyFile
+    trials: tuple[CohortTrial, ...]
+
+
+def read(o: CohortOptions, record: Record) -> PlannedStudy:
+    """Description and trials; files of the trials are read by whoever evaluates them."""
+    study = read_study_file(o.study)
+    record.add_input("study", o.study, analysis=study.analysis)
+    if study.table:
+        record.add_input("table", o.study.parent / study.table)
+    return PlannedStudy(study, tuple(trials_of(study)))
 
 
 @dataclass(frozen=True)
@@ -97,6 +152,11 @@ class CohortResult(Result):
 
         The tables of all trials together are files: they may be larger than memory.
         """
+        return dict(self._tables)
+
+    @cached_property
+    def _tables(self) -> dict[str, pd.DataFrame]:
+        """The same, made once: tests of differences take their time."""
         found = {
             MANIFEST: self._manifest(),
             "ensemble": ensemble_table(self.curves),
@@ -125,31 +185,184 @@ class CohortResult(Result):
         ]
         return pd.DataFrame(rows)
 
-    def figure(self) -> Figure | None:
-        """Mean curves."""
-        return study_figure(self.curves)
+    @property
+    def title(self) -> str:
+        """Heading that the description has."""
+        return self.planned.file.title
+
+    def figures(self) -> dict[str, Figure]:
+        """`ensemble`: mean curves, where a trial has a whole one."""
+        drawn = study_figure(self.curves)
+        return {} if drawn is None else {"ensemble": drawn}
+
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+        """Mean curves, statistics, and all trials with a link to the page of each."""
+        return {REPORT: study_page(self.title, self.record, self.curves, self.tables())}
 
     def write_files(self, folder: Path) -> None:
-        """Manifest, the tables of all trials together, the page; then other studies may write into the folder."""
+        """Also the tables of all trials together; then other studies may write into the folder."""
         with self.held:
-            self._write_files(folder)
+            self._write_further(folder)
+            super().write_files(folder)
 
-    def _write_files(self, folder: Path) -> None:
+    def _write_further(self, folder: Path) -> None:
         if self.scratch is not None:
             for one in self.done:
                 shutil.copytree(self.store.place(one.address), folder / RESULTS / one.address, dirs_exist_ok=True)
-        for name, table in self.tables().items():
-            write_table(table, folder, name)
-            if name in PRINTED:
-                (folder / f"{name}.tex").write_text(latex(table), encoding="utf-8")
+        tables = self.tables()
+        for name in (name for name in PRINTED if name in tables):
+            (folder / f"{name}.tex").write_text(latex(tables[name]), encoding="utf-8")
         collect([(one.trial, one.address) for one in self.done], self.store, folder)
         if self.surface is not None:
             write_points_vtp(folder / "surface.vtp", self.surface.points, surface_fields(self.surface))
-        figure = self.figure()
-        if figure is not None:
-            save_both(figure, folder, "ensemble")
-        self.write_page(folder / REPORT)
 
-    def write_page(self, file: Path) -> None:
-        """Mean curves, statistics, and all trials with a link to the page of each."""
-        write_page(study_page(self.planned.file.title, self.record, self.curves, self.tables()), file)
+
+@dataclass(frozen=True)
+class _Planned:
+    """A trial, its address, "" where its options cannot be, and what is known of it before it runs."""
+
+    trial: CohortTrial
+    address: str
+    known: TrialOutcome | None
+
+
+def run(planned: PlannedStudy, o: CohortOptions, record: Record) -> CohortResult:
+    """Results of all trials that can be evaluated; InputError where none can be."""
+    scratch = None if record.out is not None else Scratch()
+    out = record.out if record.out is not None else scratch.folder if scratch is not None else Path()
+    store = Store(out.resolve() / RESULTS)
+    with ExitStack() as held:  # until the tables are written, unless something goes wrong before
+        held.enter_context(store.begun())
+        plan = _plan(planned, store)
+        if any(one.known is not None and one.known.state == DONE for one in plan):
+            is_kept(store.folder)
+        became = _evaluated(planned, plan, store, o, record)
+        trials, curves, surface = _looked_at(planned, plan, became, store, o, record)
+        kept = ExitStack() if scratch is not None else held.pop_all()
+    return CohortResult(
+        record=record,
+        planned=planned,
+        trials=trials,
+        store=store,
+        curves=curves,
+        surface=surface,
+        scratch=scratch,
+        held=kept,
+    )
+
+
+def _looked_at(
+    planned: PlannedStudy,
+    plan: list[_Planned],
+    became: list[TrialOutcome],
+    store: Store,
+    o: CohortOptions,
+    record: Record,
+) -> tuple[tuple[StudiedTrial, ...], tuple[StudyCurves, ...], SurfaceValues | None]:
+    """What became of each trial, curves, a surface where there is one; what goes wrong and what differs is said."""
+    trials = tuple(StudiedTrial(one.trial, one.address, became[k]) for k, one in enumerate(plan))
+    for one in trials:
+        if one.outcome.state != DONE:
+            record.listener.fail(f"{one.trial.name}: {one.outcome.line}")
+    done = [one for one in trials if one.outcome.state == DONE]
+    if not done:
+        raise InputError(o.study, "", f"none of the {len(trials)} trials could be evaluated", "see the lines above")
+    new = sum(one.known is None for one in plan)
+    record.results["trials"] = {"all": len(trials), "done": len(done)}
+    all_of_them = f"{len(done)} of {counted(len(trials), 'trial')} of {planned.file.analysis}"
+    record.say(f"{all_of_them} have results, {new} of them new")
+    curves = curves_of(planned.file, [(one.trial, one.address) for one in done], store)
+    surface = surface_values(planned.file, [(one.trial, one.address) for one in done], store)
+    _say(curves, record)
+    if surface is not None:
+        _say_surface(surface, record)
+    return trials, curves, surface
+
+
+def _say(curves: tuple[StudyCurves, ...], record: Record) -> None:
+    """What conditions differ in, and which trials lie apart."""
+    for one, first, second, found in differences_of(curves):
+        name = f"{split_header(one.column)[0]}, {first} against {second}"
+        where = STEPS[found.p <= LEVEL]
+        subjects = counted(found.subjects, "subject")
+        if found.smallest > LEVEL:
+            record.say(f"{name}: {subjects} cannot show a difference, the smallest p is {found.smallest:.2g}")
+        elif len(where):
+            record.say(f"{name}: p is at most 5 % at {len(where)} of 101 places, {where[0]:g} to {where[-1]:g} %")
+        else:
+            record.say(f"{name}: no difference shown by {subjects}, the smallest p is {found.p.min():.2g}")
+    apart = outlier_table(curves)
+    for name in dict.fromkeys(apart["name"]):
+        record.warn(f"{name} lies apart from the other trials of its condition")
+
+
+def _say_surface(surface: SurfaceValues, record: Record) -> None:
+    """On how many points conditions differ."""
+    for first, second, there, found in surface_differences(surface):
+        name = f"distance at {len(surface.points)} particles, {first} against {second}"
+        subjects = counted(found.subjects, "subject")
+        if found.smallest > LEVEL:
+            record.say(f"{name}: {subjects} cannot show a difference, the smallest p is {found.smallest:.2g}")
+            continue
+        shown = np.zeros(there.shape, bool)
+        shown[there] = found.p <= LEVEL
+        record.say(f"{name}: p is at most 5 % at {shown.any(axis=0).sum()} of them, by {subjects}")
+
+
+def _plan(planned: PlannedStudy, store: Store) -> list[_Planned]:
+    job, digests, home = job_named(planned.file.analysis), Digests(), planned.file.home
+    found = []
+    for trial in planned.trials:
+        try:
+            with chdir(home):
+                options = options_of(job.options, trial.options)
+                options.refuse_missing_files()
+            address = address_of(job.command, options, home, digests)
+        except InputError as error:
+            found.append(_Planned(trial, "", TrialOutcome(WRONG, str(error))))
+            continue
+        there = store.holds(address, home, digests)
+        if not there:
+            store.forget(address)
+        found.append(_Planned(trial, address, TrialOutcome(DONE) if there else None))
+    return found
+
+
+def _evaluated(
+    planned: PlannedStudy, plan: list[_Planned], store: Store, o: CohortOptions, record: Record
+) -> list[TrialOutcome]:
+    """What became of each trial of the plan; only what is missing is evaluated."""
+    run_id, sources = secrets.token_hex(8), source_digest.digest()
+    missing = {one.address: one.trial for one in plan if one.known is None}
+    tasks = [
+        TrialTask(planned.file.analysis, trial.options, planned.file.home, store, address, sources, run_id)
+        for address, trial in missing.items()
+    ]
+    became = dict(_outcomes(tasks, o, record))
+    return [one.known or became[one.address] for one in plan]
+
+
+def _outcomes(tasks: list[TrialTask], o: CohortOptions, record: Record) -> Iterator[tuple[str, TrialOutcome]]:
+    if not tasks:
+        return
+    with workers_of(o) as client, record.listener.progress("trials", len(tasks)) as step:
+        started, spent = time.perf_counter(), 0.0
+        for task, outcome in outcomes(client, tasks):
+            if outcome.state == STOPPED:
+                line = f"{outcome.line}; what is done is kept: run it again when that is mended"
+                raise OSError(errno.EIO, line, str(task.store.folder))
+            yield task.address, outcome
+            spent += outcome.seconds
+            if outcome.state == DONE:
+                is_kept(task.store.folder)
+            step()
+        record.results["work"] = {"seconds": round(time.perf_counter() - started, 3), "workers": _count(client)}
+        record.results["one_by_one"] = {"seconds": round(spent, 3)}
+
+
+def _count(client: Any) -> int:
+    """Threads of all workers."""
+    return int(sum(client.nthreads().values()))
+
+
+cohort = Job("cohort", CohortOptions, read, run)

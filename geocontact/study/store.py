@@ -1,10 +1,13 @@
-"""The folder in which the results of trials lie by their address, whole or not at all."""
+"""The folder of trials' results by their address, each whole or not at all; one study at a time writes there."""
 
 from __future__ import annotations
 
+import errno
 import json
 import os
+import platform
 import shutil
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
@@ -14,8 +17,12 @@ from typing import Any
 from geocontact.analyses.stale_results import RUN
 from geocontact.data.errors import InputError
 from geocontact.study.address import Digests
-from geocontact.study.lock import sole_writer
 
+LOCK = ".lock"
+TAKEN = (errno.EACCES, errno.EAGAIN, errno.EDEADLK)
+LARGEST_TOLD = 200
+BEHIND = 1 << 20
+"""Byte that is locked on Windows, where others cannot read what is locked: behind what is told."""
 RESULTS = "results"
 TOLD = "trial.json"
 """File in the folder of a trial that says what is in it."""
@@ -23,6 +30,65 @@ WORK = ".work"
 """Sub-folder of what is being written."""
 MOST_ENDED = 3
 """So many workers may end while they are at a trial, before it is set aside."""
+
+
+@contextmanager
+def sole_writer(folder: Path) -> Iterator[None]:
+    """Hold the folder's lock while the block runs; InputError where another process holds it.
+
+    A lock of the system goes with the process that holds it, so nothing has to be cleared after a kill: a lock file
+    that nobody holds is taken over. Between machines it needs a file system with locks, as NFS and Lustre (mounted with
+    `flock`) have; where there are none it holds nobody up.
+    """
+    file = folder / LOCK
+    descriptor = _held(file)
+    try:
+        os.ftruncate(descriptor, 0)
+        os.write(descriptor, f"process {os.getpid()} on {platform.node()}".encode())
+        yield
+    finally:
+        with suppress(OSError):  # Windows removes no open file; one that nobody holds is taken over
+            file.unlink()
+        os.close(descriptor)
+
+
+def _held(file: Path) -> int:
+    """Descriptor of the lock file, locked; again where another one removed the file in between."""
+    while True:
+        descriptor = os.open(file, os.O_RDWR | os.O_CREAT, 0o666)
+        try:
+            if not _lock(descriptor):
+                told = os.read(descriptor, LARGEST_TOLD).decode(errors="replace").strip()
+                what = f"another study writes here ({told or 'another process'})"
+                raise InputError(file.parent, "", what, "wait until it has ended, or choose another `out`")
+            with suppress(FileNotFoundError):
+                if os.path.samestat(os.fstat(descriptor), file.stat()):
+                    return descriptor
+        except BaseException:
+            os.close(descriptor)
+            raise
+        os.close(descriptor)
+
+
+def _lock(descriptor: int) -> bool:
+    """Lock without waiting; False where another process has it."""
+    try:
+        if sys.platform == "win32":
+            import msvcrt
+
+            os.lseek(descriptor, BEHIND, os.SEEK_SET)
+            msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
+            os.lseek(descriptor, 0, os.SEEK_SET)
+        else:
+            import fcntl
+
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        if error.errno in TAKEN:
+            return False
+        if error.errno not in (errno.ENOLCK, errno.ENOTSUP, errno.ENOSYS):
+            raise
+    return True
 
 
 @dataclass(frozen=True)

@@ -12,13 +12,45 @@ from jaxtyping import Float
 from geocontact.data.ensemble import mean_and_sd
 from geocontact.io.text.units import split_header
 from geocontact.study.curves import STEPS, StudyCurves
-from geocontact.study.statistics.outliers import LIMIT, scores
-from geocontact.study.statistics.reliability import reliability
-from geocontact.study.statistics.sign_flip import SignFlips, sign_flips
+from geocontact.study.statistics import LIMIT, SignFlips, reliability, scores, sign_flips
 from geocontact.view.curves.agreement import limits_of_agreement
 
+_SIGNS = {
+    "\\": r"\textbackslash{}",
+    "&": r"\&",
+    "%": r"\%",
+    "$": r"\$",
+    "#": r"\#",
+    "_": r"\_",
+    "{": r"\{",
+    "}": r"\}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    "²": r"\textsuperscript{2}",
+}
+DIGITS = 4
 LEAST = 3
 """Subjects that agreement is told of."""
+
+
+def latex(table: pd.DataFrame) -> str:
+    """The table with four significant digits; what is missing is empty."""
+    numbers = [pd.api.types.is_numeric_dtype(kind) for kind in table.dtypes]
+    head = " & ".join(_escaped(str(name)) for name in table.columns)
+    rows = [" & ".join(_cell(value) for value in row) for row in table.itertuples(index=False)]
+    body = "".join(f"{row} \\\\\n" for row in rows)
+    columns = "".join("r" if number else "l" for number in numbers)
+    return f"\\begin{{tabular}}{{{columns}}}\n\\toprule\n{head} \\\\\n\\midrule\n{body}\\bottomrule\n\\end{{tabular}}\n"
+
+
+def _cell(value: object) -> str:
+    if isinstance(value, (float, np.floating)):
+        return "" if np.isnan(value) else f"{value:.{DIGITS}g}"
+    return _escaped(str(value))
+
+
+def _escaped(text: str) -> str:
+    return "".join(_SIGNS.get(sign, sign) for sign in text)
 
 
 def ensemble_table(curves: Sequence[StudyCurves]) -> pd.DataFrame:

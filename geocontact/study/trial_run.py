@@ -29,6 +29,7 @@ DONE, WRONG, FAILED, SET_ASIDE, STOPPED = "done", "input error", "failed", "set 
 """What becomes of a trial; STOPPED concerns all: nothing can be written, or the worker has other sources."""
 NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EROFS)
 _one_at_a_time = threading.Lock()  # the working folder and what catches warnings are those of the whole process
+_sources = cache(source_digest.digest)
 
 
 @dataclass(frozen=True)
@@ -128,6 +129,3 @@ def _evaluate(task: TrialTask, out: Path) -> None:
     draft = out / f"{TOLD}.part"
     draft.write_text(json.dumps(told, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     os.replace(draft, out / TOLD)
-
-
-_sources = cache(source_digest.digest)

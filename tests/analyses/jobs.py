@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import geocontact as gc
-from geocontact.analyses.gap.benchmark.job import benchmark
+from geocontact.analyses.gap.benchmark.result import benchmark
 from geocontact.analyses.job import Job
 
 JOBS: tuple[Job, ...] = (

@@ -14,7 +14,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from geocontact.analyses.finished_page import INPUTS, OPTIONS, Thinned, finished
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import Part, Result
 from geocontact.analyses.run_record import Record
 from geocontact.io.text.written_units import CASES
 from geocontact.view.page.content import Page, Picture, Table, Words
@@ -81,6 +81,36 @@ def test_everything_stands_where_its_name_says(tmp_path: Path) -> None:
     pd.testing.assert_frame_equal(pd.read_csv(out / "right/forces.csv"), LINE, check_dtype=False)
     told = json.loads((out / "run.json").read_text(encoding="utf-8"))["tables"]
     assert told == {f"{side}/forces.csv": {"frame": "tray"} for side in ("left", "right")}
+
+
+@pytest.mark.parametrize(
+    ("part", "files"),
+    [
+        ("tables", {"cells.csv", "left/forces.csv", "right/forces.csv"}),
+        ("figures", {f"{name}.{end}" for name in ("both", "left/forces", "right/forces") for end in ("png", "svg")}),
+        ("pages", {"report.html"}),
+    ],
+)
+def test_parts_that_a_result_leaves_out_are_not_written(tmp_path: Path, part: Part, files: set[str]) -> None:
+    """The page of a result that has none of its own is one of figure and tables, whether these are files or not."""
+
+    class Whole(Walks):
+        def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
+            return {}
+
+    class Partial(Whole):
+        @property
+        def parts(self) -> frozenset[Part]:
+            return frozenset((part,))
+
+    def left(result: Result, folder: str) -> set[str]:
+        out = tmp_path / folder
+        out.mkdir()
+        result.write_files(out)
+        return {file.relative_to(out).as_posix() for file in out.rglob("*") if file.is_file()}
+
+    assert left(Partial(record=record(tmp_path)), "part") == files
+    assert files < left(Whole(record=record(tmp_path)), "whole")
 
 
 def test_a_table_in_units_of_its_own_is_refused_where_they_are_not_said(tmp_path: Path) -> None:

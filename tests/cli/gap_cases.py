@@ -13,11 +13,8 @@ from unittest import mock
 import numpy as np
 
 from geocontact.analyses.gap.diagnose.options import DiagnoseOptions
-from geocontact.analyses.gap.diagnose.read import read
-from geocontact.analyses.gap.diagnose.result import DiagnoseResult
-from geocontact.analyses.gap.diagnose.run import run
-from geocontact.analyses.gap.discriminability.job import discriminability
-from geocontact.analyses.gap.discriminability.result import DiscriminabilityResult
+from geocontact.analyses.gap.diagnose.result import DiagnoseResult, read, run
+from geocontact.analyses.gap.discriminability.result import DiscriminabilityResult, discriminability
 from geocontact.analyses.listener import Listener
 from geocontact.analyses.run_record import Record
 from tests.systems.examples import (
@@ -114,8 +111,8 @@ def known() -> Iterator[mock.Mock]:
     """A diagnosis is given those findings instead of making them again."""
     findings = diagnosed_elbow().findings
     with (
-        mock.patch("geocontact.analyses.gap.inject.run.diagnose", return_value=findings),
-        mock.patch("geocontact.analyses.gap.diagnose.run.diagnose", return_value=findings) as instead,
+        mock.patch("geocontact.analyses.gap.inject.result.diagnose", return_value=findings),
+        mock.patch("geocontact.analyses.gap.diagnose.result.findings_of", return_value=findings) as instead,
     ):
         yield instead
 

@@ -102,7 +102,7 @@ def test_cases_that_are_lost_are_told_and_written(monkeypatch: pytest.MonkeyPatc
     def killed(work: object, tasks: list[Task], jobs: int | None) -> Iterator[tuple[Task, BaseException]]:
         yield from ((task, RuntimeError("killed")) for task in tasks)
 
-    monkeypatch.setattr("geocontact.analyses.gap.benchmark.run.each", killed)
+    monkeypatch.setattr("geocontact.analyses.gap.benchmark.result.each", killed)
     out = tmp_path / "out"
     words = ("--system", "elbow", "--cases", 2, "--kinds", "none")
     told = done(call("gap", "benchmark", "--out", out, *words, folder=out))

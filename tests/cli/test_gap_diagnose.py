@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.analyses.gap.diagnose.kept_cases import kept
+from geocontact.analyses.gap.diagnose.many import kept
 from geocontact.analyses.gap.diagnose.options import ManyOptions
 from geocontact.analyses.json_file import plain
 from geocontact.analyses.run_again import read_run

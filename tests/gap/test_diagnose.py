@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from geocontact.analyses.gap.diagnose.words import verdict_sentences
-from geocontact.analyses.gap.words import proposal_words
+from geocontact.analyses.gap.case import proposal_words
+from geocontact.analyses.gap.diagnose.answer import verdict_sentences
 from geocontact.chain.system import System
 from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.parameter import Parameter

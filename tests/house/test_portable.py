@@ -11,7 +11,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 import pytest
 
 from geocontact.data.file_names import cannot_be_named, same_place
-from geocontact.study.description.found_files import expression_of, split_pattern
+from geocontact.study.trials import expression_of, split_pattern
 
 ROOT = Path(__file__).resolve().parents[2]
 POSIX_ONLY = {

@@ -31,7 +31,7 @@ from geocontact.io.recordings.radius_profile import read_radius_profile
 from geocontact.io.recordings.spheres import read_law, read_spheres
 from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.tables import read_table
-from geocontact.study.description.study_file import read_study_file
+from geocontact.study.description import read_study_file
 
 DEEP = "[" * 3000 + "1" + "]" * 3000
 SPHERE = """<OpenSimDocument Version="40000"><Model name="m"><Ground name="ground"/><ContactGeometrySet><objects>

@@ -16,8 +16,8 @@ from scipy.io import netcdf_file
 
 from geocontact.analyses.run_record import Record
 from geocontact.study.curves import StudyCurves
-from geocontact.study.lock import LOCK, sole_writer
-from geocontact.study.page import study_figure, study_page
+from geocontact.study.show import study_figure, study_page
+from geocontact.study.store import LOCK, sole_writer
 from geocontact.view.page.content import Curves
 from tests.cli.calls import Call, call
 from tests.study.quick import compared, study, tables, told

@@ -9,8 +9,7 @@ import pytest
 from scipy.ndimage import gaussian_filter1d
 from scipy.stats import permutation_test, ttest_1samp
 
-from geocontact.study.statistics.reliability import reliability
-from geocontact.study.statistics.sign_flip import sign_flips
+from geocontact.study.statistics import reliability, sign_flips
 
 SHROUT_FLEISS = np.array([[9, 2, 5, 8], [6, 1, 3, 2], [8, 4, 6, 8], [7, 1, 2, 6], [10, 5, 6, 9], [6, 2, 4, 7]], float)
 """Four judges of six targets: Shrout and Fleiss (1979), table 2."""

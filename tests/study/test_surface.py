@@ -12,9 +12,8 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from geocontact.data.errors import InputError
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.io.mesh.particles import read_particles
-from geocontact.study.statistics.sign_flip import sign_flips
-from geocontact.study.surface.tables import surface_difference_table, surface_fields, surface_table
-from geocontact.study.surface.values import SurfaceValues
+from geocontact.study.statistics import sign_flips
+from geocontact.study.surface import SurfaceValues, surface_difference_table, surface_fields, surface_table
 from geocontact.view.surfaces.points_vtp import write_points_vtp
 from tests.cli.calls import MESHES, Call, call
 

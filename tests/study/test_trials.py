@@ -8,8 +8,8 @@ import pytest
 
 from geocontact.data.errors import InputError
 from geocontact.study import address
-from geocontact.study.description.study_file import read_study_file
-from geocontact.study.description.trials import CohortTrial, trials_of
+from geocontact.study.description import read_study_file
+from geocontact.study.trials import CohortTrial, trials_of
 from tests.study.quick import QuickOptions
 
 

@@ -49,7 +49,7 @@ LONGEST = {
     "sit_to_stand.predict",
 }
 """More than ten CPU seconds; tests/analyses makes the same calls and looks at what they say."""
-DIAGNOSES = "geocontact.analyses.gap.diagnose.run.diagnose"
+DIAGNOSES = "geocontact.analyses.gap.diagnose.result.findings_of"
 OF_THE_SAME_CASE = {
     "discriminability": ("geocontact.gap.identifiability.discriminability.attribute", "attribution"),
     "inject": (DIAGNOSES, None),

@@ -12,4 +12,4 @@ exact intervals, beside two residual regressions, a constant answer and an oracl
 reliability.svg and run.json into OUT, and prints the table. The default takes an hour and a half on two cores.
 """
 
-benchmark = Command("geocontact.analyses.gap.benchmark.job:benchmark", BenchmarkOptions, HELP)
+benchmark = Command("geocontact.analyses.gap.benchmark.result:benchmark", BenchmarkOptions, HELP)

@@ -15,7 +15,7 @@ the others are diagnosed all the same.
 
 
 def _job(given: Options) -> str:
-    return f"geocontact.analyses.gap.diagnose.job:diagnose{'_many' if given.given('many') else ''}"
+    return f"geocontact.analyses.gap.diagnose.{'many:diagnose_many' if given.given('many') else 'result:diagnose'}"
 
 
 diagnose = Command(_job, ManyOptions, HELP)

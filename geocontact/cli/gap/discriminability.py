@@ -11,5 +11,5 @@ Writes confuse.json, separability.csv, detectability.csv, report.html, figures (
 """
 
 discriminability = Command(
-    "geocontact.analyses.gap.discriminability.job:discriminability", DiscriminabilityOptions, HELP
+    "geocontact.analyses.gap.discriminability.result:discriminability", DiscriminabilityOptions, HELP
 )

@@ -20,5 +20,5 @@ def _next(_: Result, folder: Path) -> None:
 
 
 gather = Command(
-    "geocontact.analyses.gap.gather.job:gather", GatherOptions, HELP, out="Folder for the case.", after=_next
+    "geocontact.analyses.gap.gather.result:gather", GatherOptions, HELP, out="Folder for the case.", after=_next
 )

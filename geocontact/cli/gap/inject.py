@@ -11,4 +11,4 @@ Writes case/ (the case with the effect in it), diagnosis/ (as `gap diagnose` doe
 OUT. What the trials miss already stays in them.
 """
 
-inject = Command("geocontact.analyses.gap.inject.job:inject", InjectOptions, HELP)
+inject = Command("geocontact.analyses.gap.inject.result:inject", InjectOptions, HELP)

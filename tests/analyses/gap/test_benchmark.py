@@ -12,14 +12,11 @@ import pytest
 import geocontact as gc
 import geocontact.gap
 from benchmarks.constants_of import numbers_in
-from geocontact.analyses.gap.benchmark import run as gap_benchmark_run
-from geocontact.analyses.gap.benchmark.alarms import alarms
+from geocontact.analyses.gap.benchmark import result as gap_benchmark_result
 from geocontact.analyses.gap.benchmark.case import ANSWERERS, Task, Worked, alike, failed, renamed, worked
-from geocontact.analyses.gap.benchmark.content import constants_of_all
-from geocontact.analyses.gap.benchmark.job import benchmark
-from geocontact.analyses.gap.benchmark.lines import page_lines
-from geocontact.analyses.gap.benchmark.outcome import BenchmarkOutcome
-from geocontact.analyses.gap.benchmark.run import mixed
+from geocontact.analyses.gap.benchmark.outcome import BenchmarkOutcome, alarms
+from geocontact.analyses.gap.benchmark.result import benchmark, mixed
+from geocontact.analyses.gap.benchmark.show import constants_of_all, page_lines
 from geocontact.analyses.json_file import plain
 from geocontact.gap_benchmark.drawing import ABROAD, KINDS, SHARES, Lot, drawn, lots, shares
 from tests.house.test_gap_theory import ROWS
@@ -95,7 +92,7 @@ def test_what_was_done_is_scored_when_somebody_interrupts(monkeypatch: pytest.Mo
         yield tasks[0], Worked(tasks[0].lot, "elbow_1", label, {who: failed(label) for who in ANSWERERS}, 1.0, 1.0)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(gap_benchmark_run, "each", until_interrupted)
+    monkeypatch.setattr(gap_benchmark_result, "each", until_interrupted)
     with pytest.warns(gc.InputWarning, match="interrupted after 1 of 4 cases"):
         result = benchmark(system="elbow", cases=4, kinds="none")
     assert result.outcome.kinds == {"none": 1}
@@ -108,7 +105,7 @@ def test_an_interruption_before_the_first_case_ends_it(monkeypatch: pytest.Monke
         raise KeyboardInterrupt
         yield
 
-    monkeypatch.setattr(gap_benchmark_run, "each", at_once)
+    monkeypatch.setattr(gap_benchmark_result, "each", at_once)
     with pytest.raises(KeyboardInterrupt):
         benchmark(cases=2, kinds="none")
 
@@ -124,7 +121,7 @@ def test_the_laboratory_that_is_asked_for_records(
         raise KeyboardInterrupt
         yield
 
-    monkeypatch.setattr(gap_benchmark_run, "each", noted)
+    monkeypatch.setattr(gap_benchmark_result, "each", noted)
     with pytest.raises(KeyboardInterrupt):
         benchmark(system="elbow", cases=4, kinds="none", laboratory=laboratory)
     assert sorted(lot.laboratory for lot in asked) == sorted(expected)
@@ -134,7 +131,7 @@ def test_a_case_whose_process_is_lost_counts_as_wrong(monkeypatch: pytest.Monkey
     def killed(work: object, tasks: list[Task], jobs: int | None) -> Iterator[tuple[Task, BaseException]]:
         yield from ((task, RuntimeError("killed")) for task in tasks)
 
-    monkeypatch.setattr(gap_benchmark_run, "each", killed)
+    monkeypatch.setattr(gap_benchmark_result, "each", killed)
     with pytest.warns(gc.InputWarning, match="was lost: RuntimeError: killed"):
         result = benchmark(system="elbow", cases=2, kinds="none", seed=SEED)
     assert result.outcome.kinds == {"none": 2} and result.table()["verdict"].tolist() == ["failed"] * 2
@@ -178,7 +175,7 @@ def test_claims_of_cases_that_lack_nothing_have_a_row_by_system_and_laboratory()
 @pytest.mark.slow
 def test_a_journal_goes_on_where_it_ended(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     journal, worked_on = tmp_path / "kept" / "cases.jsonl", []
-    monkeypatch.setattr(gap_benchmark_run, "each", counted(worked_on))
+    monkeypatch.setattr(gap_benchmark_result, "each", counted(worked_on))
 
     def run(cases: int, name: str) -> dict:
         with pytest.warns(gc.InputWarning, match="it is made up"):

@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.gap.diagnose.job import diagnose_many
+from geocontact.analyses.gap.diagnose.many import diagnose_many
 from geocontact.analyses.gap.diagnose.options import ManyOptions
 from geocontact.analyses.gap.diagnose.result import DiagnoseResult
 from geocontact.analyses.job import Call, execute

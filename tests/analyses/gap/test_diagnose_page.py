@@ -11,10 +11,12 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.gap.diagnose.figures import axis_units, gap_figures
-from geocontact.analyses.gap.diagnose.page import facts_of, gap_page
-from geocontact.analyses.gap.diagnose.words import states, untried_law, verdict_sentences
-from geocontact.analyses.gap.words import percent
+from geocontact.analyses.figure_files import Drawings
+from geocontact.analyses.finished_page import finished
+from geocontact.analyses.gap.case import percent
+from geocontact.analyses.gap.diagnose.answer import axis_units, facts_of, states, untried_law, verdict_sentences
+from geocontact.analyses.gap.diagnose.show import gap_figures, gap_page
+from geocontact.analyses.run_record import Record
 from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.cell import Cell
@@ -38,10 +40,16 @@ def told() -> Told:
     return result.case, result.findings
 
 
+def as_left(case: GapCase, findings: Findings, reservation: str) -> Page:
+    """The page with its pictures, as the frame leaves it."""
+    page = gap_page(case, findings, Drawings(lambda: gap_figures(findings)))
+    return finished(page, Record("gap diagnose", {}, {}), "", (reservation,))
+
+
 @pytest.fixture(scope="module")
 def page(told: Told) -> Page:
     """Its page."""
-    return gap_page(*told, gap_figures(told[1]), (), ("a reservation",))
+    return as_left(*told, "a reservation")
 
 
 def table(page: Page, title: str) -> dict[str, tuple[str, ...]]:
@@ -160,7 +168,7 @@ def test_hostile_names_stay_text(told: Told) -> None:
     )
     shown = tuple(replace(trial, name=HOSTILE) for trial in findings.held_out)
     there = replace(findings, diagnosis=spoilt, held_out=shown)
-    html = page_html(gap_page(case, there, gap_figures(there), (), (HOSTILE,)))
+    html = page_html(as_left(case, there, HOSTILE))
     assert "<script>alert" not in html and "&lt;script&gt;alert" in html
     pictures = [base64.b64decode(text) for text in re.findall(r"svg\+xml;base64,([^\"]+)", html)]
     assert not any(b"<script" in picture for picture in pictures)

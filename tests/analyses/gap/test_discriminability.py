@@ -67,7 +67,7 @@ def test_the_page_has_sizes_in_a_table(confused: DiscriminabilityResult, tmp_pat
 @pytest.mark.slow
 def test_python_and_command_write_the_same_tables(confused: DiscriminabilityResult, tmp_path: Path) -> None:
     case, asked = damped_elbow(tmp_path / "elbow_7"), ",".join(EFFECTS)
-    with mock.patch("geocontact.analyses.gap.discriminability.run.discriminability", return_value=confused.found):
+    with mock.patch("geocontact.analyses.gap.discriminability.result.compared", return_value=confused.found):
         typed = call("gap", "discriminability", case, "--effects", asked, "--bare", "--out", tmp_path / "typed")
         called = gc.discriminability(case, effects=asked, bare=True).write(tmp_path / "called")
     done(typed)

@@ -10,8 +10,7 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.gap.inject.judged import imitated, judged
-from geocontact.analyses.gap.inject.words import sentences
+from geocontact.analyses.gap.inject.injection import imitated, judged, sentences
 from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.diagnosis import Diagnosis, Estimate
 from geocontact.effects.catalogue import candidates

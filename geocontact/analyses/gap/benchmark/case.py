@@ -1,18 +1,21 @@
-"""One case of a benchmark in a process of its own: drawn, written, read back, diagnosed, and handed over to scoring."""
+"""One case of a benchmark in a process of its own: drawn, written, read back, diagnosed, and put into a journal."""
 
 from __future__ import annotations
 
+import json
 import shutil
 import time
 import traceback
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from threadpoolctl import threadpool_limits
 
 from geocontact.analyses.json_file import plain
+from geocontact.analyses.source_digest import digest
+from geocontact.data.errors import InputError
 from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.data.version import VERSION
@@ -196,3 +199,43 @@ def alike(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
 def _told(error: Exception) -> str:
     last = traceback.extract_tb(error.__traceback__)[-1]
     return f"{type(error).__name__}: {' '.join(str(error).split())} ({Path(last.filename).name} {last.lineno})"
+
+
+class Journal:
+    """What was worked by the same sources; of any seed, so that runs can be put together.
+
+    The file is only added to: an end in between costs the case at hand.
+
+    Parameters
+    ----------
+    path
+        The file; begun where it is not there. InputError where other sources wrote it.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path, here = path, digest()
+        lines = path.read_text(encoding="utf-8").splitlines(keepends=True) if path.is_file() else []
+        whole = [json.loads(line) for line in lines if line.endswith("\n")]  # one that was cut off is no case
+        if whole and whole[0] != {"sources": here}:
+            what = f"was written by sources {whole[0].get('sources')}, these are {here}"
+            raise InputError(path, "line 1", what, "take the same version, or another file")
+        if lines and not lines[-1].endswith("\n"):
+            path.write_text("".join(lines[:-1]), encoding="utf-8")
+        if not whole:
+            self._add({"sources": here})
+        self.done = {one.lot: one for one in map(_case_of, whole[1:])}
+
+    def keep(self, one: Worked) -> None:
+        """Add a case."""
+        self.done[one.lot] = one
+        self._add(asdict(one))
+
+    def _add(self, line: dict[str, object]) -> None:
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        with self.path.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(line) + "\n")
+
+
+def _case_of(row: dict[str, object]) -> Worked:
+    given = dict(row)
+    return Worked(**{**given, "lot": Lot(**given["lot"]), "trouble": tuple(given["trouble"])})  # type: ignore[arg-type]

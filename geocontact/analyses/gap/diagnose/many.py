@@ -6,29 +6,164 @@ the results are those of one call per case. Each is written as it is done: a run
 
 from __future__ import annotations
 
+import json
 import shutil
 import traceback
 import uuid
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
-from geocontact.analyses.gap.diagnose.kept_cases import SAID, SOURCES, kept, row, run_of
-from geocontact.analyses.gap.diagnose.many_result import FAILED, SUMMARY, ManyResult, Outcome
+import pandas as pd
+
 from geocontact.analyses.gap.diagnose.options import ManyOptions
-from geocontact.analyses.gap.diagnose.read import read
-from geocontact.analyses.gap.diagnose.run import run
+from geocontact.analyses.gap.diagnose.result import read, run
+from geocontact.analyses.job import Job
 from geocontact.analyses.page_words import counted
+from geocontact.analyses.result import Part, Result
 from geocontact.analyses.results_folder import Scratch, written_whole
+from geocontact.analyses.run_again import read_run, results_of
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.source_digest import digest as sources_digest
-from geocontact.analyses.stale_results import RUN
+from geocontact.analyses.stale_results import RUN, digest
 from geocontact.analyses.table_forms import TableForms
 from geocontact.analyses.workers import each
 from geocontact.data.errors import InputError
+from geocontact.data.version import VERSION
 from geocontact.io.cases.gap_case import gap_case_folders
 
+SUMMARY = "summary"
+FAILED = 1
+ANSWER = "diagnosis.json"
+SOURCES, SAID = "sources", "said"
+"""Of the results in run.json: which sources they came of, and the verdict in words."""
 WRONG = 2
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of one case.
+
+    Parameters
+    ----------
+    code
+        0 done, 2 for a mistake in the input, 1 for any other failure.
+    line
+        What it says: the verdict, or what is wrong.
+    warnings
+        Reservations.
+    row
+        Of the summary.
+    """
+
+    name: str
+    code: int
+    line: str
+    warnings: tuple[str, ...] = ()
+    row: tuple[tuple[str, str | float], ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class ManyResult(Result):
+    """Diagnoses of the cases in a folder, each in a sub-folder of its own.
+
+    Parameters
+    ----------
+    outcomes
+        What became of each case, by name.
+    scratch
+        Where the results of each case lie until they are written.
+    """
+
+    options: ManyOptions
+    outcomes: tuple[Outcome, ...]
+    scratch: Scratch
+
+    @property
+    def done(self) -> tuple[Outcome, ...]:
+        """Cases that could be diagnosed."""
+        return tuple(one for one in self.outcomes if one.code == 0)
+
+    @property
+    def accepted(self) -> bool:
+        """False where a case could not be diagnosed."""
+        return len(self.done) == len(self.outcomes)
+
+    @property
+    def exit_code(self) -> int:
+        """That of the worst case."""
+        codes = {one.code for one in self.outcomes}
+        return FAILED if FAILED in codes else max(codes)
+
+    @property
+    def title(self) -> str:
+        """With the folder of the cases."""
+        return f"Gap diagnoses of {self.options.case.name}"
+
+    @property
+    def parts(self) -> frozenset[Part]:
+        """The summary alone; pages are those of the cases."""
+        return frozenset(("tables",))
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`summary`: a row for each case that could be diagnosed."""
+        return {SUMMARY: pd.DataFrame([dict(one.row) for one in self.done])}
+
+    def write_files(self, folder: Path) -> None:
+        """Also all results of each case in a sub-folder of its name."""
+        super().write_files(folder)
+        for one in self.done:
+            shutil.copytree(self.scratch.folder / one.name, folder / one.name)
+
+
+def kept(case: Path, folder: Path, o: ManyOptions, sources: str) -> Outcome | None:
+    """What an earlier run found of a case, or None where it must be diagnosed again.
+
+    Parameters
+    ----------
+    folder
+        Of its results.
+    sources
+        Digest of the package's sources now.
+    """
+    try:
+        before = read_run(folder)
+        if before.command != "gap diagnose" or before.version != VERSION or case / "case.toml" not in before.inputs:
+            return None
+        told = json.loads((folder / RUN).read_bytes())
+        alike = all(told["options_si"].get(name) == getattr(o, name) for name in ("bare", "run_simulator"))
+        if not alike or told["results"][SOURCES] != sources or before.changed():
+            return None
+        if any(digest(folder / name) != known for name, known in results_of(folder).items()):
+            return None
+        answer = json.loads((folder / ANSWER).read_bytes())
+        return Outcome(case.name, 0, told["results"][SAID], tuple(told["warnings"]), row(answer))
+    except (InputError, OSError, KeyError, TypeError, AttributeError, ValueError):
+        return None  # nothing there, or not of this make
+
+
+def run_of(folder: Path) -> str:
+    """Mark of the run that results are of."""
+    return str(json.loads((folder / RUN).read_bytes())["results"]["run"])
+
+
+def row(d: Mapping[str, Any]) -> tuple[tuple[str, str | float], ...]:
+    """A case in the summary, from what diagnosis.json holds."""
+    effects = d["effects"]
+    answer = effects or {"no_gap": ("none",), "unknown": ("unknown",)}.get(d["verdict"], ())
+    return (
+        ("case", d["case"]),
+        ("system", d["system"]),
+        ("verdict", d["verdict"]),
+        ("effects", " + ".join(effects)),
+        ("ambiguity", " ".join(d["ambiguity"])),
+        ("one_law", " ".join("=".join(group) for group in d.get("one_law", []))),
+        ("probability [-]", float(sum(d["probabilities"].get(name, 0.0) for name in answer))),
+        ("largest_reduction [-]", max((g["reduction"] for g in d["gap"].values()), default=0.0)),
+        ("seconds [s]", round(d["seconds"], 3)),
+    )
 
 
 def read_folders(o: ManyOptions, record: Record) -> list[Path]:
@@ -143,3 +278,6 @@ def outcome(
         last = traceback.extract_tb(error.__traceback__)[-1]
         return failed(FAILED, f"{folder}: {type(error).__name__}: {error} ({Path(last.filename).name} {last.lineno})")
     return Outcome(folder.name, 0, result.sentences[0], result.warnings, row(result.diagnosis.as_dict()))
+
+
+diagnose_many = Job("gap diagnose", ManyOptions, read_folders, run_many)

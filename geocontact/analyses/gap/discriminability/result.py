@@ -1,4 +1,22 @@
-"""What trials are found to tell: tables, matrix and bars, page."""
+r"""What trials can tell: `geocontact gap discriminability`, `gc.discriminability`.
+
+>>> import geocontact as gc, numpy as np, pandas as pd
+>>> from pathlib import Path
+>>> Path("case/trials").mkdir(parents=True)
+>>> time, noise = 0.04 * np.arange(160), np.random.default_rng(3)
+>>> for k in range(1, 6):
+...     angle = 0.3 * np.sin((2.0 + 0.4 * k) * time) + 0.08 * np.sin((5.0 + k) * time)
+...     torque = 60.0 * angle + 3.0 * np.gradient(angle, time) + noise.normal(0.0, 0.2, 160)
+...     trial = pd.DataFrame({"time [s]": time, "angle [rad]": angle, "torque [N m]": torque})
+...     trial.to_csv(f"case/trials/t{k}.csv", index=False)
+>>> text = 'format = 1\nsystem = "geocontact.systems.elastic_joint.model:JOINT"\n'
+>>> text += 'calibration = ["t1", "t2", "t3"]\nevaluation = ["t4", "t5"]\n[noise]\ntorque = 0.2\n'
+>>> text += '[parameters.k]\nstart = 50.0\nlower = 10.0\nupper = 200.0\nunit = "N m/rad"\n'
+>>> _ = Path("case/case.toml").write_text(text)
+>>> result = gc.discriminability("case", effects="damping,time_shift")
+>>> list(result.table("detectability").columns)[:3]
+['effect', 'parameter', 'smallest']
+"""
 
 from __future__ import annotations
 
@@ -9,24 +27,31 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing, save_both
-from geocontact.analyses.gap.discriminability.answer import answer
-from geocontact.analyses.gap.discriminability.figures import confusion_figures, matrix_figure
+from geocontact.analyses.gap.case import CaseWithModel, read_case
+from geocontact.analyses.gap.discriminability.answer import (
+    answer,
+    confusion_sentences,
+    detectability_table,
+    separability_table,
+    sizes_sentence,
+)
 from geocontact.analyses.gap.discriminability.options import DiscriminabilityOptions
-from geocontact.analyses.gap.discriminability.page import confusion_page
-from geocontact.analyses.gap.discriminability.tables import detectability_table, separability_table
+from geocontact.analyses.gap.discriminability.show import confusion_figures, confusion_page
+from geocontact.analyses.job import Job
 from geocontact.analyses.json_file import write_json
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import PARTS, REPORT, Part, Result
+from geocontact.analyses.run_record import Record
+from geocontact.chain.system import System
+from geocontact.data.errors import InputError
 from geocontact.data.gap.case import GapCase
-from geocontact.gap.identifiability.discriminability import Discriminability
-from geocontact.io.text.results import write_table
+from geocontact.gap.identifiability.discriminability import Discriminability, known, offered
+from geocontact.gap.identifiability.discriminability import discriminability as compared
 from geocontact.io.text.written_units import CASES
-from geocontact.view.page.tables import inputs_table
-from geocontact.view.page.write import write_page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -45,31 +70,76 @@ class DiscriminabilityResult(Result):
     case: GapCase
     found: Discriminability
 
+    @property
+    def title(self) -> str:
+        """Name of the case."""
+        return self.case.name
+
+    @property
+    def parts(self) -> frozenset[Part]:
+        """Tables alone where no more is wanted."""
+        return frozenset(("tables",)) if self.options.bare else PARTS
+
+    def units(self, table: str) -> Mapping[str, str]:
+        """SI, as in the case."""
+        return CASES
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`separability`: a row per pair of effects; `detectability`: the smallest amplitude of each."""
         return {"separability": separability_table(self.found), "detectability": detectability_table(self.found)}
 
-    def figure(self) -> Figure:
-        """Who is told from whom."""
-        return matrix_figure(self.found)
-
     def figures(self) -> dict[str, Figure]:
-        """Matrix and smallest amplitudes, by the name of their files."""
+        """`separability`: who is told from whom; `detectability`: from which size on effects are seen."""
         return confusion_figures(self.found)
 
-    def write_files(self, folder: Path) -> None:
-        """Answer and tables, and unless they are not wanted figures and page."""
-        write_json(folder / "confuse.json", answer(self.case, self.found, self.options.nats))
-        for name, table in self.tables().items():
-            write_table(table, folder, name, CASES)
-        if not self.options.bare:
-            drawings = {name: save_both(figure, folder, name) for name, figure in self.figures().items()}
-            self._write_page(folder / "report.html", drawings)
-
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Sentences, matrix, smallest amplitudes."""
-        self._write_page(file, {name: drawing(figure) for name, figure in self.figures().items()})
+        return {REPORT: confusion_page(self.title, self.found, drawings)}
 
-    def _write_page(self, file: Path, drawings: Mapping[str, bytes]) -> None:
-        provenance = [inputs_table(self.record.inputs), options_table(self.record)]
-        write_page(confusion_page(self.case.name, self.found, drawings, provenance, self.warnings), file)
+    def write_files(self, folder: Path) -> None:
+        """Also the answer."""
+        super().write_files(folder)
+        write_json(folder / "confuse.json", answer(self.case, self.found, self.options.nats))
+
+
+@dataclass(frozen=True)
+class Question:
+    """A case with its base model, and names of effects; none of them for all."""
+
+    given: CaseWithModel
+    effects: tuple[str, ...]
+
+
+def read(o: DiscriminabilityOptions, record: Record) -> Question:
+    """Case, base model and effects."""
+    given = read_case(o.case, o.run_simulator, record)
+    return Question(given, asked(o.effects, given.system))
+
+
+def asked(text: str | None, system: System) -> tuple[str, ...]:
+    """Names in a list; InputError where the system has no such effect, or none of them has a size to speak of."""
+    if text is None:
+        return ()
+    names = tuple(name.strip() for name in text.split(",") if name.strip())
+    every = {name for one in known(system) for name in (one.name, one.label)}
+    wrong = [name for name in names if name not in every]
+    if wrong or not names:
+        effects = ", ".join(dict.fromkeys(one.name for one in known(system)))
+        raise InputError("", "`effects`", f"no effect '{wrong[0] if wrong else text}'", f"{system.name} has {effects}")
+    if not offered(system, names):
+        raise InputError("", "`effects`", f"no size to compare has {' or '.join(names)}", "name an effect beside it")
+    return names
+
+
+def run(question: Question, o: DiscriminabilityOptions, record: Record) -> DiscriminabilityResult:
+    """Every effect on top of the base model, and what is found in words."""
+    case, system, names = question.given.case, question.given.system, question.effects
+    with record.listener.progress("effects", 2 * len(offered(system, names))) as step:
+        found = compared(case, system, names, o.nats, step)
+    for sentence in (*confusion_sentences(found), sizes_sentence(found)):
+        if sentence:
+            record.say(sentence)
+    return DiscriminabilityResult(record=record, options=o, case=case, found=found)
+
+
+discriminability = Job("gap confuse", DiscriminabilityOptions, read, run)

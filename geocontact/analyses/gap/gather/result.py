@@ -1,19 +1,44 @@
-"""A gap case made of recordings."""
+r"""A gap case of recordings: `geocontact gap gather`, `gc.gather`.
+
+>>> import geocontact as gc, numpy as np, pandas as pd
+>>> from pathlib import Path
+>>> time = np.linspace(0.0, 1.0, 51)
+>>> forces = pd.DataFrame({"time [s]": time, "medial [N]": 800.0 + 100.0 * time, "lateral [N]": 500.0 - 50.0 * time})
+>>> forces.to_csv("forces.csv", index=False)
+>>> areas = {"area_medial [mm^2]": 60.0 + 5.0 * time, "area_lateral [mm^2]": 40.0 - 2.0 * time}
+>>> pd.DataFrame({"time [s]": time, **areas}).to_csv("areas.csv", index=False)
+>>> text = 'format = 1\nsystem = "knee"\ncalibration = ["t1"]\nevaluation = ["t2"]\nconstants = { R = 0.037 }\n'
+>>> text += 'parameters.E_star = { start = 1e7, lower = 1e5, upper = 1e9, unit = "Pa" }\n'
+>>> for name in ("t1", "t2"):
+...     text += f'[from.{name}]\ninputs = "areas.csv"\nforces = "forces.csv"\n'
+>>> _ = Path("gather.toml").write_text(text)
+>>> print(gc.gather("gather.toml").sentences[0])
+2 trials
+"""
 
 from __future__ import annotations
 
 import shutil
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pandas as pd
 
 from geocontact.analyses.gap.gather.options import GatherOptions
-from geocontact.analyses.gap.gather.page import write_gather_page
-from geocontact.analyses.result import Result
+from geocontact.analyses.gap.gather.recordings import Recordings, gathered, read
+from geocontact.analyses.gap.gather.show import gather_page
+from geocontact.analyses.job import Job
+from geocontact.analyses.result import REPORT, Part, Result
 from geocontact.analyses.results_folder import Scratch
+from geocontact.analyses.run_record import Record
 from geocontact.data.gap.case import GapCase
-from geocontact.io.cases.gap_case_writer import trial_table
+from geocontact.io.cases.gap_case import read_gap_case
+from geocontact.io.cases.gap_case_writer import trial_table, write_gap_case
+
+if TYPE_CHECKING:
+    from geocontact.view.page.content import Page
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -32,15 +57,39 @@ class GatherResult(Result):
     case: GapCase
     scratch: Scratch
 
+    @property
+    def title(self) -> str:
+        """Which description was gathered."""
+        return f"Trials of {self.options.settings.name}"
+
+    @property
+    def parts(self) -> frozenset[Part]:
+        """The page; tables are among the files of the case."""
+        return frozenset(("pages",))
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`trials/<id>`: every trial, those that may be fitted to first."""
         return {f"trials/{one.name}": trial_table(one) for one in (*self.case.calibration, *self.case.evaluation)}
 
-    def write_files(self, folder: Path) -> None:
-        """case.toml, trials, cells and tables, page."""
-        shutil.copytree(self.scratch.folder, folder, dirs_exist_ok=True)
-        self.write_page(folder / "report.html")
-
-    def write_page(self, file: Path) -> None:
+    def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Every channel of the trials over time."""
-        write_gather_page(file, f"Trials of {self.options.settings.name}", self.record, self.case)
+        return {REPORT: gather_page(self.title, self.case)}
+
+    def write_files(self, folder: Path) -> None:
+        """Also case.toml, trials, cells and tables."""
+        shutil.copytree(self.scratch.folder, folder, dirs_exist_ok=True)
+        super().write_files(folder)
+
+
+def run(recordings: Recordings, o: GatherOptions, record: Record) -> GatherResult:
+    """The case, which can be read again as it will be written."""
+    case = gathered(recordings, o, record)
+    scratch = Scratch()
+    write_gap_case(case, scratch.folder)
+    read_gap_case(scratch.folder)
+    sites = "".join(f", {site} ({len(own.ids)} cells)" for site, own in case.cells.items())
+    record.say(f"{len(recordings.trials)} trials{sites}")
+    return GatherResult(record=record, options=o, case=case, scratch=scratch)
+
+
+gather = Job("gap gather", GatherOptions, read, run)

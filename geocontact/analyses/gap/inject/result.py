@@ -1,4 +1,22 @@
-"""What comes of an effect that was put in: the case that has it, and whether it was found."""
+r"""Would an effect be found? `geocontact gap inject`, `gc.inject`.
+
+>>> import geocontact as gc, numpy as np, pandas as pd
+>>> from pathlib import Path
+>>> Path("case/trials").mkdir(parents=True)
+>>> time, noise = 0.04 * np.arange(160), np.random.default_rng(3)
+>>> for k in range(1, 6):
+...     angle = 0.3 * np.sin((2.0 + 0.4 * k) * time) + 0.08 * np.sin((5.0 + k) * time)
+...     torque = 60.0 * angle + 3.0 * np.gradient(angle, time) + noise.normal(0.0, 0.2, 160)
+...     trial = pd.DataFrame({"time [s]": time, "angle [rad]": angle, "torque [N m]": torque})
+...     trial.to_csv(f"case/trials/t{k}.csv", index=False)
+>>> text = 'format = 1\nsystem = "geocontact.systems.elastic_joint.model:JOINT"\n'
+>>> text += 'calibration = ["t1", "t2", "t3"]\nevaluation = ["t4", "t5"]\n[noise]\ntorque = 0.2\n'
+>>> text += '[parameters.k]\nstart = 50.0\nlower = 10.0\nupper = 200.0\nunit = "N m/rad"\n'
+>>> _ = Path("case/case.toml").write_text(text)
+>>> gc.inject("case", effect="damping", size=1.0).sentences[0]
+'injected damping (damping.b = 0.9232 N m s/rad, damping.exponent = 1 -); it makes a gap of 1 times the noise
+floor'
+"""
 
 from __future__ import annotations
 
@@ -9,22 +27,31 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.gap.case import CaseWithModel, read_case
+from geocontact.analyses.gap.diagnose.options import DiagnoseOptions
 from geocontact.analyses.gap.diagnose.result import DiagnoseResult
-from geocontact.analyses.gap.inject.answer import answer, parameter_rows
-from geocontact.analyses.gap.inject.judged import Judgement
+from geocontact.analyses.gap.diagnose.result import read as read_diagnosis
+from geocontact.analyses.gap.diagnose.result import run as run_diagnosis
+from geocontact.analyses.gap.inject.injection import Judgement, answer, judged, parameter_rows, planted, sentences
 from geocontact.analyses.gap.inject.options import InjectOptions
+from geocontact.analyses.job import Job
 from geocontact.analyses.json_file import write_json
-from geocontact.analyses.result import Result
+from geocontact.analyses.result import Part, Result
 from geocontact.analyses.results_folder import Scratch
+from geocontact.analyses.run_record import Record
 from geocontact.chain.candidate import Candidate
+from geocontact.data.errors import InputError
 from geocontact.data.gap.diagnosis import Diagnosis
+from geocontact.gap.diagnose import diagnose
 from geocontact.gap.inject import Injected
+from geocontact.io.cases.gap_case_writer import write_trials
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 CASE, DIAGNOSIS = "case", "diagnosis"
 COLUMNS = ["parameter", "unit", "planted", "found", "low", "high"]
+LEAST = 0.5  # of the size that was asked for, from which a bound of the amplitude deserves a word
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -57,18 +84,32 @@ class InjectResult(Result):
         """The answer, as in diagnosis/diagnosis.json."""
         return self.diagnosed.diagnosis
 
+    @property
+    def title(self) -> str:
+        """Which effect was put into which case."""
+        return f"{self.effect.label} in {self.diagnosis.case}"
+
+    @property
+    def parts(self) -> frozenset[Part]:
+        """None: the diagnosis writes its own, planted.json has the effect's parameters."""
+        return frozenset()
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`planted`: parameters of the effect as they were put in and found; `diagnosis/ranking` and so on."""
         rows = parameter_rows(self.effect, self.planted, self.diagnosis)
         found = {f"{DIAGNOSIS}/{name}": table for name, table in self.diagnosed.tables().items()}
         return {"planted": pd.DataFrame(rows, columns=COLUMNS), **found}
 
+    def figures(self) -> dict[str, Figure]:
+        """Those of the diagnosis: `diagnosis/gap_map` and so on."""
+        return {f"{DIAGNOSIS}/{name}": figure for name, figure in self.diagnosed.figures().items()}
+
     def figure(self) -> Figure:
         """Where the gap is."""
         return self.diagnosed.figure()
 
     def write_files(self, folder: Path) -> None:
-        """The case, its diagnosis, and what was put in."""
+        """The case, its diagnosis with a record of its own, and what was put in."""
         shutil.copytree(self.scratch.folder / CASE, folder / CASE)
         (folder / DIAGNOSIS).mkdir()
         self.diagnosed.put(folder / DIAGNOSIS)
@@ -77,3 +118,54 @@ class InjectResult(Result):
     def write_page(self, file: Path) -> None:
         """That of the diagnosis."""
         self.diagnosed.write_page(file)
+
+
+def read(o: InjectOptions, record: Record) -> CaseWithModel:
+    """Case and base model; results do not go into the folder that is copied."""
+    out = record.options.get("out")
+    if isinstance(out, Path) and o.case.resolve() in (out.resolve(), *out.resolve().parents):
+        raise InputError(out, "", "lies inside the case that is copied there", "`out` names a folder beside the case")
+    return read_case(o.case, o.run_simulator, record)
+
+
+def run(given: CaseWithModel, o: InjectOptions, record: Record) -> InjectResult:
+    """The case with the effect in it, and its diagnosis as from a folder, to the digits printed there.
+
+    The case without it is diagnosed first: what it lacks anyway is not found because of what was injected.
+    """
+    one, made = planted(given, o)
+    with record.listener.stages("the case without it") as at:
+        before = diagnose(given.case, given.system, at=at).diagnosis
+    scratch = Scratch()
+    shutil.copytree(given.folder, scratch.folder / CASE)
+    write_trials(made.case, scratch.folder / CASE)
+    if given.case.cells:
+        record.warn("cells of mats are left as they were: they do not show the effect")
+    found = _diagnosed(scratch.folder / CASE, o, record)
+    judgement = judged(one, made, before, found.diagnosis)
+    result = InjectResult(
+        record=record, options=o, effect=one, planted=made, diagnosed=found, judgement=judgement, scratch=scratch
+    )
+    record.results["planted"] = answer(one, made, found.diagnosis, judgement)
+    for sentence in sentences(one, made, found.diagnosis, judgement):
+        record.say(sentence)
+    if made.size < LEAST * o.size and not (one.parameters and one.parameters[0].name in o.value):
+        record.warn("the amplitude is as large as its bounds admit; base parameters imitate the rest")
+    record.say(found.sentences[0])
+    return result
+
+
+def _diagnosed(home: Path, o: InjectOptions, record: Record) -> DiagnoseResult:
+    """Diagnosis with a record of its own, which names files as they will lie beside it."""
+    out = Path(str(record.options.get("out", "")))
+    options = DiagnoseOptions(home, bare=o.bare, run_simulator=o.run_simulator)
+    typed = {"case": out / CASE, "out": out / DIAGNOSIS, "bare": o.bare}
+    own = Record("gap diagnose", typed, options.in_si() | {"case": out / CASE}, listener=record.listener)
+    with own.catching_warnings():
+        found = run_diagnosis(read_diagnosis(options, own), options, own)
+    for entry in own.inputs:
+        entry["file"] = str(entry["file"]).replace(str(home), str(out / CASE), 1)
+    return found
+
+
+inject = Job("gap plant", InjectOptions, read, run)

@@ -1,18 +1,30 @@
-"""What was recorded of several trials, as gather.toml names it."""
+"""What was recorded of several trials, as gather.toml names it, brought together into one case."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pandas as pd
 
+from geocontact.analyses.gap.gather.channels import (
+    alike_mats,
+    cell_channels,
+    with_mat,
+    with_outputs,
+    with_plate,
+    with_sides,
+)
 from geocontact.analyses.gap.gather.options import GatherOptions
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
+from geocontact.data.gap.case import GapCase
+from geocontact.io.cases.case_consistency import parameters_of
+from geocontact.io.cases.gap_case import case_of
 from geocontact.io.cases.gathering import Gathering, read_gathering
 from geocontact.io.cases.storage_trial import is_storage, read_storage_trial
+from geocontact.io.cases.trial_set import alike
 from geocontact.io.cases.trial_sources import Source
 from geocontact.io.cases.trial_table import TrialTable, read_trial
 from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
@@ -57,8 +69,34 @@ def read(o: GatherOptions, record: Record) -> Recordings:
     return Recordings(plan, trials, mats, tables)
 
 
+def gathered(recordings: Recordings, o: GatherOptions, record: Record) -> GapCase:
+    """Trials with all that was measured beside them, as one case."""
+    mats = {site: alike_mats(record, site, own) for site, own in recordings.mats.items()}
+    trials = {}
+    for name, one in recordings.trials.items():
+        table = one.inputs
+        for own in ((site, each[name]) for site, each in mats.items()):
+            table = with_mat(table, *own)
+        trials[name] = _with_loads(table, one)
+    settings = recordings.plan.settings
+    parameters = parameters_of(settings, o.settings)
+    case = case_of(settings, parameters, o.settings, o.settings.stem, alike(trials), recordings.tables)
+    return replace(case, cells={site: cell_channels(record, site, own) for site, own in mats.items()})
+
+
+def _with_loads(table: TrialTable, one: GatheredTrial) -> TrialTable:
+    """The trial with generalised forces, the reaction of a plate, and loads of the sides of a knee."""
+    if one.outputs is not None:
+        table = with_outputs(table, one.outputs)
+    if one.plate is not None and one.source.plate is not None:
+        table = with_plate(table, one.plate, one.source.plate)
+    if one.forces is not None and one.source.sides is not None:
+        table = with_sides(table, one.areas, one.forces, one.source.sides.threshold)
+    return table
+
+
 def _mats(record: Record, path: Path, plan: Gathering, site: str) -> dict[str, MatFolder]:
-    """Of one site, by trial."""
+    """Mats of one site, by trial."""
     found = {}
     for name, source in plan.sources.items():
         if site not in source.mats:

@@ -1,16 +1,35 @@
-"""A gap case from its folder, with its base model."""
+"""A gap case as its analyses read it, with its base model, and the words that they share."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from geocontact.analyses.run_record import Record
 from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.diagnosis import NextExperiment
 from geocontact.io.cases.case_cells import cells_file
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
+
+
+def names(some: Sequence[str], last: str = "and") -> str:
+    """`a, b and c`."""
+    return f" {last} ".join([", ".join(some[:-1]), some[-1]]) if len(some) > 1 else "".join(some)
+
+
+def percent(share: float) -> str:
+    """A share as a whole percentage, with a minus sign."""
+    return f"{100.0 * share:.0f}".replace("-", "−") if round(100.0 * share) else "0"
+
+
+def proposal_words(one: NextExperiment, verdict: str) -> str:
+    """What to record next, and what for: to show what is absorbed where nothing was found, else to tell apart."""
+    some = names(one.separates)
+    why = f"would show {some}" if verdict == "no_gap" else f"would tell {some} apart"
+    return f"next: {one.change}; that {why} by {one.gain_nats:g} nats more"
 
 
 @dataclass(frozen=True)

@@ -42,9 +42,11 @@ from typing import Any
 
 from geocontact.data.errors import InputError
 from geocontact.io.text.toml_text import numbers_in, toml_of
-from geocontact.study.description.summary_settings import SummarySettings, summary_of
-from geocontact.study.description.surface_settings import SurfaceSettings, surface_of
+from geocontact.io.text.units import LENGTH
 
+SUMMARY_KEYS = ("table", "columns", "over", "where", "subject", "condition")
+SURFACE_KEYS = ("particles", "unit", "body", "at")
+BODIES = ("fixed", "moving")
 LARGEST = 4_000_000
 """Bytes of a description."""
 RESERVED = ("name", "file", "state", "folder", "words")
@@ -53,6 +55,102 @@ OWN = "options"
 """Key of one of [[trials]] under which it has options of its own."""
 KEYS = ("analysis", "title", "files", "table", "trials", "options", "vary", "sweep", "leave_out", "summary", "surface")
 Value = str | int | float | bool
+
+
+@dataclass(frozen=True)
+class SummarySettings:
+    """Which curves are compared, and between whom.
+
+    Parameters
+    ----------
+    table
+        Name of the table; the first one over time unless given.
+    columns
+        Of numbers, with their units; the first few unless given.
+    over
+        Column that a curve is over; its span is 0 to 100 % of the curve.
+    where
+        Values of columns that choose the rows of a curve, such as one threshold of several; the first unless given.
+    subject
+        Name under which a trial has its subject: trials of one are averaged before subjects are compared.
+    condition
+        Name under which a trial has what is compared.
+    """
+
+    table: str = ""
+    columns: tuple[str, ...] = ()
+    over: str = "time [s]"
+    where: Mapping[str, float | str] = field(default_factory=dict)
+    subject: str = "subject"
+    condition: str = "condition"
+
+
+def summary_of(path: Path, told: Mapping[str, Any]) -> SummarySettings:
+    """From [summary] of a study's description."""
+    odd = [key for key in told if key not in SUMMARY_KEYS]
+    if odd:
+        raise InputError(path, f"[summary] {odd[0]}", "is not known here", f"write {', '.join(SUMMARY_KEYS)}")
+    texts = {key: told[key] for key in ("table", "over", "subject", "condition") if key in told}
+    for key, value in texts.items():
+        if not isinstance(value, str):
+            raise InputError(path, f"[summary] {key}", f"{value!r} is no text", "write it in quotes")
+    columns, where = told.get("columns", []), told.get("where", {})
+    if not isinstance(columns, list) or not all(isinstance(each, str) for each in columns):
+        raise InputError(path, "[summary] columns", "is no list of names", 'write columns = ["area_fixed [mm^2]"]')
+    if not isinstance(where, dict) or not all(isinstance(each, (str, int, float)) for each in where.values()):
+        raise InputError(path, "[summary] where", "is no table", 'write where = { "threshold [mm]" = 4 }')
+    return SummarySettings(columns=tuple(columns), where=where, **texts)
+
+
+@dataclass(frozen=True)
+class SurfaceSettings:
+    """What [surface] of a study says.
+
+    Parameters
+    ----------
+    particles
+        Path of a trial's .particles, from the study's folder; may hold `{name}`.
+    unit
+        Of these files.
+    body
+        On which they lie: fixed or moving.
+    at
+        Places on the curve [%]; distances are interpolated linearly between frames.
+    """
+
+    particles: str
+    unit: str
+    body: str = "fixed"
+    at: tuple[float, ...] = (0.0, 25.0, 50.0, 75.0, 100.0)
+
+
+def surface_of(
+    path: Path, told: Mapping[str, Any], analysis: str, options: Mapping[str, Any]
+) -> SurfaceSettings | None:
+    """From [surface] of a study's description; None where there is none."""
+    if not told:
+        return None
+    odd = next((key for key in told if key not in SURFACE_KEYS), None)
+    if odd is not None:
+        raise InputError(path, f"[surface] {odd}", "is not known here", f"write {', '.join(SURFACE_KEYS)}")
+    if analysis != "area" or not options.get("save_map"):
+        remedy = 'write analysis = "area", and save_map = true in [options]'
+        raise InputError(path, "[surface]", "needs the distances of every vertex", remedy)
+    particles, unit, body = told.get("particles"), told.get("unit"), told.get("body", "fixed")
+    if not isinstance(particles, str) or not particles:
+        raise InputError(path, "[surface]", "no `particles`", 'write particles = "{subject}/talus.particles"')
+    if unit not in LENGTH:
+        raise InputError(path, "[surface] unit", f"{unit!r} is none of length", f"write one of {', '.join(LENGTH)}")
+    if body not in BODIES:
+        raise InputError(path, "[surface] body", f"{body!r} is no body", f"write {' or '.join(BODIES)}")
+    return SurfaceSettings(particles, str(unit), str(body), _places(path, told.get("at", list(SurfaceSettings.at))))
+
+
+def _places(path: Path, given: Any) -> tuple[float, ...]:
+    numbers = isinstance(given, list) and all(isinstance(x, int | float) and not isinstance(x, bool) for x in given)
+    if not numbers or not given or not all(0.0 <= x <= 100.0 for x in given) or len(set(given)) < len(given):
+        raise InputError(path, "[surface] at", f"{given!r} are no places from 0 to 100 %", "write at = [0, 50, 100]")
+    return tuple(float(x) for x in given)
 
 
 @dataclass(frozen=True)

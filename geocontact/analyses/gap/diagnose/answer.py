@@ -1,18 +1,23 @@
-"""A diagnosis in sentences: what is missing, where it sits, how far the gap shrinks, what cannot be told apart."""
+"""A diagnosis in sentences and tables: what is missing, where it sits, how far the gap shrinks, what is alike."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from geocontact.analyses.gap.words import names, percent, proposal_words
+import pandas as pd
+
+from geocontact.analyses.gap.case import names, percent, proposal_words
 from geocontact.chain.system import System
 from geocontact.data.gap.cell import BAND, FAST_PHASE, Cell
 from geocontact.data.gap.diagnosis import CellsHeld, ChannelGap, Diagnosis, Partial, Where
+from geocontact.gap.diagnose import Findings
+from geocontact.gap.localise.gap_map import load_outputs
 
 SIGNIFICANT = 0.05  # family-wise
 TELLING = 0.35  # share of a channel's gap along one axis that a part of its range must hold to be named
 MISTAKES = ("unit_error", "sign_flip", "side_swap")  # of the data; nothing that a model could lack
 FEW = 4  # cells that are named one by one
+VERDICTS = {"explained": "explained", "no_gap": "no gap", "unknown": "unknown", "unresolved": "unresolved"}
 MOST = 0.1  # share of the whole gap from which a further channel is mentioned
 
 
@@ -179,3 +184,137 @@ def _faults(d: Diagnosis) -> list[str]:
         times = f" (reads {fault.factor:.4g} times what it should)" if fault.factor != 1.0 else ""
         said.append(f"mistake in the data: {what}{times} in {names(fault.trials)}, taken as undone in all that follows")
     return said
+
+
+def facts_of(findings: Findings) -> list[tuple[str, str]]:
+    """What is missing, where, how far, how sure."""
+    d = findings.diagnosis
+    answer = {"explained": with_classes(d, d.effects), "no_gap": "nothing beyond noise"}.get(
+        d.verdict, VERDICTS[d.verdict]
+    )
+    lines = [("What is missing", answer)]
+    if d.where:
+        lines.append(("Where", place(d.where[0], findings.cells)))
+        gap = d.gap[d.where[0].channel]
+        if d.effects:
+            low, high = gap.ci95
+            reduction = f"{percent(gap.reduction)} % [{percent(low)}, {percent(high)}] of the error of "
+            lines.append(("Adding it removes", f"{reduction}{d.where[0].channel} on trials not used"))
+    if d.partial is not None:
+        lines.append(("Explained in part", in_part(d.partial)))
+    alive = ", ".join(f"{name} {value:.2f}" for name, value in _likeliest(d) if value >= 0.005)
+    lines.append(("Probabilities", alive))
+    if d.one_law:
+        lines.append(("What it cannot be told from", "; ".join(one_law_words(d))))
+    if d.verdict == "unresolved":
+        lines.append(("Cannot be told apart", names(d.ambiguity)))
+    elif rest := not_ruled_out(d) if d.effects else d.ambiguity:
+        lines.append(("Not ruled out", "; ".join(rest)))
+    return lines
+
+
+def _likeliest(d: Diagnosis, most: int = 5) -> list[tuple[str, float]]:
+    return sorted(d.probabilities.items(), key=lambda pair: -pair[1])[:most]
+
+
+def diagnosis_tables(findings: Findings) -> dict[str, pd.DataFrame]:
+    """`gap_map`, `ranking`, `held_out`; `trials` where something is named, `surface` where there are cells of a mat."""
+    found = {
+        "gap_map": gap_map_table(findings),
+        "ranking": ranking_table(findings),
+        "held_out": held_out_table(findings),
+    }
+    found |= {"trials": trials_table(findings)} if findings.trials else {}
+    return found | ({"surface": surface_table(findings)} if findings.surface else {})
+
+
+def axis_units(findings: Findings) -> dict[str, str]:
+    """SI unit of each axis of the gap map."""
+    system = findings.attribution.problem.system
+    units = {"phase": "–", BAND: "Hz", FAST_PHASE: "–"}
+    for row in load_outputs(system):
+        units["load"] = system.unit(system.outputs[row])
+    for name in system.inputs:
+        units |= {name: system.unit(name), f"{name}'": f"{system.unit(name)}/s"}
+    return units
+
+
+def gap_map_table(findings: Findings) -> pd.DataFrame:
+    """A row per cell; `low` and `high` in the unit of the axis, `gap` in that of the channel, SI."""
+    units, system = axis_units(findings), findings.attribution.problem.system
+    return pd.DataFrame(
+        {
+            "channel": [c.channel for c in findings.cells],
+            "axis": [c.axis for c in findings.cells],
+            "low": [c.low for c in findings.cells],
+            "high": [c.high for c in findings.cells],
+            "axis_unit": [units.get(c.axis, "-").replace("–", "-") for c in findings.cells],
+            "gap": [c.gap for c in findings.cells],
+            "gap_unit": [system.unit(c.channel) for c in findings.cells],
+            "share [-]": [c.share for c in findings.cells],
+            "share_low [-]": [c.ci95[0] for c in findings.cells],
+            "share_high [-]": [c.ci95[1] for c in findings.cells],
+            "floor [-]": [c.floor for c in findings.cells],
+            "p_value [-]": [c.p_value for c in findings.cells],
+        }
+    )
+
+
+def ranking_table(findings: Findings) -> pd.DataFrame:
+    """A row per model that was tried, the largest gain first."""
+    rows = findings.ranking
+    return pd.DataFrame(
+        {
+            "model": [one.label for one in rows],
+            "answer": [one.effects for one in rows],
+            "gain [nats]": [one.gain for one in rows],
+            "gain_calibration [nats]": [one.calibration for one in rows],
+            "probability [-]": [one.probability for one in rows],
+        }
+    )
+
+
+def trials_table(findings: Findings) -> pd.DataFrame:
+    """A row per trial: how much better it is predicted from all others with what was named."""
+    return pd.DataFrame(
+        {
+            "trial": [one.trial for one in findings.trials],
+            "held_out": [one.held_out for one in findings.trials],
+            "gain_left_out [nats]": [one.nats for one in findings.trials],
+        }
+    )
+
+
+def surface_table(findings: Findings) -> pd.DataFrame:
+    """A row per cell of a mat: where it lies in the scan's frame, its part in the load and in the channel's gap."""
+    parts = [
+        pd.DataFrame(
+            {
+                "site": one.site,
+                "channel": one.channel,
+                "id": one.ids,
+                **{f"{axis} [m]": one.place[:, k] for k, axis in enumerate("xyz")},
+                "load_share [-]": one.load,
+                "gap_share [-]": one.gap,
+                "holds_most": [name in one.holding for name in one.ids],
+            }
+        )
+        for one in findings.surface
+    ]
+    return pd.concat(parts, ignore_index=True)
+
+
+def held_out_table(findings: Findings) -> pd.DataFrame:
+    """A row per sample of the held-out trials: measured, base model, and with what was named."""
+    system = findings.attribution.problem.system
+    parts = []
+    for trial in findings.held_out:
+        columns: dict[str, object] = {"trial": trial.name, "time [s]": trial.time}
+        for c, name in enumerate(system.outputs):
+            unit = system.unit(name)
+            columns[f"{name} [{unit}]"] = trial.measured[:, c]
+            columns[f"{name}_base [{unit}]"] = trial.base[:, c]
+            if trial.named is not None:
+                columns[f"{name}_with_effects [{unit}]"] = trial.named[:, c]
+        parts.append(pd.DataFrame(columns))
+    return pd.concat(parts, ignore_index=True)

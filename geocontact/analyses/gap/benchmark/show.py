@@ -1,27 +1,52 @@
-"""Figures of a benchmark as benchmark.json holds them."""
+"""What a benchmark reports: benchmark.json, lines of benchmark.md, stated probabilities against what came true."""
 
 from __future__ import annotations
 
 import os
 import platform
 from collections import Counter
+from collections.abc import Iterator
 from importlib import import_module
 from pkgutil import walk_packages
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 import geocontact.gap
-from geocontact.analyses.gap.benchmark.alarms import alarms
-from geocontact.analyses.gap.benchmark.outcome import BenchmarkOutcome
-from geocontact.analyses.gap.benchmark.tables import mean
+from geocontact.analyses.gap.benchmark.outcome import SLOW, BenchmarkOutcome, alarm_lines, alarms, mean
 from geocontact.analyses.run_record import Record
 from geocontact.gap import attribute
 from geocontact.gap.selection import verdict
 from geocontact.gap_benchmark import confounding as imitation
 from geocontact.gap_benchmark import harm, residual_regression, score
 from geocontact.gap_benchmark.rates import Rate
-from geocontact.gap_benchmark.score import figures
-from geocontact.gap_benchmark.table import OPPONENTS, ROWS, error_interval, lead, scores
+from geocontact.gap_benchmark.score import figures, reliability
+from geocontact.gap_benchmark.table import OPPONENTS, ROWS, error_interval, lead, markdown, scores
+from geocontact.view.curves.diagnosis.reliability import Stated, reliability_figure
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+DRAWN = {"diagnosis": "diagnosis", "regression_aware": "residual regression"}
+"""Whose reliability is drawn."""
+
+
+def stated_figure(outcome: BenchmarkOutcome) -> Figure:
+    """Reliability of the diagnosis and of the better opponent."""
+    return reliability_figure({words: _stated(outcome, who) for who, words in DRAWN.items()})
+
+
+def _stated(outcome: BenchmarkOutcome, who: str) -> Stated:
+    bins, _ = reliability([(label, outcome.given[who][name]) for name, label in outcome.labels.items()])
+    spans = [Rate(round(one.came_true * one.count), one.count).interval() for one in bins]
+    return Stated(
+        np.array([one.stated for one in bins]),
+        np.array([one.came_true for one in bins]),
+        np.array([low for low, _ in spans]),
+        np.array([high for _, high in spans]),
+        [one.count for one in bins],
+    )
 
 
 def content(record: Record, outcome: BenchmarkOutcome, when: str) -> dict[str, Any]:
@@ -105,3 +130,38 @@ def _verdicts(one: BenchmarkOutcome) -> dict[str, dict[str, int]]:
         kind: dict(Counter(said[name]["verdict"] for name, label in one.labels.items() if label["kind"] == kind))
         for kind in one.kinds
     }
+
+
+def page_lines(outcome: BenchmarkOutcome, when: str) -> Iterator[str]:
+    """benchmark.md: a table per scope."""
+    yield "# Gap benchmark"
+    yield ""
+    yield f"Seed {outcome.seed}, {when}, {len(outcome.labels)} synthetic cases with withheld labels. Shares carry exact"
+    yield "95 % intervals (Clopper–Pearson); ✓ and ✗ hold the figure, not its interval, against the bar."
+    for name, one in outcome.scopes.items():
+        yield ""
+        yield f"## {name}: " + ", ".join(f"{count} {kind}" for kind, count in one.kinds.items())
+        yield ""
+        yield from markdown(one.labels, one.given, list(_extra(one)))
+    if any(label["kind"] == "none" for label in outcome.labels.values()):
+        yield ""
+        yield "## Cases that lack nothing, by laboratory"
+        yield ""
+        yield from alarm_lines(outcome)
+    broken = [line for one in outcome.cases for line in one.trouble]
+    if broken:
+        yield ""
+        yield f"{len(broken)} broke down and count as wrong: " + "; ".join(broken)
+
+
+def _extra(one: BenchmarkOutcome) -> Iterator[tuple[str, str, str]]:
+    """Figures that only the diagnosis has."""
+    if one.cpu:
+        most = max(one.cpu)
+        within = f"{one.fast} of the cases; mean {np.mean(one.cpu):.1f} s, most {most:.1f} s"
+        yield "seconds of one core per case", "≤ 10 s", f"{'✓' if most <= SLOW else '✗'} {within}"
+    if one.same.count:
+        mark = "✓" if one.same.hits == one.same.count else "✗"
+        yield "same answer under other names, order and units", "all", f"{mark} {one.same}"
+    if one.imitated.count:
+        yield "outside the table, imitated by a candidate (not counted above)", "", str(one.imitated)

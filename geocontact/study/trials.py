@@ -1,23 +1,67 @@
-"""The trials of a study, from files, a table and lists of values."""
+"""The trials of a study, from the files that a pattern fits, a table and lists of values."""
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
+from pathlib import Path, PurePath, PureWindowsPath
 from typing import Any
 
 from geocontact.data.errors import InputError
 from geocontact.io.text.side_table import read_side_table
-from geocontact.study.description.found_files import NAME, found_files
-from geocontact.study.description.study_file import OWN, RESERVED, StudyFile, Value
+from geocontact.study.description import OWN, RESERVED, StudyFile, Value
 
+NAME = re.compile(r"\{(\w+)\}")
 FILE = "file"
 """Name of a trial's file, where they are found by a pattern."""
 Factors = dict[str, Any]
 """Values by name, and a trial's own options under `APART`."""
 APART = "[options]"
+
+
+def split_pattern(pattern: str, kind: type[PurePath] = PurePath) -> tuple[str, str]:
+    """Where a pattern starts, "" for the study's folder, and the rest, with / between folders on every system.
+
+    Parameters
+    ----------
+    kind
+        Whose paths these are: of this system, unless said. A drive or a server's share is a start on Windows only.
+    """
+    path = kind(pattern)
+    rest = path.relative_to(path.anchor) if path.anchor else path
+    return kind(path.anchor).as_posix() if path.anchor else "", rest.as_posix()
+
+
+def expression_of(pattern: str, kind: type[PurePath] = PurePath) -> re.Pattern[str]:
+    """What the text of a path must fit: `{name}` a part without /, the same one wherever it stands, * anything."""
+    expression, seen = "", set[str]()
+    for k, part in enumerate(NAME.split(pattern)):
+        if k % 2 == 0:
+            expression += "[^/]*".join(map(re.escape, part.split("*")))
+        else:
+            expression += f"(?P={part})" if part in seen else f"(?P<{part}>[^/]+?)"
+            seen.add(part)
+    alike = issubclass(kind, PureWindowsPath)  # where A.csv and a.csv are one file
+    return re.compile(expression, re.IGNORECASE if alike else re.NOFLAG)
+
+
+def found_files(home: Path, pattern: str, study: Path) -> list[tuple[str, dict[str, str]]]:
+    """Path of each file that fits, from `home` or from where the pattern starts, with what the names stand for.
+
+    InputError where there is none.
+    """
+    start, rest = split_pattern(pattern, type(home))
+    base = Path(start) if start else home
+    expression = expression_of(rest, type(home))
+    matches = sorted(each.relative_to(base).as_posix() for each in base.glob(NAME.sub("*", rest)))
+    fits = [(path, fit) for path in matches if (fit := expression.fullmatch(path))]
+    if not fits:
+        remedy = "write / between folders" if "\\" in rest else f"paths start from {base}"
+        raise InputError(study, "`files`", f"no file fits {pattern!r}", remedy)
+    return [((base / path).as_posix() if start else path, fit.groupdict()) for path, fit in fits]
 
 
 @dataclass(frozen=True)

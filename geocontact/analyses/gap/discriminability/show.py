@@ -1,16 +1,26 @@
-"""The page of what trials can tell: sentences, who is told from whom, from which size on effects are seen."""
+"""What trials can tell, in figures and on a page: who is told from whom, from which size on effects are seen."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geocontact.analyses.gap.discriminability.words import confusion_sentences
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.gap.discriminability.answer import confusion_sentences, size_words
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.gap.identifiability.detectability import Detectability
 from geocontact.gap.identifiability.discriminability import Discriminability
+from geocontact.gap.identifiability.separability import table
+from geocontact.gap.identifiability.signatures import reach_of, rest_of
+from geocontact.view.curves.diagnosis.detectability import EffectVisibility, detectability_figure
+from geocontact.view.curves.diagnosis.separability import separability_figure
 from geocontact.view.curves.text import number
 from geocontact.view.page.content import Page, Picture, Section, Table, Words
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 MATRIX = (
     "Nats by which an effect (row) beats a model that is fitted instead (column), base parameters refitted. The column "
@@ -25,13 +35,29 @@ LIMITS = (
 )
 
 
-def confusion_page(
-    title: str,
-    found: Discriminability,
-    drawings: Mapping[str, bytes],
-    provenance: Sequence[Table] = (),
-    warnings: Sequence[str] = (),
-) -> Page:
+def confusion_figures(found: Discriminability) -> dict[str, Figure]:
+    """Matrix and bars, by the name of their files."""
+    return {
+        "separability": matrix_figure(found),
+        "detectability": detectability_figure([_seen(one) for one in found.detectabilities]),
+    }
+
+
+def matrix_figure(found: Discriminability) -> Figure:
+    """Nats by which each effect is told from each."""
+    labels, matrix = table(found.separations)
+    return separability_figure(labels, ["none", *labels], matrix)
+
+
+def _seen(one: Detectability) -> EffectVisibility:
+    if one.smallest is None:
+        return EffectVisibility(one.candidate.label, None, "not to be seen")
+    rest = rest_of(one.candidate)
+    share = abs((one.smallest - rest) / reach_of(one.candidate, one.candidate.starts[0]))
+    return EffectVisibility(one.candidate.label, share, size_words(one))
+
+
+def confusion_page(title: str, found: Discriminability, drawings: Mapping[str, bytes]) -> Page:
     """The self-contained page, before it becomes a file.
 
     Parameters
@@ -42,15 +68,11 @@ def confusion_page(
         What was found.
     drawings
         `confusion_figures` as SVG.
-    provenance
-        Further tables: inputs with hashes, options, versions.
-    warnings
-        Reservations that came up on the way.
     """
     sentences = confusion_sentences(found)
     sections: list[Section] = [Picture(*CAPTIONS[name], svg, wide=True) for name, svg in drawings.items()]
     sections.append(Words("What these trials can tell", [f"{s[0].upper()}{s[1:]}." for s in sentences]))
-    sections += [_sizes(found), *provenance, Words("What the numbers do not contain", [LIMITS, NOT_A_DEVICE])]
+    sections += [_sizes(found), INPUTS, OPTIONS, Words("What the numbers do not contain", [LIMITS, NOT_A_DEVICE])]
     seen = sum(one.smallest is not None for one in found.detectabilities)
     return Page(
         title=title,
@@ -58,7 +80,6 @@ def confusion_page(
         time=np.zeros(1),
         time_label="time [s]",
         headline=headline(sentences, most=1),
-        reservations=tuple(warnings),
         facts=(
             ("effects that would be seen", f"{seen} of {len(found.detectabilities)}"),
             ("groups not to be told apart", str(len(found.classes))),

@@ -2,33 +2,28 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.options_table import options_table
+from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_words import NOT_A_DEVICE, counted
-from geocontact.analyses.run_record import Record
 from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.view.page.content import Curve, Curves, Page, Section, Table, Words
-from geocontact.view.page.tables import inputs_table
-from geocontact.view.page.write import write_page
 
 SAMPLES = 401  # of the longest trial that the page shows
 OTHER = {"rad": ("deg", 180.0 / np.pi), "rad/s": ("deg/s", 180.0 / np.pi), "m^2": ("mm²", 1e6)}
 """Units that are shown in others."""
 
 
-def write_gather_page(path: Path, title: str, record: Record, case: GapCase) -> int:
-    """Write the self-contained page, each trial from its own beginning; returns its size in bytes."""
+def gather_page(title: str, case: GapCase) -> Page:
+    """Every channel over time, each trial from its own beginning."""
     trials = [*case.calibration, *case.evaluation]
     longest = max(each.time[-1] - each.time[0] for each in trials)
     time = np.linspace(0.0, float(longest), SAMPLES)
     sections: list[Section] = [*_panels(trials, time), _told(case)]
-    sections += [inputs_table(record.inputs), options_table(record), Words("What this is", [NOT_A_DEVICE])]
-    page = Page(
+    sections += [INPUTS, OPTIONS, Words("What this is", [NOT_A_DEVICE])]
+    return Page(
         title=title,
         subtitle=f"Case for a gap diagnosis of the base model {case.system}",
         time=time,
@@ -39,11 +34,9 @@ def write_gather_page(path: Path, title: str, record: Record, case: GapCase) -> 
             ("Held out", ", ".join(each.name for each in case.evaluation) or "none"),
             *((f"Cells of {site}", f"{len(own.ids)}") for site, own in case.cells.items()),
         ][:5],
-        reservations=tuple(record.warnings),
         sections=tuple(sections),
         plays=False,
     )
-    return write_page(page, path)
 
 
 def answer(case: GapCase) -> list[str]:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import headline
+from geocontact.analyses.result import REPORT
 from geocontact.analyses.run_record import Record
 from geocontact.data.ensemble import mean_and_sd
 from geocontact.io.text.units import split_header
@@ -18,7 +18,7 @@ from geocontact.view.curves.over_cycle import mean_over_cycle
 from geocontact.view.curves.quantity import CYCLE, Quantity
 from geocontact.view.curves.style import DOUBLE, PALETTE, in_style, panels
 from geocontact.view.page.content import Curve, Curves, Page, Section, Table
-from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -27,7 +27,6 @@ DRAWN = len(PALETTE)
 """Conditions that curves are drawn of."""
 ROWS = 500
 """Rows of the table of trials that the page shows; trials.csv has all."""
-REPORT = "report.html"
 
 
 def study_page(title: str, record: Record, curves: Sequence[StudyCurves], tables: Mapping[str, pd.DataFrame]) -> Page:
@@ -40,14 +39,13 @@ def study_page(title: str, record: Record, curves: Sequence[StudyCurves], tables
     ):
         if name in tables and len(tables[name]):
             sections.append(frame_table(words, tables[name]))
-    sections += [_trials(tables["trials"]), inputs_table(record.inputs), options_table(record)]
+    sections.append(_trials(tables["trials"]))
     return Page(
         title,
         f"geocontact {record.command}",
         STEPS if curves else np.zeros(1),
         "cycle [%]" if curves else "",
         headline=headline(record.sentences),
-        reservations=tuple(record.warnings),
         sections=tuple(sections),
         plays=False,
     )
@@ -71,7 +69,7 @@ def _drawn(one: StudyCurves) -> dict[str, np.ndarray]:
 
 
 def _printed(unit: str | None) -> str:
-    """As figures and pages show it: mm² for mm^2."""
+    """A unit in print: mm² for mm^2."""
     return (unit or "-").replace("^2", "²").replace("^3", "³")
 
 

@@ -1,0 +1,223 @@
+"""An effect that is put in: which, where, in which trials, and whether the diagnosis finds it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from geocontact.analyses.gap.case import CaseWithModel, names
+from geocontact.analyses.gap.inject.options import InjectOptions
+from geocontact.chain.candidate import Candidate
+from geocontact.data.errors import InputError
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.diagnosis import Diagnosis, Estimate
+from geocontact.effects.catalogue import candidates
+from geocontact.gap.case.admission import admitted
+from geocontact.gap.case.preparation import problem_of
+from geocontact.gap.identifiability.signatures import rest_of
+from geocontact.gap.inject import Injected, chosen, inject
+from geocontact.gap.levels import SURE
+
+IMITATED = 0.05
+"""Gap, in noise floors, up to which base parameters are said to imitate an effect."""
+Status = Literal["found", "there_before", "too_small", "possible", "imitated", "not_found"]
+
+
+def planted(given: CaseWithModel, o: InjectOptions) -> tuple[Candidate, Injected]:
+    """The case with the effect in it; InputError where the system has no such effect, parameter or trial."""
+    with threadpool_limits(limits=1):
+        case = admitted(given.case, given.system)
+        problem = problem_of(case, given.system)
+        try:
+            one = chosen(candidates(problem.system), o.effect)
+        except ValueError as error:
+            raise InputError("", "`effect`", str(error), "see docs/reference/gap_effects.md") from error
+        trials = _trials(case, one, o)
+        return one, inject(case, problem, one, _values(one, o), o.size, trials)
+
+
+def _values(one: Candidate, o: InjectOptions) -> Mapping[str, float]:
+    known = {p.name: p for p in one.parameters}
+    for name, value in o.value.items():
+        if name not in known:
+            there = ", ".join(known) or "it has none"
+            raise InputError("", "`value`", f"{name!r} is no parameter of {one.label}", f"parameters: {there}")
+        p = known[name]
+        if not p.lower <= value <= p.upper:
+            what = f"{name} = {value:g} {p.unit} is outside of {p.lower:.4g} … {p.upper:.4g}"
+            raise InputError("", "`value`", what, "its bounds are physical")
+    return o.value
+
+
+def _trials(case: GapCase, one: Candidate, o: InjectOptions) -> frozenset[str] | None:
+    if not o.trial:
+        return None
+    if one.somewhere is None:
+        raise InputError("", "`trial`", f"{one.label} is in every trial or in none", "leave it out")
+    there = [trial.name for trial in (*case.calibration, *case.evaluation)]
+    for name in o.trial:
+        if name not in there:
+            raise InputError("", "`trial`", f"there is no trial {name!r}", f"trials are {', '.join(there)}")
+    return frozenset(o.trial)
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """Whether an injected effect was found.
+
+    Parameters
+    ----------
+    status
+        "found": named, and not before, or its parameter surely changed, and by what was injected. "there_before":
+        named with and without it, and the parameter did not surely change, or not by what was injected. "too_small":
+        all trials together cannot hold the evidence (`gap.levels.SURE`) from which an effect is named. "possible":
+        among the effects in question only. "imitated": not found, base parameters reproduce it. "not_found": anything
+        else.
+    before
+        Whether the case before was said to lack the effect.
+    change, change_ci95
+        Of the effect's first parameter, with the effect less without it, in the parameter's unit, with its 95 %
+        interval; the effect counts as resting where it was not named before. None where it has no parameter, or is not
+        named with it.
+    holds
+        Whether that interval holds what was injected; None where there is none.
+    """
+
+    status: Status
+    before: bool
+    change: float | None = None
+    change_ci95: tuple[float, float] | None = None
+    holds: bool | None = None
+
+    def as_dict(self) -> dict[str, object]:
+        """Keys of planted.json."""
+        return {
+            "status": self.status,
+            "found": self.status == "found",
+            "named_before": self.before,
+            "change": self.change,
+            "change_ci95": None if self.change_ci95 is None else list(self.change_ci95),
+            "change_holds_planted": self.holds,
+        }
+
+
+def judged(one: Candidate, made: Injected, before: Diagnosis, after: Diagnosis) -> Judgement:
+    """What came of an injected effect.
+
+    Parameters
+    ----------
+    one, made
+        The effect, and its parameters and gap.
+    before, after
+        Diagnoses of the same trials without it and with it.
+    """
+    was, is_named = one.name in before.effects, one.name in after.effects
+    if not is_named and one.name not in after.ambiguity and imitated(one.name, made.size, after.absorbed):
+        return Judgement("imitated", was)
+    if made.nats < SURE:
+        return Judgement("too_small", was)
+    if not is_named:
+        return Judgement("possible" if one.name in after.ambiguity else "not_found", was)
+    moved = _change(one, before, after)
+    if moved is None:
+        return Judgement("there_before" if was else "found", was)
+    change, low, high = moved
+    holds = low <= made.values[one.parameters[0].name] - rest_of(one) <= high
+    shown = holds and not low <= 0.0 <= high
+    return Judgement("there_before" if was and not shown else "found", was, change, (low, high), holds)
+
+
+def imitated(name: str, size: float, absorbed: tuple[str, ...]) -> bool:
+    """Whether base parameters take what was injected: other variants of its name may be absorbed where it is not."""
+    return name in absorbed and not size > IMITATED
+
+
+def _change(one: Candidate, before: Diagnosis, after: Diagnosis) -> tuple[float, float, float] | None:
+    """Change of the first parameter and its interval; None where the effect has none, or another variant is named.
+
+    Variances of the two fits add, as if their noise were independent: it is the same noise, so the interval is wide.
+    """
+    if not one.parameters or one.parameters[0].name not in after.parameters:
+        return None
+    name = one.parameters[0].name
+    new, old = after.parameters[name], before.parameters.get(name)
+    first = old.value if old is not None else rest_of(one)
+    change = new.value - first
+    widths = [_sides(new), (0.0, 0.0) if old is None else _sides(old)]
+    down = float(np.hypot(widths[0][0], widths[1][1]))
+    up = float(np.hypot(widths[0][1], widths[1][0]))
+    return change, change - down, change + up
+
+
+def _sides(found: Estimate) -> tuple[float, float]:
+    return found.value - found.ci95[0], found.ci95[1] - found.value
+
+
+def answer(one: Candidate, made: Injected, d: Diagnosis, found: Judgement) -> dict[str, object]:
+    """planted.json, SI units."""
+    return {
+        "effect": one.name,
+        "variant": one.variant,
+        "parameters": {p.name: {"value": made.values[p.name], "unit": p.unit} for p in one.parameters},
+        "gap_over_floor": made.size,
+        "evidence_at_most_nats": made.nats,
+        "verdict": d.verdict,
+        "effects": list(d.effects),
+        "named": one.name in d.effects,
+        "among_possible": one.name in d.ambiguity,
+        "absorbed": imitated(one.name, made.size, d.absorbed),
+        **found.as_dict(),
+    }
+
+
+def parameter_rows(one: Candidate, made: Injected, d: Diagnosis) -> list[tuple[object, ...]]:
+    """Name, unit, value put in, value found with its interval; NaN where the diagnosis has no such parameter."""
+    rows: list[tuple[object, ...]] = []
+    for p in one.parameters:
+        found = d.parameters.get(p.name)
+        told = (math.nan, math.nan, math.nan) if found is None else (found.value, *found.ci95)
+        rows.append((p.name, p.unit, made.values[p.name], *told))
+    return rows
+
+
+def sentences(one: Candidate, made: Injected, d: Diagnosis, found: Judgement) -> Iterator[str]:
+    """The effect with its parameters, then whether the diagnosis found it."""
+    values = ", ".join(f"{p.name} = {made.values[p.name]:.4g} {p.unit}" for p in one.parameters)
+    gap = "" if np.isnan(made.size) else f"; it makes a gap of {made.size:.2g} times the noise floor"
+    yield f"injected {one.label}{f' ({values})' if values else ''}{gap}"
+    yield _outcome(one, made, d, found)
+
+
+def _outcome(one: Candidate, made: Injected, d: Diagnosis, found: Judgement) -> str:
+    told = [(p.name, d.parameters[p.name]) for p in one.parameters if p.name in d.parameters]
+    sizes = ", ".join(f"{name} = {e.value:.4g} [{e.ci95[0]:.4g}, {e.ci95[1]:.4g}] {e.unit}" for name, e in told)
+    if found.status == "too_small":
+        also = f"; {one.name} is missing from the base model without it, too" if found.before else ""
+        most = f"all trials together hold {made.nats:.2g} nats of evidence for it at most"
+        return f"not found: {most}, {SURE:g} are needed{also}"
+    if found.status == "there_before":
+        return f"not found: {one.name} was missing before{_change_words(one, made, found)}"
+    if found.status == "found":
+        what = f"found: {names(d.effects)}{f'; {sizes}' if sizes else ''}"
+        if found.before:
+            return f"{what}; it was missing before{_change_words(one, made, found)}"
+        return what if found.holds is not False else f"{what}{_change_words(one, made, found)}"
+    if found.status == "possible":
+        return f"among what is possible: {names(d.ambiguity, 'or')}"
+    return f"not found{', base parameters imitate it' if found.status == 'imitated' else ''}"
+
+
+def _change_words(one: Candidate, made: Injected, found: Judgement) -> str:
+    """By how much the first parameter changed, beside what was injected."""
+    if found.change is None or found.change_ci95 is None:
+        return ""
+    p, (low, high) = one.parameters[0], found.change_ci95
+    there = "which holds" if found.holds else "which excludes"
+    none = ", and 0 as well" if found.before and found.holds and low <= 0.0 <= high else ""
+    by = f"{found.change:.4g} [{low:.4g}, {high:.4g}] {p.unit}"
+    return f", and {p.name} changes by {by}, {there} the {made.values[p.name]:.4g} injected{none}"

@@ -1,1 +1,0 @@
-"""What a study says of itself: analysis, options, trials, what is compared."""

@@ -1,1 +1,0 @@
-"""Differences, agreement and reliability over subjects: arrays in, numbers out."""

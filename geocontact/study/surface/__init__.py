@@ -1,1 +1,0 @@
-"""Statistics on surfaces whose points correspond from subject to subject."""
