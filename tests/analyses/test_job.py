@@ -73,7 +73,7 @@ def run(value: float, o: DoubleOptions, record: Record) -> Doubled:
 
 
 double = Job("double", DoubleOptions, read_length, run)
-from_command = Command("tests.analyses.test_job:double", DoubleOptions, "Twice, see `more`.")
+from_command = Command(DoubleOptions, lambda _: double)
 
 
 @pytest.fixture
