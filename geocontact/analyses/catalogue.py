@@ -7,6 +7,7 @@ its name into the stubs that type checkers and editors read. Nothing heavy is im
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from importlib import import_module
@@ -57,7 +58,7 @@ class Entry:
     also
         Former name of the command, which goes on to work.
     many
-        Job of the same module that the command runs where the option `many` is given.
+        The job that the command runs where the option `many` is given.
     exported
         Whether Python has it as `gc.NAME`.
     """
@@ -101,14 +102,21 @@ class Entry:
         """Whether it can be the analysis of a study: a study cannot."""
         return bool(self.command) and self.package.startswith(f"{HOME}.")
 
+    def calls(self, words: Sequence[str]) -> bool:
+        """Whether words that are typed call it, by its command or the former one."""
+        *group, last = self.command.split() or [""]
+        count = len(group) + 1
+        return bool(last) and list(words[:count]) in ([*group, last], [*group, self.also])
+
     def load_options(self) -> type[Options]:
         """Class of its options, which is light."""
         found: type[Options] = getattr(import_module(f"{self.package}.options"), self.options)
         return found
 
-    def load_job(self, name: str = "") -> Job[Any, Any]:
-        """The job, or another one of its module, with all that computes it."""
-        found: Job[Any, Any] = getattr(import_module(self.module), name or self.name)
+    def load_job(self, many: bool = False) -> Job[Any, Any]:
+        """The job, or that for many, with all that computes it."""
+        module, _, name = (self.many if many else self.job).partition(":")
+        found: Job[Any, Any] = getattr(import_module(f"{self.package}.{module}"), name)
         return found
 
 
@@ -144,7 +152,7 @@ ENTRIES = (
     Entry("elbow design", "misalignment.design", "DesignOptions", "job:design"),
     Entry("elbow population", "misalignment.population", "PopulationOptions", "job:population"),
     Entry("fit", "shape", "ShapeOptions", "result:fit_shape"),
-    Entry("gap diagnose", "gap.diagnose", "ManyOptions", "job:diagnose", many="diagnose_many"),
+    Entry("gap diagnose", "gap.diagnose", "ManyOptions", "job:diagnose", many="job:diagnose_many"),
     Entry("gap discriminability", "gap.discriminability", "DiscriminabilityOptions", "job:discriminability", "confuse"),
     Entry("gap gather", "gap.gather", "GatherOptions", "job:gather"),
     Entry("gap inject", "gap.inject", "InjectOptions", "job:inject", "plant"),

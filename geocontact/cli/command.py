@@ -114,8 +114,7 @@ def command_of(entry: Entry) -> Command:
     """The command of an analysis of the catalogue."""
 
     def job(options: Options) -> Job[Any, Any]:
-        many = bool(entry.many) and options.given("many")
-        return entry.load_job(entry.many if many else entry.name)
+        return entry.load_job(many=bool(entry.many) and options.given("many"))
 
     return Command(entry.load_options(), job)
 

@@ -46,7 +46,8 @@ def made() -> App:
     )
     groups = {group.name: App(name=group.name, help=group.help) for group in GROUPS}
     alone = {each.command: place_of(each) for each in ENTRIES if each.command and each.group is None}
-    for name, command in sorted({**OWN, **alone, **groups}.items()):
+    single: dict[str, App | str] = {**OWN, **alone, **groups}
+    for name, command in sorted(single.items()):
         if isinstance(command, App):
             app.command(command)
         else:
