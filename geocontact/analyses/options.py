@@ -254,7 +254,7 @@ class Options:
     folder_help
         What it says of the folder for the results.
     last_line
-        Printed at the end, with the folder in place of {out}; nothing where it is empty.
+        The command prints it at the end, with the folder in place of {out}; nothing where it is empty.
     """
 
     over_time: ClassVar[bool] = False

@@ -17,6 +17,7 @@ from geocontact.analyses.options import Declared, Options, declared
 from geocontact.analyses.result import Result
 from geocontact.analyses.table_forms import AS_ALWAYS, TableForms
 from geocontact.analyses.typed_values import key, read
+from geocontact.cli.opensim_setup import COMMANDS, HELP
 from geocontact.cli.show import Terminal
 from geocontact.data.errors import InputError
 
@@ -41,14 +42,16 @@ class Command:
         Its options.
     job
         Gives the analysis for options that were typed; called when it runs, since it imports all that computes.
+    more
+        What the help says besides, at the end.
     """
 
-    def __init__(self, options: type[Options], job: Callable[[Options], Job[Any, Any]]) -> None:
+    def __init__(self, options: type[Options], job: Callable[[Options], Job[Any, Any]], more: str = "") -> None:
         self.options, self.job = options, job
         self.known = declared(options)
         self.rest = next((one.name for one in self.known if one.spelled.rest), "")
         self.spell = speller(self.known)
-        self.__doc__ = in_paragraphs(self.spell(f"{summary(options)}\n\n{options.writes.strip()}"))
+        self.__doc__ = in_paragraphs(self.spell(f"{summary(options)}\n\n{options.writes.strip()}\n{more}"))
         self.__name__ = options.__name__
         self.__annotations__: dict[str, Any] = {}  # types stand in the signature
         self.__signature__ = _signature(options, self.rest, self.spell)
@@ -63,7 +66,7 @@ class Command:
             )
             tell(result, folder, files)
             if self.options.last_line:
-                print(self.options.last_line.format(out=folder))
+                print(self.spell(self.options.last_line).format(out=folder))
             return int(result.exit_code)
 
     def execute(
@@ -116,7 +119,7 @@ def command_of(entry: Entry) -> Command:
     def job(options: Options) -> Job[Any, Any]:
         return entry.load_job(many=bool(entry.many) and options.given("many"))
 
-    return Command(entry.load_options(), job)
+    return Command(entry.load_options(), job, HELP if entry.command in COMMANDS else "")
 
 
 def _shortened(files: list[str]) -> list[str]:

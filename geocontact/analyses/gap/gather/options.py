@@ -30,7 +30,7 @@ class GatherOptions(Options):
     SETTINGS names, and run.json into OUT, ready for `geocontact gap diagnose OUT`.
     """
     folder_help: ClassVar[str] = "Folder for the case."
-    last_line: ClassVar[str] = "next: geocontact gap diagnose {out} --out …"
+    last_line: ClassVar[str] = "next: geocontact gap diagnose {out} `out` …"
 
     settings: Path
     _: KW_ONLY

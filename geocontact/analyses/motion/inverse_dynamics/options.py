@@ -53,8 +53,7 @@ class IdOptions(Options):
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
     Writes id.sto (for OpenSim), id.json with what is left over at the joint to the ground, cycles.csv where heel
-    strikes are known, report.html (a moving skeleton) and run.json into OUT. OpenSim's own set-up file takes the place
-    of inputs and options: --setup FILE; options that are typed beside it count instead of its own.
+    strikes are known, report.html (a moving skeleton) and run.json into OUT.
     """
 
     coordinates: Path

@@ -56,8 +56,7 @@ class IkOptions(Options):
     writes: ClassVar[str] = """
     Writes ik.mot (degrees and metres, for OpenSim), markers.csv (distance of each marker from the model), knees.csv
     with `knee`, cycles.csv where heel strikes are known, ik.json, report.html (a moving skeleton) and run.json into
-    OUT. OpenSim's own set-up file takes the place of inputs and options: --setup FILE; options that are typed beside it
-    count instead of its own.
+    OUT.
     """
 
     markers: Path

@@ -52,8 +52,6 @@ class ScaleOptions(Options):
 
     writes: ClassVar[str] = """
     Writes scaled.osim (for ik, id and OpenSim; its defaults are the static pose), scale.json and run.json into OUT.
-    OpenSim's own set-up file takes the place of inputs and options: --setup FILE; options that are typed beside it
-    count instead of its own.
     """
 
     static: Path

@@ -125,7 +125,7 @@ class ProsthesisDesignOptions(Options):
     writes: ClassVar[str] = """
     Writes answers.csv (best value and interval for every aim), sweep.csv (outcomes with bands, angles or torques kept),
     ranges.csv (between which ends each outcome lies), shapes.csv (roll-over shapes, ankle moment, energy), with
-    --intact intact.csv (what a step of the intact foot has), numbers.csv (leg and foot as the trial is read with them),
+    `intact` intact.csv (what a step of the intact foot has), numbers.csv (leg and foot as the trial is read with them),
     a figure, report.html and run.json into OUT.
     """
 
