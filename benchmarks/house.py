@@ -5,6 +5,7 @@ them), of comments alone, and blank; each line counts once. An analysis is a fol
 those below it, `__init__.py` among them. A circle is a set of neighbours in one folder, modules or packages, that
 import each other, by way of whatever lies inside of them. An import runs upwards where the contract of layers in
 `pyproject.toml` says so, and where the package imports what stands beside it: benchmarks, samples, tests, web site.
+Files of a new analysis are those that `benchmarks.new_analysis` touches.
 """
 
 from __future__ import annotations
@@ -13,12 +14,13 @@ import argparse
 import ast
 import sys
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
 from benchmarks.machine import ROOT, write_results
+from benchmarks.new_analysis import touched
 
 PACKAGE = "geocontact"
 BESIDE = ("benchmarks", "meshes", "tests", "website")
@@ -68,6 +70,7 @@ def measured(root: Path) -> dict[str, object]:
     everything = [*package, *(each for some in beside.values() for each in some)]
     edges = resolved(everything)
     benchmarks = [each.name for each in beside.get("benchmarks", ())]
+    new = touched(root)
     return {
         "modules": len(package),
         "lines": every,
@@ -76,6 +79,7 @@ def measured(root: Path) -> dict[str, object]:
         "import_lines": lines["imports"] / every,
         "files_of_analyses": files,
         "files_of_an_analysis": {"least": counts[0], "median": median(counts), "most": counts[-1]} if counts else None,
+        "files_of_a_new_analysis": None if new is None else vars(new),
         "functions_with_record": sum(each.with_record for each in package),
         "functions_with_record_outside_the_frame": sum(e.with_record for e in package if not of_the_frame(e.name)),
         "circles": [sorted(some) for some in circles([each.name for each in package], edges)],
@@ -94,6 +98,7 @@ def table(found: Mapping[str, object]) -> str:
         f"files with fewer than {FEW} lines of code": f"{found['small_files']:.1%}",
         "import lines": f"{found['import_lines']:.1%}",
         "files of an analysis": of_one,
+        "files of a new analysis, of these only its name": of_a_new_one(found["files_of_a_new_analysis"]),
         "functions with `Record`, outside the frame": "{}, {}".format(
             found["functions_with_record"], found["functions_with_record_outside_the_frame"]
         ),
@@ -101,6 +106,14 @@ def table(found: Mapping[str, object]) -> str:
         "upward imports": f"{len(found['upward_imports'])}",  # type: ignore[arg-type]
     }
     return "\n".join(["| | |", "|---|---|", *(f"| {name} | {value} |" for name, value in rows.items())])
+
+
+def of_a_new_one(files: Mapping[str, Sequence[str]] | None) -> str:
+    """Files that a new analysis touches, and how many of them hold nothing but its name."""
+    if files is None:
+        return "not measured"
+    every = len(files["by_hand"]) + len(files["by_script"])
+    return f"{every}, one of them by a script; {len(files['name_alone'])}"
 
 
 def modules(root: Path, folder: str) -> list[Module]:

@@ -7,46 +7,22 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from benchmarks.same_outputs.inputs import make
-from benchmarks.same_outputs.recording import ROOT, RUNS, Place, runs, wanted, worked
+from benchmarks.same_outputs.recording import ROOT, RUNS, Place, first_run, runs, wanted, worked
+from geocontact.analyses.catalogue import ENTRIES
 
-KINDS = {
-    "area": "area_split",
-    "cohort": "cohort",
-    "compare": "page_compare",
-    "pressure": "page_pressure",
-    "fit": "fit_profile",
-    "knee_settle": "knee_settle",
-    "loadcells": "page_loadcells",
+BETTER = {
     "cop": "cop_compare",
-    "cop_alone": "cop",
-    "modulus": "modulus",
-    "mat": "mat_plain",
-    "ik": "ik",
+    "fit": "fit_profile",
+    "gap diagnose": "gap_diagnose",
+    "gap gather": "gap_gather_knee",
     "id": "id_plate",
-    "elbow_simulate": "elbow_simulate",
-    "elbow_fit": "elbow_fit",
-    "elbow_compare": "elbow_compare",
-    "elbow_design": "elbow_design",
-    "elbow_population": "elbow_population",
-    "scale": "scale",
-    "prosthesis_scale": "prosthesis_scale",
-    "markers": "markers",
-    "joint": "joint",
-    "standing": "standing_calibrate",
-    "standing_predict": "standing_predict",
-    "standing_compare": "standing_compare",
-    "standing_design": "standing_design",
-    "standing_device": "standing_device",
-    "prosthesis_simulate": "prosthesis_simulate",
-    "prosthesis_calibrate": "prosthesis_calibrate",
-    "prosthesis_compare": "prosthesis_compare",
-    "prosthesis_design": "prosthesis_design",
-    "shoulder_simulate": "shoulder_simulate",
-    "gather": "gap_gather_knee",
-    "gap": "gap_diagnose",
-    "confuse": "gap_confuse",
+    "loadcells": "page_loadcells",
 }
-"""Run of `same_outputs/runs.txt`, or of `FURTHER`, by kind of page."""
+"""Run of a command that shows more than its first one in `same_outputs/runs.txt`."""
+FURTHER_KINDS = {"compare": "page_compare", "pressure": "page_pressure", "cop_alone": "cop"}
+"""Runs of commands whose pages look otherwise with other options."""
+NOT_PICTURED = ("gap inject", "gap benchmark", "shoulder compare", "shoulder optimise", "shoulder study")
+"""Commands whose page is one of another kind, or lasts too long to make."""
 
 KNEE = (
     "area inputs/meshes/femoral_component_right_coarse.stl inputs/meshes/tibial_insert_right_coarse.stl --unit mm "
@@ -59,6 +35,19 @@ page_loadcells: loadcells inputs/knee/walk.csv --unit N --cycles stride --part 6
 """
 MEASURED = "time [s], area_fixed [mm^2]\n0,2080\n0.2,2275\n0.5,1880\n0.8,2380\n1,2080\n"
 
+EVERY = runs(RUNS.read_text("utf-8") + FURTHER)
+
+
+def kinds() -> dict[str, str]:
+    """Run of `same_outputs/runs.txt`, or of `FURTHER`, by kind of page: one of each analysis, and a few more."""
+    pictured = [each for each in ENTRIES if each.command and each.command not in NOT_PICTURED]
+    names = {each.command.replace("-", "_").replace(" ", "_"): each for each in pictured}
+    first = {kind: BETTER.get(each.command) or first_run(EVERY.values(), each) for kind, each in names.items()}
+    return first | FURTHER_KINDS
+
+
+KINDS = kinds()
+
 
 def make_pages(folder: Path, kinds: Iterable[str], again: bool, jobs: int) -> dict[str, Path]:
     """Pages by kind; those that are there already are made again when asked for."""
@@ -69,8 +58,7 @@ def make_pages(folder: Path, kinds: Iterable[str], again: bool, jobs: int) -> di
         make(place.folder / "inputs", ROOT / "meshes")
         (place.folder / "inputs" / "measured_11.csv").write_text(MEASURED, encoding="utf-8")
         place.about()  # refuses a package from elsewhere
-        every = runs(RUNS.read_text("utf-8") + FURTHER)
-        for run, code, seconds in worked(wanted(every, missing), place, jobs):
+        for run, code, seconds in worked(wanted(EVERY, missing), place, jobs):
             sys.stdout.write(f"{run.name}: exit {code}, {seconds:.1f} s\n")
     found = {kind: _page(place, KINDS[kind]) for kind in kinds}
     return {kind: page for kind, page in found.items() if page is not None}

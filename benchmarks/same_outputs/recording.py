@@ -17,6 +17,7 @@ from pathlib import Path
 
 from benchmarks.machine import git
 from benchmarks.same_outputs.inputs import make
+from geocontact.analyses.catalogue import Entry
 
 ROOT = Path(__file__).resolve().parents[2]
 RUNS = Path(__file__).with_name("runs.txt")
@@ -102,6 +103,11 @@ def runs(text: str) -> dict[str, Run]:
         if name not in found:
             add(name)
     return found
+
+
+def first_run(every: Iterable[Run], entry: Entry) -> str:
+    """Name of the first run of an analysis as the table has them, "" where there is none."""
+    return next((run.name for run in every if entry.calls(run.arguments)), "")
 
 
 def wanted(every: Mapping[str, Run], only: Iterable[str]) -> list[Run]:

@@ -1,4 +1,4 @@
-"""The two bodies of an analysis: read, placed in their frames, checked for what can be signed."""
+"""Surfaces of mesh files: the bodies of an analysis, read, placed in their frames, checked for what can be signed."""
 
 from __future__ import annotations
 
@@ -28,12 +28,39 @@ from geocontact.io.text.units import LENGTH
 NOTHING: Mapping[str, Values] = MappingProxyType({})
 
 
+def read_surface(path: str, unit: str, assume_closed: bool = False) -> Surface:
+    """Surface of a mesh file whose numbers are in `unit` (m, cm, mm or in), ready for queries.
+
+    Parameters
+    ----------
+    path
+        `.stl`, `.ply`, `.obj` or `.vtp`; see `read_mesh`.
+    unit
+        Unit of the file's numbers. Never guessed.
+    assume_closed
+        Take it for the boundary of a body although edges are open, so that distances inside it are negative.
+
+    Raises
+    ------
+    InputError
+        The file cannot be used.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> ball = gc.read_surface("meshes/sphere_r20.stl", "mm")
+    >>> ball.vertices.shape, ball.faces.shape, ball.closed
+    ((1442, 3), (2880, 3), True)
+    """
+    return Surface.of(read_mesh(path, unit), assume_closed)
+
+
 def read_body(record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool) -> Surface:
     """Surface of one body in its body frame; warns of what about it needs care.
 
-    `placement` is that of `read_surface`.
+    `placement` is that of `read_input_surface`.
     """
-    surface = read_surface(record, role, path, unit, placement, assume_closed)
+    surface = read_input_surface(record, role, path, unit, placement, assume_closed)
     _warn_of_sides(record, role, surface)
     return surface
 
@@ -47,7 +74,7 @@ def read_body_and_outer(
     return surface, united(surface)
 
 
-def read_surface(
+def read_input_surface(
     record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool = False
 ) -> Surface:
     """Surface in its body frame; says which anatomical axes its file names, warns of closed surfaces inside others.

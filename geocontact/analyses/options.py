@@ -66,6 +66,8 @@ class Spelled:
         May be given again and again, one value each time.
     keyword
         An option there, although in Python it may be given by its place.
+    rest
+        Arguments without a name that are left are added to it.
     """
 
     name: str = ""
@@ -74,6 +76,7 @@ class Spelled:
     dashed: bool = False
     each: bool = False
     keyword: bool = False
+    rest: bool = False
 
 
 @dataclass(frozen=True)
@@ -240,10 +243,24 @@ class Declared:
 class Options:
     """Base of the options of every analysis: values are coerced, and options without effect are refused.
 
-    `over_time` says whether results have tables over time, which can be written as netCDF.
+    The first paragraph of the docstring of a class is what its analysis does, for the help of both doors.
+
+    Attributes
+    ----------
+    over_time
+        Whether results have tables over time, which can be written as netCDF.
+    writes
+        What the help of the command says below that: which files it writes, and what else is to be known.
+    folder_help
+        What it says of the folder for the results.
+    last_line
+        The command prints it at the end, with the folder in place of {out}; nothing where it is empty.
     """
 
     over_time: ClassVar[bool] = False
+    writes: ClassVar[str] = ""
+    folder_help: ClassVar[str] = "Folder for the results."
+    last_line: ClassVar[str] = ""
 
     def __post_init__(self) -> None:
         for one in declared(type(self)):

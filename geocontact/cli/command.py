@@ -6,21 +6,22 @@ import inspect
 import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any
 
 from cyclopts import Group, Parameter
 
-from geocontact.analyses.job import Call, execute
+from geocontact.analyses.catalogue import Entry, entry_of
+from geocontact.analyses.job import Call, Job, execute
 from geocontact.analyses.options import Declared, Options, declared
 from geocontact.analyses.result import Result
 from geocontact.analyses.table_forms import AS_ALWAYS, TableForms
 from geocontact.analyses.typed_values import key, read
+from geocontact.cli.opensim_setup import COMMANDS, HELP
 from geocontact.cli.show import Terminal
 from geocontact.data.errors import InputError
 
-OUT = "Folder for the results."
+PROGRAM = "geocontact"
 RESULTS = "Results"
 """Heading of what every command can be asked about its results."""
 
@@ -37,38 +38,23 @@ class Command:
 
     Parameters
     ----------
-    job
-        Where the analysis is, "geocontact.analyses.cop.result:centre_of_pressure", or where it is for options that are
-        given; imported when it runs.
     options
         Its options.
-    words
-        Help: a summary, then what it writes.
-    rest
-        Option that further arguments are added to.
-    out
-        Help of the folder.
-    after
-        Says more at the end.
+    job
+        Gives the analysis for options that were typed; called when it runs, since it imports all that computes.
+    more
+        What the help says besides, at the end.
     """
 
-    def __init__(
-        self,
-        job: str | Callable[[Options], str],
-        options: type[Options],
-        words: str,
-        *,
-        rest: str = "",
-        out: str = OUT,
-        after: Callable[[Result, Path], None] | None = None,
-    ) -> None:
-        self.job, self.options, self.rest, self.after = job, options, rest, after
+    def __init__(self, options: type[Options], job: Callable[[Options], Job[Any, Any]], more: str = "") -> None:
+        self.options, self.job = options, job
         self.known = declared(options)
+        self.rest = next((one.name for one in self.known if one.spelled.rest), "")
         self.spell = speller(self.known)
-        self.__doc__ = in_paragraphs(self.spell(words))
+        self.__doc__ = in_paragraphs(self.spell(f"{summary(options)}\n\n{options.writes.strip()}\n{more}"))
         self.__name__ = options.__name__
         self.__annotations__: dict[str, Any] = {}  # types stand in the signature
-        self.__signature__ = _signature(options, rest, self.spell, out)
+        self.__signature__ = _signature(options, self.rest, self.spell)
 
     def __call__(self, *arguments: Any, **typed: Any) -> int:
         """Run it with what was typed, and say what was found; the exit code."""
@@ -79,8 +65,8 @@ class Command:
                 {**asked, **forms.given()}, folder, forms, overwrite=not typed.get("no_overwrite", False)
             )
             tell(result, folder, files)
-            if self.after is not None:
-                self.after(result, folder)
+            if self.options.last_line:
+                print(self.spell(self.options.last_line).format(out=folder))
             return int(result.exit_code)
 
     def execute(
@@ -102,9 +88,8 @@ class Command:
         """Run it with options in SI, by their names in Python; `told` is what `run.json` says of them."""
         options = self.options(**given)
         options.refuse_missing_files()
-        place, _, name = (self.job if isinstance(self.job, str) else self.job(options)).partition(":")
         call = Call(told, Terminal(), self.spell, forms, overwrite)
-        return execute(getattr(import_module(place), name), options, folder, call)
+        return execute(self.job(options), options, folder, call)
 
     @contextmanager
     def respelling(self) -> Iterator[None]:
@@ -115,11 +100,38 @@ class Command:
             raise respelled(error, self.spell) from error
 
 
+def __getattr__(name: str) -> Command:
+    """The command of an analysis by how it is called: "geocontact elbow fit"."""
+    program, _, command = name.partition(" ")
+    if program != PROGRAM or not command:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return command_of(entry_of(command))
+
+
+def place_of(entry: Entry) -> str:
+    """Where `__getattr__` has its command, for a program that imports commands when they are asked for."""
+    return f"{__name__}:{PROGRAM} {entry.command}"
+
+
+def command_of(entry: Entry) -> Command:
+    """The command of an analysis of the catalogue."""
+
+    def job(options: Options) -> Job[Any, Any]:
+        return entry.load_job(many=bool(entry.many) and options.given("many"))
+
+    return Command(entry.load_options(), job, HELP if entry.command in COMMANDS else "")
+
+
 def _shortened(files: list[str]) -> list[str]:
     """Names of files as they are, but sub-folders as a whole where there are many files in them."""
     if len(files) <= MOST_FILES:
         return files
     return sorted({name if "/" not in name else f"{name.partition('/')[0]}/…" for name in files})
+
+
+def summary(options: type[Options]) -> str:
+    """What an analysis does: the first paragraph of the docstring of its options."""
+    return inspect.cleandoc(options.__doc__ or "").partition("\n\n")[0]
 
 
 def in_paragraphs(text: str) -> str:
@@ -180,7 +192,7 @@ def _default(one: Declared) -> Any:
     return one.default if one.spelled.default is None else one.spelled.default
 
 
-def _signature(options: type[Options], rest: str, spell: Callable[[str], str], out: str) -> inspect.Signature:
+def _signature(options: type[Options], rest: str, spell: Callable[[str], str]) -> inspect.Signature:
     known = declared(options)
     parameters: list[inspect.Parameter] = []
     for one in known:
@@ -193,7 +205,7 @@ def _signature(options: type[Options], rest: str, spell: Callable[[str], str], o
     sections = list(dict.fromkeys(one.section for one in known))
     spelled = {one.name: _keyword(one, sections.index(one.section), spell) for one in keywords}
     required = [spelled[one.name] for one in keywords if one.required]
-    folder = _parameter("out", inspect.Parameter.KEYWORD_ONLY, Path, {"help": out})
+    folder = _parameter("out", inspect.Parameter.KEYWORD_ONLY, Path, {"help": options.folder_help})
     others = [spelled[one.name] for one in keywords if not one.required]
     group = Group(RESULTS, sort_key=sections.index(RESULTS) if RESULTS in sections else len(sections))
     forms = [_flag(name, words, group) for name, words in FORMS.items() if name != "netcdf" or options.over_time]

@@ -12,10 +12,11 @@ from io import TextIOWrapper
 
 from cyclopts import App, CycloptsError, MissingArgumentError
 
+from geocontact.analyses.catalogue import ENTRIES, GROUPS
 from geocontact.analyses.results_folder import discard_drafts, what_stays
-from geocontact.cli.extras import remedy_for
+from geocontact.cli.command import place_of
 from geocontact.cli.opensim_setup import with_setup
-from geocontact.cli.suggestions import help_of, mistyped
+from geocontact.cli.suggestions import help_of, mistyped, remedy_for
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
 
@@ -24,39 +25,44 @@ USAGE_ERROR = 2
 FAILURE = 1
 NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
-app = App(
-    name="geocontact",
-    help="Contact areas, contact forces and material properties from meshes, motion and pressure data.",
-    version=VERSION,
-    version_flags=["--version"],
-    help_format="plaintext",  # <trial>, [N] and * are what they are
-    suppress_keyboard_interrupt=False,
-)
-app.command("geocontact.cli.area:area", name="area")
-app.command("geocontact.cli.cohort:cohort", name="cohort")
-app.command("geocontact.cli.cop:cop", name="cop")
-app.command("geocontact.cli.demo:demo", name="demo")
-app.command("geocontact.cli.doctor:doctor", name="doctor")
-app.command("geocontact.cli.elbow.group:elbow", name="elbow")
-app.command("geocontact.cli.fit:fit", name="fit")
-app.command("geocontact.cli.gap.group:gap", name="gap")
-app.command("geocontact.cli.id:inverse_dynamics", name="id")
-app.command("geocontact.cli.ik:ik", name="ik")
-app.command("geocontact.cli.joint:joint", name="joint")
-app.command("geocontact.cli.knee.group:knee", name="knee")
-app.command("geocontact.cli.loadcells:loadcells", name="loadcells")
-app.command("geocontact.cli.markers:markers", name="markers")
-app.command("geocontact.cli.mat:mat", name="mat")
-app.command("geocontact.cli.modulus:modulus", name="modulus")
-app.command("geocontact.cli.prosthesis.group:prosthesis", name="prosthesis")
-app.command("geocontact.cli.rerun:rerun", name="rerun")
-app.command("geocontact.cli.scale:scale", name="scale")
-app.command("geocontact.cli.shoulder.group:shoulder", name="shoulder")
-app.command("geocontact.cli.sit_to_stand.group:sit_to_stand", name="sit-to-stand")
-app.command("geocontact.cli.view:view", name="view")
-app.register_install_completion_command(
-    help="Let the shell complete commands, options and their choices (bash, zsh, fish, PowerShell)."
-)
+OWN = {
+    "demo": "geocontact.cli.demo:demo",
+    "doctor": "geocontact.cli.doctor:doctor",
+    "rerun": "geocontact.cli.rerun:rerun",
+    "view": "geocontact.cli.view:view",
+}
+"""Commands that are no analysis."""
+
+
+def made() -> App:
+    """The command line: groups and analyses of the catalogue, and `OWN`; imported when they are asked for."""
+    app = App(
+        name="geocontact",
+        help="Contact areas, contact forces and material properties from meshes, motion and pressure data.",
+        version=VERSION,
+        version_flags=["--version"],
+        help_format="plaintext",  # <trial>, [N] and * are what they are
+        suppress_keyboard_interrupt=False,
+    )
+    groups = {group.name: App(name=group.name, help=group.help) for group in GROUPS}
+    alone = {each.command: place_of(each) for each in ENTRIES if each.command and each.group is None}
+    single: dict[str, App | str] = {**OWN, **alone, **groups}
+    for name, command in sorted(single.items()):
+        if isinstance(command, App):
+            app.command(command)
+        else:
+            app.command(command, name=name)
+    for each in ENTRIES:
+        if each.group is not None:
+            name = each.command.partition(" ")[2]
+            groups[each.group.name].command(place_of(each), name=(name, each.also) if each.also else name)
+    app.register_install_completion_command(
+        help="Let the shell complete commands, options and their choices (bash, zsh, fish, PowerShell)."
+    )
+    return app
+
+
+app = made()
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

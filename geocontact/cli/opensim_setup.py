@@ -10,6 +10,11 @@ from geocontact.data.errors import InputError
 
 OPTION = "--setup"
 COMMANDS = "ik", "id", "scale"
+HELP = (
+    "OpenSim's own set-up file takes the place of inputs and options: --setup FILE; options that are typed beside it "
+    "count instead of its own."
+)
+"""What their help says of it."""
 
 
 def with_setup(tokens: Sequence[str]) -> list[str]:

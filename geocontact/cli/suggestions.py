@@ -1,15 +1,19 @@
-"""One line for what was mistyped: what is no command or no option here, and the nearest that is."""
+"""One line for what was mistyped or is not installed: the nearest command or option there is, or what to install."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from difflib import get_close_matches
+from importlib.metadata import PackageNotFoundError, requires
 
 from cyclopts import App, CycloptsError, UnknownCommandError, UnknownOptionError
 
 NAME = "geocontact"
 ALIKE = 0.6
 """Least similarity (0 to 1, Ratcliff and Obershelp) of a name that is suggested."""
+FOR_WORK = ("all", "test", "oracle")
+"""Extras that bring several or are for those who work on the package."""
 
 
 def mistyped(error: CycloptsError, app: App) -> str:
@@ -55,3 +59,17 @@ def _nearest(given: str, names: Iterable[str]) -> str:
 def _with_hint(text: str, hint: str) -> str:
     """Sentence and remedy; a question keeps its mark and the remedy follows as a sentence of its own."""
     return f"{text} {hint.capitalize()}" if text.endswith("?") else f"{text.rstrip('.')}; {hint}"
+
+
+def remedy_for(library: str) -> str:
+    """What to install for `import library`: "pip install 'geocontact[dynamics]'"; "" where no extra brings it."""
+    try:
+        told = requires("geocontact") or []
+    except PackageNotFoundError:  # run from a checkout that is not installed
+        return ""
+    wanted = library.partition(".")[0].lower()
+    for line in told:
+        name, extra = re.match(r"[\w-]*", line), re.search(r"""extra == ['"](\w+)['"]""", line)
+        if name and extra and name[0].lower() == wanted and extra[1] not in FOR_WORK:
+            return f"pip install 'geocontact[{extra[1]}]'"
+    return ""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
+from typing import ClassVar
 
 from geocontact.analyses.options import Options
 from geocontact.data.errors import InputError
@@ -15,7 +16,7 @@ SIZE = re.compile(r"[0-9]+(\.[0-9]+)? ?[kMGT]i?B")
 
 @dataclass(frozen=True)
 class CohortOptions(Options):
-    """One analysis of many subjects, trials, conditions and settings; what is done already is not done again.
+    """One analysis of many subjects, trials, conditions and settings, on this machine or a cluster.
 
     Parameters
     ----------
@@ -30,6 +31,12 @@ class CohortOptions(Options):
         Processes on this machine; as many as there are cores unless given.
     memory
         Memory that each process on this machine may take: 4GB; its share of the machine's unless given.
+    """
+
+    writes: ClassVar[str] = """
+    Writes results/… (a folder for each trial), trials.csv (what became of each), tables/… (the tables of all trials as
+    .parquet and .nc), report.html and run.json into OUT. It can be interrupted and run again at any time: only what is
+    missing is evaluated, and the tables are the same. A trial that cannot be evaluated is one line, the others go on.
     """
 
     study: Path

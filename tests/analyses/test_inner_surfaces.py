@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.analyses.bodies import read_body, read_surface
+from geocontact.analyses.bodies import read_body, read_input_surface
 from geocontact.analyses.cop.foot import ground_of
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.run_record import Record
@@ -31,7 +31,7 @@ def bone(folder: Path, *, marrow: bool = True) -> Path:
 
 def surface(record: Record, file: Path) -> None:
     """`fit` and `mat`."""
-    read_surface(record, "mesh", file, "mm", None)
+    read_input_surface(record, "mesh", file, "mm", None)
 
 
 def body(record: Record, file: Path) -> None:

@@ -34,6 +34,12 @@ class DoubleOptions(Options):
         What is added.
     """
 
+    writes: ClassVar[str] = """
+    Writes double.csv,
+    see `more`.
+    """
+    last_line: ClassVar[str] = "next: look into {out}"
+
     file: Path
     _: KW_ONLY
     more: Annotated[Length, Spelled(default="0")] = 0.0
@@ -73,7 +79,7 @@ def run(value: float, o: DoubleOptions, record: Record) -> Doubled:
 
 
 double = Job("double", DoubleOptions, read_length, run)
-from_command = Command("tests.analyses.test_job:double", DoubleOptions, "Twice, see `more`.")
+from_command = Command(DoubleOptions, lambda _: double)
 
 
 @pytest.fixture
@@ -123,14 +129,16 @@ def test_the_command_says_what_was_found_and_spells_options(
     file.write_text("2000")
     assert from_command(file, out=tmp_path / "out", more="1mm") == 0
     said = capsys.readouterr()
-    assert said.out.splitlines() == ["twice 2 m", f"results in {tmp_path / 'out'}: double.csv, report.html, run.json"]
+    out = tmp_path / "out"
+    results = f"results in {out}: double.csv, report.html, run.json"
+    assert said.out.splitlines() == ["twice 2 m", results, f"next: look into {out}"]
     assert said.err == "warning: more than a metre, see --more\n"
     told = json.loads((tmp_path / "out/run.json").read_text())
     assert told["warnings"] == ["more than a metre, see --more"] and told["inputs"][0]["role"] == "FILE"
     file.write_text("five")
     with pytest.raises(InputError, match="is no number; or give --more"):
         from_command(file, out=tmp_path / "out")
-    assert from_command.__doc__ == "Twice, see --more."
+    assert from_command.__doc__ == "Twice a length.\n\nWrites double.csv, see --more.", "what the options say"
 
 
 def test_what_fails_leaves_the_folder_as_it_was(file: Path, tmp_path: Path) -> None:

@@ -10,11 +10,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from benchmarks.page_pictures.kinds import EVERY, KINDS
 from benchmarks.same_outputs.comparing import compared
 from benchmarks.same_outputs.inputs import make
-from benchmarks.same_outputs.recording import ROOT, RUNS, runs, wanted
-from geocontact.cli.main import app
+from benchmarks.same_outputs.recording import ROOT, RUNS, first_run, runs, wanted
+from geocontact.analyses.catalogue import ENTRIES
+from geocontact.cli.main import OWN
 
+WITHOUT_RUN = ["shoulder study"]
+"""Making the trials of a study takes minutes: `python -m benchmarks.shoulder_study` runs it."""
 RUN = {
     "geocontact": "0.1.0",
     "options": {"unit": "mm", "threshold": "4"},
@@ -150,15 +154,25 @@ def test_runs_come_after_those_that_they_read() -> None:
 
 
 def test_every_command_is_run() -> None:
-    every = {(*run.arguments, "")[:2] for run in runs(RUNS.read_text("utf-8")).values()}
-    every |= {
-        ("gap", now)
-        for before, now in (("confuse", "discriminability"), ("plant", "inject"))
-        if ("gap", before) in every
-    }
-    assert {name for name in app if not name.startswith("-")} <= {first for first, _ in every}
-    for group in ("elbow", "gap"):
-        assert {(group, name) for name in app[group] if not name.startswith("-")} <= every
+    every = runs(RUNS.read_text("utf-8")).values()
+    typed = [entry for entry in ENTRIES if entry.command]
+    assert [entry.command for entry in typed if not first_run(every, entry)] == WITHOUT_RUN
+    assert set(OWN) <= {run.arguments[0] for run in every}
+
+
+def test_runs_are_of_commands_that_are_there() -> None:
+    for run in runs(RUNS.read_text("utf-8")).values():
+        known = run.arguments[0] in (*OWN, "--help") or any(entry.calls(run.arguments) for entry in ENTRIES)
+        assert known, run.name
+
+
+def test_a_page_of_every_kind_is_of_a_run() -> None:
+    assert set(KINDS.values()) <= set(EVERY)
+    assert (KINDS["area"], KINDS["sit_to_stand_predict"], KINDS["cop"]) == (
+        "area_split",
+        "standing_predict",
+        "cop_compare",
+    )
 
 
 def test_inputs_are_there_and_the_same_each_time(tmp_path: Path) -> None:

@@ -107,7 +107,8 @@ def test_a_library_of_an_extra_that_is_not_installed_is_one_line(
     for name in [each for each in sys.modules if each.partition(".")[0] == "casadi"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "casadi", None)
-    monkeypatch.setattr("geocontact.cli.extras.requires", lambda _: ["numpy>=2", "casadi>=3.7; extra == 'dynamics'"])
+    wanted = ["numpy>=2", "casadi>=3.7; extra == 'dynamics'"]
+    monkeypatch.setattr("geocontact.cli.suggestions.requires", lambda _: wanted)
     done = call("markers", MESHES / "leg_swing.mot", "--model", MESHES / "leg.osim", "--out", tmp_path / "m")
     assert done.code == 0, done.err
     refused = call("ik", tmp_path / "m" / "markers.trc", "--model", MESHES / "leg.osim", "--out", tmp_path / "out")

@@ -20,7 +20,9 @@ def defined(module: str) -> set[str]:
     """Names at the top of a module, by its source; submodules count as well."""
     place = ROOT / module.replace(".", "/")
     inside = {file.stem for file in place.iterdir()} if place.is_dir() else set()
-    tree = ast.parse((place / "__init__.py" if place.is_dir() else place.with_suffix(".py")).read_text("utf-8"))
+    file = place / "__init__.py" if place.is_dir() else place.with_suffix(".py")
+    stub = file.with_suffix(".pyi")
+    tree = ast.parse((stub if stub.is_file() else file).read_text("utf-8"))
     for one in tree.body:
         if isinstance(one, (ast.FunctionDef, ast.ClassDef)):
             inside.add(one.name)

@@ -22,6 +22,7 @@ PLANTED = "Planted cases share nothing with the candidates"
 WITHHELD = "Only the benchmark knows the planted cases"
 VIEW = "View shows data only"
 APART = "Analyses do not know each other"
+GROUP = "Analyses of a group do not know each other"
 CIRCLES = "No two modules import each other"
 TYPED = "Only cli parses and prints"
 
@@ -70,6 +71,8 @@ BREAKS = [
     ("newroom/newroom.py", "", ROOMS),
     ("view/curves/style.py", "import geocontact.geometry.plane", VIEW),
     ("analyses/cop/foot.py", "import geocontact.analyses.area.result", APART),
+    ("analyses/bodies.py", "import geocontact.analyses.shape.result", APART),
+    ("analyses/motion/scale/result.py", "import geocontact.analyses.motion.inverse_dynamics.result", GROUP),
     ("analyses/area/options.py", "import geocontact.analyses.area.result", CIRCLES),
     ("chain/candidate.py", "import geocontact.chain.contact_sites", CIRCLES),
     ("analyses/cop/foot.py", "import cyclopts", TYPED),

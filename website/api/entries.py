@@ -13,8 +13,8 @@ from typing import Any
 
 import geocontact
 from geocontact import chain
+from geocontact.analyses.catalogue import Room
 from geocontact.analyses.job import Job
-from geocontact.analyses.package_of_jobs import PackageOfJobs
 from geocontact.chain.law_parameters import LawParameters
 from geocontact.data.units import Unit
 
@@ -81,7 +81,7 @@ def entries() -> list[Entry]:
 def _front() -> Iterator[Entry]:
     for name in geocontact.__all__:
         thing = getattr(geocontact, name)
-        if isinstance(thing, PackageOfJobs):
+        if isinstance(thing, Room):
             yield from (Entry(f"{name}.{job}", getattr(thing, job), JOBS) for job in thing.__all__)
         elif not isinstance(thing, ModuleType):
             yield Entry(name, thing, _group(thing))

@@ -204,12 +204,17 @@ class AreaOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes area.csv, report.html, area.png, area.svg and run.json into OUT, and pressure.csv with `pressure`. A point
+    counts as in contact when its signed distance to the other body is not above the threshold; against an open body
+    distances are unsigned, and the table says so.
+    """
 
     moving: Path
     fixed: Path
     _: KW_ONLY
     unit: MeshUnit
-    motion: tuple[str, ...] | None = None
+    motion: Annotated[tuple[str, ...] | None, Spelled(rest=True)] = None
     motion_fixed: Annotated[
         tuple[str, ...] | None,
         READS_NO_FILE,

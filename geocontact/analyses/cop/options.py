@@ -131,6 +131,9 @@ class CopOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes cop.csv, zones.csv, cop.png, cop.svg, report.html and run.json into OUT, and comparison.csv with `compare`.
+    """
 
     spheres: Path
     _: KW_ONLY

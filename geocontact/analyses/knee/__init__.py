@@ -2,14 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from typing import TYPE_CHECKING
+from geocontact.analyses.catalogue import make_room
 
-from geocontact.analyses.package_of_jobs import PackageOfJobs
-
-if TYPE_CHECKING:
-    from geocontact.analyses.knee.settle.result import settle
-
-__all__ = ["settle"]
-
-sys.modules[__name__].__class__ = PackageOfJobs
+make_room(__name__)

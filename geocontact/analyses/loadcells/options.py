@@ -47,6 +47,10 @@ class LoadcellOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes forces.csv, loadcells.png, loadcells.svg, report.html and run.json into OUT; with `cycles` also cycles.csv,
+    ensemble.csv, ensemble.png, ensemble.svg, and styles.csv where there are several gait styles.
+    """
 
     recordings: tuple[Path, ...]
     _: KW_ONLY

@@ -150,6 +150,10 @@ class MatOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes wrench.csv, uncertainty.csv, cells.csv, frames_cells.csv, segments.csv with `segment`, registration.csv with
+    `body_landmarks`, agreement.csv with `compare`, mat_on_surface.vtp, report.html, mat.png, mat.svg, run.json.
+    """
 
     frames: Path
     _: KW_ONLY

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.analyses.bodies import chosen_faces, read_surface
+from geocontact.analyses.bodies import chosen_faces, read_input_surface
 from geocontact.analyses.mat.comparison import ModelForces, Phase, read_model, read_phases
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placement import (
@@ -122,7 +122,7 @@ def read(o: MatOptions, record: Record) -> MatInputs:
     """Everything the options name."""
     recorded, listed_dead = read_recording(record, o)
     motion = read_segment_motion(record, o)
-    scan = read_surface(record, "surface", o.surface, o.unit, None)
+    scan = read_input_surface(record, "surface", o.surface, o.unit, None)
     return MatInputs(
         recorded,
         listed_dead,

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.bodies import read_surface
+from geocontact.analyses.bodies import read_input_surface
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.quantities import centre
 from geocontact.analyses.run_record import Record
@@ -107,7 +107,7 @@ def read_body_model(record: Record, o: MatOptions) -> BodyModel | None:
         return None
     names, on_scan, on_body = _pairs(o.body_landmarks)
     record.add_input("`body_landmarks`", o.body_landmarks, landmarks=len(names))
-    body = None if o.body is None else read_surface(record, "body", o.body, o.body_unit or o.unit, None)
+    body = None if o.body is None else read_input_surface(record, "body", o.body, o.body_unit or o.unit, None)
     return BodyModel(names, on_scan, on_body, body)
 
 
@@ -197,7 +197,7 @@ def read_second_scan(record: Record, o: MatOptions) -> SecondScan | None:
     """The scan with the mat on; None where there is none."""
     if o.scan_with_mat is None:
         return None
-    surface = read_surface(record, "scan with the mat", o.scan_with_mat, o.unit, None)
+    surface = read_input_surface(record, "scan with the mat", o.scan_with_mat, o.unit, None)
     corner = None if o.first_corner is None else np.array(centre(o.first_corner, o.unit, "`first_corner`"))
     return SecondScan(surface, corner)
 

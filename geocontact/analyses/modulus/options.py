@@ -99,6 +99,10 @@ class ModulusOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes modulus.json, curves.csv, sensitivity.csv, modulus.png, modulus.svg, report.html and run.json into OUT, and
+    prediction.csv with `predict_area`. Area and force give one number, E* = E/(1 - nu^2): E is told for a stated nu.
+    """
 
     area: Annotated[tuple[Path, ...], Spelled(keyword=True)]
     force: Annotated[Path, Spelled(keyword=True)]

@@ -11,7 +11,7 @@ import pandas as pd
 from jaxtyping import Bool, Float
 
 from geocontact.analyses import quantities
-from geocontact.analyses.bodies import chosen_faces, read_surface
+from geocontact.analyses.bodies import chosen_faces, read_input_surface
 from geocontact.analyses.json_file import finite
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shape.options import NEEDS, ShapeOptions
@@ -177,7 +177,7 @@ def read(o: ShapeOptions, record: Record) -> ShapeInputs:
     if o.paraview:
         require_pyvista()
     with record.listener.preparing():
-        surface = read_surface(record, "mesh", o.mesh, o.unit, o.place)
+        surface = read_input_surface(record, "mesh", o.mesh, o.unit, o.place)
         if surface.inside_out:
             record.warn(f"{surface.name}: faces point inwards; taken the other way round")
         axis = _axis(record, o)
@@ -220,7 +220,7 @@ def _names(record: Record, surface: Surface, axis: Axis | None, o: ShapeOptions)
         _note(record, "`centre`", o.centre)
         found |= about(surface, quantities.centre(o.centre, o.unit), None, LENGTH[o.unit])
     if o.other is not None:
-        other = read_surface(record, "other", o.other, o.unit, o.place_other)
+        other = read_input_surface(record, "other", o.other, o.unit, o.place_other)
         found |= about_other(surface, other, LENGTH[o.unit])
         if not other.closed and o.region is not None and "distance" in o.region:
             record.warn(f"{other.name} is open ({other.topology.why_open}): distance to it has no sign")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.checks import refuse
 from geocontact.analyses.options import Degrees, Excludes, Expression, MeshUnit, Options, Requires, Spelled, Typed
@@ -88,6 +88,11 @@ class ShapeOptions(Options):
     -------
     paraview
         Also write the surface with its residuals for ParaView (fit.vtp).
+    """
+
+    writes: ClassVar[str] = """
+    Writes fit.json, fit.png, fit.svg, report.html and run.json into OUT, and profile.csv, profile.png, profile.svg with
+    `profile`. Which faces count decides the radius: say it with `region`.
     """
 
     mesh: Path

@@ -13,7 +13,7 @@ from tests.view.page.conftest import DESKTOP, PHONE, Open
 
 STILL = {
     *("fit", "modulus", "elbow_fit", "elbow_design", "elbow_population"),
-    *("scale", "gather", "gap", "confuse"),
+    *("scale", "gap_gather", "gap_diagnose", "gap_discriminability"),
     *("prosthesis_scale", "prosthesis_calibrate", "prosthesis_compare", "prosthesis_design"),
 }
 """Pages on which nothing runs in time."""

@@ -24,6 +24,11 @@ class DiagnoseOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes diagnosis.json, report.html, gap_map.csv, ranking.csv, held_out.csv, trials.csv where something is named,
+    figures (.png, .svg) and run.json into OUT. With `many` a case that cannot be used is one line on stderr and exit 2;
+    the others are diagnosed all the same.
+    """
 
     case: CaseFolder
     _: KW_ONLY
@@ -33,7 +38,9 @@ class DiagnoseOptions(Options):
 
 @dataclass(frozen=True)
 class ManyOptions(DiagnoseOptions):
-    """Diagnose every gap case in a folder, each by itself.
+    """Diagnose a gap case: which effect the model lacks, where it shows, how far the gap shrinks with it.
+
+    With `many`, every case in a folder, each by itself.
 
     Parameters
     ----------

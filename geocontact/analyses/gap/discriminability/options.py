@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import KW_ONLY, dataclass
+from typing import ClassVar
 
 from geocontact.analyses.options import CaseFolder, Options
 from geocontact.data.errors import InputError
@@ -26,6 +27,10 @@ class DiscriminabilityOptions(Options):
         Write tables, confuse.json and run.json only: no page, no figures.
     run_simulator
         Allow a case of the system "command" to run the program that it names.
+    """
+
+    writes: ClassVar[str] = """
+    Writes confuse.json, separability.csv, detectability.csv, report.html, figures (.png, .svg) and run.json into OUT.
     """
 
     case: CaseFolder

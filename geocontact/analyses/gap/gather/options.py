@@ -25,6 +25,12 @@ class GatherOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes case.toml, trials/<id>.csv, for mats trials/<id>_<site>_cells.csv and <site>_layout.csv, the tables that
+    SETTINGS names, and run.json into OUT, ready for `geocontact gap diagnose OUT`.
+    """
+    folder_help: ClassVar[str] = "Folder for the case."
+    last_line: ClassVar[str] = "next: geocontact gap diagnose {out} `out` …"
 
     settings: Path
     _: KW_ONLY

@@ -41,6 +41,10 @@ class InjectOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes case/ (the case with the effect in it), diagnosis/ (as `gap diagnose` does), planted.json and run.json into
+    OUT. What the trials miss already stays in them.
+    """
 
     case: CaseFolder
     _: KW_ONLY

@@ -43,7 +43,7 @@ Springs = Annotated[
 
 @dataclass(frozen=True)
 class SettleOptions(Options):
-    """Contact equilibrium of a knee implant: flexion and axial load given, the rest settles on an elastic foundation.
+    """Contact equilibrium of a knee implant: flexion and load given, the rest settles on an elastic foundation.
 
     FIXED is the tibial insert in a frame with x anterior, y proximal, z to the subject's right; MOVING the femoral
     component.
@@ -129,6 +129,11 @@ class SettleOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes settle.csv, poses.csv and settled.mot (motions for `geocontact area`), a figure, report.html and run.json
+    into OUT, contact_loads.mot and .xml with `bodies` (external loads for OpenSim), and pressures for ParaView with
+    `paraview`.
+    """
 
     moving: Path
     fixed: Path

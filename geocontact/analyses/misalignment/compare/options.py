@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.misalignment.shared_options import ColumnOptions, Stroke, require_stroke
 from geocontact.analyses.options import Degrees, Requires, Spelled
@@ -32,6 +32,10 @@ class CompareOptions(ColumnOptions):
         Stroke of the compensation joint with `fit`, such as -10:40; locked without.
     bin
         Width of the bins of the picture.
+    """
+
+    writes: ClassVar[str] = """
+    Writes comparison.csv, a figure for each channel, report.html and run.json into OUT.
     """
 
     recordings: tuple[Path, ...]

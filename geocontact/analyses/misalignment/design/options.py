@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.misalignment.law_numbers import ACROSS, DRIFT, LINK, OFFSET
 from geocontact.analyses.misalignment.shared_options import (
@@ -66,6 +66,11 @@ class DesignOptions(Options):
         How the joint's axis wanders with the angle: x=0:-8:2,y=0:5 (mm, mm/rad, mm/rad², …, over the exoskeleton's
         angle), or a .csv with the columns beta or alpha [deg], x [mm], y [mm], or alpha [deg], instant_centre_x [mm],
         instant_centre_y [mm]; alpha is the joint's own angle.
+    """
+
+    writes: ClassVar[str] = """
+    For the elbow, and for the knee, the hip or any joint of one degree of freedom; slow motion. Writes design.json,
+    map.csv, boundary.csv, sensitivity.csv, force.csv, design.png, design.svg, report.html and run.json into OUT.
     """
 
     _: KW_ONLY

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.misalignment.law_numbers import MEANS, NUMBERS, TOPS, require_names
 from geocontact.analyses.misalignment.shared_options import ColumnOptions
@@ -80,6 +80,12 @@ class IdentifyOptions(ColumnOptions):
         Width of the bins of the box plots.
     bootstrap
         Replicates of the wild bootstrap, 0 for none. Each is searched from every minimum that fits nearly as well.
+    """
+
+    writes: ClassVar[str] = """
+    Writes elbow.json, bins.csv, boxes.csv, intervals.csv, scale_line.csv, held_out.csv, figures (.png, .svg),
+    report.html and run.json into OUT, with `unlocked` also conditions.csv and boxes_free.csv. k, x, y, l and z are
+    known up to one factor only, unless one of them comes from elsewhere.
     """
 
     recordings: tuple[Path, ...]

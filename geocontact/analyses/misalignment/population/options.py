@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.misalignment.law_numbers import DRIFT
 from geocontact.analyses.misalignment.shared_options import (
@@ -53,6 +53,11 @@ class PopulationOptions(Options):
         Of the draw.
     keep
         Also write samples.csv: the quantities, the force and the state of every one.
+    """
+
+    writes: ClassVar[str] = """
+    Writes population.json, quantiles.csv, exceedance.csv, influence.csv, population.png, population.svg, report.html
+    and run.json into OUT. All samples are synthetic: drawn, not measured.
     """
 
     description: Path

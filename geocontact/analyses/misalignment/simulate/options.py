@@ -102,6 +102,11 @@ class SimulateOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes a table for each trial (locked_1.csv …, free_1.csv …, or simulated_NAME.csv for a recording), truth.json,
+    numbers.csv with the source of every number, surfaces.csv and a figure of the displacement over angle and offsets,
+    report.html and run.json into OUT. The tables say that they are synthetic.
+    """
 
     recordings: tuple[Path, ...] = ()
     _: KW_ONLY

@@ -40,6 +40,9 @@ class JointOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes joint.json, joint.csv, markers.trc [mm] with the joint as a marker, and run.json into OUT.
+    """
 
     trial: Path
     _: KW_ONLY

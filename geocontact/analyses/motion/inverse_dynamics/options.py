@@ -51,6 +51,10 @@ class IdOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes id.sto (for OpenSim), id.json with what is left over at the joint to the ground, cycles.csv where heel
+    strikes are known, report.html (a moving skeleton) and run.json into OUT.
+    """
 
     coordinates: Path
     _: KW_ONLY

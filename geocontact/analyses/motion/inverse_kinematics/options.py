@@ -53,6 +53,11 @@ class IkOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes ik.mot (degrees and metres, for OpenSim), markers.csv (distance of each marker from the model), knees.csv
+    with `knee`, cycles.csv where heel strikes are known, ik.json, report.html (a moving skeleton) and run.json into
+    OUT.
+    """
 
     markers: Path
     _: KW_ONLY

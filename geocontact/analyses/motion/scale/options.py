@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import C3dUnit, Expression, Options, Texts, TimeSpan
 from geocontact.data.ranges import MASS
@@ -48,6 +48,10 @@ class ScaleOptions(Options):
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     time
         First and last time [s] of standing still.
+    """
+
+    writes: ClassVar[str] = """
+    Writes scaled.osim (for ik, id and OpenSim; its defaults are the static pose), scale.json and run.json into OUT.
     """
 
     static: Path

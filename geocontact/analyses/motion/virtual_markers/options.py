@@ -24,6 +24,9 @@ class MarkersOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes markers.trc [mm] and run.json into OUT.
+    """
 
     coordinates: Path
     _: KW_ONLY

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import (
     BodyMass,
@@ -101,6 +101,12 @@ class ProsthesisCalibrateOptions(Options):
         is up.
     c3d_unit
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
+    """
+
+    writes: ClassVar[str] = """
+    Writes numbers.csv (value, interval, and whether the stance tells it), stance.csv (plate and model), law.toml (the
+    calibrated force law, as `geocontact cop` reads it, and how the foot is beside its standing trial), a figure,
+    report.html and run.json into OUT.
     """
 
     markers: Path

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import C3dUnit, Expression, Options
 from geocontact.analyses.prosthesis.ranges import TURNS, require_turns
@@ -14,7 +14,7 @@ from geocontact.data.ranges import CUTOFF, GAP
 
 @dataclass(frozen=True)
 class ProsthesisCompareOptions(Options):
-    """Simulate the stances of a study and set each beside its force plate and beside two predictors without a model.
+    """Stances of a study, simulated, beside their force plates and beside two predictors without a model.
 
     Parameters
     ----------
@@ -46,6 +46,12 @@ class ProsthesisCompareOptions(Options):
         Compile the equations first: the first run takes ten seconds longer, every one after it is faster.
     workers
         Processes; as many as there are cores by default. Results do not depend on it.
+    """
+
+    writes: ClassVar[str] = """
+    Writes summary.csv (means by setting), trials.csv (length, peaks, outliers and what is seen in them), errors.csv,
+    ensembles.csv, coordinates, external loads, spheres and numbers of each stance, a figure, report.html and run.json
+    into OUT.
     """
 
     study: Path

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import (
     BodyMass,
@@ -120,6 +120,13 @@ class ProsthesisDesignOptions(Options):
         is up.
     c3d_unit
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
+    """
+
+    writes: ClassVar[str] = """
+    Writes answers.csv (best value and interval for every aim), sweep.csv (outcomes with bands, angles or torques kept),
+    ranges.csv (between which ends each outcome lies), shapes.csv (roll-over shapes, ankle moment, energy), with
+    `intact` intact.csv (what a step of the intact foot has), numbers.csv (leg and foot as the trial is read with them),
+    a figure, report.html and run.json into OUT.
     """
 
     markers: Path

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import BodyMass, C3dUnit, Expression, Fraction, Options, PartLength, PartMass, Spelled
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, PROSTHESIS, RESIDUAL, STATURE
@@ -54,6 +54,11 @@ class ProsthesisScaleOptions(Options):
         Which of the markers' axes are x (forward), y (upwards) and z: x,z,-y where the laboratory's z is up.
     c3d_unit
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
+    """
+
+    writes: ClassVar[str] = """
+    Writes amputee.osim (socket and keel free, with springs), amputee_ik.osim (both held, for ik), segments.csv,
+    joints.csv, markers.csv, numbers.csv, report.html and run.json into OUT.
     """
 
     static: Path

@@ -86,6 +86,11 @@ class ProsthesisSimulateOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes stance.csv, errors.csv and curves.csv beside a force plate, numbers.csv with the source of every number,
+    coordinates.sto, ground_reaction.mot and .xml (external loads for OpenSim and `geocontact id`), paraview, a figure,
+    report.html (moving foot with forces) and run.json into OUT.
+    """
 
     markers: Path
     _: KW_ONLY

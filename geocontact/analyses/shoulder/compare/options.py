@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import AngleUnit, Expression, ForceUnit, Options, Spelled, Typed
 from geocontact.data.ranges import DELAY
@@ -14,7 +14,7 @@ Clock = Annotated[float, Typed("s", "finite", "0.02", "[s]", float), Spelled(das
 
 @dataclass(frozen=True)
 class ShoulderCompareOptions(Options):
-    """Errors of a simulated exoskeleton arm beside logger and pressure mat: mean absolute, root mean square, per phase.
+    """Errors of a simulated exoskeleton arm beside its logger and a pressure mat, by channel and work phase.
 
     Parameters
     ----------
@@ -31,6 +31,10 @@ class ShoulderCompareOptions(Options):
         Unit of the force where its file does not say.
     delay
         How much the recording's clock is late [s].
+    """
+
+    writes: ClassVar[str] = """
+    Writes comparison.csv, a figure, report.html and run.json into OUT.
     """
 
     simulated: Path

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import C3dUnit, Expression, Options, Requires, Spelled
 from geocontact.analyses.shoulder.shared_options import TORQUE_RATE, Share, require_share
@@ -68,6 +68,12 @@ class ShoulderOptimiseOptions(Options):
         Which of the markers' axes are x, y (upwards) and z of OpenSim's, of all trials: x,z,-y where z is up.
     c3d_unit
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
+    """
+
+    writes: ClassVar[str] = """
+    Writes factors.csv (best, one factor for all, the paper's, each person's, by arm weight), scales.csv, simulated.csv,
+    outcomes.csv (planned), held_out.csv (made for the others, judged on one, with intervals), front.csv, a figure,
+    report.html and run.json into OUT.
     """
 
     study: Annotated[Path | None, Spelled(keyword=True)] = None

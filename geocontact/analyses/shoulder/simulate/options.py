@@ -13,7 +13,7 @@ from geocontact.data.ranges import CUTOFF, GAP
 
 @dataclass(frozen=True)
 class ShoulderSimulateOptions(Options):
-    """Motion and interface forces of a shoulder exoskeleton along recorded human motion.
+    """Motion and interface forces of a shoulder exoskeleton along recorded human motion, by its own dynamics.
 
     Parameters
     ----------
@@ -71,6 +71,11 @@ class ShoulderSimulateOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes right.csv and left.csv, numbers.csv with the source of every number of the device, sensitivity.csv with
+    `sensitivity`, angles.sto, interface_forces.mot and .xml (external loads for OpenSim and `geocontact id`), paraview,
+    plane (for `geocontact gap gather`), a figure, report.html (moving arms with forces) and run.json into OUT.
+    """
 
     markers: Path
     _: KW_ONLY

@@ -12,7 +12,7 @@ from geocontact.data.ranges import CUTOFF, GAP
 
 @dataclass(frozen=True)
 class StudyOptions(Options):
-    """Simulate the arms of a study twice, with the motion recorded in the device and without it, beside logger and mat.
+    """Simulate the arms of a study along the motion in the device and along that without it, beside logger and mat.
 
     Parameters
     ----------
@@ -38,6 +38,9 @@ class StudyOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes summary.csv, errors.csv, differences.csv, passive.csv, a figure, report.html and run.json into OUT.
+    """
 
     study: Path
     _: KW_ONLY

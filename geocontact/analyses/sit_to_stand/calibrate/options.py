@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import Fraction, Spelled
 from geocontact.analyses.sit_to_stand.search_options import NODES, StandingSearchOptions, within
@@ -15,7 +15,7 @@ MOST_STARTS, MOST_POINTS = 1000, 20
 
 @dataclass(frozen=True)
 class StandingCalibrateOptions(StandingSearchOptions):
-    """Find the parameters of foot and ground that let a planar chain stand up as recorded, from several trials at once.
+    """Parameters of foot and ground that let a planar chain stand up as recorded, from several trials at once.
 
     Parameters
     ----------
@@ -34,6 +34,14 @@ class StandingCalibrateOptions(StandingSearchOptions):
         Probability of the intervals.
     profiles
         Points to either side of each parameter, up to three standard deviations off, at which all else is sought again.
+    """
+
+    writes: ClassVar[str] = """
+    Writes parameters.csv (value, interval, and whether the trials tell it), errors.csv (how near each channel is),
+    certificate.csv (of the motion), correlation.csv, numbers.csv and mesh.csv (all that ran), model.osim, a table over
+    time and a trajectory for OpenSim's Moco for each trial, a figure, report.html and run.json into OUT.
+
+    Ctrl-C ends the search and keeps its last iterate.
     """
 
     study: Path

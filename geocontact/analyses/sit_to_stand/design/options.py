@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import Expression, Fraction, Spelled
 from geocontact.analyses.sit_to_stand.search_options import NODES, StandingSearchOptions, within
@@ -16,7 +16,7 @@ MOST_DRAWS, MOST_POINTS = 200, 50
 
 @dataclass(frozen=True)
 class StandingDesignOptions(StandingSearchOptions):
-    """Choose strap, place and help of an exoskeleton so that its strap presses least while it takes load off the knee.
+    """Strap, place and help of an exoskeleton for which the strap presses least while the knee is relieved.
 
     Parameters
     ----------
@@ -45,6 +45,12 @@ class StandingDesignOptions(StandingSearchOptions):
         Choose for the worst of the draws too.
     seed
         Of the draws.
+    """
+
+    writes: ClassVar[str] = """
+    Writes designs.csv (without help, share alone, chosen), chosen.csv, sensitivity.csv (how the least force changes
+    with what is held), certificate.csv, numbers.csv and mesh.csv (all that ran), front.csv and draws.csv where asked
+    for, a trajectory for OpenSim's Moco for each trial, a figure, report.html and run.json into OUT.
     """
 
     study: Path

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import Fraction, Options, Requires, Spelled
 from geocontact.data.errors import InputError
@@ -17,7 +17,7 @@ CUTOFF = Plausible("the cut-off of angles and torques", HZ, (0.5, 100.0), (2.0, 
 
 @dataclass(frozen=True)
 class StandingDeviceOptions(Options):
-    """Identify the dynamic parameters of a leg exoskeleton from a motion without a person, and its torque in a trial.
+    """Dynamic parameters of a leg exoskeleton from a motion without a person, and its own torque in a trial.
 
     Parameters
     ----------
@@ -42,6 +42,11 @@ class StandingDeviceOptions(Options):
     together
         forces.csv of `geocontact id` of that trial, of person and exoskeleton rigidly coupled: the person's torques are
         these less the exoskeleton's.
+    """
+
+    writes: ClassVar[str] = """
+    Writes parameters.csv (value, interval, and whether the motion tells it by itself), unloaded.csv (torques of the
+    motors and of the fit), with a trial torque.csv and torques.sto, a figure, report.html and run.json into OUT.
     """
 
     over_time = True

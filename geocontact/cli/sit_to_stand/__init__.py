@@ -1,1 +1,0 @@
-"""Commands of `geocontact sit-to-stand`."""
