@@ -5,10 +5,10 @@ from geocontact.analyses import knee, misalignment, prosthesis, shoulder, sit_to
 from geocontact.analyses.area.result import area, pressure
 from geocontact.analyses.bodies import read_surface
 from geocontact.analyses.cop.result import centre_of_pressure
-from geocontact.analyses.gap.diagnose.job import diagnose
-from geocontact.analyses.gap.discriminability.job import discriminability
-from geocontact.analyses.gap.gather.job import gather
-from geocontact.analyses.gap.inject.job import inject
+from geocontact.analyses.gap.diagnose.result import diagnose
+from geocontact.analyses.gap.discriminability.result import discriminability
+from geocontact.analyses.gap.gather.result import gather
+from geocontact.analyses.gap.inject.result import inject
 from geocontact.analyses.loadcells.result import load_cells
 from geocontact.analyses.mat.result import mat
 from geocontact.analyses.modulus.result import modulus
@@ -38,7 +38,7 @@ from geocontact.geometry.sweep import Axis, sweep
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.io.motion.motion import read_motion
-from geocontact.study.job import cohort
+from geocontact.study.result import cohort
 from geocontact.systems.base import Base, require_numbers
 from geocontact.systems.catalogue import system_of
 from geocontact.systems.external.simulator import simulator_base

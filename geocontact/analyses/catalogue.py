@@ -153,7 +153,9 @@ ENTRIES = (
     Entry("elbow population", "misalignment.population", "PopulationOptions", "result:population"),
     Entry("fit", "shape", "ShapeOptions", "result:fit_shape"),
     Entry("gap diagnose", "gap.diagnose", "ManyOptions", "result:diagnose", many="many:diagnose_many"),
-    Entry("gap discriminability", "gap.discriminability", "DiscriminabilityOptions", "result:discriminability", "confuse"),
+    Entry(
+        "gap discriminability", "gap.discriminability", "DiscriminabilityOptions", "result:discriminability", "confuse"
+    ),
     Entry("gap gather", "gap.gather", "GatherOptions", "result:gather"),
     Entry("gap inject", "gap.inject", "InjectOptions", "result:inject", "plant"),
     Entry("gap benchmark", "gap.benchmark", "BenchmarkOptions", "result:benchmark", exported=False),

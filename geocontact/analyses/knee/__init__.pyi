@@ -1,5 +1,5 @@
 """Names of `geocontact.analyses.knee`; those of analyses are written by `python -m website.stubs`."""
 
-from geocontact.analyses.knee.settle.job import settle
+from geocontact.analyses.knee.settle.result import settle
 
 __all__ = ["settle"]

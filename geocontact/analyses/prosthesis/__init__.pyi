@@ -1,9 +1,9 @@
 """Names of `geocontact.analyses.prosthesis`; those of analyses are written by `python -m website.stubs`."""
 
-from geocontact.analyses.prosthesis.calibrate.job import calibrate
-from geocontact.analyses.prosthesis.compare.job import compare
-from geocontact.analyses.prosthesis.design.job import design
-from geocontact.analyses.prosthesis.scale.job import scale
-from geocontact.analyses.prosthesis.simulate.job import simulate
+from geocontact.analyses.prosthesis.calibrate.result import calibrate
+from geocontact.analyses.prosthesis.compare.result import compare
+from geocontact.analyses.prosthesis.design.result import design
+from geocontact.analyses.prosthesis.scale.result import scale
+from geocontact.analyses.prosthesis.simulate.result import simulate
 
 __all__ = ["calibrate", "compare", "design", "scale", "simulate"]
