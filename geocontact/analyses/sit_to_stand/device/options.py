@@ -46,7 +46,8 @@ class StandingDeviceOptions(Options):
 
     writes: ClassVar[str] = """
     Writes parameters.csv (value, interval, and whether the motion tells it by itself), unloaded.csv (torques of the
-    motors and of the fit), with a trial torque.csv and torques.sto, a figure, report.html and run.json into OUT.
+    motors and of the fit), numbers.csv (all that ran), with a trial torque.csv and torques.sto, a figure, report.html
+    and run.json into OUT.
     """
 
     over_time = True
