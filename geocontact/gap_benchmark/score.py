@@ -116,7 +116,7 @@ def confidently_wrong(label: Plain, diagnosis: Plain) -> bool:
 def brier(label: Plain, diagnosis: Plain) -> float:
     """Sum of squared differences between stated and true distribution, 0..2."""
     truth, stated = true_distribution(label), diagnosis["probabilities"]
-    return float(sum((stated.get(one, 0.0) - truth.get(one, 0.0)) ** 2 for one in {*truth, *stated}))
+    return float(sum((stated.get(one, 0.0) - truth.get(one, 0.0)) ** 2 for one in dict.fromkeys((*truth, *stated))))
 
 
 def reduction_errors(label: Plain, diagnosis: Plain) -> Iterator[tuple[float, bool | None]]:
