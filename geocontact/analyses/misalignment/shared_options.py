@@ -5,18 +5,26 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
 from typing import Annotated
 
-from geocontact.analyses.misalignment.law_numbers import STROKE
+from geocontact.analyses.misalignment.law_numbers import DRIFT, STROKE
 from geocontact.analyses.options import AngleUnit, Expression, ForceUnit, Options, Spelled, Typed
 from geocontact.data.errors import InputError
-from geocontact.data.ranges import CUTOFF
+from geocontact.data.ranges import CUTOFF, JOINT_ANGLE
 
+Angles = Annotated[tuple[float, float], Typed("rad", "angle_span", "gc.deg(0, 120)"), Spelled(dashed=True), JOINT_ANGLE]
 Stroke = Annotated[
     tuple[float, float],
     Typed("m", "length_span", "gc.mm(-20, 35)"),
     Spelled("stroke-mm", "stroke_mm", dashed=True),
     STROKE,
+]
+Drift = Annotated[
+    Path | Mapping[str, tuple[float, ...]],
+    Typed("-", "misalignment.planar:drift", '{"x": gc.mm(0, -8, 2)}'),
+    Spelled(dashed=True),
+    DRIFT,
 ]
 SMALLEST_SPAN = math.radians(5.0)
 """rad; nobody asks for what happens within less, but radians are taken for degrees."""

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
-from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.misalignment.law_numbers import ACROSS, DRIFT, LINK, OFFSET
+from geocontact.analyses.misalignment.law_numbers import ACROSS, LINK, OFFSET
 from geocontact.analyses.misalignment.shared_options import (
+    Angles,
+    Drift,
     Stroke,
     require_drift,
     require_span,
@@ -16,21 +16,14 @@ from geocontact.analyses.misalignment.shared_options import (
 )
 from geocontact.analyses.options import Millimetres, Options, Spelled, Typed
 from geocontact.data.plausible import Plausible
-from geocontact.data.ranges import ATTACHMENT, JOINT_ANGLE, LIMIT, SHIFT
+from geocontact.data.ranges import ATTACHMENT, LIMIT, SHIFT
 from geocontact.data.units import mm
 
-Angles = Annotated[tuple[float, float], Typed("rad", "angle_span", "gc.deg(0, 120)"), Spelled(dashed=True), JOINT_ANGLE]
 Offset = Annotated[
     tuple[float, float],
     Typed("m", "length_pair", "gc.mm(5, -3)"),
     Spelled("offset-mm", "offset_mm", default="0,0", dashed=True),
     OFFSET,
-]
-Drift = Annotated[
-    Path | Mapping[str, tuple[float, ...]],
-    Typed("-", "misalignment.planar:drift", '{"x": gc.mm(0, -8, 2)}'),
-    Spelled(dashed=True),
-    DRIFT,
 ]
 REACH = Plausible("how far a map goes", mm, (0.1, 1000.0), (2.0, 300.0))
 STEP = Plausible("the step of a map", mm, (0.001, 500.0), (0.05, 50.0))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.misalignment.law_numbers import DRIFT
 from geocontact.analyses.misalignment.shared_options import (
+    Angles,
+    Drift,
     Stroke,
     require_at_least_0,
     require_drift,
@@ -16,16 +16,9 @@ from geocontact.analyses.misalignment.shared_options import (
     require_stroke,
     require_within,
 )
-from geocontact.analyses.options import Options, Spelled, Typed
-from geocontact.data.ranges import JOINT_ANGLE, LIMIT
+from geocontact.analyses.options import Options
+from geocontact.data.ranges import LIMIT
 
-Angles = Annotated[tuple[float, float], Typed("rad", "angle_span", "gc.deg(0, 120)"), Spelled(dashed=True), JOINT_ANGLE]
-Drift = Annotated[
-    Path | Mapping[str, tuple[float, ...]],
-    Typed("-", "misalignment.planar:drift", '{"x": gc.mm(0, -8, 2)}'),
-    Spelled(dashed=True),
-    DRIFT,
-]
 SAMPLES = 100, 20_000_000
 """Fewest and most people."""
 
