@@ -24,7 +24,7 @@ TRIALS_MADE = ("--stroke-mm=-10:60", "--pressure", "10:60")
 KNOWN = ("--known", "l=169,z=127", "--bootstrap", 0)
 PICTURES = {f"{name}.{ending}" for name in ("forces", "identifiability", "residuals") for ending in ("png", "svg")}
 FIT = {"elbow.json", "bins.csv", "boxes.csv", "intervals.csv", "scale_line.csv", "held_out.csv", "report.html"}
-FIT |= PICTURES | {"run.json"}
+FIT |= PICTURES | {"numbers.csv", "run.json"}
 
 
 @pytest.fixture(scope="module")
@@ -96,7 +96,7 @@ def test_python_identifies_as_the_command_does(tmp_path: Path, made: Path, fitte
     options: dict[str, Any] = {"known": known, "bootstrap": 0, "cutoff": 5.0, "unlocked": free(made)[:1]}
     result = quietly(gc.misalignment.identify, *locked(made), **options)
     with unpictured():
-        assert len(same_csv(result.write(tmp_path), fitted.folder)) == 7
+        assert len(same_csv(result.write(tmp_path), fitted.folder)) == 8  # numbers.csv is the eighth
     assert (tmp_path / "elbow.json").read_bytes() == fitted.bytes("elbow.json")
 
 

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+SHORTEST, LONGEST = 0.02, 200.0  # usual steps; a correlation time is looked for between them
+
 
 @dataclass(frozen=True)
 class AutoregressiveNoise:
@@ -79,7 +81,7 @@ def noise_of(times: list[Float[np.ndarray, " _"]], residuals: list[Float[np.ndar
         def cost(log_tau: float, series: list[tuple[np.ndarray, np.ndarray]] = series) -> float:
             return _profile(series, np.exp(log_tau))[0]
 
-        found = minimize_scalar(cost, bounds=(np.log(0.02 * step), np.log(200.0 * step)), method="bounded")
+        found = minimize_scalar(cost, bounds=(np.log(SHORTEST * step), np.log(LONGEST * step)), method="bounded")
         tau[c] = np.exp(found.x)
         sd[c] = _profile(series, tau[c])[1]
     return AutoregressiveNoise(np.maximum(sd, np.finfo(float).tiny), tau)

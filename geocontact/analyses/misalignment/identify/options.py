@@ -83,9 +83,9 @@ class IdentifyOptions(ColumnOptions):
     """
 
     writes: ClassVar[str] = """
-    Writes elbow.json, bins.csv, boxes.csv, intervals.csv, scale_line.csv, held_out.csv, figures (.png, .svg),
-    report.html and run.json into OUT, with `unlocked` also conditions.csv and boxes_free.csv. k, x, y, l and z are
-    known up to one factor only, unless one of them comes from elsewhere.
+    Writes elbow.json, bins.csv, boxes.csv, intervals.csv, scale_line.csv, held_out.csv, numbers.csv (all that ran, with
+    unit and source), figures (.png, .svg), report.html and run.json into OUT, with `unlocked` also conditions.csv and
+    boxes_free.csv. k, x, y, l and z are known up to one factor only, unless one of them comes from elsewhere.
     """
 
     recordings: tuple[Path, ...]

@@ -26,6 +26,7 @@ from geocontact.analyses.json_file import write_json
 from geocontact.analyses.misalignment.identify.fitted import Fitted, ShownInterval, fitted, require_bins
 from geocontact.analyses.misalignment.identify.free_joint import Free, free_joint
 from geocontact.analyses.misalignment.identify.inputs import IdentifyInputs, read
+from geocontact.analyses.misalignment.identify.numbers import numbers_table
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.identify.sentences import described, reserve, say
 from geocontact.analyses.misalignment.identify.show import (
@@ -222,8 +223,10 @@ class IdentifyResult(Result):
         return {name: self.figure(name) for name in self._drawn}
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`intervals`, `bins`, `boxes`, `scale_line`, `held_out`; `conditions` and `boxes_free` with a free joint."""
-        return tables_of(self.fit, self.free)
+        """`intervals`, `bins`, `boxes`, `scale_line`, `held_out`, with a free joint `conditions` and `boxes_free`; then
+        `numbers`, all that ran.
+        """
+        return tables_of(self.fit, self.free) | {"numbers": numbers_table(self.fit, self.free, self.options)}
 
     def figure(self, name: str = "forces") -> Figure:
         """One of the figures: force over the angle unless named."""
