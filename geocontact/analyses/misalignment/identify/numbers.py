@@ -55,7 +55,7 @@ def _of_law(p: Parameter, o: IdentifyOptions) -> Iterator[Row]:
     for end, value in (("least", p.lower), ("most", p.upper)):
         yield f"{p.name} {end}", value, p.unit, _from(p.name in bounds), "bound of the search"
     if p.name in prior:
-        for part, value in zip(("mean", "sd"), prior[p.name], strict=True):
+        for part, value in zip(("mean", "sd"), (o.prior or {})[p.name], strict=True):
             yield f"{p.name} prior {part}", value, p.unit, "option", "normal"
 
 
