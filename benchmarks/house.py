@@ -170,8 +170,9 @@ def of_the_frame(name: str) -> bool:
 
 
 def files_of_analyses(folder: Path) -> dict[str, int]:
-    """Files of each folder that has options, less those of analyses inside of it."""
-    homes = sorted(file.parent for file in folder.rglob("options.py") if file.parent != folder)
+    """Files of each folder that has options, less those of analyses inside of it; the frame is no analysis."""
+    frame = (folder, folder / "frame")
+    homes = sorted(file.parent for file in folder.rglob("options.py") if file.parent not in frame)
     of_home = {home: set(home.rglob("*.py")) for home in homes}
     for home in homes:
         for inside in homes:

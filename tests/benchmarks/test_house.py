@@ -63,7 +63,7 @@ def test_functions_that_take_the_record(tmp_path: Path) -> None:
 
 
 def test_files_of_an_analysis_are_those_below_its_options(tmp_path: Path) -> None:
-    names = ("options.py", "mat/__init__.py", "mat/options.py", "mat/deep/law.py", "elbow/words.py")
+    names = ("options.py", "frame/options.py", "mat/__init__.py", "mat/options.py", "mat/deep/law.py", "elbow/words.py")
     names += ("elbow/fit/options.py", "elbow/fit/run.py", "elbow/fit/more/options.py")
     files = {f"geocontact/analyses/{name}": "\n" for name in names}
     found = measured(package(tmp_path, files))
