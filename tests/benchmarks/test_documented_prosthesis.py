@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.benchmarks.test_documented_figures import ROOT, near, results, row
+from tests.benchmarks.test_documented_figures import ROOT, near, results, row, rows
 
 COMPARE, CALIBRATION = "theory/prosthesis_compare.md", "theory/prosthesis_calibration.md"
 ZONES = ("heel_back", "heel_middle", "midfoot", "forefoot")
@@ -47,19 +47,35 @@ def test_profiles() -> None:
     assert seen == len(told)
 
 
+def test_a_sole_on_the_whole_model() -> None:
+    for person, one in results("prosthesis_full_calibration")["figures"].items():
+        for first, label, key in ((person, "along the poses", "along poses"), ("", "on the whole model", "whole")):
+            wanted = [one[key][when] for when in ("fitted", "medium", "low", "high")]
+            lines = [cells[2:] for cells in rows(CALIBRATION) if cells[:2] == [first, label]]
+            curves = ("resultant", "fore_aft", "cop_ground")
+            assert any(
+                all(
+                    near(part, each[curve], 100.0)
+                    for cell, each in zip(cells, wanted, strict=True)
+                    for part, curve in zip(cell.split(", "), curves, strict=True)
+                )
+                for cells in lines
+            ), (person, label)
+
+
 def test_a_walk_by_its_own_torques() -> None:
     told = results("prosthesis_both_sides")["figures"]["again"]
     lines = (ROOT / "docs" / "theory" / "prosthesis_both_sides.md").read_text(encoding="utf-8").splitlines()
-    rows = [[cell.strip() for cell in line.split("|")[2:5]] for line in lines if "1e-6 |" in line or "1e-7 |" in line]
+    table = [[cell.strip() for cell in line.split("|")[2:5]] for line in lines if "1e-6 |" in line or "1e-7 |" in line]
     single = [each for each in told if each["span"] == "single support"]
-    for one, (_, error, growth) in zip(single, rows[:2], strict=True):
+    for one, (_, error, growth) in zip(single, table[:2], strict=True):
         turn, shift, force = error.split(", ")
         assert float(turn.removesuffix("°")) == pytest.approx(one["turn_deg"], rel=0.15)
         assert float(shift.removesuffix(" mm")) == pytest.approx(one["shift_mm"], rel=0.15)
         assert float(force.removesuffix(" % BW")) == pytest.approx(100.0 * one["force_bw"], rel=0.15)
         assert near(growth.removesuffix("/s"), one["growth"])
     double = [each for each in told if each["span"] == "from double support on" and not each["spheres"]]
-    for one, (_, error, growth) in zip(double, rows[2:4], strict=True):
+    for one, (_, error, growth) in zip(double, table[2:4], strict=True):
         assert near(error.removeprefix("0.5° after ").removesuffix(" s"), one["held_s"])
         assert near(growth.removesuffix("/s"), one["growth"])
 
