@@ -143,15 +143,16 @@ def test_options_from_the_table_alone_give_the_same_tables(
     asked["free"] = tuple(name for name in "bsc" if f"{name} start" in told.index)
     for number, row in told[told["source"] == "option"].iterrows():
         name, _, kind = str(number).partition(" ")
+        value = float(row["value"])
         if kind == "fixed":
-            asked["known"][name] = row["value"]
+            asked["known"][name] = value
         elif kind == "start":
-            asked["start"][name] = row["value"]
+            asked["start"][name] = value
         elif kind in ("most", "prior sd"):
-            first = told.loc[f"{name} {'least' if kind == 'most' else 'prior mean'}", "value"]
-            asked["bounds" if kind == "most" else "prior"][name] = (first, row["value"])
+            first = float(told.loc[f"{name} {'least' if kind == 'most' else 'prior mean'}", "value"])
+            asked["bounds" if kind == "most" else "prior"][name] = (first, value)
         elif not kind:
-            asked[name] = int(row["value"]) if name == "bootstrap" else row["value"]
+            asked[name] = int(value) if name == "bootstrap" else value
     again = quietly(gc.misalignment.identify, *locked(made), **asked)
     for name, table in known_link.tables().items():
         if name != "numbers":

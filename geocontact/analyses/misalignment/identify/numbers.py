@@ -168,7 +168,7 @@ def _stroke_cuts() -> Iterator[Row]:
     )
 
 
-def _default(*each: tuple[str, float, str, str]) -> Iterator[Row]:
+def _default(*each: tuple[str, int | float, str, str]) -> Iterator[Row]:
     for name, value, unit, note in each:
         yield name, float(value), unit, "default", note
 
