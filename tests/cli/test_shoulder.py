@@ -23,7 +23,7 @@ def refused(folder: Path, words: str, *options: object, command: str = "simulate
 DEVICES = {
     "no number": (
         '[numbers]\nbores = { value = 1, unit = "mm" }',
-        "[numbers] bores: is no number of a device; perhaps bore",
+        "[numbers] bores: is not known here; perhaps bore",
     ),
     "no unit": ("[numbers]\nbore = 32", "[numbers] bore: is not a value with its unit"),
     "other unit": (BORE + 'value = 32, unit = "kg" }', "'kg' is not a unit of it; its SI unit is m"),
@@ -31,7 +31,7 @@ DEVICES = {
     "metres": (BORE + 'value = 32, unit = "m" }', "32000 mm cannot be bore of the cylinder; that is 1 to 200 mm"),
     "text": (BORE + 'value = "wide", unit = "mm" }', "'wide' is not a finite number"),
     "no toml": ("bore: 32", "is not TOML"),
-    "other key": ("nmae = 'x'", "`nmae`: is not known here"),
+    "other key": ("nmae = 'x'", "nmae: is not known here; write name, based_on, numbers"),
     "more kinetic friction": (
         '[numbers]\nmu_k = { value = 1.2, unit = "1" }',
         "[numbers] mu_k: kinetic friction 1.2 is larger than the static one, 1",

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
+
+from pydantic import GetCoreSchemaHandler, create_model
+from pydantic_core import CoreSchema, core_schema
 
 from geocontact.data.errors import InputError
-from geocontact.io.text.near_names import near_names
+from geocontact.io.documents import Document, Quantity, Some, Word, checked, refusal
 from geocontact.io.text.toml_text import toml_of
-from geocontact.io.text.units import si_unit
 
 LARGEST = 100_000
 """Bytes of a description."""
-KEYS = ("value", "unit", "source", "note")
 
 
 @dataclass(frozen=True)
@@ -25,6 +25,30 @@ class StatedNumber:
     value: float
     source: str
     note: str
+
+
+@dataclass(frozen=True)
+class SourcedQuantity(Quantity):
+    """A quantity that may say where it is from, in one of the words of `sources`."""
+
+    sources: tuple[str, ...] = ()
+
+    @property
+    def example(self) -> str:
+        """How it may be written."""
+        value, unit = (32, "mm") if self.si == "m" else (1, self.si)
+        return f'{{ value = {value}, unit = "{unit}", source = "invented", note = "why" }}'
+
+    def sourced(self, stated: Any) -> StatedNumber:
+        """The value in SI with what is said of it."""
+        value, source = self.read(stated), str(stated.get("source", "invented"))
+        if source not in self.sources:
+            raise refusal(f"source {source!r:.60} is not known", f"write one of {', '.join(self.sources)}")
+        return StatedNumber(value, source, str(stated.get("note", "")))
+
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """A number that is read so."""
+        return core_schema.no_info_plain_validator_function(self.sourced)
 
 
 @dataclass(frozen=True)
@@ -46,57 +70,25 @@ def read_device_file(path: Path, units: Mapping[str, str], sources: tuple[str, .
     sources
         Words that may say where a number is from.
     """
-    content = toml_of(path, LARGEST)
-    for key in content:
-        if key not in ("name", "based_on", "numbers"):
-            raise InputError(path, f"`{key}`", "is not known here", "write name, based_on and [numbers]")
-    numbers = content.get("numbers", {})
-    if not isinstance(numbers, dict):
-        raise InputError(path, "[numbers]", "is no table", f"write bore = {_entry('m', sourced=True)}")
-    found = {}
-    for name, told in numbers.items():
-        if name not in units:
-            near = near_names([name], list(units))
-            raise InputError(path, f"[numbers] {name}", "is no number of a device", _perhaps(near, units))
-        found[name] = stated_number(path, name, told, units[name], sources)
-    return DeviceFile(str(content.get("name", path.stem)), str(content.get("based_on", "lucy")), found)
+    numbers = Some(
+        {name: Annotated[StatedNumber, SourcedQuantity(unit, sources=sources)] for name, unit in units.items()}
+    )
+    fields: dict[str, Any] = {
+        "name": (Word, path.stem),
+        "based_on": (Word, "lucy"),
+        "numbers": (Annotated[dict[str, StatedNumber], numbers], {}),
+    }
+    found = checked(path, create_model("DeviceDescription", __base__=Document, **fields), toml_of(path, LARGEST))
+    return DeviceFile(found.name, found.based_on, found.numbers)
 
 
 def read_person_file(path: Path, names: tuple[str, ...]) -> dict[str, float]:
     """Lengths of a person [m] from a TOML file, `upper_arm = { value = 300, unit = "mm" }`; any may be missing."""
-    content = toml_of(path, LARGEST)
-    found = {}
-    for name in names:
-        if name in content:
-            found[name] = stated_number(path, name, content[name], "m", ()).value
-    if not found:
-        raise InputError(path, "", f"none of {', '.join(names)}", f"write upper_arm = {_entry('m', sourced=False)}")
-    return found
-
-
-def _perhaps(near: Mapping[str, str], units: Mapping[str, str]) -> str:
-    return f"perhaps {next(iter(near.values()))}" if near else f"numbers are {', '.join(units)}"
-
-
-def _entry(si: str, *, sourced: bool) -> str:
-    """An example of a number with its unit, as the file may have it."""
-    value, unit = (32 if sourced else 300, "mm") if si == "m" else (1, si)
-    source = ', source = "invented", note = "why"' if sourced else ""
-    return f'{{ value = {value}, unit = "{unit}"{source} }}'
-
-
-def stated_number(path: Path, name: str, told: Any, si: str, sources: tuple[str, ...]) -> StatedNumber:
-    """A number with its unit, `{ value = 32, unit = "mm" }`, in SI; with `sources` also where it is from."""
-    place, entry = f"[numbers] {name}" if sources else name, _entry(si, sourced=bool(sources))
-    if not isinstance(told, dict) or not {"value", "unit"} <= set(told) <= set(KEYS):
-        raise InputError(path, place, "is not a value with its unit", f"write {name} = {entry}")
-    unit, value = str(told["unit"]), told["value"]
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        raise InputError(path, place, f"{value!r} is not a finite number", f"write {name} = {entry}")
-    known = (si, 1.0) if unit == si else si_unit(unit)
-    if known is None or known[0] not in (si, "-" if si == "1" else si):
-        raise InputError(path, place, f"{unit!r} is not a unit of it", f"its SI unit is {si}")
-    source = str(told.get("source", "invented"))
-    if sources and source not in sources:
-        raise InputError(path, place, f"source {source!r} is not known", f"write one of {', '.join(sources)}")
-    return StatedNumber(float(value) * known[1], source, str(told.get("note", "")))
+    length = Quantity("m")
+    content = {name: each for name, each in toml_of(path, LARGEST).items() if name in names}
+    if not content:
+        raise InputError(path, "", f"none of {', '.join(names)}", f"write upper_arm = {length.example}")
+    lengths: dict[str, float] = checked(
+        path, Annotated[dict[str, float], Some(dict.fromkeys(names, Annotated[float, length]))], content
+    )
+    return lengths

@@ -38,11 +38,15 @@ def written(folder: Path, *settings: str, changed: tuple[str, str] = ("", "")) -
     [
         ('setting = "low"', 'setting = "soft"', "'soft' is none"),
         ('setting = "low"', "", "needs a setting or a fulcrum"),
-        ('setting = "low"', 'fulcrum = { value = 60, unit = "mm" }', "goes from 66 to 151 mm"),
+        (
+            'setting = "low"',
+            'fulcrum = { value = 60, unit = "mm" }',
+            "60 mm cannot be the place of a fulcrum: that is 66 to 151 mm",
+        ),
         ('person = "P1"', 'person = "P2"', r"no \[persons.P2\]"),
         ('unit = "kg"', 'unit = "N"', "is not a unit of it"),
         ('plate = "own_force"', "", "no plate"),
-        ('name = "P1_low_1"', 'called = "P1"', "'called' is not known here"),
+        ('name = "P1_low_1"', 'called = "P1"', r"\[\[trials\]\] 1 called: is not known here"),
         ("walking.trc", "running.trc", "there is no file"),
         ('setting = "low"', 'setting = "low"\nlaw = "low.toml"', "there is no file low.toml"),
         ('setting = "low"', 'setting = "low"\nlaw = "study.toml"', "study.toml.*not known here"),

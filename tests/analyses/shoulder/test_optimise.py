@@ -307,17 +307,21 @@ def spoilt(folder: Path, old: str, new: str) -> Path:
 @pytest.mark.parametrize(
     ("old", "new", "what"),
     [
-        ('sex = "male"', 'sex = "m"', "sex 'm' is not in the table of segments; write female or male"),
-        ('dominant = "right"', 'dominant = "both"', "dominant 'both' is no side; write right or left"),
+        ('sex = "male"', 'sex = "m"', "[persons.P1] sex: 'm' is none; write female or male"),
+        ('dominant = "right"', 'dominant = "both"', "[persons.P1] dominant: 'both' is none; write right or left"),
         ('mass = { value = 82.0, unit = "kg" }', "", "[persons.P1]: no mass; add it"),
-        ("value = 82.0", "value = 820.0", "820 kg is no mass of a person"),
+        ("value = 82.0", "value = 820.0", "820 kg cannot be the mass of a person: that is 20 to 300 kg"),
         ('unit = "N"', 'unit = "kg"', "'kg' is not a unit of it"),
         ('person = "P1"', 'person = "P9"', "no [persons.P9]; there are P1"),
         ('task = "T1"', 'task = "T9"', "no [tasks.T9]; there are T1, T2"),
-        ("upright = [0.0, 0.25]", "upright = 3", "upright 3 is no span"),
-        ("[tasks.T1]", "[tasks.T1]\ndominant_share = 2", "dominant_share 2 is no share"),
-        ("[tasks.T1]", "[tasks.T1]\nweight = 2", "'weight' is not known here; write tool, push, dominant_share"),
-        ("[persons.P1]", "[people.P1]", "`people`: is not known here; write tasks, persons, trials"),
+        ("upright = [0.0, 0.25]", "upright = 3", "upright: 3 is no span"),
+        ("[tasks.T1]", "[tasks.T1]\ndominant_share = 2", "[tasks.T1] dominant_share: is not at most 1"),
+        (
+            "[tasks.T1]",
+            "[tasks.T1]\nweight = 2",
+            "[tasks.T1] weight: is not known here; write tool, push, dominant_share",
+        ),
+        ("[persons.P1]", "[people.P1]", "people: is not known here; write tasks, persons, trials"),
         ('markers = "P1T1.trc"', 'markers = "lost.trc"', "lost.trc"),
     ],
 )

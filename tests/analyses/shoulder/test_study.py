@@ -174,12 +174,12 @@ def test_everything_is_written(found: StudyResult, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "told"),
     [
-        ("[[trials]]", "[[trial]]", "`trial`: is not known here"),
+        ("[[trials]]", "[[trial]]", "trial: is not known here; perhaps trials"),
         ('name = "unsupported"', 'name = "supported"', "two have the name 'supported'"),
         ('level = "0%"', 'level = "120%"', "level is 120%; give 0 to 100%"),
         ("recorded_other.csv", "record.csv", "there is no file record.csv"),
         ('without = "bare"', 'without = "none"', "no trial 'none'; there are bare, supported, unsupported"),
-        ('level = "0%"', 'logger = "a.csv"', "'logger' is not known here"),
+        ('level = "0%"', 'logger = "a.csv"', "logger: is not known here"),
     ],
 )
 def test_descriptions_that_cannot_be(folder: Path, tmp_path: Path, old: str, new: str, told: str) -> None:

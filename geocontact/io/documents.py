@@ -1,0 +1,309 @@
+"""Descriptions in TOML as classes: what each key may hold, and one way to say what is wrong with it.
+
+    class Trial(Document):
+        name: FileName
+        motion: File
+        mass: Annotated[float, Quantity("kg")]
+        seated: bool = False
+
+    class Study(Document):
+        trials: Annotated[tuple[Trial, ...], Listed("T{number}")]
+
+    study = read_document(path, Study)
+
+A key without a default must be there, and one that is not declared must not. Files are looked for beside the
+description. What is wrong is said of the first key that is: InputError with its place as it is written in TOML.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, TypeVar, get_args, get_origin
+
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    GetCoreSchemaHandler,
+    PlainValidator,
+    TypeAdapter,
+    ValidationError,
+    create_model,
+    model_validator,
+)
+from pydantic.fields import FieldInfo
+from pydantic_core import CoreSchema, ErrorDetails, PydanticCustomError, core_schema
+
+from geocontact.data.errors import InputError
+from geocontact.data.plausible import Plausible
+from geocontact.io.text.near_names import near_names
+from geocontact.io.text.toml_text import toml_of
+from geocontact.io.text.units import si_unit
+
+LARGEST = 1_000_000
+"""Bytes of a description, unless its reader says otherwise."""
+LONGEST = 80
+"""Signs of a key that are repeated in a message."""
+BESIDE = ("source", "note")
+"""Keys that a value with its unit may have besides."""
+BOUNDS = {
+    "greater_than": "above",
+    "greater_than_equal": "at least",
+    "less_than": "below",
+    "less_than_equal": "at most",
+}
+CHECK = "check the value and its unit"
+_FILE_NAME = re.compile(r"[\w-]{1,40}")
+
+
+def refusal(what: str, remedy: str = "", *, example: str = "", at: tuple[str | int, ...] = ()) -> PydanticCustomError:
+    """What a validator raises.
+
+    Parameters
+    ----------
+    example
+        A value as it may be written: the remedy is to write it at the key.
+    at
+        Keys, and numbers in lists, from what is validated on to the place that is meant; "" after those of a table that
+        is meant itself.
+    """
+    return PydanticCustomError("refused", "{what}", {"what": what, "remedy": remedy, "example": example, "at": at})
+
+
+class Document(BaseModel):
+    """A table, or a whole file, with the keys that are declared and no other."""
+
+    model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _require_keys(cls, content: object) -> object:
+        every = ", ".join(cls.model_fields)
+        if not isinstance(content, dict):
+            raise refusal("is no table", f"write {every}")
+        odd = next((key for key in content if key not in cls.model_fields), None)
+        if odd is not None:
+            near = ", ".join(near_names([odd[:LONGEST]], list(cls.model_fields)).values())
+            raise refusal("is not known here", f"perhaps {near}" if near else f"write {every}", at=(odd,))
+        for name, field in cls.model_fields.items():
+            if field.is_required():
+                _require(name, field, content.get(name))
+        return content
+
+
+D = TypeVar("D", bound=Document)
+
+
+def _require(name: str, field: FieldInfo, value: object) -> None:
+    """That a key is there, and of tables by name or in a row at least one."""
+    table = next((each for each in get_args(field.annotation) if hasattr(each, "model_fields")), None)
+    if table is not None:
+        kind, heading = (list, f"[[{name}]]") if get_origin(field.annotation) is tuple else (dict, f"[{name}.NAME]")
+        if not value or not isinstance(value, kind):
+            raise refusal(f"no {heading}", f"write one for each, with {', '.join(table.model_fields)}", at=("",))
+    if value is None:
+        example = next((each.example for each in field.metadata if isinstance(each, Quantity)), "")
+        raise refusal(f"no {name}", f"add it: {name} = {example}" if example else "add it", at=("",))
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number with its unit, `{ value = 32, unit = "mm" }`, as a float in SI.
+
+    Parameters
+    ----------
+    known
+        The SI unit, or the values that it can have.
+    bare
+        Whether it may also be a number, in SI.
+    """
+
+    known: str | Plausible
+    bare: bool = False
+
+    @property
+    def si(self) -> str:
+        """The SI unit."""
+        return self.known if isinstance(self.known, str) else self.known.unit.si
+
+    @property
+    def example(self) -> str:
+        """How it may be written."""
+        if isinstance(self.known, Plausible):
+            return f'{{ value = …, unit = "{self.known.unit.name}" }}'
+        return '{ value = 300, unit = "mm" }' if self.si == "m" else f'{{ value = 1, unit = "{self.si}" }}'
+
+    def read(self, stated: object) -> float:
+        """The value in SI; a refusal of what is no such quantity."""
+        if self.bare and not isinstance(stated, dict):
+            stated = {"value": stated, "unit": self.si}
+        if not isinstance(stated, dict) or not {"value", "unit"} <= set(stated) <= {"value", "unit", *BESIDE}:
+            raise refusal("is not a value with its unit", example=self.example)
+        value, unit = stated["value"], str(stated["unit"])
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+            raise refusal(f"{_shown(value)} is not a finite number", example=self.example)
+        number = float(value)
+        si, factor = (self.si, 1.0) if unit == self.si else si_unit(unit) or ("", 1.0)
+        if si not in (self.si, "-" if self.si == "1" else self.si):
+            raise refusal(f"{_shown(unit)} is not a unit of it", f"its SI unit is {self.si}")
+        wrong = None if isinstance(self.known, str) else self.known.refusal(number * factor, number)
+        if wrong is not None:
+            raise refusal(*wrong)
+        return number * factor
+
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """A float that is read so."""
+        return core_schema.no_info_plain_validator_function(self.read)
+
+
+@dataclass(frozen=True)
+class Some:
+    """A table in which every key may be missing, as a dict of those that are there; `kinds` by name, as annotated."""
+
+    kinds: Mapping[str, Any]
+
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """A dict that is read so."""
+        fields: dict[str, Any] = {name: (kind, None) for name, kind in self.kinds.items()}
+        table = handler.generate_schema(create_model("Some", __base__=Document, **fields))
+        return core_schema.no_info_after_validator_function(_stated, table)
+
+
+@dataclass(frozen=True)
+class Listed:
+    """Tables in a row, `[[trials]]`, each with its own `name`.
+
+    Parameters
+    ----------
+    usual
+        Name of one that has none, with `{number}` from 1 and `{key}` of its own keys.
+    again
+        The first name that stands twice, None where there is none.
+    """
+
+    usual: str
+    again: Callable[[Iterable[str]], str | None]
+
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """A tuple with a name for each."""
+        named = core_schema.no_info_before_validator_function(self._named, handler(source))
+        return core_schema.no_info_after_validator_function(self._require_apart, named)
+
+    def _named(self, rows: list[Any]) -> tuple[Any, ...]:
+        return tuple(
+            {"name": self.usual.format_map(defaultdict(str, row, number=k)), **row} if isinstance(row, dict) else row
+            for k, row in enumerate(rows, 1)
+        )
+
+    def _require_apart(self, rows: tuple[Any, ...]) -> tuple[Any, ...]:
+        twice = self.again(each.name for each in rows)
+        if twice is not None:
+            raise refusal(f"two have the name {_shown(twice)}", "give each its own name")
+        return rows
+
+
+def read_document(path: Path, kind: type[D], largest: int = LARGEST) -> D:
+    """A file of at most `largest` bytes; InputError for what is missing, not known or cannot be."""
+    read: D = checked(path, kind, toml_of(path, largest))
+    return read
+
+
+def checked(path: Path, kind: Any, content: object) -> Any:
+    """What `kind`, as a field is annotated, makes of the content of a file; InputError as `read_document`."""
+    try:
+        return TypeAdapter(kind).validate_python(content, context=path.parent)
+    except ValidationError as error:
+        raise _input_error(path, error.errors(include_url=False)[0]) from error
+
+
+def _input_error(path: Path, first: ErrorDetails) -> InputError:
+    """In the words of `refusal`, or for what pydantic refuses by itself."""
+    context: dict[str, Any] = {"at": (), **first.get("ctx", {})}
+    place, key = _place((*first["loc"], *context["at"]))
+    match first["type"]:
+        case "refused":
+            remedy = f"write {key} = {context['example']}" if context["example"] else context["remedy"]
+            return InputError(path, place, context["what"], remedy)
+        case "bool_type":
+            return InputError(path, place, f"{_shown(first['input'])} is neither true nor false", f"write {key} = true")
+        case "literal_error":
+            choice = context["expected"].replace("'", "")
+            return InputError(path, place, f"{_shown(first['input'])} is none", f"write {choice}")
+        case "greater_than" | "greater_than_equal" | "less_than" | "less_than_equal" as kind:
+            return InputError(path, place, f"is not {BOUNDS[kind]} {next(iter(first['ctx'].values())):g}", CHECK)
+        case "string_type":
+            return InputError(path, place, f"{_shown(first['input'])} is no text", "write it in quotes")
+        case _:
+            wanted = first["msg"].removeprefix("Input ")
+            return InputError(path, place, f"{_shown(first['input'])} cannot be", f"it {wanted}")
+
+
+def _place(loc: tuple[str | int, ...]) -> tuple[str, str]:
+    """Where in the file, `[persons.P1] mass` or `[[trials]] 2 mass`, and the key alone."""
+    numbers = [part + 1 for part in loc if isinstance(part, int)]
+    *tables, key = ["".join(filter(str.isprintable, part))[:LONGEST] for part in loc if isinstance(part, str)] or [""]
+    if numbers and tables:
+        return f"[[{'.'.join(tables)}]] {numbers[0]} {key}".strip(), key
+    if numbers:
+        return f"[[{key}]] {numbers[0]}", key
+    return (f"[{'.'.join(tables)}] {key}".strip() if tables else key), key
+
+
+def _shown(value: object) -> str:
+    return f"{value!r:.60}"
+
+
+def _stated(table: Document) -> dict[str, Any]:
+    return {name: getattr(table, name) for name in table.model_fields_set}
+
+
+def _word(value: object) -> object:
+    """Numbers stand for themselves in names: plate = 1."""
+    return str(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
+
+
+def _file_name(name: str) -> str:
+    if not _FILE_NAME.fullmatch(name):
+        raise refusal(f"{_shown(name)} cannot be that of a file", "write letters, digits, - and _")
+    return name
+
+
+def _file(named: object, info: Any) -> Path:
+    """`info` is pydantic's ValidationInfo, whose context is the folder of the description."""
+    file = Path(info.context or "", str(named))
+    if not file.is_file():
+        raise refusal(f"there is no file {named!s:.200}", "give its path from the study's folder")
+    return file
+
+
+def _files(named: object, info: Any) -> tuple[Path, ...]:
+    return tuple(_file(each, info) for each in (named if isinstance(named, list) else [named]))
+
+
+def _names(value: object) -> tuple[str, ...]:
+    if not isinstance(value, list) or not all(isinstance(each, str) for each in value):
+        raise refusal("is no list of names", example='["…", "…"]')
+    return tuple(value)
+
+
+def doubled(names: Iterable[str]) -> str | None:
+    """The first name that stands twice; None where there is none."""
+    return next((name for name, count in Counter(names).items() if count > 1), None)
+
+
+Word = Annotated[str, BeforeValidator(_word)]
+"""A text, or a number as it is written."""
+FileName = Annotated[Word, AfterValidator(_file_name)]
+"""A text that can be part of a file's name."""
+Names = Annotated[tuple[str, ...], PlainValidator(_names)]
+"""A list of texts."""
+File = Annotated[Path, PlainValidator(_file)]
+"""A file that is there, from the folder of the description."""
+Files = Annotated[tuple[Path, ...], PlainValidator(_files)]
+"""One of them, or a list."""
