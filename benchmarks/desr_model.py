@@ -67,7 +67,7 @@ def cam_switch(cams: pd.DataFrame) -> Effect:
             ),
         )
 
-    return Effect("cam_switch", "constitutive", (ANKLE.name,), offer, "two cam profiles of the DESR foot")
+    return Effect("cam_switch", "constitutive", offer, "two cam profiles of the DESR foot")
 
 
 def build(

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from geocontact.chain.magnitudes import Magnitudes
     from geocontact.chain.single_deflection import SingleDeflection
     from geocontact.chain.system import System
+    from geocontact.chain.traits import Mass, Migration, Traits, Way
 
 _PLACES = {
     "Candidate": "candidate",
@@ -35,6 +36,10 @@ _PLACES = {
     "Magnitudes": "magnitudes",
     "SingleDeflection": "single_deflection",
     "System": "system",
+    "Mass": "traits",
+    "Migration": "traits",
+    "Traits": "traits",
+    "Way": "traits",
 }
 
 __all__ = [
@@ -48,11 +53,15 @@ __all__ = [
     "Law",
     "LawParameters",
     "Magnitudes",
+    "Mass",
+    "Migration",
     "Modifier",
     "Motion",
     "Sensor",
     "SingleDeflection",
     "System",
+    "Traits",
+    "Way",
 ]
 
 

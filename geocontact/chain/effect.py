@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from geocontact.chain.candidate import Candidate, Stage
 from geocontact.chain.contact_sites import placed
 from geocontact.chain.system import System
-from geocontact.data.gap.case import LISTED_SYSTEMS
 
 
 @dataclass(frozen=True)
@@ -21,14 +20,13 @@ class Effect:
         As in `diagnosis.json`.
     stage
         Where in the chain it acts.
-    systems
-        Names of the systems that it applies to; of the listed ones, those that the vocabulary names.
     offer
-        Makes the candidates for one of these; none where a system has no channel for it.
+        Makes the candidates for a system; none where a system has no channel for it.
     source
         Where the formula is from.
     needs
-        Numbers of the law or the geometry that it sets; a system that is not listed gets it where these are free.
+        Numbers of the law or the geometry that it sets: it applies where all of them are free, of a system that makes
+        contact at several places at each of these.
     together
         Whether, of several places of contact, all may have it alike; what depends on where a place is may not.
 
@@ -46,25 +44,29 @@ class Effect:
     ...     return replace(one, sensor=one.sensor.having(change))
     >>> def offer(one):
     ...     return (gc.chain.Candidate("tare", "", "sensor", (tare,), link),)
-    >>> effect = gc.chain.Effect("tare", "sensor", ("spring",), offer, "drawing 12 of the spring")
+    >>> effect = gc.chain.Effect("tare", "sensor", offer, "drawing 12 of the spring")
     >>> [one.label for one in effect.candidates(system)]
     ['tare']
     """
 
     name: str
     stage: Stage
-    systems: tuple[str, ...]
     offer: Callable[[System], tuple[Candidate, ...]]
     source: str
     needs: tuple[str, ...] = ()
     together: bool = True
 
+    def __post_init__(self) -> None:
+        if not callable(self.offer):  # as it was until effects no longer named systems
+            raise TypeError(f"{self.name}: offer comes third; an effect names no systems, only what it `needs`")
+
     def applies(self, system: System) -> bool:
-        """Whether the vocabulary, or else the links of the system, admit it."""
-        if system.name in LISTED_SYSTEMS:
-            return system.name in self.systems
-        links = (system.law.slots, system.geometry.slots)
-        return all(any(slots.free(name) for slots in links) for name in self.needs)
+        """Whether the links of the system have what it needs, and nothing sets it yet."""
+        if not self.needs:
+            return True
+        places = [system.at(place) for place in system.places] or [system]
+        links = [(one.law.slots, one.geometry.slots) for one in places]
+        return all(any(slots.free(name) for slots in each) for each in links for name in self.needs)
 
     def candidates(self, system: System) -> tuple[Candidate, ...]:
         """Candidates for a system, with bounds from its scale; none where the effect does not apply."""

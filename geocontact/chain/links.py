@@ -202,6 +202,10 @@ class Law:
         """The same link with more of its numbers coming from somewhere."""
         return replace(self, slots=self.slots.having(sources))
 
+    def lacking(self, *names: str) -> Law:
+        """The same law for a system that has no such terms: these numbers stay neutral, no effect sets them."""
+        return self.having({name: self.slots.neutral[name] for name in names})
+
 
 Channels = Float[np.ndarray, "t c"]
 

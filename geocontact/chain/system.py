@@ -13,6 +13,7 @@ from jaxtyping import Float
 from geocontact.chain.implicit import NotConverged
 from geocontact.chain.links import Balance, ContactSites, Geometry, Law, Modifier, Motion, Sensor
 from geocontact.chain.magnitudes import Magnitudes, magnitudes_of
+from geocontact.chain.traits import BY_UNIT, Role, Traits
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 
@@ -66,6 +67,8 @@ class System:
         Largest length of the device where no constant tells it [m]; 0 where the model does not know.
     quotients
         Outputs that are a moment over another output, by name of that one: {"cop_x": "force_y"}.
+    traits
+        What effects ask beyond that: roles of channels, which way it pushes, plausible sizes.
 
     Examples
     --------
@@ -101,6 +104,7 @@ class System:
     lengths: tuple[str, ...] = ()
     extent: float = 0.0
     quotients: Mapping[str, str] = field(default_factory=dict)
+    traits: Traits = field(default_factory=Traits)
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -156,6 +160,12 @@ class System:
     def unit(self, channel: str) -> str:
         """SI unit of a channel, "-" where the model does not say."""
         return self.units.get(channel, "-")
+
+    def role(self, channel: str) -> Role:
+        """What a channel is (`chain.traits.Role`): what the model says, else what its unit and quotients do."""
+        if channel in self.traits.roles:
+            return self.traits.roles[channel]
+        return "centre" if channel in self.quotients else BY_UNIT.get(self.unit(channel), "")
 
     def simulate(self, trial: Trial, values: Mapping[str, float]) -> Float[np.ndarray, "t c"]:
         """Outputs of the model over a trial's samples.

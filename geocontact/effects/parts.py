@@ -10,13 +10,10 @@ from geocontact.chain.law_parameters import Source
 from geocontact.chain.links import Channels, Modifier
 from geocontact.chain.system import System
 
-LOADS = ("N", "N m")
-"""Units of forces and moments."""
-
 
 def load_channels(system: System) -> tuple[str, ...]:
     """Outputs that are forces or moments."""
-    return tuple(name for name in system.outputs if system.unit(name) in LOADS)
+    return tuple(name for name in system.outputs if system.role(name) == "load")
 
 
 def largest_load(system: System) -> float:

@@ -34,6 +34,4 @@ def swapped(system: System, a: str, b: str) -> Candidate:
     return output_error("side_swap", f"{a}_{b}", SWAP, change)
 
 
-SIDE_SWAP = Effect(
-    "side_swap", "data", ("foot", "knee", "sit_to_stand"), offer, "cables of two channels of one device exchanged"
-)
+SIDE_SWAP = Effect("side_swap", "data", offer, "cables of two channels of one device exchanged")

@@ -28,7 +28,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 SIGN_FLIP = Effect(
     "sign_flip",
     "data",
-    ("elbow", "foot", "shoulder", "knee", "sit_to_stand"),
     offer,
     "sense of axes that two devices do not share",
 )

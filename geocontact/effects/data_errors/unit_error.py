@@ -87,7 +87,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 UNIT_ERROR = Effect(
     "unit_error",
     "data",
-    ("elbow", "foot", "shoulder", "knee", "sit_to_stand"),
     offer,
     "NIST SP 811, conversion factors",
 )

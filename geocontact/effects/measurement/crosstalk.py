@@ -38,6 +38,4 @@ def offer(system: System) -> tuple[Candidate, ...]:
     return tuple(coupled(system, b, a) for b in forces for a in forces if a != b)
 
 
-CROSSTALK = Effect(
-    "crosstalk", "sensor", ("foot", "knee", "sit_to_stand"), offer, "crosstalk of force plates: ISO 21595 calls it so"
-)
+CROSSTALK = Effect("crosstalk", "sensor", offer, "crosstalk of force plates: ISO 21595 calls it so")

@@ -38,7 +38,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 FILTER_LAG = Effect(
     "filter_lag",
     "sensor",
-    ("elbow", "foot", "shoulder", "knee", "sit_to_stand"),
     offer,
     "anti-alias and smoothing filters of amplifiers",
 )

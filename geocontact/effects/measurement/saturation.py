@@ -59,7 +59,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 SATURATION = Effect(
     "saturation",
     "sensor",
-    ("elbow", "foot", "shoulder", "knee", "sit_to_stand"),
     offer,
     "range of an amplifier or converter",
 )

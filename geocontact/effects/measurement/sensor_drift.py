@@ -52,7 +52,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 SENSOR_DRIFT = Effect(
     "sensor_drift",
     "sensor",
-    ("elbow", "foot", "shoulder", "knee", "sit_to_stand"),
     offer,
     "warm-up drift of strain-gauge sensors",
 )

@@ -43,7 +43,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 SENSOR_GAIN = Effect(
     "sensor_gain",
     "sensor",
-    ("elbow", "foot", "shoulder", "knee", "sit_to_stand"),
     offer,
     "calibration error of a linear sensor",
 )

@@ -36,6 +36,4 @@ def offer(system: System) -> tuple[Candidate, ...]:
     return tuple(shifted(system, name) for name in system.outputs)
 
 
-SENSOR_OFFSET = Effect(
-    "sensor_offset", "sensor", ("elbow", "foot", "shoulder", "knee", "sit_to_stand"), offer, "zero error of a sensor"
-)
+SENSOR_OFFSET = Effect("sensor_offset", "sensor", offer, "zero error of a sensor")

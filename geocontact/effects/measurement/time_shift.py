@@ -33,6 +33,4 @@ def offer(system: System) -> tuple[Candidate, ...]:
     return (Candidate("time_shift", "", "timing", (delay,), link, {delay.name: 0.0}, others),)
 
 
-TIME_SHIFT = Effect(
-    "time_shift", "timing", ("elbow", "foot", "shoulder", "knee", "sit_to_stand"), offer, "unsynchronised recorders"
-)
+TIME_SHIFT = Effect("time_shift", "timing", offer, "unsynchronised recorders")

@@ -43,7 +43,6 @@ def between_directions(system: System) -> Candidate:
 ASYMMETRY = Effect(
     "asymmetry",
     "constitutive",
-    ("foot", "knee"),
     offer,
     "loading and unloading stiffness of Walton & Braun (1986) J. Rheol. 30:949, made rate-smooth",
     ("asymmetry.excess", "asymmetry.turning"),

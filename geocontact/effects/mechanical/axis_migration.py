@@ -16,10 +16,8 @@ from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_geometry
 
-MOST = {"elbow": 0.3, "shoulder": 0.2, "knee": 2.0}
-"""Largest plausible migration per radian, over the length of the device (a knee's is its small radius)."""
 BEND = 0.6
-"""Of that, largest curvature per radian."""
+"""Largest curvature per radian, over the largest migration."""
 
 
 def longest_lever(system: System) -> float:
@@ -31,14 +29,15 @@ def longest_lever(system: System) -> float:
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude a, shape c."""
     angle = next((name for name in system.inputs if system.unit(name) == "rad"), system.geometry.yields)
-    most = MOST.get(system.name, MOST["elbow"]) * system.length
+    migration = system.traits.migration
+    most = migration.most * system.length
     bend = BEND * most
-    if system.name == "sit_to_stand":
+    if system.role(angle) == "turn":
         half, lever = system.scale.span.get(angle, 1.0), longest_lever(system)
         most, bend = lever / half, lever / half**2
     a = Parameter("axis_migration.slope", "m/rad", 0.1 * most, -most, most)
     c = Parameter("axis_migration.curvature", "m/rad^2", 0.0, -bend, bend)
-    centre = 0.0 if system.name == "shoulder" else system.scale.centre.get(angle, 0.0)
+    centre = system.scale.centre.get(angle, 0.0) if migration.centre is None else migration.centre
     link = with_geometry({a.name: a.name, c.name: c.name, "axis_migration.centre": centre})
     neutral = {a.name: 0.0, c.name: 0.0}
     return (Candidate("axis_migration", "", "geometry", (a, c), link, neutral, ({a.name: -a.start},)),)
@@ -47,7 +46,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 AXIS_MIGRATION = Effect(
     "axis_migration",
     "geometry",
-    ("elbow", "shoulder", "knee", "sit_to_stand"),
     offer,
     "instantaneous axis of the elbow: Bottlang et al. (2000) J. Orthop. Res. 18:821; R(φ) of a knee: `geocontact fit`",
     ("axis_migration.slope", "axis_migration.curvature", "axis_migration.centre"),

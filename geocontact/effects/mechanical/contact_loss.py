@@ -32,8 +32,8 @@ def one_sided(system: System, variant: str, side: float) -> Candidate:
 
 
 def offer(system: System) -> tuple[Candidate, ...]:
-    """One candidate for a mat, which is pushed; else one per side."""
-    if system.name == "sit_to_stand":
+    """One candidate for what only pushes, such as a mat; else one per side."""
+    if system.traits.pushes_only:
         return (one_sided(system, "", 1.0),)
     return one_sided(system, "positive", 1.0), one_sided(system, "negative", -1.0)
 
@@ -41,7 +41,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 CONTACT_LOSS = Effect(
     "contact_loss",
     "constitutive",
-    ("shoulder", "sit_to_stand"),
     offer,
     "unilateral contact: Signorini (1933); smooth positive part of the contact laws",
     ("contact_loss.opening", "contact_loss.rounding", "contact_loss.side"),

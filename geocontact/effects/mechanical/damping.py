@@ -41,7 +41,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 DAMPING = Effect(
     "damping",
     "constitutive",
-    ("elbow", "foot", "shoulder", "sit_to_stand"),
     offer,
     "Hunt & Crossley (1975) J. Appl. Mech. 42:440; Flores & Lankarani (2016), Contact Force Models",
     ("damping.b", "damping.exponent", "damping.reference"),

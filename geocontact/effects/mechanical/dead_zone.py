@@ -25,7 +25,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 DEAD_ZONE = Effect(
     "dead_zone",
     "constitutive",
-    ("elbow", "shoulder", "sit_to_stand"),
     offer,
     "Nordin & Gutman (2002) Automatica 38:1633 (backlash models)",
     ("dead_zone.width", "dead_zone.share"),

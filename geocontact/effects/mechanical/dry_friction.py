@@ -89,7 +89,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 DRY_FRICTION = Effect(
     "dry_friction",
     "constitutive",
-    ("elbow", "shoulder", "sit_to_stand"),
     offer,
     "Dahl (1968) Aerospace Corp. TOR-0158(3107-18)-1; Olsson et al. (1998) Eur. J. Control 4:176",
     ("dry_friction.stroke.limit", "dry_friction.stroke.reach", "dry_friction.rate.limit", "dry_friction.rate.turning"),

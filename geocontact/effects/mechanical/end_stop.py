@@ -46,7 +46,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 END_STOP = Effect(
     "end_stop",
     "constitutive",
-    ("elbow", "shoulder", "sit_to_stand"),
     offer,
     "bilinear stiffness; compensation joint of the elbow exoskeleton at its end stop",
     (

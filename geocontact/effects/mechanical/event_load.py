@@ -47,7 +47,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 EVENT_LOAD = Effect(
     "event_load",
     "load",
-    ("shoulder",),
     offer,
     "push force during screw-in, which the human-motion-driven model of a shoulder exoskeleton leaves out",
 )

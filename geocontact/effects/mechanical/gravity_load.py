@@ -38,8 +38,8 @@ def offer(system: System) -> tuple[Candidate, ...]:
 
 
 def at_the_sensor(system: System, variant: str) -> tuple[Candidate, ...]:
-    """Amplitude W, shape φ; none where there is no angle, or more than one load to add it to."""
-    angles = [name for name in system.inputs if system.unit(name) == "rad"]
+    """Amplitude W, shape φ; none where there is no angle in space, or more than one load to add it to."""
+    angles = [name for name in system.inputs if system.unit(name) == "rad" and system.role(name) == "position"]
     loads = load_channels(system)
     if not angles or len(loads) != 1:
         return ()
@@ -59,6 +59,4 @@ def at_the_sensor(system: System, variant: str) -> tuple[Candidate, ...]:
     return (Candidate("gravity_load", variant, "load", (weight, phase), link, {weight.name: 0.0}, others),)
 
 
-GRAVITY_LOAD = Effect(
-    "gravity_load", "load", ("elbow", "shoulder"), offer, "statics of a segment about a horizontal axis"
-)
+GRAVITY_LOAD = Effect("gravity_load", "load", offer, "statics of a segment about a horizontal axis")

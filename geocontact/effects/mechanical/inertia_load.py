@@ -17,6 +17,7 @@ from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.effect import Effect
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
+from geocontact.chain.traits import Mass
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import load_channels, with_balance, with_geometry
 
@@ -37,46 +38,55 @@ def heaviest(system: System, name: str, load: str, arm: float = 1.0) -> float:
     return HEAVY * scale.of(load) * scale.span.get(name, 1.0) / (abs(arm) * scale.speed.get(name, 1.0) ** 2)
 
 
-def at_the_tip(system: System) -> Candidate:
-    """Elbow: mass times tangential acceleration of the link's end."""
-    most = heaviest(system, "beta", "force", {**system.known, **system.start}["l"])
-    mass = Parameter("inertia_load.tip.mass", "kg", FIRST * most, -most, most)
-    row = system.inputs.index("beta")
+def at_the_end(system: System, body: Mass) -> Candidate:
+    """Mass times tangential acceleration of the end of a link: of the elbow's, of the arm in the shoulder's cuff."""
+    (angle,), (load, *_) = body.moved, load_channels(system)
+    most = heaviest(system, angle, load, {**system.known, **system.start}[body.lever])
+    mass = Parameter(f"inertia_load.{body.variant}.mass", "kg", FIRST * most, -most, most)
+    row, column = system.inputs.index(angle), system.outputs.index(load)
 
     def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
-        return np.asarray(outputs + values[mass.name] * values["l"] * movement.acceleration[row][:, None])
+        out = outputs.copy()
+        out[:, column] += values[mass.name] * values[body.lever] * movement.acceleration[row]
+        return out
 
-    link = with_balance(Modifier("inertia_load.tip", RANK, change))
-    return Candidate("inertia_load", "tip", "load", (mass,), link, {mass.name: 0.0}, ({mass.name: -mass.start},))
+    link = with_balance(Modifier(f"inertia_load.{body.variant}", RANK, change))
+    start = ({mass.name: -mass.start},)
+    return Candidate("inertia_load", body.variant, "load", (mass,), link, {mass.name: 0.0}, start)
 
 
-def at_the_attachment(system: System) -> Candidate:
-    """Elbow: mass times second derivative of the deflection, as the geometry without further effects has it."""
-    most = HEAVY * system.scale.of("force") * system.scale.deflection / system.scale.rate**2
-    mass = Parameter("inertia_load.attachment.mass", "kg", FIRST * most, 0.0, most)
+def at_the_attachment(system: System, body: Mass) -> Candidate:
+    """Mass times second derivative of the deflection, as the geometry without further effects has it."""
+    load = load_channels(system)[0]
+    most = HEAVY * system.scale.of(load) * system.scale.deflection / system.scale.rate**2
+    mass = Parameter(f"inertia_load.{body.variant}.mass", "kg", FIRST * most, 0.0, most)
+    column = system.outputs.index(load)
 
     def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         _, rate = system.geometry.deflection(movement, values)
-        return np.asarray(outputs + values[mass.name] * np.gradient(rate[:, 0], movement.time)[:, None])
+        out = outputs.copy()
+        out[:, column] += values[mass.name] * np.gradient(rate[:, 0], movement.time)
+        return out
 
-    link = with_balance(Modifier("inertia_load.attachment", RANK, change))
-    return Candidate("inertia_load", "attachment", "load", (mass,), link, {mass.name: 0.0})
+    link = with_balance(Modifier(f"inertia_load.{body.variant}", RANK, change))
+    return Candidate("inertia_load", body.variant, "load", (mass,), link, {mass.name: 0.0})
 
 
-def in_the_foot(system: System) -> Candidate:
+def in_the_plane(system: System, body: Mass) -> Candidate:
     """Foot: mass at a distance from the heel, both components."""
-    most, long = heaviest(system, "y", "force_y"), system.length
+    (x, y, pitch), (along, across) = (system.inputs.index(name) for name in body.moved), load_channels(system)[:2]
+    most, long = heaviest(system, body.moved[1], across), system.length
     mass = Parameter("inertia_load.mass", "kg", 2.0 * FIRST * most, 0.0, most)
     ahead = Parameter("inertia_load.ahead", "m", 0.2 * long, 0.0, 1.2 * long)
-    x, y, pitch = (system.inputs.index(name) for name in ("x", "y", "pitch"))
+    first, second = system.outputs.index(along), system.outputs.index(across)
 
     def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         s, c = np.sin(movement.position[pitch]), np.cos(movement.position[pitch])
         turn, spin = movement.acceleration[pitch], movement.rate[pitch] ** 2
         m, arm = values[mass.name], values[ahead.name]
         out = outputs.copy()
-        out[:, 0] += m * (movement.acceleration[x] - arm * (turn * s + spin * c))
-        out[:, 1] += m * (movement.acceleration[y] + arm * (turn * c - spin * s))
+        out[:, first] += m * (movement.acceleration[x] - arm * (turn * s + spin * c))
+        out[:, second] += m * (movement.acceleration[y] + arm * (turn * c - spin * s))
         return out
 
     link = with_balance(Modifier("inertia_load", RANK, change))
@@ -84,9 +94,10 @@ def in_the_foot(system: System) -> Candidate:
 
 
 def of_the_input(system: System) -> tuple[Candidate, ...]:
-    """Any system with one load and an input that it resists: mass times the second derivative of that input."""
+    """One load and an input in space that it resists: mass times the second derivative of that input."""
     moved, loads = system.geometry.yields, load_channels(system)
-    unit = INERTIA.get((system.unit(loads[0]), system.unit(moved))) if len(loads) == 1 else None
+    alone = len(loads) == 1 and system.role(moved) == "position"
+    unit = INERTIA.get((system.unit(loads[0]), system.unit(moved))) if alone else None
     if unit is None:
         return ()
     most = heaviest(system, moved, loads[0])
@@ -108,28 +119,20 @@ def of_the_arm_that_is_moved(system: System) -> Candidate:
     return Candidate("inertia_load", "exo", "load", (inertia,), link, {inertia.name: 0.0})
 
 
-def at_the_cuff(system: System) -> Candidate:
-    """Shoulder: mass times acceleration of the arm where the interface is."""
-    most = heaviest(system, "arm", "force", {**system.known, **system.start}["L_h"])
-    mass = Parameter("inertia_load.cuff.mass", "kg", FIRST * most, -most, most)
-    row, column = system.inputs.index("arm"), system.outputs.index("force")
-
-    def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
-        out = outputs.copy()
-        out[:, column] += values[mass.name] * values["L_h"] * movement.acceleration[row]
-        return out
-
-    link = with_balance(Modifier("inertia_load.cuff", RANK, change))
-    return Candidate("inertia_load", "cuff", "load", (mass,), link, {mass.name: 0.0}, ({mass.name: -mass.start},))
-
-
 def offer(system: System) -> tuple[Candidate, ...]:
-    """Two candidates for the elbow and the shoulder, one for others."""
-    if system.name == "elbow":
-        return at_the_tip(system), at_the_attachment(system)
-    if system.name == "shoulder":
-        return of_the_arm_that_is_moved(system), at_the_cuff(system)
-    return (in_the_foot(system),) if system.name == "foot" else of_the_input(system)
+    """One candidate for each body that may have more mass, first the one that the forces move where there is one."""
+    moved = system.geometry.slots.free("inertia_load.inertia")
+    first = (of_the_arm_that_is_moved(system),) if moved else ()
+    if system.traits.masses is None:
+        return (*first, *of_the_input(system))
+    return (*first, *(of_a_body(system, body) for body in system.traits.masses))
 
 
-INERTIA_LOAD = Effect("inertia_load", "load", ("elbow", "foot", "shoulder"), offer, "Newton's second law")
+def of_a_body(system: System, body: Mass) -> Candidate:
+    """By what moves it."""
+    if not body.moved:
+        return at_the_attachment(system, body)
+    return in_the_plane(system, body) if len(body.moved) > 1 else at_the_end(system, body)
+
+
+INERTIA_LOAD = Effect("inertia_load", "load", offer, "Newton's second law")

@@ -1,7 +1,8 @@
 """Constant bias of one input that the model uses: angle, marker height, pitch, contact area.
 
-input → input + offset, of either sign. The foot's x is not offered: only its rate enters, so a bias of it is invisible.
-Of a strapped-on site the normal displacement is: a bias of its rotation is one of that, ρ times as large.
+input → input + offset, of either sign. What only travels, as the foot's x, is not offered: only its rate enters, so a
+bias of it is invisible. Of a strapped-on site the normal displacement is: a bias of its rotation is one of that, ρ
+times as large.
 """
 
 from __future__ import annotations
@@ -20,16 +21,12 @@ from geocontact.effects.parts import with_motion
 
 RANK = 10.0
 PLAUSIBLE = {"rad": 0.35, "m": 1.0}
-"""Largest bias that a careful laboratory might have, by unit; of a length over its half-range."""
-USED = {
-    "elbow": (("beta", "rad", 0.35),),
-    "foot": (("y", "m", 0.16), ("pitch", "rad", 0.15)),
-    "shoulder": (("arm", "rad", 0.35),),
-    "knee": (("area_medial", "m^2", 0.8), ("area_lateral", "m^2", 0.8)),
-    "sit_to_stand": tuple((f"{site}_normal", "m", 2.5) for site in ("pelvis", "thigh", "shank")),
-}
-"""Inputs by system, with their unit and the largest bias, of lengths and areas over their half-ranges; of other systems
-every angle and length (`System.bias`)."""
+"""Largest bias that a careful laboratory might have, by unit; of a length over its half-range.
+
+A system says more of its own inputs (`Traits.plausible`, `System.bias`).
+"""
+BIASED = ("position", "displacement", "area")
+"""Roles of inputs that a constant error of shows in."""
 
 
 def biased(system: System, name: str, unit: str, most: float) -> Candidate:
@@ -48,18 +45,23 @@ def biased(system: System, name: str, unit: str, most: float) -> Candidate:
 
 
 def offer(system: System) -> tuple[Candidate, ...]:
-    """One candidate per input that matters."""
-    units = ((name, system.unit(name)) for name in system.inputs)
-    used = USED.get(system.name, tuple((name, unit, PLAUSIBLE[unit]) for name, unit in units if unit in PLAUSIBLE))
-    there = [(name, unit, most) for name, unit, most in used if name in system.inputs]
-    per = {name: 1.0 if unit == "rad" else system.scale.span.get(name, 1.0) for name, unit, _ in there}
-    return tuple(biased(system, name, unit, system.bias.get(name, most * per[name])) for name, unit, most in there)
+    """One candidate per input that the base uses and that a bias shows in."""
+    used = [name for name in system.driving if system.role(name) in BIASED]
+    most = {name: largest_bias(system, name) for name in used}
+    return tuple(biased(system, name, system.unit(name), most[name]) for name in used if most[name] > 0.0)
+
+
+def largest_bias(system: System, name: str) -> float:
+    """In the input's unit; 0 where none is plausible, or nobody knows one."""
+    unit = system.unit(name)
+    relative = system.traits.plausible.get(name, PLAUSIBLE.get(unit, 0.0))
+    per = 1.0 if unit == "rad" else system.scale.span.get(name, 1.0)
+    return system.bias.get(name, relative * per)
 
 
 MOTION_OFFSET = Effect(
     "motion_offset",
     "kinematics",
-    ("elbow", "foot", "shoulder", "knee", "sit_to_stand"),
     offer,
     "marker placement and alignment errors: Della Croce et al. (2005) Gait Posture 21:226",
 )

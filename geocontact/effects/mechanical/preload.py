@@ -26,7 +26,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 PRELOAD = Effect(
     "preload",
     "constitutive",
-    ("elbow", "shoulder", "sit_to_stand"),
     offer,
     "a tension-only spring in parallel; strap pressure of the explicit pHRI study",
     ("preload.tension", "preload.slackening"),

@@ -31,7 +31,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 RELAXATION = Effect(
     "relaxation",
     "constitutive",
-    ("elbow", "foot", "shoulder", "knee", "sit_to_stand"),
     offer,
     "Maxwell (1867); Fung (1993), sec. 7.6 (quasi-linear viscoelasticity)",
     ("relaxation.ratio", "relaxation.tau"),

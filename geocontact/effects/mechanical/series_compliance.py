@@ -19,12 +19,11 @@ from geocontact.effects.parts import largest_load, with_geometry
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude c, shape p."""
     scale = system.scale
-    force = scale.of("force_y") if system.name == "foot" else largest_load(system)
-    way = system.geometry.yields
-    ways = {"elbow": 0.4, "foot": 3.0 * scale.deflection, "sit_to_stand": scale.deflection}
-    ways["shoulder"] = 3.0 * scale.deflection
-    most = ways.get(system.name, scale.span.get(way, 1.0)) / force
-    unit = system.law.deflection if system.name == "shoulder" else system.unit(way)
+    way, yields = system.traits.way, system.geometry.yields
+    force = scale.of(way.load) if way.load else largest_load(system)
+    per = {"input": scale.span.get(yields, 1.0), "deflection": scale.deflection, "unit": 1.0}[way.of]
+    most = way.most * per / force
+    unit = system.law.deflection if way.of == "deflection" else system.unit(yields)
     load = f"({system.law.load})" if " " in system.law.load else system.law.load
     c = Parameter("series_compliance.compliance", f"{unit}/{load}", 0.05 * most, 0.0, most)
     p = Parameter("series_compliance.exponent", "-", 1.0, 0.5, 2.0)
@@ -36,7 +35,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 SERIES_COMPLIANCE = Effect(
     "series_compliance",
     "geometry",
-    ("elbow", "foot", "shoulder", "sit_to_stand"),
     offer,
     "springs in series; prosthetic pylon and socket liner",
     tuple(f"series_compliance.{number}" for number in ("compliance", "exponent", "reference")),

@@ -31,7 +31,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 SLIP = Effect(
     "slip",
     "constitutive",
-    ("elbow", "shoulder", "sit_to_stand"),
     offer,
     "Bingham (1922); elasto-viscoplastic element after Perzyna (1966)",
     ("slip.mobility", "slip.limit"),

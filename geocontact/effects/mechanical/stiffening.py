@@ -37,7 +37,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
 STIFFENING = Effect(
     "stiffening",
     "constitutive",
-    ("elbow", "foot", "shoulder", "sit_to_stand"),
     offer,
     "Fung (1993) Biomechanics: Mechanical Properties of Living Tissues, ch. 7; Duffing (1918)",
     ("stiffening.gain", "stiffening.exponent", "stiffening.reference"),

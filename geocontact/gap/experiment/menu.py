@@ -21,7 +21,7 @@ from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.gap.levels import FEWEST
 
-LOADS, ANGLE = ("N", "N m"), "rad"
+ANGLE = "rad"
 FASTER = (4.0, 2.0)  # times as fast as before
 LEAST_FASTER = 1.25  # below which a movement does not count as faster
 FASTEST = 2.0  # Hz, up to which nine tenths of the power of a voluntary movement's rate may lie
@@ -29,7 +29,7 @@ SAMPLED = 0.1  # cycles per sample up to which it may, so that the recording sti
 HOLDS, HELD = 5, 2.0  # plateaus of a movement in steps, and how long each lasts [s]
 HALF = 0.5  # of the speed, of the size, of the largest load that was measured, of the least setting of a covariate
 STILL = 10.0  # s, at rest with nothing or a weight on the sensor
-WHOLE_MOVEMENT = ("foot",)  # systems whose movement makes contact by its size: it cannot be made smaller
+IN_SPACE = ("position", "travel")  # roles of inputs that bring bodies together which push each other
 
 Staging = Callable[[System], System]
 
@@ -133,7 +133,8 @@ def _held(system: System, trial: Trial) -> tuple[Experiment, ...]:
 
 
 def _smaller(system: System, template: Trial) -> tuple[Experiment, ...]:
-    if system.name in WHOLE_MOVEMENT:
+    """None where the movement makes contact by its size, as that of a foot over the ground does."""
+    if system.traits.pushes_only and any(system.role(name) in IN_SPACE for name in system.driving):
         return ()
     made = along(template, system.inputs, template.time - template.time[0], template.time)
     values = made.signals.values
@@ -149,7 +150,7 @@ def _on_the_bench(system: System, template: Trial) -> tuple[Experiment, ...]:
 
     A weight lies still for the whole recording: when one is put on or taken off is known to nobody exactly.
     """
-    loads = [c for c, name in enumerate(system.outputs) if system.unit(name) in LOADS]
+    loads = [c for c, name in enumerate(system.outputs) if system.role(name) == "load"]
     if not loads:
         return ()
     length = min(STILL, float(template.time[-1] - template.time[0]))
@@ -185,15 +186,17 @@ def bench(loads: Sequence[int], weights: Mapping[int, float]) -> Staging:
 
 
 def _swapped(system: System, trial: Trial) -> tuple[Experiment, ...]:
-    """Sensors of one unit, two by two; each keeps its name and carries the other's load."""
+    """Sensors of loads, two by two; each keeps its name and carries the other's load.
+
+    None where there is a centre of pressure: one plate measures it and all the loads.
+    """
+    if any(system.role(name) == "centre" for name in system.outputs):
+        return ()
     made = along(trial, system.inputs, trial.time - trial.time[0], trial.time)
     found = []
-    alike = [(c, name) for c, name in enumerate(system.outputs) if system.unit(name) in LOADS]
+    alike = [(c, name) for c, name in enumerate(system.outputs) if system.role(name) == "load"]
     for (a, first), (b, second) in combinations(alike, 2):
-        if system.name != "foot":  # a force plate measures both
-            found.append(
-                Experiment("swapped sensors", f"exchange the sensors of {first} and {second}", made, swap(a, b))
-            )
+        found.append(Experiment("swapped sensors", f"exchange the sensors of {first} and {second}", made, swap(a, b)))
     return tuple(found)
 
 

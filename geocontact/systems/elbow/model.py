@@ -17,6 +17,7 @@ from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor
 from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
+from geocontact.chain.traits import Mass, Traits, Way
 from geocontact.data.parameter import Parameter
 from geocontact.systems.base import Base, require_numbers
 from geocontact.systems.elbow.misalignment import ElbowMisalignment
@@ -26,6 +27,10 @@ UNITS = {"beta": "rad", "force": "N"}
 LENGTHS = ("l", "z", "x", "y")
 FORMER = {"l_ex": "l", "z_ex": "z"}
 """Names of an earlier version, which cases may still use."""
+ABSENT = ("contact_loss.opening", "asymmetry.excess")
+"""Terms of the law that a cuff around the arm does not have: it holds to both sides, alike."""
+TRAITS = Traits(way=Way(0.4, "unit"), masses=(Mass("tip", ("beta",), "l"), Mass("attachment")))
+"""A spring in series turns by 0.4 rad at the most; a mass may sit at the end of the link, or move with the cuff."""
 
 
 def measured_force(loads: Loads) -> Float[np.ndarray, "t c"]:
@@ -44,7 +49,7 @@ def build(
         name="elbow",
         motion=Motion(INPUTS),
         geometry=ElbowMisalignment().having({name: name for name in LENGTHS}),
-        law=Law(INTERFACE_LAW).having({"k": "k"}),
+        law=Law(INTERFACE_LAW).having({"k": "k"}).lacking(*ABSENT),
         balance=Balance(OUTPUTS, measured_force),
         sensor=Sensor(OUTPUTS),
         parameters=parameters,
@@ -52,6 +57,7 @@ def build(
         scale=Magnitudes(),
         units=UNITS,
         lengths=tuple(name for name in LENGTHS if name in constants),
+        traits=TRAITS,
     )
 
 

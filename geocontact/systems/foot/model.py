@@ -17,6 +17,7 @@ from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.links import RECORDING, Balance, Channels, Law, Loads, Modifier, Motion, Sensor, Values
 from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
+from geocontact.chain.traits import Mass, Traits, Way
 from geocontact.data.parameter import Parameter
 from geocontact.systems.base import Base, require_numbers
 from geocontact.systems.foot.spheres import INPUTS, FootSpheres
@@ -27,6 +28,14 @@ CONSTANTS = ("n", "delta_full", "mu_s", "mu_k", "v_th")
 COLUMNS = ("px [m]", "py [m]", "radius [m]", "zone")
 LEAST_FORCE = 20.0
 """Vertical force [N] below which a plate gives no centre of pressure."""
+TRAITS = Traits(
+    roles={"x": "travel"},
+    pushes_only=True,
+    plausible={"y": 0.16, "pitch": 0.15},
+    way=Way(3.0, "deflection", load="force_y"),
+    masses=(Mass(moved=INPUTS),),
+)
+"""Only the rate of x enters; pylon and liner give way by three deflections of the sole at the most."""
 
 
 def resultant(loads: Loads) -> Float[np.ndarray, "t c"]:
@@ -72,6 +81,7 @@ def build(
         units=UNITS,
         extent=float(np.ptp(place[0])),
         quotients={"cop_x": "force_y"},
+        traits=TRAITS,
     )
 
 

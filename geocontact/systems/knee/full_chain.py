@@ -39,7 +39,7 @@ from geocontact.loads.cell_shares import CELLS as CELL_NAMES
 from geocontact.loads.cell_shares import cell_forces
 from geocontact.loads.loadcells import PUBLISHED
 from geocontact.systems.base import Base, require_numbers
-from geocontact.systems.knee.model import measured_forces, stiffness
+from geocontact.systems.knee.model import STRAPS, measured_forces, stiffness
 from geocontact.systems.knee.posed import ANGLES, POSE, SHIFTS, PosedKnee
 
 SIDE_NAMES = ("force_medial", "force_lateral")
@@ -50,12 +50,6 @@ OFFSET = 0.8
 
 At a threshold of 4 mm that is 1.9 mm and 0.054 rad: more than fluoroscopy or a registration to markers is wrong by.
 """
-STRAPS = (
-    *("slip.mobility", "dead_zone.width", "stiffening.gain", "end_stop.upper.stiffness", "end_stop.lower.stiffness"),
-    *("damping.b", "dry_friction.stroke.limit", "dry_friction.rate.limit", "preload.tension"),
-    "contact_loss.opening",
-)
-"""Terms of the law that an implant does not have: they stay neutral and are not offered."""
 
 
 def regression_of(tables: Mapping[str, pd.DataFrame]) -> CellRegression:
@@ -122,7 +116,7 @@ def build(
         total = partial(to_cells, rows=(posterior, anterior), regression=regression_of(tables))
     units = {**dict.fromkeys(ANGLES, "rad"), **dict.fromkeys(SHIFTS, "m"), **dict.fromkeys(outputs, "N")}
     geometry = geometry_of(meshes, constants["threshold"], constants["side"])
-    law = Law(INTERFACE_LAW, deflection="m^2").having({name: INTERFACE_LAW.neutral[name] for name in STRAPS})
+    law = Law(INTERFACE_LAW, deflection="m^2").lacking(*STRAPS)
     return System(
         name="knee_chain",
         motion=Motion(POSE),

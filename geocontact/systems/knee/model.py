@@ -17,12 +17,21 @@ from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor, Values
 from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
+from geocontact.chain.traits import Migration, Traits
 from geocontact.data.parameter import Parameter
 from geocontact.systems.base import Base, require_numbers
 from geocontact.systems.knee.contact import AREAS, KneeContact
 
 INPUTS, OUTPUTS = ("flexion", "adduction", *AREAS), ("force_medial", "force_lateral")
 UNITS = {"flexion": "rad", "adduction": "rad", **dict.fromkeys(AREAS, "m^2"), **dict.fromkeys(OUTPUTS, "N")}
+STRAPS = (
+    *("slip.mobility", "dead_zone.width", "stiffening.gain", "end_stop.upper.stiffness", "end_stop.lower.stiffness"),
+    *("damping.b", "dry_friction.stroke.limit", "dry_friction.rate.limit", "preload.tension"),
+    "contact_loss.opening",
+)
+"""Terms of the law that an implant does not have: they stay neutral and are not offered."""
+TRAITS = Traits(plausible=dict.fromkeys(AREAS, 0.8), migration=Migration(2.0))
+"""A radius changes by twice itself per radian at the most; an area is wrong by 0.8 of its half-range at the most."""
 
 
 def stiffness(values: Values) -> float:
@@ -44,7 +53,7 @@ def build(
         name="knee",
         motion=Motion(INPUTS),
         geometry=KneeContact().having({"R": "R"}),
-        law=Law(INTERFACE_LAW, deflection="m^2").having({"k": stiffness}),
+        law=Law(INTERFACE_LAW, deflection="m^2").having({"k": stiffness}).lacking(*STRAPS),
         balance=Balance(OUTPUTS, measured_forces),
         sensor=Sensor(OUTPUTS),
         parameters=parameters,
@@ -53,6 +62,7 @@ def build(
         units=UNITS,
         spare=("flexion", "adduction"),
         lengths=tuple(name for name in ("R",) if name in constants),
+        traits=TRAITS,
     )
 
 

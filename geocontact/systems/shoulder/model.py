@@ -23,6 +23,7 @@ from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor
 from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
+from geocontact.chain.traits import Mass, Migration, Traits, Way
 from geocontact.data.parameter import Parameter
 from geocontact.systems.base import Base, require_numbers
 from geocontact.systems.shoulder.arm import ShoulderArm
@@ -32,6 +33,12 @@ UNITS = {"arm": "rad", "event": "-", "exo": "rad", "force": "N"}
 LENGTHS = ("L_h", "o_x", "o_y", "l_c")
 NUMBERS = ("L_h", "o_x", "o_y", "I", "c", "l_c", "m")
 COLUMNS = ("angle [rad]", "torque [N m]")
+TRAITS = Traits(
+    way=Way(3.0, "deflection"),
+    migration=Migration(0.2, centre=0.0),
+    masses=(Mass("cuff", ("arm",), "L_h"),),
+)
+"""o_x is known from the arm that hangs down, so that its migration is counted from there."""
 
 
 def angle_and_force(loads: Loads) -> Float[np.ndarray, "t c"]:
@@ -65,7 +72,7 @@ def build(
     inertia = {**constants, **{p.name: p.lower for p in parameters}}["I"]
     if not inertia > 0.0:
         raise ValueError(f"shoulder: the moment of inertia I = {inertia:g} kg m^2 is not positive")
-    law = Law(INTERFACE_LAW).having({"k": "k_t", "b": "b_t"})
+    law = Law(INTERFACE_LAW).having({"k": "k_t", "b": "b_t"}).lacking("asymmetry.excess")
     return System(
         name="shoulder",
         motion=Motion(INPUTS),
@@ -80,6 +87,7 @@ def build(
         spare=("event",),
         lengths=tuple(name for name in LENGTHS if name in constants),
         dynamic=True,
+        traits=TRAITS,
     )
 
 

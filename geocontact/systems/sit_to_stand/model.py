@@ -18,12 +18,17 @@ from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor
 from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
+from geocontact.chain.traits import Role, Traits, Way
 from geocontact.data.parameter import Parameter
 from geocontact.systems.base import Base, require_numbers
 from geocontact.systems.sit_to_stand.sites import SITE_GEOMETRY, InterfaceSites
 
 SITES = ("pelvis", "thigh", "shank")
 MOTIONS = {"normal": "m", "tangential": "m", "rotation": "rad"}
+ROLES: dict[str, Role] = {"normal": "displacement", "tangential": "displacement", "rotation": "turn"}
+"""Motions are those of the exoskeleton against the body, not in space."""
+BIAS = 2.5
+"""Largest plausible bias of a displacement over its half-range."""
 
 
 def channels(sites: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -57,11 +62,17 @@ def build(
     inputs, outputs = channels(sites)
     law = {f"{site}.k": f"k_n_{site}" for site in sites} | {f"{site}.b": "b" for site in sites}
     units = {f"{site}_{motion}": unit for site in sites for motion, unit in MOTIONS.items()}
+    traits = Traits(
+        roles={f"{site}_{motion}": role for site in sites for motion, role in ROLES.items()},
+        pushes_only=True,
+        plausible={f"{site}_normal": BIAS for site in sites},
+        way=Way(1.0, "deflection"),
+    )
     return System(
         name="sit_to_stand",
         motion=Motion(inputs),
         geometry=InterfaceSites(sites, SITE_GEOMETRY.apart(sites)).having({f"{s}.rho": f"rho_{s}" for s in sites}),
-        law=Law(INTERFACE_LAW.apart(sites)).having(law),
+        law=Law(INTERFACE_LAW.apart(sites)).having(law).lacking(*(f"{site}.asymmetry.excess" for site in sites)),
         balance=Balance(outputs, measured_forces),
         sensor=Sensor(outputs),
         parameters=parameters,
@@ -70,6 +81,7 @@ def build(
         units={**units, **dict.fromkeys(outputs, "N")},
         spare=tuple(f"{site}_tangential" for site in sites),
         places=sites,
+        traits=traits,
     )
 
 
