@@ -20,8 +20,8 @@ from scipy.spatial.transform import Rotation
 
 from benchmarks.machine import machine
 from benchmarks.tables import markdown
+from geocontact.geometry.contact_area.area import RULES
 from geocontact.geometry.contact_area.evolution import ContactPair, Settings
-from geocontact.geometry.contact_area.rules import RULES
 from geocontact.geometry.surface import Surface
 from meshes.simple_shapes import block, cup, sphere
 from tests import closed_forms as exact

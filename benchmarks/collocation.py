@@ -66,13 +66,11 @@ def phase_a_of_one_trial(intervals: int) -> dict[str, Any]:
     """One synthetic trial: planted, found, certified."""
     import numpy as np
 
-    from geocontact.dynamics.collocation.certificate import certificate
-    from geocontact.dynamics.collocation.resimulation import resimulation
+    from geocontact.dynamics.collocation.certificate import certificate, resimulation
     from geocontact.dynamics.collocation.solve import SolverOptions, solve
     from geocontact.dynamics.simulate import Stepper
-    from geocontact.standing_up.chain import TURNING, Subject
-    from geocontact.standing_up.feet import LAW, PLANTED, feet_on_ground
-    from geocontact.standing_up.phase_a import phase_a
+    from geocontact.standing_up.chain import LAW, PLANTED, TURNING, Subject, feet_on_ground
+    from geocontact.standing_up.phases import phase_a
     from geocontact.standing_up.trials import StandingNoise, recorded, standing_up
 
     subject, noise = Subject(), StandingNoise()

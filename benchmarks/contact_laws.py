@@ -44,7 +44,7 @@ def point() -> float:
     """Of force, radius and peak pressure from 1 nm to 1 mm of depth."""
     from decimal import Decimal, localcontext
 
-    from geocontact.contact.hertz_point import point_force, point_peak_pressure, point_radius
+    from geocontact.contact.hertz import point_force, point_peak_pressure, point_radius
 
     worst = 0.0
     with localcontext() as context:
@@ -64,7 +64,7 @@ def line() -> float:
     """Of half-width, peak pressure, and the load of that half-width, from 1 N/m to 1 MN/m."""
     from decimal import Decimal, localcontext
 
-    from geocontact.contact.hertz_line import line_half_width, line_load, line_peak_pressure
+    from geocontact.contact.hertz import line_half_width, line_load, line_peak_pressure
 
     worst = 0.0
     with localcontext() as context:
@@ -86,7 +86,7 @@ def ellipse() -> float:
     """
     import numpy as np
 
-    from geocontact.contact.hertz_ellipse import ellipse_force, ellipse_shape
+    from geocontact.contact.hertz import ellipse_force, ellipse_shape
     from tests.contact.half_space import by_root
 
     depth, flatter = 2e-4, 4.0
@@ -101,7 +101,7 @@ def ellipse() -> float:
 
 def half_space() -> dict[str, float]:
     """How far the loaded surface is from the other body, as a share of the depth; within the patch, by B/A."""
-    from geocontact.contact.hertz_ellipse import ellipse_half_axis, ellipse_peak_pressure, ellipse_shape
+    from geocontact.contact.hertz import ellipse_half_axis, ellipse_peak_pressure, ellipse_shape
     from tests.contact.half_space import displacement
 
     depth, flatter, off = 2e-4, 4.0, {}

@@ -30,7 +30,7 @@ EVALUATION = ("x10", "x25", "x35", "x45")
 EVERY, CORNER, ORDER = 18, 12.5, 3
 CURVE = np.radians(np.arange(-9.75, 11.26, 0.25))
 """Angles of the curve, within what every setting was turned through; designed profiles go from -40 to 40 degrees."""
-SYSTEMS = {"ankle": "benchmarks.desr_model:ANKLE", "joint": "geocontact.systems.elastic_joint.model:JOINT"}
+SYSTEMS = {"ankle": "benchmarks.desr_model:ANKLE", "joint": "geocontact.systems.elastic_joint:JOINT"}
 """With the effect that the designers intended among the candidates, and without it."""
 CURVES = ("loops", "design")
 

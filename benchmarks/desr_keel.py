@@ -2,7 +2,7 @@
 
 The foot is taken to store energy in a leaf spring that is held at one end, supported by the slider and bent at the
 other through a cam: the recordings come without a drawing. So at the setting s its compliance is that of
-`below_knee_prosthesis.keel.beam` with an overhang a - s, and something in series: K(s) = k / ((1 - q) C(s)/C(0) + q).
+`below_knee_prosthesis.keel.keel` with an overhang a - s, and something in series: K(s) = k / ((1 - q) C(s)/C(0) + q).
 Both the
 spring's length and where the slider is at 0 are unknown; pinned at its end, C is proportional to (a - s)² and needs
 neither, clamped the slider is taken to start at the end. The curve over the angle is the mean of the recordings that
@@ -30,10 +30,9 @@ import numpy as np
 import pandas as pd
 
 from benchmarks import desr
-from geocontact.below_knee_prosthesis.keel.beam import SUPPORTS, Support, tip_compliance
+from geocontact.below_knee_prosthesis.keel.keel import SUPPORTS, Support, tip_compliance
 from geocontact.chain.interface_law import INTERFACE_LAW
-from geocontact.chain.law_parameters import Source
-from geocontact.chain.links import Law, Values
+from geocontact.chain.links import Law, Source, Values
 from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
 from geocontact.data.parameter import Parameter
@@ -41,9 +40,9 @@ from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
 from geocontact.identify.optimise.least_squares import fit
 from geocontact.io.cases.gap_case import read_gap_case
+from geocontact.systems import elastic_joint
 from geocontact.systems.base import require_numbers
 from geocontact.systems.catalogue import system_of
-from geocontact.systems.elastic_joint import model as elastic_joint
 
 HERE = Path(__file__).resolve().parent
 NUMBERS = ("k", "overhang", "series")

@@ -13,14 +13,13 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from geocontact.chain.candidate import Candidate
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
+from geocontact.systems import elastic_joint
 from geocontact.systems.base import Base
-from geocontact.systems.elastic_joint import model as elastic_joint
 
 RANK = 5.0
 SWITCHED = (-0.15, 0.17)

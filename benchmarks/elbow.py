@@ -200,9 +200,13 @@ def scaled(runs: int, seed: int, donning: float) -> dict[str, object]:
     import numpy as np
 
     from geocontact.axis_misalignment.bins import binned
-    from geocontact.axis_misalignment.end_stop import bin_means, recorded_stroke, stiffness_by_displacement
+    from geocontact.axis_misalignment.compensation import (
+        bin_means,
+        displacement_scale,
+        recorded_stroke,
+        stiffness_by_displacement,
+    )
     from geocontact.axis_misalignment.least_squares import estimated, problem_of
-    from geocontact.axis_misalignment.scale import displacement_scale
     from geocontact.axis_misalignment.synthetic import PAPER, Design
     from geocontact.axis_misalignment.uncertainty import covariance, profiled
     from tests.systems.elbow_trials import parameters, trials

@@ -58,7 +58,7 @@ def sampling():
 
 def drawn(count: int, seed: int):
     """People of that population."""
-    from geocontact.axis_misalignment.population import QUANTITIES
+    from geocontact.axis_misalignment.design import QUANTITIES
 
     one = sampling()
     return one.quantities(one.shares(count, seed), QUANTITIES)
@@ -68,7 +68,7 @@ def exposure():
     """Locked, over the range."""
     import numpy as np
 
-    from geocontact.axis_misalignment.population import Exposure
+    from geocontact.axis_misalignment.design import Exposure
 
     return Exposure(*np.radians(RANGE))
 
@@ -94,7 +94,7 @@ def speed(rounds: int, seed: int) -> dict[str, object]:
     """Processor seconds of a million people, largest forces only; drawing them apart."""
     import numpy as np
 
-    from geocontact.axis_misalignment.population import peak_forces
+    from geocontact.axis_misalignment.design import peak_forces
 
     begun = time.process_time()
     people = drawn(MILLION, seed)
@@ -129,7 +129,7 @@ def convergence(seed: int) -> list[dict[str, float]]:
     """Largest and root mean square error of the peak force [N] by step, refined and on the grid only."""
     import numpy as np
 
-    from geocontact.axis_misalignment.population import peak_forces
+    from geocontact.axis_misalignment.design import peak_forces
 
     people = drawn(CHECKED, seed)
     true = peak_forces(people, exposure(), np.radians(FINEST))[0]
@@ -151,7 +151,7 @@ def drawing(seed: int) -> list[dict[str, float]]:
     """The 95 % quantile and its interval by number of people."""
     import numpy as np
 
-    from geocontact.axis_misalignment.population import peak_forces
+    from geocontact.axis_misalignment.design import peak_forces
     from geocontact.identify.intervals.quantile_intervals import quantile
 
     rows = []

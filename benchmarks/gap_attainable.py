@@ -2,7 +2,7 @@
 
 Planted effects do not have their candidate's form, and another candidate may come nearer to one than its own does. Here
 every candidate is refitted, together with the base, to the calibration trials of the gap benchmark's visible single
-effects as they would be without noise (`gap_benchmark.confounding`), weighed by the true covariance. The margin is what
+effects as they would be without noise (`gap_benchmark.answers`), weighed by the true covariance. The margin is what
 the best of the other effects leaves more than the best candidate of the planted one, in nats. Where it is clearly
 below zero, whoever weighs these candidates by how well they fit is wrong, however well the noise is known; about zero,
 noise and the number of parameters decide. Fits set out from the candidates' own starts; one that ends in a poor minimum
@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from geocontact.gap_benchmark.confounding import CLEAR
+from geocontact.gap_benchmark.answers import CLEAR
 from geocontact.gap_benchmark.drawing import SYSTEMS
 
 HERE = Path(__file__).resolve().parent
@@ -48,7 +48,7 @@ def margin(lot: Any) -> dict[str, Any] | None:
 
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.case.admission import admitted
-    from geocontact.gap_benchmark.confounding import what_each_leaves
+    from geocontact.gap_benchmark.answers import what_each_leaves
     from geocontact.gap_benchmark.drawing import drawn
     from geocontact.gap_benchmark.score import visible
     from geocontact.systems.catalogue import system_of
@@ -86,7 +86,7 @@ def summary(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """
     from scipy.stats import norm
 
-    from geocontact.gap_benchmark.rates import Rate
+    from geocontact.gap_benchmark.score import Rate
 
     margins = np.array([row["margin"] for row in rows])
     right = norm.cdf(np.sign(margins) * np.sqrt(0.5 * np.abs(margins)))

@@ -131,7 +131,7 @@ def right(row: dict[str, Any]) -> bool:
 
 def summary(found: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """Shares seen by amplitude, and statements right, at other amplitudes than the stated one."""
-    from geocontact.gap_benchmark.rates import Rate
+    from geocontact.gap_benchmark.score import Rate
 
     seen = {t: Rate.of(row["seen"] for row in found if row["times"] == t) for t in sorted({r["times"] for r in found})}
     rate = Rate.of(right(row) for row in found if row["times"] != 1.0)

@@ -24,7 +24,7 @@ from benchmarks.machine import as_json, commit, machine
 from geocontact.analyses.gap.benchmark.case import Journal, Worked
 from geocontact.gap_benchmark.drawing import SYSTEMS, Lot
 from geocontact.gap_benchmark.generalisation import NUMBERS, LaboratoryFigures, figures_of, losses
-from geocontact.gap_benchmark.rates import Rate
+from geocontact.gap_benchmark.score import Rate
 from geocontact.gap_benchmark.synthetic.laboratories.kinds import SIDES, kinds_of
 
 COUNTED = {"none": "none", "single": "single", "unknown": "outside", "pairs": "pair"}
@@ -127,7 +127,7 @@ def what_can_be_told(planted: Any) -> dict[str, Any]:
     """What candidates leave of a single effect; whether one imitates an effect outside the table."""
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.case.admission import admitted
-    from geocontact.gap_benchmark.confounding import LEFT, confounding, left_by_effect
+    from geocontact.gap_benchmark.answers import LEFT, confounding, left_by_effect
     from geocontact.systems.catalogue import system_of
 
     label = planted.label
@@ -176,7 +176,7 @@ def report(o: argparse.Namespace, rows: Sequence[Worked]) -> dict[str, Any]:
 
 def line_of(row: Worked) -> dict[str, Any]:
     """What was planted and what was said."""
-    from geocontact.gap_benchmark.confounding import ahead_by
+    from geocontact.gap_benchmark.answers import ahead_by
     from geocontact.gap_benchmark.score import confidently_wrong
 
     label, said = row.label or {}, row.answers["diagnosis"]

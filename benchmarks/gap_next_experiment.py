@@ -207,10 +207,9 @@ class Seen:
 
 def whitenings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain: int) -> list[Any]:
     """Whitening of every trial; those from `plain` on are staged."""
+    from geocontact.gap.case.noise_sources import noise_spread, signal_size
     from geocontact.gap.case.placement import placement
-    from geocontact.gap.case.quotient_noise import noise_spread
     from geocontact.gap.case.refit import Measured, derivatives
-    from geocontact.gap.case.signal_size import signal_size
     from geocontact.gap.case.whitening import Whitening, propagated_input_noise
     from geocontact.gap.inputs.spectrum import measured_inputs
     from geocontact.identify.noise.covariance import Layout
@@ -264,7 +263,7 @@ def main() -> None:
 
 def rate_of(rows: Sequence[dict[str, Any]]) -> Any:
     """Share of proposals that raised the separation."""
-    from geocontact.gap_benchmark.rates import Rate
+    from geocontact.gap_benchmark.score import Rate
 
     return Rate.of(row["raised"] for row in rows if "raised" in row)
 

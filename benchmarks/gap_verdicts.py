@@ -100,7 +100,7 @@ def answer_of(folder: Path) -> dict[str, Any]:
 
 def held_out_errors(found: Any) -> dict[str, dict[str, float]]:
     """Errors of the base model and of what is named, per channel, as they are reported; none where nothing is named."""
-    from geocontact.gap.case.measured_fit import measured_fit
+    from geocontact.gap.case.plain_fit import measured_fit
 
     if not found.answer.effects or found.data_error is not None:
         return {}

@@ -16,9 +16,9 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.geometry.shapes import HalfSpace
-from geocontact.loads.pose_rate import pose_rate
+from geocontact.loads.resultant import pose_rate
 
 MASS, GRAVITY, LASTING, RATE = 84.0, 9.80665, 0.7, 200.0
 WEIGHT = MASS * GRAVITY

@@ -96,11 +96,10 @@ def four_marks(rows: int, columns: int, radius, first: float):
 
 def speed(faces: int, frames: int) -> dict[str, object]:
     """Seconds of each step, and the largest memory of the process [MB]."""
-    from geocontact.geometry.drape.geodesics import Geodesics
     from geocontact.geometry.drape.lay import lay
     from geocontact.geometry.drape.mat import Mat
-    from geocontact.loads.mat.errors import MatErrors, wrench_covariance
-    from geocontact.loads.mat.load import mat_load
+    from geocontact.geometry.drape.spread import Geodesics
+    from geocontact.loads.mat.load import MatErrors, mat_load, wrench_covariance
     from geocontact.loads.mat.map import mat_map
 
     mat = Mat(ROWS, COLUMNS, (PITCH, PITCH))
@@ -184,14 +183,14 @@ def registration(draws: int) -> dict[str, object]:
     """Errors of force, moment and centre: of the mat where it is, and where it is thought to be."""
     from scipy.spatial.transform import RigidTransform, Rotation
 
-    from geocontact.geometry.drape.geodesics import Geodesics
     from geocontact.geometry.drape.lay import lay
     from geocontact.geometry.drape.mat import Marks, Mat
+    from geocontact.geometry.drape.spread import Geodesics
     from geocontact.geometry.surface import Surface
     from geocontact.io.mats.catalogue import read_mat
     from geocontact.io.mats.layout import read_layout
     from geocontact.io.mesh.meshes import read_mesh
-    from geocontact.io.recordings.mat_landmarks import read_mat_landmarks
+    from geocontact.io.recordings.mat_results import read_mat_landmarks
     from geocontact.loads.mat.load import mat_load
     from geocontact.loads.mat.map import mat_map
 
@@ -266,9 +265,9 @@ def draping() -> list[dict[str, object]]:
     from scipy.spatial.transform import RigidTransform, Rotation
 
     from geocontact.geometry.drape.closest_point import project
-    from geocontact.geometry.drape.geodesics import Geodesics
     from geocontact.geometry.drape.lay import lay
     from geocontact.geometry.drape.mat import Mat
+    from geocontact.geometry.drape.spread import Geodesics
 
     rows = []
     shapes = {"cylinder of radius 80 mm": lambda a, y: 0.08 + 0.0 * a, "doubly curved thigh": thigh}

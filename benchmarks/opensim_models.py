@@ -234,11 +234,9 @@ def _markers(file: Path, tree: Any, call: Any, rng: Any) -> dict[str, Any]:
     """Inverse kinematics of a smooth motion with noise of the markers, from the same file."""
     import numpy as np
 
-    from geocontact.data.multibody.marker_tasks import MarkerTasks
-    from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+    from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
     from geocontact.dynamics.inverse_kinematics import inverse_kinematics
-    from geocontact.io.mocap.trc import read_trc
-    from geocontact.io.mocap.trc_writer import write_trc
+    from geocontact.io.mocap.trc import read_trc, write_trc
 
     one, two = states(tree.model, rng, 2)
     phase = 0.5 - 0.5 * np.cos(np.linspace(0.0, 2.0 * np.pi, FRAMES))[:, None]

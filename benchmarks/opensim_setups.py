@@ -97,9 +97,9 @@ def _scaling(setup: Path, model: Path, kind: str, place: Path) -> Row:
     """Markers of the kind on the model, a subject larger by one factor who stands."""
     import numpy as np
 
-    from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+    from geocontact.data.multibody.markers import MarkerTrajectories
     from geocontact.dynamics.scaling import scaled
-    from geocontact.io.mocap.trc_writer import write_trc
+    from geocontact.io.mocap.trc import write_trc
     from geocontact.io.opensim.osim_multibody import read_marker_set
 
     sets = [each for each in setup.parent.rglob("Markers_*.xml") if each.stem.lower() == f"markers_{kind.lower()}"]
@@ -125,8 +125,8 @@ def _kinematics(setup: Path, place: Path) -> Row:
     """A smooth motion of the model that OpenSim scaled."""
     import numpy as np
 
-    from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
-    from geocontact.io.mocap.trc_writer import write_trc
+    from geocontact.data.multibody.markers import MarkerTrajectories
+    from geocontact.io.mocap.trc import write_trc
 
     model = _model(place / "theirs.osim")
     rng = np.random.default_rng(SEED)
@@ -145,7 +145,7 @@ def _dynamics(model: Path, body: str, exclude: str, place: Path) -> Row:
     """A smooth motion, and a force on a foot as of a step [N, m]."""
     import numpy as np
 
-    from geocontact.io.opensim.external_loads_writer import write_external_loads
+    from geocontact.io.opensim.external_loads import write_external_loads
     from geocontact.io.opensim.storage_writer import write_storage
 
     read = _model(model)

@@ -190,7 +190,7 @@ def predicted(data: Path, work: Path, used: str, unseen: str) -> dict[str, dict[
 
 def og1_peaks(data: Path) -> list[float]:
     """Of og1 between the times that the study gives for its normal gait."""
-    from geocontact.io.recordings.force_curves import read_force_curves
+    from geocontact.io.recordings.area_table import read_force_curves
 
     found = read_force_curves(data / "gc4_jw_predsim_workshop" / "KCF_ref.mot", "lbf", {})
     inside = (found.time >= STUDIED[0]) & (found.time <= STUDIED[1])

@@ -80,9 +80,8 @@ def bed_of(insert, edge: float, smooth: bool):
     """The insert's upper faces as a layer, and what building it costs."""
     from dataclasses import replace
 
-    from geocontact.geometry.phong_offset import corner_normals, phong_offset
-    from geocontact.geometry.surface_quadrature import surface_quadrature
-    from geocontact.geometry.thickness import thickness_below
+    from geocontact.geometry.curvature import corner_normals, phong_offset
+    from geocontact.geometry.surface_quadrature import surface_quadrature, thickness_below
     from geocontact.loads.foundation import Layer
 
     started = time.process_time()
@@ -95,7 +94,7 @@ def bed_of(insert, edge: float, smooth: bool):
 
 def skin_of(femur, smooth: bool):
     """What the femoral component brings."""
-    from geocontact.geometry.phong_offset import corner_normals
+    from geocontact.geometry.curvature import corner_normals
     from geocontact.loads.foundation import Skin
 
     return Skin(corner_normals(femur)) if smooth else Skin()
@@ -157,7 +156,7 @@ def beside(ours: Forces, finest: Forces, faces: int, smooth: bool) -> dict[str, 
 
 def refined(surface, times: int = 2):
     """Every face cut into four, so many times; new corners on the smooth surface, creases kept."""
-    from geocontact.geometry.phong_offset import corner_normals, phong_offset
+    from geocontact.geometry.curvature import corner_normals, phong_offset
     from geocontact.geometry.surface import Surface
 
     for _ in range(times):

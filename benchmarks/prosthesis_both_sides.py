@@ -19,21 +19,22 @@ import numpy as np
 
 from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
-from geocontact.below_knee_prosthesis.both_sides.equations_of_both import FREE, equations_of_both, passive
 from geocontact.below_knee_prosthesis.both_sides.walk import (
+    FREE,
     GivenWalk,
     accelerations_by_angles,
     coordinate_names,
     driven_stepper,
     driving_forces,
+    equations_of_both,
+    passive,
     walk_by_angles,
     walk_by_forces,
 )
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.dynamics.recorded_inputs import recorded_inputs
-from geocontact.dynamics.rosenbrock import rosenbrock_step
+from geocontact.dynamics.simulate import rosenbrock_step
 from meshes.amputee import true_amputee
 from meshes.amputee_walk import amputee_walk, amputee_walk_on_spheres
 from meshes.gait_persons import PARTICIPANTS, STANCE

@@ -22,22 +22,18 @@ import numpy as np
 from benchmarks.machine import write_results
 from geocontact.analyses.prosthesis.ranges import TURNS
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
-from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance, stance_from_markers
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResiduals
-from geocontact.below_knee_prosthesis.calibration.stance_from_markers import stance_from_markers
-from geocontact.below_knee_prosthesis.calibration.whole_residuals import WholeResiduals
-from geocontact.below_knee_prosthesis.from_markers.sides import as_right, of_side
-from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
-from geocontact.below_knee_prosthesis.from_markers.walking import Walked, walked
+from geocontact.below_knee_prosthesis.calibration.whole_model import WholeResiduals
+from geocontact.below_knee_prosthesis.evaluation import PlateStance, StanceErrors, longest_stance, stance_errors
+from geocontact.below_knee_prosthesis.from_markers import Walked, as_right, of_side, standing_leg, walked
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket
 from geocontact.below_knee_prosthesis.model.leg import Person
-from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
+from geocontact.below_knee_prosthesis.model.leg_tree import LegMotion
 from geocontact.below_knee_prosthesis.simulate import Push, Stance, simulate_stance
-from geocontact.below_knee_prosthesis.stance_errors import PlateStance, StanceErrors, longest_stance, stance_errors
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.identify.signals.agreement import agreement
 from meshes.gait_persons import PARTICIPANTS, Walker
 from meshes.gait_trial import GaitTrial, synthetic_trial

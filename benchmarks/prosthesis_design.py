@@ -22,23 +22,33 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from benchmarks.machine import write_results
 from geocontact.analyses.workers import each
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
-from geocontact.below_knee_prosthesis.design.carried_load import REACH, CarriedLoad, with_angles_kept, with_torque_kept
 from geocontact.below_knee_prosthesis.design.choice import FootChoice, choose
-from geocontact.below_knee_prosthesis.design.drawn import KEEL, drawn_foot, draws
-from geocontact.below_knee_prosthesis.design.foot_map import foot_map, needed
-from geocontact.below_knee_prosthesis.design.foot_task import LOADED, FootTask
+from geocontact.below_knee_prosthesis.design.drawn import (
+    KEEL,
+    RecordedTrial,
+    TrialErrors,
+    drawn_foot,
+    draws,
+    task_again,
+)
+from geocontact.below_knee_prosthesis.design.foot_map import (
+    REACH,
+    CarriedLoad,
+    foot_map,
+    needed,
+    with_angles_kept,
+    with_torque_kept,
+)
+from geocontact.below_knee_prosthesis.design.foot_task import LOADED, FootTask, sagittal_leg
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, outcomes
-from geocontact.below_knee_prosthesis.design.sagittal_leg import sagittal_leg
-from geocontact.below_knee_prosthesis.design.stance_again import RecordedTrial, TrialErrors, task_again
-from geocontact.below_knee_prosthesis.from_markers.marker_names import STANDING
+from geocontact.below_knee_prosthesis.evaluation import PlateStance
+from geocontact.below_knee_prosthesis.from_markers import STANDING
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg import Leg, Person
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
-from geocontact.below_knee_prosthesis.stance_errors import PlateStance
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from meshes.gait_course import course, reactions
 from meshes.gait_persons import Walker, marker_places, true_leg
 from meshes.gait_trial import CAMERA_NOISE, FORCE_NOISE, OFFSET, standing_places

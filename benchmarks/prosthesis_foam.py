@@ -19,11 +19,9 @@ import numpy as np
 
 from benchmarks.keel_stance import LEVEL, WEIGHT, Stance, stance
 from benchmarks.machine import write_results
-from geocontact.below_knee_prosthesis.keel.compression import Compressed
-from geocontact.below_knee_prosthesis.keel.compression_test import calibrated_on_sole
+from geocontact.below_knee_prosthesis.keel.compression import Compressed, calibrated_on_sole
 from geocontact.below_knee_prosthesis.keel.sole import ZONES, KeelSole, law_of, numbers
-from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, fulcrum_of, vsf_keel
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, VariableStiffnessFoot, fulcrum_of, vsf_foot, vsf_keel
 from geocontact.loads.centre_of_pressure import centre_of_pressure
 from geocontact.loads.sphere_set import SphereSet
 

@@ -17,16 +17,15 @@ import numpy as np
 
 from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.below_knee_prosthesis.design.drawn import stiffer
 from geocontact.below_knee_prosthesis.design.foot_task import LOADED, FootTask, foot_task
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob
-from geocontact.below_knee_prosthesis.design.map_error import stiffer
 from geocontact.below_knee_prosthesis.design.outcomes import radius_of_path
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import GATE, Stance, simulate_stance
-from geocontact.loads.pose_rate import pose_rate
+from geocontact.loads.resultant import pose_rate
 from meshes.gait_course import course
 from meshes.gait_persons import PARTICIPANTS, STANCE, true_leg
 

@@ -31,10 +31,10 @@ from benchmarks.prosthesis_calibration import (
     transfer_table,
 )
 from geocontact.below_knee_prosthesis.calibration.calibrate import calibrate
-from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedStance
-from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration, calibrate_whole
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import WalkedStance
+from geocontact.below_knee_prosthesis.calibration.whole_model import WholeCalibration, calibrate_whole
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
 from meshes.gait_persons import PARTICIPANTS, Walker
 from meshes.gait_trial import synthetic_trial
 

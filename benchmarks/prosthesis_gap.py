@@ -44,9 +44,9 @@ from benchmarks.prosthesis_refit import (
 )
 from benchmarks.prosthesis_truth import EVERY, GATE, FootPath, Measured, Truth, Withheld, measure
 from geocontact.analyses.prosthesis.stance_files import pose_table, reaction_table, write_sole
+from geocontact.below_knee_prosthesis.evaluation import longest_stance
 from geocontact.below_knee_prosthesis.foot_in_plane import FootInPlane, in_plane, row_numbers
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
-from geocontact.below_knee_prosthesis.stance_errors import longest_stance
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from meshes.gait_persons import PARTICIPANTS
 from meshes.gait_trial import synthetic_trial
 

@@ -19,13 +19,12 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from benchmarks.keel_stance import LEVEL, WEIGHT, Stance, stance
 from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.keel.quasi_static import DOWNWARDS, KeelMotion, QuasiStaticKeel
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.geometry.surface import Surface
 from geocontact.loads.centre_of_pressure import centre_of_pressure
 from geocontact.loads.ground import Ground, Sheet, Stairs
-from geocontact.loads.pose_rate import pose_rate
+from geocontact.loads.resultant import pose_rate
 
 SLOPE = np.radians(5.0)
 EDGE, DROP = 0.05, 0.15

@@ -3,7 +3,7 @@
 Steps over force plates of three able-bodied recordings: overground and on a treadmill (`opensim_walk`), and one of
 another laboratory (`bmclab_gait_c3d`). A rigid foot in the sagittal plane carries a row of spheres with the law of the
 prosthetic foot's, as in `benchmarks.real_foot`; stiffness and damping of the rows are fitted to some steps
-(`below_knee_prosthesis.foot_in_plane.row_numbers`), the others are predicted by `loads.sphere_loads`. Beside each
+(`below_knee_prosthesis.foot_in_plane.row_numbers`), the others are predicted by `loads.sphere_set`. Beside each
 figure stands what needs no model: the mean curve of the steps that were fitted to. What nobody measured: how deep the
 spheres are in a foot that stands flat, friction, and which part of the foot is rigid. Answers go to
 benchmarks/results/prosthesis_intact.json.
@@ -29,13 +29,12 @@ from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.contact.sphere_foot import normal_force
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.identify.signals.agreement import agreement
-from geocontact.identify.signals.zero_lag import zero_lag
+from geocontact.identify.signals.filters import zero_lag
 from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
 from geocontact.io.mocap.markers import read_markers
 from geocontact.loads.centre_of_pressure import centre_of_pressure
-from geocontact.loads.pose_rate import pose_rate
-from geocontact.loads.sphere_loads import sphere_loads
-from geocontact.loads.sphere_set import SoleLaw, SphereSet
+from geocontact.loads.resultant import pose_rate
+from geocontact.loads.sphere_set import SoleLaw, SphereSet, sphere_loads
 
 MASS = {"overground": 75.3, "treadmill": 72.6}
 """kg; of the recordings' own models."""

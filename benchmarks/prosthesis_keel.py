@@ -53,11 +53,16 @@ def compression_table() -> dict[str, Any]:
     """Both ends' numbers, how far rounding moves them, what is told apart, and simulated tests over the range."""
     import numpy as np
 
-    from geocontact.below_knee_prosthesis.keel.beam import SUPPORTS, tip_compliance
-    from geocontact.below_knee_prosthesis.keel.compression import Compressed, rounded, told_apart
-    from geocontact.below_knee_prosthesis.keel.compression_test import TRAVEL, pressed_sole, pressed_tip
-    from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, compression, vsf_keel
-    from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+    from geocontact.below_knee_prosthesis.keel.compression import (
+        TRAVEL,
+        Compressed,
+        pressed_sole,
+        pressed_tip,
+        rounded,
+        told_apart,
+    )
+    from geocontact.below_knee_prosthesis.keel.keel import SUPPORTS, tip_compliance
+    from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, compression, vsf_foot, vsf_keel
 
     low, high = Compressed(0.066, SETTINGS["low"]), Compressed(0.151, SETTINGS["high"])
     at, gone = np.linspace(low.fulcrum, high.fulcrum, 35), np.array([TRAVEL])
@@ -96,7 +101,7 @@ def convergence() -> dict[str, Any]:
     import numpy as np
     from scipy.spatial.transform import RigidTransform
 
-    from geocontact.below_knee_prosthesis.keel.elastica import elastica
+    from geocontact.below_knee_prosthesis.keel.keel import elastica
     from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
     from geocontact.below_knee_prosthesis.keel.sole import KeelSole
     from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_keel
@@ -137,7 +142,7 @@ def stances(rounds: int) -> dict[str, Any]:
     """Along a synthetic stance at low, medium and high: what leaving the inertia out, and the rates as well, costs."""
     from benchmarks.keel_stance import LEVEL
     from geocontact.below_knee_prosthesis.keel.dynamic import dynamic_keel
-    from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+    from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 
     foot = vsf_foot()
     even = replace(foot, law=replace(foot.law, static=foot.law.kinetic))
@@ -208,8 +213,7 @@ def soles(rounds: int) -> dict[str, Any]:
     import numpy as np
 
     from benchmarks.keel_stance import LEVEL, WEIGHT, stance
-    from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-    from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+    from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
     from geocontact.loads.centre_of_pressure import centre_of_pressure
 
     fulcrum, found, centre = fulcrum_of("medium"), {}, {}
@@ -232,8 +236,7 @@ def torsion() -> dict[str, Any]:
     from scipy.spatial.transform import RigidTransform, Rotation
 
     from benchmarks.keel_stance import LEVEL, heights
-    from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-    from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+    from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
     from geocontact.loads.centre_of_pressure import centre_of_pressure
 
     turn, found = Rotation.from_euler("zx", np.radians([[-20.0, 3.0]])), {}

@@ -20,7 +20,7 @@ import numpy as np
 from benchmarks.machine import write_results
 from benchmarks.prosthesis_calibration import recorded
 from geocontact.below_knee_prosthesis.calibration.calibrate import ENOUGH, SoleCalibration, calibrate
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.identify.optimise.bounded_gauss_newton import least
 from meshes.gait_persons import PARTICIPANTS
 from meshes.gait_trial import synthetic_trial

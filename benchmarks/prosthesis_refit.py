@@ -18,11 +18,10 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from benchmarks.prosthesis_truth import FootPath, Measured, given_way
 from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
 from geocontact.geometry.shapes import HalfSpace
-from geocontact.loads.centre_in_foot import centre_in_foot
-from geocontact.loads.pose_rate import pose_rate
+from geocontact.loads.centre_of_pressure import centre_in_foot
+from geocontact.loads.resultant import pose_rate
 from geocontact.loads.sphere_set import SphereSet
 
 Trials = dict[str, Measured]

@@ -17,8 +17,8 @@ from benchmarks.machine import write_results
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.trial import read
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.design.foot_task import Terrain, words
 from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES, Knob
-from geocontact.below_knee_prosthesis.design.terrain import Terrain, words
 
 TRIAL = Path(__file__).resolve().parents[1] / "meshes" / "gait_P1_medium_1"
 FULCRUMS = np.array([0.066, 0.117, 0.151])

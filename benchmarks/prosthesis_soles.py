@@ -21,11 +21,9 @@ import numpy as np
 
 from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, VariableStiffnessFoot, fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg import Leg
-from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, RECORDED
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, RECORDED, LegMotion
 from geocontact.below_knee_prosthesis.model.stance_model import FLOOR
 from geocontact.below_knee_prosthesis.simulate import Push, Stance, simulate_stance
 from geocontact.geometry.shapes import HalfSpace

@@ -14,9 +14,9 @@ import numpy as np
 
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.sole import ZONES, numbers
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.contact.bushing import CREEP, TRANSLATION
-from geocontact.identify.signals.zero_lag import zero_lag
+from geocontact.identify.signals.filters import zero_lag
 
 PIECES, PITCH = 24, 2e-3
 """Of the overhang, and distance of the foam's rows [m]."""

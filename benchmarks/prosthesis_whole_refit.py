@@ -22,11 +22,10 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from benchmarks.machine import write_results
+from geocontact.below_knee_prosthesis.evaluation import PlateStance, stance_errors
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
-from geocontact.below_knee_prosthesis.stance_errors import PlateStance, stance_errors
 from geocontact.contact.bushing import SOCKET, Bushing
 from meshes.gait_course import GaitCourse, course
 from meshes.gait_persons import PARTICIPANTS, STANCE, true_leg

@@ -15,7 +15,7 @@ import pandas as pd
 from scipy.interpolate import PchipInterpolator
 
 from benchmarks.paper_004 import COARSE, FEMUR, INSERT, geocontact
-from geocontact.io.recordings.force_curves import read_force_curves
+from geocontact.io.recordings.area_table import read_force_curves
 from geocontact.io.text.tables import read_table
 
 HOME = "gc4_jw_predsim_workshop"

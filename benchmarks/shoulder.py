@@ -56,7 +56,7 @@ def both_arms() -> list[Any]:
     """Of the shipped trial, filtered."""
     import numpy as np
 
-    from geocontact.identify.signals.filled import filled_and_smoothed
+    from geocontact.identify.signals.filters import filled_and_smoothed
     from geocontact.io.mocap.markers import read_markers
     from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
 
@@ -71,8 +71,7 @@ def both_arms() -> list[Any]:
 
 def simulated(arm: Any, level: float, **how: Any) -> Any:
     """One arm with the usual device on the usual person."""
-    from geocontact.shoulder_exoskeleton.device import Wearer
-    from geocontact.shoulder_exoskeleton.lucy import lucy
+    from geocontact.shoulder_exoskeleton.device import Wearer, lucy
     from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 
     return simulate_arm(arm, lucy(), Wearer(), level, **how)
@@ -120,8 +119,7 @@ def order(arm: Any) -> dict[str, list[float]]:
     """Errors of the angles at the end of the lift with even steps, before stick and slip, and the orders between."""
     import numpy as np
 
-    from geocontact.shoulder_exoskeleton.device import Wearer
-    from geocontact.shoulder_exoskeleton.lucy import lucy
+    from geocontact.shoulder_exoskeleton.device import Wearer, lucy
     from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 
     first = arm.time <= arm.time[0] + 1.2

@@ -24,8 +24,7 @@ from geocontact.dynamics.tree import Moving
 from geocontact.geometry.surface_quadrature import SurfaceQuadrature
 from geocontact.loads.foundation import Layer, Skin, pressed
 from geocontact.shoulder_exoskeleton.cuff_contact import Cuff
-from geocontact.shoulder_exoskeleton.device import Device
-from geocontact.shoulder_exoskeleton.lucy import lucy
+from geocontact.shoulder_exoskeleton.device import Device, lucy
 from geocontact.shoulder_exoskeleton.padded_cuff import ArmLine, CuffLaw, cuff_load
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 from geocontact.shoulder_exoskeleton.work_phases import PHASES

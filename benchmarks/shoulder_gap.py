@@ -39,7 +39,7 @@ from benchmarks.shoulder_truth import LOGGER, Measured
 from geocontact.analyses.shoulder.simulate.exports import write_plane
 from geocontact.analyses.shoulder.simulated_arm import SimulatedArm
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
-from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial
+from geocontact.shoulder_exoskeleton.synthetic import OverheadTrial
 
 ROOT = Path(__file__).resolve().parents[1]
 RIGHT: dict[str, tuple[str, ...]] = {

@@ -26,11 +26,9 @@ from benchmarks.shoulder_trials import dominant_arm, wearer_of
 from benchmarks.shoulder_truth import LOGGER, Measured, Truth, Withheld, measure
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers, slices
-from geocontact.shoulder_exoskeleton.device import Device, Wearer
-from geocontact.shoulder_exoskeleton.lucy import lucy
-from geocontact.shoulder_exoskeleton.support.phases import SCREW
-from geocontact.shoulder_exoskeleton.synthetic.design import condition, participant, task
-from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial, synthetic_trial
+from geocontact.shoulder_exoskeleton.device import Device, Wearer, lucy
+from geocontact.shoulder_exoskeleton.support.phase_machine import SCREW
+from geocontact.shoulder_exoskeleton.synthetic import OverheadTrial, condition, participant, synthetic_trial, task
 
 PERSON = "P1"
 TRIALS = {"t01": ("T1", "S50"), "t02": ("T2", "S100"), "t03": ("T1", "S100"), "t04": ("T2", "S50")}

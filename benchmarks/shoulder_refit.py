@@ -34,11 +34,11 @@ from benchmarks.shoulder_planted import (
 from benchmarks.shoulder_trials import wearer_of
 from benchmarks.shoulder_truth import Measured
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
-from geocontact.shoulder_exoskeleton.armrest import armrest_force
 from geocontact.shoulder_exoskeleton.device import Device
+from geocontact.shoulder_exoskeleton.plane import armrest_force
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
-from geocontact.shoulder_exoskeleton.support.phases import SCREW
-from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial
+from geocontact.shoulder_exoskeleton.support.phase_machine import SCREW
+from geocontact.shoulder_exoskeleton.synthetic import OverheadTrial
 
 RESULTS = Path(__file__).resolve().parent / "results"
 

@@ -60,11 +60,14 @@ def phases(seeds: int) -> dict[str, Any]:
 
     import numpy as np
 
-    from geocontact.shoulder_exoskeleton.support.phase_check import phase_check, phases_by_onset
-    from geocontact.shoulder_exoskeleton.support.phase_machine import detected
-    from geocontact.shoulder_exoskeleton.support.sensing import Sensing, sensed
-    from geocontact.shoulder_exoskeleton.synthetic.design import CONDITIONS, PARTICIPANTS, TASKS
-    from geocontact.shoulder_exoskeleton.synthetic.trial import synthetic_trial
+    from geocontact.shoulder_exoskeleton.support.phase_machine import (
+        Sensing,
+        detected,
+        phase_check,
+        phases_by_onset,
+        sensed,
+    )
+    from geocontact.shoulder_exoskeleton.synthetic import CONDITIONS, PARTICIPANTS, TASKS, synthetic_trial
 
     wrong: dict[float, list[float]] = {onset: [] for onset in ONSETS}
     otherwise, latencies, chatter = [], [], 0
@@ -94,15 +97,14 @@ def phases(seeds: int) -> dict[str, Any]:
 def profiles(draws: int) -> dict[str, Any]:
     """Factors by certainty, what they take away, held-out persons, seconds of a linear program and of a closed loop."""
     from geocontact.analyses.shoulder.optimise.profiles import support_of
-    from geocontact.shoulder_exoskeleton.lucy import lucy_new_cylinder
-    from geocontact.shoulder_exoskeleton.support.arm_scales import scales_of
-    from geocontact.shoulder_exoskeleton.support.arm_trial import support_case
+    from geocontact.shoulder_exoskeleton.device import lucy_new_cylinder
+    from geocontact.shoulder_exoskeleton.support.arm_trial import scales_of, support_case
     from geocontact.shoulder_exoskeleton.support.best_profile import best_profile, uniform_profile
     from geocontact.shoulder_exoskeleton.support.closed_loop_profile import ClosedLoop
     from geocontact.shoulder_exoskeleton.support.held_out import judged
     from geocontact.shoulder_exoskeleton.support.outcome import TABLE_3
     from geocontact.shoulder_exoskeleton.support.profile_limits import Limits
-    from geocontact.shoulder_exoskeleton.synthetic.arm_trials import all_arms
+    from geocontact.shoulder_exoskeleton.synthetic import all_arms
 
     trials, device = all_arms(), lucy_new_cylinder()
     support = support_of(device)
@@ -140,7 +142,7 @@ def profiles(draws: int) -> dict[str, Any]:
 
 def held_out_by(trials: Any, loop: Any, by_arm: bool, draws: int) -> dict[str, Any]:
     """By person, with the profile that the others make in closed loop."""
-    from geocontact.shoulder_exoskeleton.support.arm_scales import scales_of
+    from geocontact.shoulder_exoskeleton.support.arm_trial import scales_of
     from geocontact.shoulder_exoskeleton.support.best_profile import best_profile, scaled, uniform_profile
     from geocontact.shoulder_exoskeleton.support.held_out import held_out
 
@@ -168,17 +170,14 @@ def simulated(seeds: int) -> dict[str, Any]:
     import numpy as np
 
     from geocontact.analyses.shoulder.optimise.profiles import support_of
-    from geocontact.shoulder_exoskeleton.lucy import lucy_new_cylinder
+    from geocontact.shoulder_exoskeleton.device import lucy_new_cylinder
     from geocontact.shoulder_exoskeleton.support.arm_trial import support_case
     from geocontact.shoulder_exoskeleton.support.best_profile import best_profile, scaled
     from geocontact.shoulder_exoskeleton.support.closed_loop_profile import ClosedLoop
-    from geocontact.shoulder_exoskeleton.support.phase_check import phase_check, phases_by_onset
+    from geocontact.shoulder_exoskeleton.support.controlled_arm import simulated_support
+    from geocontact.shoulder_exoskeleton.support.phase_machine import Sensing, phase_check, phases_by_onset
     from geocontact.shoulder_exoskeleton.support.profile_limits import Limits
-    from geocontact.shoulder_exoskeleton.support.sensing import Sensing
-    from geocontact.shoulder_exoskeleton.support.simulated_support import simulated_support
-    from geocontact.shoulder_exoskeleton.synthetic.arm_trials import arms_of
-    from geocontact.shoulder_exoskeleton.synthetic.design import CONDITIONS, PARTICIPANTS, TASKS
-    from geocontact.shoulder_exoskeleton.synthetic.trial import synthetic_trial
+    from geocontact.shoulder_exoskeleton.synthetic import CONDITIONS, PARTICIPANTS, TASKS, arms_of, synthetic_trial
 
     device = lucy_new_cylinder()
     support = support_of(device)

@@ -21,20 +21,20 @@ import pandas as pd
 from benchmarks.shoulder_mat import lifting_force, readings, with_noise, write_mat
 from benchmarks.shoulder_truth import NOTHING, Measured, Truth, Withheld, measure
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
-from geocontact.shoulder_exoskeleton.device import Wearer
+from geocontact.shoulder_exoskeleton.cuff_contact import mirrored_arm
+from geocontact.shoulder_exoskeleton.device import Wearer, lucy
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import arm_motions
-from geocontact.shoulder_exoskeleton.lucy import lucy
-from geocontact.shoulder_exoskeleton.recorded_arm import mirrored_arm
-from geocontact.shoulder_exoskeleton.support.phases import SCREW
-from geocontact.shoulder_exoskeleton.synthetic.design import (
+from geocontact.shoulder_exoskeleton.support.phase_machine import SCREW
+from geocontact.shoulder_exoskeleton.synthetic import (
     CONDITIONS,
     PARTICIPANTS,
     TASKS,
     Condition,
     OverheadTask,
+    OverheadTrial,
     Participant,
+    synthetic_trial,
 )
-from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial, synthetic_trial
 from meshes.overhead_files import trial_files
 
 WORN = tuple(each for each in CONDITIONS if each.level is not None)

@@ -51,7 +51,7 @@ def measured(spheres: int, rounds: int) -> dict[str, Any]:
 
     from geocontact.dynamics.compiled import compiled
     from geocontact.dynamics.equations import equations_of_motion
-    from geocontact.dynamics.rosenbrock import rosenbrock_step
+    from geocontact.dynamics.simulate import rosenbrock_step
 
     tree, given = side(spheres)
     equations = equations_of_motion(tree, **given)
@@ -81,7 +81,7 @@ def seconds_of(step: Any, rounds: int) -> float:
     """CPU seconds of one call from a state on the ground, the median of the rounds."""
     import numpy as np
 
-    from geocontact.dynamics.buffered import Buffered
+    from geocontact.dynamics.compiled import Buffered
 
     run = Buffered(step)
     sizes = [step.size1_in(i) for i in range(step.n_in())]
@@ -107,7 +107,7 @@ def side(spheres: int) -> tuple[Any, dict[str, Any]]:
     from scipy.spatial.transform import RigidTransform
 
     from geocontact.contact.bushing import SOCKET
-    from geocontact.data.multibody.joint_kinds import free, prismatic, revolute
+    from geocontact.data.multibody.joint import free, prismatic, revolute
     from geocontact.data.multibody.model import GROUND, Body, Multibody
     from geocontact.dynamics.tree import tree_of
 

@@ -57,8 +57,7 @@ def gain(options: argparse.Namespace) -> dict[str, Any]:
     from geocontact.dynamics.collocation.solve import SolverOptions
     from geocontact.standing_up.assistance.assisted_model import SHARE, assisted_model
     from geocontact.standing_up.assistance.movement import Movements
-    from geocontact.standing_up.judged import judged
-    from geocontact.standing_up.phase import PhaseProblem
+    from geocontact.standing_up.phase import PhaseProblem, judged
     from meshes.standing_files import synthetic_files
 
     warnings.simplefilter("ignore", gc.InputWarning)
@@ -138,8 +137,8 @@ def slopes(options: argparse.Namespace) -> dict[str, Any]:
     from geocontact.standing_up.assistance.design import KNEE, HelpTask, designed
     from geocontact.standing_up.assistance.design import NAMES as PARAMETERS
     from geocontact.standing_up.assistance.movement import Movements
+    from geocontact.standing_up.chain import EVERY_PLANTED
     from geocontact.standing_up.exoskeleton import STRAP_PLANTED
-    from geocontact.standing_up.feet import EVERY_PLANTED
 
     given = standing_trials(SAMPLES / "standing_up_held_out" / "study.toml", "study", Record("benchmark", {}))
     options_of = SolverOptions("radau", 4, 1, 1e-9)

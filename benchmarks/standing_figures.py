@@ -25,7 +25,7 @@ Curves = Mapping[str, Sequence[Any]]
 
 def draw(folder: Path, phase: str, time: Mapping[str, Any], curves: Curves, grey: Mapping[str, str]) -> None:
     """figure_2.png and so on. `time` and the name of what is recorded beside it go by the names of curves."""
-    from geocontact.view.curves.save import save
+    from geocontact.view.curves.style import save
 
     for number, names in CHAIN[phase].items():
         save(drawn(names, time, curves, grey), folder / f"figure_{number}.png")

@@ -30,7 +30,7 @@ def main() -> None:
 
     from benchmarks.machine import machine, versions
     from benchmarks.standing_nine import HELD_OUT, PASSIVE, SEED
-    from geocontact.io.recordings.contact_parameters import read_contact_intervals
+    from geocontact.io.recordings.spheres import read_contact_intervals
 
     with np.load(options.out / "truth.npz") as file:
         truth = {key: file[key] for key in file.files}
@@ -119,8 +119,8 @@ def left(truth: Any, names: Sequence[str], values: dict[str, float]) -> float:
     import numpy as np
 
     from benchmarks.standing_truth import padded_strap
-    from geocontact.standing_up.contact_parameter import searched
     from geocontact.standing_up.exoskeleton import STRAP_PARAMETERS, STRAP_PLANTED, thigh_strap
+    from geocontact.standing_up.strap_sites import searched
 
     p = searched(STRAP_PARAMETERS, [values[each.name] for each in STRAP_PARAMETERS])
     both = [course_of(truth, names, law, of)[0] for law, of in ((padded_strap, STRAP_PLANTED), (thigh_strap, p))]

@@ -269,13 +269,12 @@ def predict(out: Path, nodes: float, factor: float, keep: Callable[[dict[str, An
 
     from geocontact.analyses.run_record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
-    from geocontact.dynamics.collocation.refinement import refined
-    from geocontact.dynamics.collocation.solve import SolverOptions, solve
-    from geocontact.io.recordings.contact_parameters import read_contact_parameters
-    from geocontact.standing_up.contact_parameter import searched
+    from geocontact.dynamics.collocation.solve import SolverOptions, refined, solve
+    from geocontact.io.recordings.spheres import read_contact_parameters
     from geocontact.standing_up.exoskeleton import WORN_PARAMETERS, with_exoskeleton
-    from geocontact.standing_up.judged import judged
-    from geocontact.standing_up.phase_c import phase_c
+    from geocontact.standing_up.phase import judged
+    from geocontact.standing_up.phases import phase_c
+    from geocontact.standing_up.strap_sites import searched
     from geocontact.standing_up.trials import seen_in
     from geocontact.standing_up.trivial_trials import mean_trial
 

@@ -17,20 +17,16 @@ import numpy as np
 from scipy.spatial.transform import RigidTransform
 
 from benchmarks.standing_truth import PLANTED, padded_strap, padded_straps
-from geocontact.data.multibody.joint_kinds import revolute
+from geocontact.data.multibody.joint import revolute
 from geocontact.data.multibody.model import Body, Multibody
-from geocontact.dynamics.body_contact import together
 from geocontact.dynamics.collocation.motion import CollocatedMotion
 from geocontact.dynamics.equations import equations_of_motion
-from geocontact.dynamics.smooth_sphere_contact import OpenSimSphereLaw, smooth_sphere_wrench
+from geocontact.dynamics.sphere_contact import OpenSimSphereLaw, smooth_sphere_wrench, together
 from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.geometry.shapes import HalfSpace
-from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.chair import COMPONENTS, chair_on_person
+from geocontact.standing_up.chain import COMPONENTS, FOOT_PARAMETERS, FRICTION, Subject, chair_on_person
 from geocontact.standing_up.exoskeleton import two_chains
-from geocontact.standing_up.feet import FOOT_PARAMETERS, FRICTION
-from geocontact.standing_up.judged import JudgedMotion, judged
-from geocontact.standing_up.phase import PhaseProblem
+from geocontact.standing_up.phase import JudgedMotion, PhaseProblem, judged
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite
 from geocontact.standing_up.trials import seen_in, standing_up

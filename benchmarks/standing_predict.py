@@ -36,14 +36,13 @@ def measured() -> list[dict[str, Any]]:
     from geocontact.analyses.sit_to_stand.search_options import StandingSearchOptions
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.dynamics.collocation.blocks import sparse_program
-    from geocontact.dynamics.collocation.refinement import refined
-    from geocontact.dynamics.collocation.scheme import scheme
-    from geocontact.dynamics.collocation.solve import SolverOptions, solve
+    from geocontact.dynamics.collocation.motion import scheme
+    from geocontact.dynamics.collocation.solve import SolverOptions, refined, solve
     from geocontact.dynamics.collocation.transcription import Transcription, scales_from
+    from geocontact.standing_up.chain import EVERY_PLANTED
     from geocontact.standing_up.exoskeleton import STRAP_PLANTED, strapped
-    from geocontact.standing_up.feet import EVERY_PLANTED
-    from geocontact.standing_up.judged import judged
-    from geocontact.standing_up.phase_c import phase_c
+    from geocontact.standing_up.phase import judged
+    from geocontact.standing_up.phases import phase_c
 
     study = standing_trials(SAMPLES / "standing_up_held_out" / "study.toml", "study", Record("predict", {}))
     model, trial, p = strapped(study.subject, study.sites), study.trials[0], np.r_[EVERY_PLANTED, STRAP_PLANTED]

@@ -25,8 +25,7 @@ from geocontact.dynamics.equations import equations_of_motion
 from geocontact.dynamics.inverse_dynamics import generalised_forces
 from geocontact.dynamics.tree import tree_of
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
-from geocontact.standing_up.chain import Subject, leg_chain
-from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT, ground_on_feet
+from geocontact.standing_up.chain import FOOT_PARAMETERS, SOUGHT, Subject, ground_on_feet, leg_chain
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
@@ -67,7 +66,7 @@ def steps(options: argparse.Namespace) -> dict[str, Any]:
     from geocontact.dynamics.collocation.solve import SolverOptions
     from geocontact.standing_up.calibrated_phase import PhaseSearch, calibrated_phase
     from geocontact.standing_up.phase import standing_phase
-    from geocontact.standing_up.phase_a import phase_a
+    from geocontact.standing_up.phases import phase_a
 
     trials, subject = recorded_steps(options.data)
     model = standing_leg(subject)

@@ -14,14 +14,13 @@ from typing import Any
 import numpy as np
 
 from benchmarks.standing_truth import STIFFENS, Pad
-from geocontact.dynamics.body_contact import together
 from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions, solve
-from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.contact_parameter import ContactParameter
+from geocontact.dynamics.sphere_contact import together
+from geocontact.standing_up.chain import EVERY_PLANTED, Subject
 from geocontact.standing_up.exoskeleton import STRAP, STRAP_PARAMETERS, Strap, thigh_strap, with_exoskeleton
-from geocontact.standing_up.feet import EVERY_PLANTED
 from geocontact.standing_up.phase import PhaseProblem, standing_phase
-from geocontact.standing_up.phase_b import LITTLE_ENERGY, TRACKS_B, phase_b
+from geocontact.standing_up.phases import LITTLE_ENERGY, TRACKS_B, phase_b
+from geocontact.standing_up.strap_sites import ContactParameter
 from geocontact.standing_up.trials import StandingNoise, StandingTrial, seen_in
 
 FURTHER = {

@@ -18,15 +18,14 @@ import pandas as pd
 
 from benchmarks.shoulder_mat import with_noise
 from benchmarks.standing_nine_truth import chain_with_toes
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Marker, Multibody
 from geocontact.dynamics.tree import tree_of
-from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.io.mocap.trc import write_trc
 from geocontact.io.opensim.osim_writer import write_osim
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.coupled_chain import coupled_chain
-from geocontact.standing_up.exoskeleton import EXO_JOINTS
+from geocontact.standing_up.exoskeleton import EXO_JOINTS, coupled_chain
 from meshes.mat_files import landmarks
 from meshes.mat_placement import SHANK_MAT, THIGH_MAT, TORSO_MAT, Mat
 from meshes.mat_recordings import SOFT, Recording

@@ -72,8 +72,7 @@ def planted() -> Any:
     import numpy as np
 
     from benchmarks.standing_truth import PLANTED
-    from geocontact.standing_up.contact_parameter import searched
-    from geocontact.standing_up.strap_sites import PELVIS_STRAP, SHANK_STRAP
+    from geocontact.standing_up.strap_sites import PELVIS_STRAP, SHANK_STRAP, searched
 
     shank, pelvis = (searched(site.parameters, list(values))
                      for site, values in ((SHANK_STRAP, SHANK_PLANTED), (PELVIS_STRAP, PELVIS_PLANTED)))  # fmt: skip
@@ -173,15 +172,13 @@ def predicted(out: Path, nodes: float) -> dict[str, Any]:
     from geocontact.analyses.run_record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.analyses.sit_to_stand.trial_result import TrialResult, errors_table
-    from geocontact.dynamics.collocation.refinement import refined
-    from geocontact.dynamics.collocation.solve import SolverOptions, solve
-    from geocontact.io.recordings.contact_parameters import read_contact_parameters
+    from geocontact.dynamics.collocation.solve import SolverOptions, refined, solve
+    from geocontact.io.recordings.spheres import read_contact_parameters
     from geocontact.standing_up.chain import Subject
-    from geocontact.standing_up.contact_parameter import searched
     from geocontact.standing_up.exoskeleton import strapped
-    from geocontact.standing_up.judged import judged
-    from geocontact.standing_up.phase_c import phase_c
-    from geocontact.standing_up.strap_sites import STRAP_SITES
+    from geocontact.standing_up.phase import judged
+    from geocontact.standing_up.phases import phase_c
+    from geocontact.standing_up.strap_sites import STRAP_SITES, searched
     from geocontact.standing_up.trials import seen_in
 
     study, model = (
@@ -273,11 +270,10 @@ def both_phases(study: Any, trials: Any, nodes: float) -> dict[str, dict[str, fl
     """What A and B find without resamples, by name."""
     from geocontact.dynamics.collocation.solve import SolverOptions
     from geocontact.standing_up.calibrated_phase import PhaseSearch, calibrated_phase
+    from geocontact.standing_up.chain import FOOT_PARAMETERS
     from geocontact.standing_up.contact_numbers import believed_covariance, held_covariance
     from geocontact.standing_up.exoskeleton import strapped
-    from geocontact.standing_up.feet import FOOT_PARAMETERS
-    from geocontact.standing_up.phase_a import phase_a
-    from geocontact.standing_up.phase_b import phase_b
+    from geocontact.standing_up.phases import phase_a, phase_b
 
     model = strapped(study.subject, study.sites, seated=study.seated)
     search = PhaseSearch(SolverOptions("radau", 4, 1, 1e-7, 300), nodes)

@@ -48,14 +48,12 @@ def one_noise(world: Any, true: Any, seed: int) -> dict[str, Any]:
     import numpy as np
 
     from geocontact.dynamics.collocation.solve import SolverOptions, solve
-    from geocontact.standing_up.chain import Subject
+    from geocontact.standing_up.chain import FOOT_PARAMETERS, SOUGHT, Subject
     from geocontact.standing_up.contact_numbers import contact_numbers, held_covariance
-    from geocontact.standing_up.contact_parameter import searched, usual
     from geocontact.standing_up.exoskeleton import STRAP, with_exoskeleton
-    from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT
     from geocontact.standing_up.phase import FOOT_JERK, JOINT_JERK, standing_phase
-    from geocontact.standing_up.phase_a import phase_a
-    from geocontact.standing_up.phase_b import LITTLE_ENERGY, TRACKS_B, phase_b
+    from geocontact.standing_up.phases import LITTLE_ENERGY, TRACKS_B, phase_a, phase_b
+    from geocontact.standing_up.strap_sites import searched, usual
     from geocontact.standing_up.trials import StandingNoise, with_noise
 
     subject, noise = Subject(world.mass, world.height), StandingNoise()

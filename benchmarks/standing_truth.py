@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from geocontact.dynamics.body_contact import together
-from geocontact.standing_up.chain import Subject
+from geocontact.dynamics.sphere_contact import together
+from geocontact.standing_up.chain import EVERY_PLANTED, Subject
 from geocontact.standing_up.exoskeleton import (
     DAMPING,
     SHIFT,
@@ -23,7 +23,6 @@ from geocontact.standing_up.exoskeleton import (
     Strap,
     with_exoskeleton,
 )
-from geocontact.standing_up.feet import EVERY_PLANTED
 from geocontact.standing_up.strap_sites import STRAP_SITES, THIGH_STRAP, StrapSite
 from geocontact.standing_up.trials import StandingNoise, StandingTrial, recorded, standing_up
 from meshes.standing_study import (

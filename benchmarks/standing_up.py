@@ -48,8 +48,8 @@ def calibrated(study: Any, nodes_a_second: float = 30.0, resamples: int = 0, sta
     """Phase A of all trials of a study."""
     from geocontact.dynamics.collocation.solve import SolverOptions
     from geocontact.standing_up.calibrated_phase import PhaseSearch, calibrated_phase
-    from geocontact.standing_up.feet import SOUGHT
-    from geocontact.standing_up.phase_a import phase_a
+    from geocontact.standing_up.chain import SOUGHT
+    from geocontact.standing_up.phases import phase_a
 
     def build(trials: Any, begin: Any) -> Any:
         at = start if begin is None else begin
@@ -72,7 +72,7 @@ def coverage(options: argparse.Namespace) -> dict[str, Any]:
     """Over noises, with and without resampled trials; certificates of all motions."""
     import numpy as np
 
-    from geocontact.standing_up.feet import SOUGHT
+    from geocontact.standing_up.chain import SOUGHT
     from meshes.standing_study import synthetic_study
 
     found: dict[str, Any] = {"noises": options.noises, "resamples": options.resamples}
@@ -121,8 +121,8 @@ def starts(options: argparse.Namespace) -> dict[str, Any]:
     """Starts drawn from what is believed, of the shipped study."""
     import numpy as np
 
-    from geocontact.standing_up.contact_parameter import usual
-    from geocontact.standing_up.feet import FOOT_PARAMETERS
+    from geocontact.standing_up.chain import FOOT_PARAMETERS
+    from geocontact.standing_up.strap_sites import usual
     from meshes.standing_study import synthetic_study
 
     study, rng = synthetic_study(), np.random.default_rng(20)
@@ -193,9 +193,9 @@ def strap_profiles(options: argparse.Namespace) -> dict[str, Any]:
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.dynamics.collocation.solve import SolverOptions
     from geocontact.standing_up.calibrated_phase import PhaseSearch, calibrated_phase
+    from geocontact.standing_up.chain import EVERY_PLANTED
     from geocontact.standing_up.exoskeleton import strapped
-    from geocontact.standing_up.feet import EVERY_PLANTED
-    from geocontact.standing_up.phase_b import phase_b
+    from geocontact.standing_up.phases import phase_b
 
     study = standing_trials(SAMPLES / "standing_up_exoskeleton" / "study.toml", "study", Record("calibrate", {}))
     model = strapped(study.subject, study.sites)
@@ -221,10 +221,9 @@ def freed(options: argparse.Namespace) -> dict[str, Any]:
 
     from geocontact.analyses.run_record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+    from geocontact.standing_up.chain import EVERY_PLANTED, SOUGHT, SOUGHT_WORN
     from geocontact.standing_up.exoskeleton import STRAP, STRAP_PLANTED, strapped
-    from geocontact.standing_up.feet import EVERY_PLANTED, SOUGHT, SOUGHT_WORN
-    from geocontact.standing_up.phase_a import phase_a
-    from geocontact.standing_up.phase_b import phase_b
+    from geocontact.standing_up.phases import phase_a, phase_b
     from meshes.standing_study import synthetic_study
 
     rows, alone = {}, synthetic_study()

@@ -29,10 +29,9 @@ from geocontact.geometry.contact_area.area import Refinement
 from geocontact.geometry.contact_area.evolution import ContactPair, Settings, area_evolution
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.plane import Plane
-from geocontact.geometry.proximity import Proximity
 from geocontact.geometry.regions import faces_where
 from geocontact.geometry.separation import separation, settle
-from geocontact.geometry.shapes import HalfSpace, Sphere, Tube
+from geocontact.geometry.shapes import HalfSpace, Proximity, Sphere, Tube
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.sweep import Axis, sweep
 from geocontact.io.cases.gap_case import read_gap_case

@@ -16,11 +16,11 @@ from scipy.spatial.transform import Rotation
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import IntactLeg
-from geocontact.below_knee_prosthesis.from_markers.marker_names import BODIES, INTACT_BODIES
+from geocontact.below_knee_prosthesis.from_markers import BODIES, INTACT_BODIES
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.model.leg import Person
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Marker, Multibody
 from meshes.gait_persons import (
     ANKLE,

@@ -17,15 +17,14 @@ from scipy.interpolate import BPoly, PchipInterpolator, RegularGridInterpolator,
 from scipy.optimize import fsolve
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.model.leg import Leg
-from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, LegMotion, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Push
 from geocontact.dynamics.symbols import constant
 from geocontact.dynamics.tree import tree_of
 from geocontact.geometry.shapes import HalfSpace
-from geocontact.identify.signals.zero_lag import zero_lag
+from geocontact.identify.signals.filters import zero_lag
 from meshes.gait_persons import SPEED, TOE_OUT
 
 if TYPE_CHECKING:

@@ -15,15 +15,13 @@ import numpy as np
 from jaxtyping import Float
 from scipy.ndimage import gaussian_filter1d
 
-from geocontact.below_knee_prosthesis.from_markers.marker_names import STANDING, mirrored_name
-from geocontact.below_knee_prosthesis.from_markers.sides import of_side
+from geocontact.below_knee_prosthesis.from_markers import STANDING, mirrored_name, of_side
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg import Leg, Side
 from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from meshes.gait_course import GaitCourse, course
 from meshes.gait_persons import STANCE, Walker, marker_places, true_leg
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.io.mocap.trc_writer import trc_text
+from geocontact.io.mocap.trc import trc_text
 from meshes.amputee import StandingTrials
 from meshes.gait_trial import GaitTrial
 

@@ -16,7 +16,7 @@ from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import IntactLeg
-from geocontact.identify.signals.zero_lag import zero_lag
+from geocontact.identify.signals.filters import zero_lag
 from meshes.gait_course import UNDER, footfall
 from meshes.gait_persons import SPEED, TOE_OUT
 

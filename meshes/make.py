@@ -12,8 +12,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
 
-from geocontact.shoulder_exoskeleton.synthetic.design import condition, participant, task
-from geocontact.shoulder_exoskeleton.synthetic.trial import synthetic_trial
+from geocontact.shoulder_exoskeleton.synthetic import condition, participant, synthetic_trial, task
 from meshes.gait import synthetic_gait
 from meshes.leg_files import leg_model, leg_swing
 from meshes.mat_files import recording_files

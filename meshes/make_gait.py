@@ -10,8 +10,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
 
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 from meshes.amputee import standing_trials
 from meshes.gait_persons import PARTICIPANTS
 from meshes.gait_trial import synthetic_trial

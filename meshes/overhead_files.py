@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from geocontact.io.mocap.trc_writer import trc_text
-from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial
+from geocontact.io.mocap.trc import trc_text
+from geocontact.shoulder_exoskeleton.synthetic import OverheadTrial
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
 DECIMALS = 2

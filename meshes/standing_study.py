@@ -11,9 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.chain import EVERY_PLANTED, Subject, feet_on_ground
 from geocontact.standing_up.exoskeleton import STRAP_PLANTED, with_exoskeleton
-from geocontact.standing_up.feet import EVERY_PLANTED, feet_on_ground
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trials import StandingNoise, StandingTrial, recorded, standing_up
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
-from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.io.mocap.trc import write_trc
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.opensim.storage_writer import write_storage
 from meshes.leg_files import BODIES, GRAVITY, leg_model

@@ -75,14 +75,14 @@ def _population(path: Path) -> Any:
 
 def _device(path: Path) -> Any:
     from geocontact.analyses.shoulder.devices import UNITS
-    from geocontact.data.sourced_number import SOURCES
+    from geocontact.data.parameter import SOURCES
     from geocontact.io.recordings.shoulder_device import read_device_file
 
     return read_device_file(path, UNITS, SOURCES)
 
 
 def _contact_parameters(path: Path) -> Any:
-    from geocontact.io.recordings.contact_parameters import read_contact_intervals, read_contact_parameters
+    from geocontact.io.recordings.spheres import read_contact_intervals, read_contact_parameters
 
     units = {"k": "N/m", "b": "N s/m"}
     return read_contact_parameters(path, units, dict.fromkeys(units, (0.0, 1e6))), read_contact_intervals(path, units)
@@ -152,7 +152,7 @@ READERS: dict[str, Reader] = {
     "faces": Reader(_called("io.mesh.faces", "read_face_indices", 20000)),
     "study": Reader(_study),
     "markers": Reader(_called("io.mocap.markers", "read_markers"), gaps=True),
-    "marker map": Reader(_called("io.mocap.marker_map", "read_marker_map")),
+    "marker map": Reader(_called("io.mocap.markers", "read_marker_map")),
     "plates": Reader(_called("io.mocap.force_plates", "read_force_plates"), gaps=True),
     "c3d markers": Reader(_called("io.mocap.c3d_markers", "read_c3d_markers"), gaps=True, seconds=60.0),
     "c3d plates": Reader(_called("io.mocap.force_plates", "read_force_plates"), gaps=True, seconds=60.0),
@@ -162,7 +162,7 @@ READERS: dict[str, Reader] = {
     "osim placement": Reader(_called("io.opensim.osim_meshes", "mesh_placements", "tibial_insert")),
     "osim multibody": Reader(_called("io.opensim.osim_multibody", "read_multibody"), open_ended=True),
     "osim forces": Reader(_forces_of),
-    "osim spheres": Reader(_called("io.opensim.osim_contact_spheres", "read_contact_spheres", "foot")),
+    "osim spheres": Reader(_called("io.opensim.osim_contact", "read_contact_spheres", "foot")),
     "marker weights": Reader(_called("io.opensim.marker_weights", "read_marker_weights")),
     "loads": Reader(_called("io.opensim.external_loads", "read_external_loads")),
     "ik setup": Reader(_called("io.opensim.tool_setup", "read_tool_setup", "InverseKinematicsTool")),
@@ -172,18 +172,18 @@ READERS: dict[str, Reader] = {
     "gathering": Reader(_called("io.cases.gathering", "read_gathering"), open_ended=True),
     "areas": Reader(lambda path: _called("io.recordings.area_table", "read_area_table")([path])),
     "area over force": Reader(_called("io.recordings.area_table", "read_area_over_force")),
-    "cycles": Reader(_called("io.recordings.cycle_table", "read_cycle_table")),
+    "cycles": Reader(_called("io.recordings.load_cells", "read_cycle_table")),
     "load cells": Reader(_called("io.recordings.load_cells", "read_load_cells", ("AL", "PM", "AM", "PL"), "N", {})),
-    "forces": Reader(_called("io.recordings.force_curves", "read_force_curves", None, {})),
+    "forces": Reader(_called("io.recordings.area_table", "read_force_curves", None, {})),
     "regression": Reader(_called("io.recordings.load_cells", "read_regression")),
     "elbow recording": Reader(
         _called("io.recordings.elbow_recording", "read_elbow_recording", {"beta": (1.0, "hinge")}, None, None, ())
     ),
-    "drift": Reader(_called("io.recordings.axis_drift", "read_axis_drift")),
+    "drift": Reader(_called("io.recordings.elbow_recording", "read_axis_drift")),
     "population": Reader(_population),
     "mat grid": Reader(_grid, gaps=True, open_ended=True),
     "mat layout": Reader(_called("io.mats.layout", "read_layout")),
-    "mat landmarks": Reader(_called("io.recordings.mat_landmarks", "read_mat_landmarks", 16, 8)),
+    "mat landmarks": Reader(_called("io.recordings.mat_results", "read_mat_landmarks", 16, 8)),
     "mat export": Reader(_called("io.mats.catalogue", "read_mat"), gaps=True, open_ended=True),
     "mat pedar": Reader(_pedar, gaps=True, open_ended=True),
     "wrench head": Reader(_called("io.text.wrench_head", "read_wrench_head")),
@@ -197,7 +197,7 @@ READERS: dict[str, Reader] = {
         _called("io.recordings.shoulder_device", "read_person_file", ("upper_arm", "shoulder_width", "torso"))
     ),
     "contact parameters": Reader(_contact_parameters),
-    "profile": Reader(_called("io.recordings.radius_profile", "read_radius_profile")),
+    "profile": Reader(_called("io.recordings.area_table", "read_radius_profile")),
     "fit.json": Reader(_axis),
     "elbow.json": Reader(_elbow_json),
     "run.json": Reader(_run),

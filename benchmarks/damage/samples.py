@@ -174,7 +174,7 @@ def _tables(folder: Path, home: Path) -> None:
 
 
 def _opensim(folder: Path, home: Path) -> None:
-    from geocontact.io.opensim.external_loads_writer import write_external_loads
+    from geocontact.io.opensim.external_loads import write_external_loads
     from geocontact.io.opensim.osim_multibody import read_multibody
     from geocontact.io.opensim.osim_writer import write_osim
     from tests.cli.test_opensim_setup import ID, IK, SCALE

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.io.opensim.external_loads_writer import write_external_loads
+from geocontact.io.opensim.external_loads import write_external_loads
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.loads.pressure_load import PressureLoad
 

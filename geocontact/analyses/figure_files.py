@@ -8,7 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from geocontact.view.curves.save import save
+from geocontact.view.curves.style import save
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from geocontact.analyses.options import Typed
-from geocontact.data.ranges import LAYER
+from geocontact.data.plausible import LAYER
 
 BodyPair = Annotated[tuple[str, str], Typed("-", "body_pair", '("femur_r", "tibia_r")')]
 """Names in an OpenSim model of MOVING's body and FIXED's."""

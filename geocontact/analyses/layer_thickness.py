@@ -10,7 +10,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.contact.elasticity import layer_modulus
 from geocontact.data.errors import InputError
 from geocontact.geometry.surface import Surface
-from geocontact.geometry.thickness import thickness_below
+from geocontact.geometry.surface_quadrature import thickness_below
 
 
 def confined_modulus(young: float | None, poisson: float | None) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 
 from geocontact.analyses.options import Spelled, Typed
-from geocontact.data.ranges import JOINT_ANGLE
+from geocontact.data.plausible import JOINT_ANGLE
 
 Sweep = Annotated[
     tuple[str, float, float, float],

@@ -11,9 +11,8 @@ from jaxtyping import Float, Int
 
 from geocontact.data.motion import Course
 from geocontact.view.curves.quantity import FORCE, PRESSURE
-from geocontact.view.curves.sheet import sheet
+from geocontact.view.curves.sheet import plain, sheet
 from geocontact.view.curves.style import DOUBLE, INCH, LINES, PALETTE, in_style, legend
-from geocontact.view.curves.text import plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -130,8 +130,8 @@ class Result(ABC):
         return self.warnings
 
     def units(self, table: str) -> Mapping[str, str]:
-        """Units that a table is written in by kind of quantity, as `io.text.written_units` names them."""
-        from geocontact.io.text.written_units import RESULTS
+        """Units that a table is written in by kind of quantity, as `io.text.results` names them."""
+        from geocontact.io.text.results import RESULTS
 
         return RESULTS
 

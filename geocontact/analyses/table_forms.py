@@ -37,12 +37,12 @@ class TableForms:
     def write(self, tables: Mapping[str, pd.DataFrame], folder: Path, command: str) -> None:
         """Write the tables, each by its name, into the folder or the sub-folder that the name begins with."""
         if self.parquet:
-            from geocontact.io.results.parquet import write_parquet
+            from geocontact.io.results import write_parquet
 
             for name, table in tables.items():
                 write_parquet(table, _file(folder, name, "parquet"))
         if self.netcdf:
-            from geocontact.io.results.netcdf import over_time, write_netcdf
+            from geocontact.io.results import over_time, write_netcdf
 
             timed = {name: table for name, table in tables.items() if over_time(table)}
             if not timed:

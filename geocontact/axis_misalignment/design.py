@@ -1,4 +1,5 @@
-"""Which offsets of an exoskeleton's axis and which stroke keep the force on the limb under a limit.
+"""Largest forces of many people in one exoskeleton, and the offsets and stroke that keep the force on the limb under a
+limit.
 
 Everything is asked over a range of angles and answered from the least and the largest deflection in it. The numbers of
 a joint are l, z, x, y as in `planar_joint`; none of the answers knows damping, so they are those of slow motion.
@@ -12,8 +13,46 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.axis_misalignment.axis_drift import STILL, AxisDrift
-from geocontact.axis_misalignment.compensation import Compensation, needed_ends
-from geocontact.axis_misalignment.planar_joint import PlanarJoint, deflections, drift_numbers, extremes_of, grid
+from geocontact.axis_misalignment.compensation import Compensation, beyond, needed_ends
+from geocontact.axis_misalignment.planar_joint import (
+    SOUND,
+    STEP,
+    PlanarJoint,
+    deflections,
+    drift_numbers,
+    extremes_of,
+    grid,
+)
+
+QUANTITIES = ("k", "l", "z", "x", "y")
+"""Stiffness [N/m], link length, distance of the attachment, offsets [m]: columns of a sample."""
+
+
+@dataclass(frozen=True, eq=False)
+class Exposure:
+    """What all of them do: range of angles [rad], stroke ends [m], drift."""
+
+    start: float
+    stop: float
+    lower: float = 0.0
+    upper: float = 0.0
+    drift: AxisDrift = STILL
+
+
+def peak_forces(
+    people: Float[np.ndarray, "n 5"], exposure: Exposure, step: float = STEP
+) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
+    """Largest |F| [N] of each person (columns as `QUANTITIES`), and what became of the joint.
+
+    Infinite for a pole, a fold or a joint without an angle: there is no force that would hold it. `step` [rad] is that
+    of the grid of angles before each extreme is refined; the error falls with its fourth power.
+    """
+    value, _, fate = extremes_of(
+        grid(exposure.start, exposure.stop, step), np.ascontiguousarray(people[:, 1:]), exposure.drift
+    )
+    force = people[:, 0] * beyond(value, exposure.lower, exposure.upper)
+    return np.where(fate == SOUND, force, np.inf), fate
+
 
 RAYS = 360
 """Directions in which offsets around a centre are looked at."""

@@ -20,7 +20,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.axis_misalignment.axis_drift import STILL, AxisDrift, drift_at
-from geocontact.axis_misalignment.deflection import POLE_SHARE, attachment
+from geocontact.axis_misalignment.explicit import POLE_SHARE, attachment
 from geocontact.geometry.kernels.compile import kernel
 
 SOUND, POLE, FOLD, LOST = 0, 1, 2, 3

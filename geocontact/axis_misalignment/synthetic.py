@@ -17,7 +17,7 @@ from scipy.signal import lfilter
 
 from geocontact.axis_misalignment.compensation import taken_up
 from geocontact.axis_misalignment.explicit import Offsets, constraint_force, displacement
-from geocontact.axis_misalignment.fixation import Yielded, yielded
+from geocontact.axis_misalignment.law import Yielded, yielded
 from geocontact.data.elbow_recording import ElbowRecording
 
 PAPER = {"k": 222.43, "x": 0.048, "y": 0.059, "l": 0.169, "z": 0.127, "b": 0.0, "s": 0.0, "c": 0.0}

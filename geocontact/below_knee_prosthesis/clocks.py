@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.below_knee_prosthesis.stance_errors import longest_stance
+from geocontact.below_knee_prosthesis.evaluation import longest_stance
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.ground import Ground
 from geocontact.loads.sphere_set import SphereSet

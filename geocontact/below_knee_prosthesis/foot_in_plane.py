@@ -14,7 +14,7 @@ from scipy.optimize import nnls
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.simulate import GATE
-from geocontact.loads.centre_in_foot import centre_in_foot
+from geocontact.loads.centre_of_pressure import centre_in_foot
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
 
 LEVER = 0.05

@@ -9,11 +9,11 @@ import numpy as np
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.sole import ROWS as SOLE_ROWS
 from geocontact.below_knee_prosthesis.keel.vsf import ROWS as KEEL_ROWS
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import SOCKET
 from geocontact.contact.bushing import PRINTED, Bushing
 from geocontact.contact.bushing import SOCKET as AS_MEANT
-from geocontact.data.sourced_number import Number, Source
+from geocontact.data.parameter import Number, Source
 from geocontact.loads.sphere_set import SoleLaw
 
 COMPRESSED = "fitted to 10, 19 and 32 N/mm in compression of the sole"

@@ -19,15 +19,13 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.from_markers.marker_names import BODIES
-from geocontact.below_knee_prosthesis.from_markers.walking import Walked, walked
+from geocontact.below_knee_prosthesis.from_markers import BODIES, Walked, walked
 from geocontact.below_knee_prosthesis.model.leg import Leg
-from geocontact.below_knee_prosthesis.model.leg_motion import TURNS as CARDAN
-from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, LegMotion
+from geocontact.below_knee_prosthesis.model.leg_tree import TURNS as CARDAN
 from geocontact.below_knee_prosthesis.simulate import Stance
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
-from geocontact.dynamics.segment_poses import segment_poses
+from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.dynamics.functional_joint import segment_poses
 
 ENOUGH = 5e-3
 """Change of the force from turn to turn, root mean square over body weight, that is not worth another."""

@@ -9,10 +9,10 @@ from jaxtyping import Bool, Float
 from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.keel.on_ground import loads_at
 from geocontact.below_knee_prosthesis.keel.on_tree import rubbing_numbers
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
-from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion, driving_inputs
+from geocontact.below_knee_prosthesis.keel.quasi_static import loads_at
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.model.leg_tree import LegMotion, driving_inputs
 from geocontact.below_knee_prosthesis.model.stance_model import (
     FLOOR,
     OUTPUTS,
@@ -26,7 +26,7 @@ from geocontact.dynamics.simulate import SimulatedMotion
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.centre_of_pressure import centre_of_pressure
 from geocontact.loads.ground import Stairs
-from geocontact.loads.sphere_loads import SphereLoads
+from geocontact.loads.sphere_set import SphereLoads
 
 TOLERANCE, FIRST = 3e-5, 1e-4
 """Error allowed in a step [m, rad, m/s, rad/s], plus as much of each one's size, and first step [s]."""

@@ -9,11 +9,11 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from geocontact.chain.candidate import Candidate
+    from geocontact.chain.effect import Candidate
     from geocontact.chain.contact_law import CONTACT_LAW
     from geocontact.chain.effect import Effect
     from geocontact.chain.interface_law import INTERFACE_LAW
-    from geocontact.chain.law_parameters import LawParameters
+    from geocontact.chain.links import LawParameters
     from geocontact.chain.links import Balance, ContactSites, Geometry, Law, Modifier, Motion, Sensor
     from geocontact.chain.magnitudes import Magnitudes
     from geocontact.chain.single_deflection import SingleDeflection
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     from geocontact.chain.traits import Mass, Migration, Traits, Way
 
 _PLACES = {
-    "Candidate": "candidate",
+    "Candidate": "effect",
     "Effect": "effect",
     "CONTACT_LAW": "contact_law",
     "INTERFACE_LAW": "interface_law",
-    "LawParameters": "law_parameters",
+    "LawParameters": "links",
     "Balance": "links",
     "Geometry": "links",
     "Law": "links",

@@ -18,7 +18,7 @@ import math
 from jaxtyping import Float
 from numpy import ndarray
 
-from geocontact.chain.law_parameters import LawParameters
+from geocontact.chain.links import LawParameters
 from geocontact.chain.terms.asymmetry import direction_factor
 from geocontact.chain.terms.relaxation import branch_force
 from geocontact.chain.terms.stiffening import stiffening_factor

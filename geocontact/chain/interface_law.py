@@ -24,7 +24,7 @@ import math
 from jaxtyping import Float
 from numpy import ndarray
 
-from geocontact.chain.law_parameters import LawParameters
+from geocontact.chain.links import LawParameters
 from geocontact.chain.terms.asymmetry import direction_factor
 from geocontact.chain.terms.contact_loss import transmitted
 from geocontact.chain.terms.damping import power_damping

@@ -1,4 +1,9 @@
-"""A system: a chain of replaceable links with named parameters."""
+"""A system: a chain of replaceable links with named parameters, derivatives of its outputs, and loads that feed back.
+
+Loads take nearly all of the time of a simulation. Their changes along all parameters are had at once, exact; balance
+and sensor, which are cheap, are read a second time with loads and parameters so little further on that differences
+show the derivative to seven digits. A balance sums loads of one sample, its modifiers what they like.
+"""
 
 from __future__ import annotations
 
@@ -10,12 +15,171 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.implicit import NotConverged
-from geocontact.chain.links import Balance, ContactSites, Geometry, Law, Modifier, Motion, Sensor
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.links import (
+    Balance,
+    ContactSites,
+    Geometry,
+    Law,
+    LawParameters,
+    Loads,
+    Modifier,
+    Motion,
+    Sensor,
+    Values,
+    passed_on,
+)
 from geocontact.chain.magnitudes import Magnitudes, magnitudes_of
 from geocontact.chain.traits import BY_UNIT, Role, Traits
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
+from geocontact.geometry.kernels.compile import kernel
+
+TOLERANCE = 1e-10
+"""Largest residual of a solved load, over the load (or over the load scale where the load is smaller)."""
+ATTEMPTS = 100
+FINEST = 1e-8
+"""Distance of two attempts, over the load and one unit more, below which rounding makes the slope between them."""
+BELOW, ABOVE, LAST, RESIDUAL, COUNT, SLOPE = range(6)
+
+
+@kernel
+def nothing_known() -> Float[np.ndarray, " six"]:
+    """State of a search before the first sample."""
+    return np.array([-np.inf, np.inf, np.nan, np.nan, 0.0, 1.0])
+
+
+@kernel
+def start_over(search: Float[np.ndarray, " six"]) -> None:
+    """Forget the last root, but not how steep the residual was there."""
+    search[BELOW], search[ABOVE] = -np.inf, np.inf
+    search[LAST] = search[RESIDUAL] = np.nan
+    search[COUNT] = 0.0
+
+
+@kernel
+def next_load(load: float, residual: float, search: Float[np.ndarray, " six"]) -> float:
+    """Where to look after `load` left `residual` = load - what the law gives for it.
+
+    Secant through the last two attempts, at first with the slope found at the sample before; once the root lies between
+    two attempts, a guess outside is replaced by their middle, and so is every fourth, which bounds the number of
+    attempts whatever the law looks like. The residual rises with the load wherever more load means less deflection.
+    """
+    if residual < 0.0:
+        search[BELOW] = max(search[BELOW], load)
+    else:
+        search[ABOVE] = min(search[ABOVE], load)
+    apart = load - search[LAST]
+    slope = (residual - search[RESIDUAL]) / apart
+    if np.isfinite(slope) and slope > 0.0 and abs(apart) > FINEST * (1.0 + abs(load)):
+        search[SLOPE] = slope
+    search[LAST], search[RESIDUAL] = load, residual
+    search[COUNT] += 1.0
+    guess = load - residual / search[SLOPE]
+    low, high = search[BELOW], search[ABOVE]
+    stuck = search[COUNT] % 4.0 == 0.0
+    if low < high and np.isfinite(low) and np.isfinite(high) and (stuck or not low < guess < high):
+        return float(0.5 * (low + high))
+    return float(guess)
+
+
+class NotConverged(ArithmeticError):  # noqa: N818
+    """A load could not be found at some samples; nothing that depends on it can be trusted."""
+
+
+def require_convergence(unsolved: int, samples: int, compliance: float) -> None:
+    """Raise when samples are left without a solution."""
+    if unsolved:
+        raise NotConverged(
+            f"series compliance {compliance:g}: {unsolved} of {samples} samples have no load within {TOLERANCE:g}; "
+            "a smaller compliance has one"
+        )
+
+
+@runtime_checkable
+class DifferentiatedLoads(Protocol):
+    """A geometry that knows how its loads change with the numbers of law and geometry."""
+
+    def changes(
+        self, movement: DifferentiatedInputs, law: Law, values: Values, others: Sequence[Values]
+    ) -> tuple[Loads, list[Loads | None]] | None:
+        """Loads along a movement, and to first order what is more of them at other values close by.
+
+        None for others that change a number whose derivative is not known, and in the place of all where the law or
+        the geometry itself has none.
+        """
+
+
+def towards(slots: LawParameters, values: Values, others: Sequence[Values]) -> Float[np.ndarray, "q slots"]:
+    """How far each number is further on at other values."""
+    own = slots.numbers(values)
+    found = np.zeros((len(others), own.size))
+    for row, other in zip(found, others, strict=True):
+        numbers = slots.numbers(other)
+        differ = numbers != own
+        row[differ] = numbers[differ] - own[differ]
+    return found
+
+
+def tangents(
+    system: System, trial: Trial, values: Mapping[str, float], steps: Mapping[str, float]
+) -> dict[str, Float[np.ndarray, "t c"]]:
+    """Derivative of the outputs by each parameter in `steps`, which says how far on it is looked; without those that
+    are not known. 0 where the model has no value.
+    """
+    geometry, motion = system.geometry, system.motion
+    if not isinstance(geometry, DifferentiatedLoads):
+        return {}
+    numbers = {**trial.covariates, **system.known, **values}
+    movement = motion.seen(trial, numbers)
+    others = {name: {**numbers, name: numbers[name] + by} for name, by in steps.items()}
+    if motion.modifiers:
+        others = {name: other for name, other in others.items() if _same(movement, motion.seen(trial, other))}
+    try:
+        found = geometry.changes(movement, system.law, numbers, list(others.values()))
+    except NotConverged:
+        return {}
+    if found is None:
+        return {}
+    loads, ways = found
+    known = {name: more for name, more in zip(others, ways, strict=True) if more is not None}
+    totals = system.balance.total(_stacked(loads, list(known.values())))
+    before, *after = (
+        system.sensor.read(passed_on(system.balance.modifiers, total, movement, own), movement, own)
+        for total, own in zip(
+            totals.reshape(1 + len(known), len(movement.time), -1),
+            (numbers, *(others[name] for name in known)),
+            strict=True,
+        )
+    )
+    slopes = {}
+    for name, own in zip(known, after, strict=True):
+        change = (own - before) / steps[name]
+        slopes[name] = np.where(np.isfinite(change), change, 0.0)
+    return slopes
+
+
+def _same(one: DifferentiatedInputs, other: DifferentiatedInputs) -> bool:
+    arrays = ((one.position, other.position), (one.rate, other.rate), (one.acceleration, other.acceleration))
+    return all(a is b or np.array_equal(a, b, equal_nan=True) for a, b in arrays)
+
+
+def _stacked(loads: Loads, changes: Sequence[Loads]) -> Loads:
+    """Loads, and below them loads with each change, for a balance that takes every sample by itself.
+
+    Where loads act stays.
+    """
+
+    def below(own: Float[np.ndarray, "t n"], more: Sequence[Float[np.ndarray, "t n"]]) -> Float[np.ndarray, "m n"]:
+        return np.concatenate([own, *(own + each for each in more)])
+
+    return Loads(
+        below(loads.normal, [each.normal for each in changes]),
+        below(loads.tangential, [each.tangential for each in changes]),
+        np.tile(loads.arm, (1 + len(changes), 1)),
+        below(loads.moved, [each.moved for each in changes]),
+    )
+
 
 FAR = 1e9
 """Output of a model that has none [the output's unit]: finite, and so far off that no search stays there."""
@@ -23,7 +187,7 @@ FAR = 1e9
 
 @runtime_checkable
 class Offering(Protocol):
-    """What candidates come from; `chain.candidate.Effect` is one."""
+    """What candidates come from; `chain.effect.Effect` is one."""
 
     def candidates(self, system: System) -> tuple[Any, ...]:
         """Candidates for a system."""

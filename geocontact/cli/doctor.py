@@ -8,7 +8,8 @@ import subprocess
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 
-from geocontact.view.surfaces import child, probe
+from geocontact.view.surfaces import child
+from geocontact.view.surfaces import child as probe
 
 PATIENCE = 8.0  # s for all child processes together
 ALONE = 30.0  # s for one that did not answer in time, asked again when the others have ended

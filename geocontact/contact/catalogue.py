@@ -16,9 +16,7 @@ from geocontact.contact.elastic_foundation import (
     logarithmic_pair_pressure,
     logarithmic_pressure,
 )
-from geocontact.contact.hertz_ellipse import ellipse_force
-from geocontact.contact.hertz_line import line_load
-from geocontact.contact.hertz_point import point_force
+from geocontact.contact.hertz import ellipse_force, line_load, point_force
 from geocontact.contact.smooth_half_space import half_space_coefficient, half_space_force
 from geocontact.contact.smooth_hunt_crossley import smoothed_sphere_force, stribeck_coefficient
 from geocontact.contact.sphere_foot import friction_coefficient, normal_force

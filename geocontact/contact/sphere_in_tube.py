@@ -31,7 +31,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from geocontact.contact.sphere_foot import friction_coefficient, normal_force
-from geocontact.geometry.off_axis import off_axis
+from geocontact.geometry.sagittal import off_axis
 
 X = TypeVar("X", bound=Any)
 """A number, an array or a symbol."""

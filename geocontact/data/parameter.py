@@ -1,9 +1,23 @@
-"""A number that a model needs and data may tell."""
+"""A number that a model needs: with its source, or to be identified from data."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
+
+Source = Literal["paper", "derived", "invented"]
+SOURCES: tuple[Source, ...] = ("paper", "derived", "invented")
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number in SI, where it is from, and why it is so."""
+
+    value: float
+    source: Source
+    note: str = ""
+
 
 DECADES = 100.0
 """Bounds farther apart than this factor: a parameter is thought of in its logarithm."""

@@ -4,6 +4,8 @@ SCoRE: Ehrig, Taylor, Duda & Heller (2006), A survey of formal methods for deter
 joints, J Biomech 39, 2798-2809. SARA: the same authors (2007), A survey of formal methods for determining functional
 joint axes, J Biomech 40, 2150-2157. Both solve R1 c1 + t1 = R2 c2 + t2 for the point in both segments; with an axis
 every point of it does, and the direction is what the matrix [R1, -R2] takes to nothing.
+
+`functional_joint` finds the centre (SCoRE) or axis (SARA); here the two come as points that move with either segment.
 """
 
 from __future__ import annotations
@@ -11,8 +13,59 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
+
+from geocontact.geometry.register.landmarks import fit_landmarks
+
+FEWEST = 3
+"""Markers that fix a pose."""
+
+
+Known = tuple[RigidTransform, Bool[np.ndarray, " t"]]
+"""Poses in the frames that are known, and which of all frames those are."""
+
+
+def seen_together(one: Known, other: Known) -> tuple[RigidTransform, RigidTransform, Bool[np.ndarray, " t"]]:
+    """Poses of two segments in the frames that tell both, and which frames those are."""
+    (first, known), (second, known_too) = one, other
+    both = known & known_too
+    return first[both[known]], second[both[known_too]], both
+
+
+def segment_poses(
+    places: Float[np.ndarray, "t m 3"], template: Float[np.ndarray, "m 3"] | None = None
+) -> tuple[RigidTransform, Bool[np.ndarray, " t"], Float[np.ndarray, " t"]]:
+    """Poses of the template in the ground in the frames that tell them, which those are, how far markers are off [m].
+
+    Parameters
+    ----------
+    places
+        Of the markers [m], NaN where one was not seen.
+    template
+        Their places in the segment's frame; the first frame that shows all of them, about their mean, unless given.
+
+    The distance is the root mean square over the markers that were seen, NaN in frames that are not known: those with
+    fewer than three.
+    ValueError where no frame shows all markers and no template is given, or the markers lie on a line.
+    """
+    seen = np.isfinite(places).all(axis=2)
+    if template is None:
+        whole = np.flatnonzero(seen.all(axis=1))
+        if not len(whole):
+            raise ValueError("no frame shows all markers of the segment; give a template")
+        template = places[whole[0]] - places[whole[0]].mean(axis=0)
+    known = seen.sum(axis=1) >= FEWEST
+    if not known.any():
+        raise ValueError(f"no frame shows {FEWEST} markers of the segment")
+    matrices, off = [], np.full(len(places), np.nan)
+    for frame in np.flatnonzero(known):
+        there = seen[frame]
+        found = fit_landmarks(template[there], places[frame, there], tolerance=np.inf)
+        matrices.append(found.pose.as_matrix())
+        off[frame] = np.sqrt(np.mean(np.sum((found.pose.apply(template[there]) - places[frame, there]) ** 2, axis=1)))
+    return RigidTransform.from_matrix(np.array(matrices)), known, off
+
 
 Vector = Float[np.ndarray, " 3"]
 LEAST = np.radians(5.0)
@@ -114,3 +167,74 @@ def _system(first: RigidTransform, second: RigidTransform) -> tuple[Float[np.nda
 
 def _rms(left: Float[np.ndarray, " r"]) -> float:
     return float(np.sqrt(np.mean(np.sum(left.reshape(-1, 3) ** 2, axis=1))))
+
+
+HALF = 0.05
+"""m along an axis from its middle to either point."""
+
+
+@dataclass(frozen=True, eq=False)
+class JointPoints:
+    """Points of a joint.
+
+    Parameters
+    ----------
+    first, second
+        One of a centre, two of an axis, in the frames of both segments [m].
+    first_sd, second_sd
+        Standard errors of a centre [m], for errors without memory; None of an axis.
+    rms
+        Distance of what both segments say, in the ground [m], root mean square over the frames.
+    looseness
+        Of an axis (`FunctionalAxis`); None of a centre.
+    """
+
+    first: Float[np.ndarray, "p 3"]
+    second: Float[np.ndarray, "p 3"]
+    rms: float
+    first_sd: Float[np.ndarray, " 3"] | None = None
+    second_sd: Float[np.ndarray, " 3"] | None = None
+    looseness: float | None = None
+
+    @property
+    def middle(self) -> Float[np.ndarray, " 3"]:
+        """In the first segment's frame [m]."""
+        return np.asarray(self.first.mean(axis=0))
+
+
+def centre_points(first: RigidTransform, second: RigidTransform) -> JointPoints:
+    """The centre that two segments share along their poses; ValueError as `functional_centre` has it."""
+    found = functional_centre(first, second)
+    return JointPoints(found.first[None], found.second[None], found.rms, found.first_sd, found.second_sd)
+
+
+def axis_points(first: RigidTransform, second: RigidTransform, near: Float[np.ndarray, " 3"]) -> JointPoints:
+    """Two points of the axis that two segments share, `HALF` to either side of where it is next to `near`.
+
+    `near` is in the first segment's frame [m]. ValueError as `functional_axis` has it.
+    """
+    found = functional_axis(first, second)
+    along = found.first_direction @ (near - found.first)
+    steps = np.array([[along - HALF], [along + HALF]])
+    return JointPoints(
+        found.first + steps * found.first_direction,
+        found.second + steps * found.second_direction,
+        found.rms,
+        looseness=found.looseness,
+    )
+
+
+def apart_in_halves(first: RigidTransform, second: RigidTransform, near: Float[np.ndarray, " 3"] | None) -> float:
+    """Distance between the middles found from either half of the frames [m]; NaN where one of them moves too little.
+
+    One half is the first and the third quarter. It holds what standard errors leave out: skin slides smoothly, and the
+    same way for many frames. `near` as in `axis_points`; None of a centre.
+    """
+    quarter = 4 * np.arange(len(first)) // len(first)
+    halves = np.flatnonzero(quarter % 2 == 0), np.flatnonzero(quarter % 2 == 1)
+    parts = [(first[half], second[half]) for half in halves]
+    try:
+        one, other = (centre_points(*part) if near is None else axis_points(*part, near) for part in parts)
+    except ValueError:
+        return float("nan")
+    return float(np.linalg.norm(one.middle - other.middle))

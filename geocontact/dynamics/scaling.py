@@ -9,9 +9,8 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.data.multibody.joint import JointModel, TransformAxis
-from geocontact.data.multibody.joint_function import Affine
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.joint import Affine, JointModel, TransformAxis
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import GROUND, Body, Multibody, coupler_stretch
 
 Factors = Mapping[str, Float[np.ndarray, " 3"]]

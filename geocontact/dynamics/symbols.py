@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.multibody.joint_function import Affine, JointFunction, SineProduct
+from geocontact.data.multibody.joint import Affine, JointFunction, SineProduct
 
 if TYPE_CHECKING:
     from casadi import SX

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.effects.data_errors.side_swap import SIDE_SWAP
 from geocontact.effects.data_errors.sign_flip import SIGN_FLIP

@@ -6,8 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
-from geocontact.chain.law_parameters import Source
-from geocontact.chain.links import Channels, Modifier
+from geocontact.chain.links import Channels, Modifier, Source
 from geocontact.chain.system import System
 
 

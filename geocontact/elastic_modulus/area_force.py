@@ -12,7 +12,7 @@ from scipy.interpolate import PchipInterpolator
 
 from geocontact.contact.adhesion import dmt_pull_off
 from geocontact.contact.area_hertz import PatchGeometry, Reading
-from geocontact.data.tilted_areas import TiltedAreas
+from geocontact.data.evolution import TiltedAreas
 
 MODULUS, THRESHOLD, LAG, ADDUCTION, SLOPE = "modulus", "threshold", "lag", "adduction", "slope"
 """Names of the parameters: E* [Pa], threshold of the area [m], lag of the force's clock behind the area's [s], offset

@@ -7,27 +7,37 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
+from geocontact.gap.case.noise_sources import with_rounding
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.rough_noise import with_rounding
-from geocontact.gap.data_errors.correction import corrected
-from geocontact.gap.data_errors.gross import DataError, data_error_of, recognised
-from geocontact.gap.data_errors.hidden import hidden_mistakes, undone
+from geocontact.gap.data_errors import DataError, corrected, data_error_of, hidden_mistakes, recognised, undone
 from geocontact.gap.levels import LEADING, SURE
-from geocontact.gap.selection.calibration_share import calibration_share, changes
-from geocontact.gap.selection.clipping import ClippedChannel, clipped_channels
 from geocontact.gap.selection.evidence import Judged, settled
-from geocontact.gap.selection.held_out_rules import TOO_LITTLE, HeldOutRules
-from geocontact.gap.selection.lapses import with_lapses
+from geocontact.gap.selection.held_out_rules import TOO_LITTLE, HeldOutRules, calibration_share, changes
 from geocontact.gap.selection.model_comparison import Contender, Ends, base_contender, pairs, settled_in, singles
-from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, recorder_remarks, residual_anomalies
+from geocontact.gap.selection.residual_anomalies import (
+    ClippedChannel,
+    ResidualAnomaly,
+    clipped_channels,
+    recorder_remarks,
+    residual_anomalies,
+)
 from geocontact.gap.selection.stated_noise import Misfit, misfits, with_misfit
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
 from geocontact.gap.selection.tails import Tails, tails
-from geocontact.gap.selection.verdict import Answer, answer, borne_out, most_of, ranking, with_mistake, with_refused
+from geocontact.gap.selection.verdict import (
+    Answer,
+    answer,
+    borne_out,
+    most_of,
+    ranking,
+    with_lapses,
+    with_mistake,
+    with_refused,
+)
 from geocontact.identify.noise.student import StudentNoise
 
 CLIPPED = "saturation"  # what a flat top speaks for

@@ -12,31 +12,77 @@ from threadpoolctl import threadpool_limits
 
 from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.cell import Cell
-from geocontact.data.gap.diagnosis import CellsHeld, ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
-from geocontact.data.gap.held_out import HeldOut
-from geocontact.data.gap.ranked import Ranked
-from geocontact.data.gap.surface_gap import SurfaceGap
+from geocontact.data.gap.cell import Cell, SurfaceGap
+from geocontact.data.gap.diagnosis import (
+    CellsHeld,
+    ChannelGap,
+    DataErrorFound,
+    Diagnosis,
+    Estimate,
+    HeldOut,
+    Partial,
+    Ranked,
+    Where,
+)
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
 from geocontact.gap.case.admission import admitted
-from geocontact.gap.case.numerical_error import coarse_rates
+from geocontact.gap.case.noise_sources import coarse_rates
 from geocontact.gap.case.refit import free
 from geocontact.gap.experiment.proposal import first_of, next_experiment
 from geocontact.gap.identifiability.non_identifiable import non_identifiable
-from geocontact.gap.identifiability.one_law import one_law
-from geocontact.gap.levels import SURE
+from geocontact.gap.identifiability.separability import one_law
+from geocontact.gap.levels import SURE, WORTH_NAMING
 from geocontact.gap.localise.gap_map import gap_map, windows
 from geocontact.gap.localise.on_surface import on_surface
-from geocontact.gap.partial_answer import nearest, partial
-from geocontact.gap.reduction.error_reduction import error_reduction_of
-from geocontact.gap.reduction.held_out import held_out
-from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
+from geocontact.gap.reduction.error_reduction import (
+    TrialGain,
+    error_reduction,
+    error_reduction_of,
+    held_out,
+    leave_one_out,
+)
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors, raw_input_errors
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import Contender, base_contender
 from geocontact.gap.selection.stated_noise import loudest
 from geocontact.identify.intervals.quantile_intervals import ENDS
+
+
+def partial(found: Attribution) -> Partial | None:
+    """What the effect that gains most explains of a gap that is not all explained by it; two, where a second one adds
+    as much as it must to be named.
+
+    Not one that a rule speaks against, nor one whose amplitude is on the bound of what is physical, nor a mistake in
+    the data, which is there or not but is no part of a gap. None where nobody gains more than luck may, and where no
+    channel loses `WORTH_NAMING` of its squared error on held-out trials, what an effect must take to be named.
+    """
+    able = [one for one in found.contenders if not one.cut_short and not one.mistaken]
+    free = [one for one in able if one.label not in found.objections]
+    alone = max((one for one in free if len(one.names) == 1), key=lambda one: one.nats, default=found.base)
+    both = max(free, key=lambda one: one.nats, default=found.base)
+    needed = SURE + WORTH_NAMING * max(alone.nats - found.base.nats, 0.0)
+    best = both if both.nats - alone.nats > needed else alone
+    gain = best.nats - found.base.nats
+    if gain < SURE:
+        return None
+    shrunk = error_reduction(found.problem, found.clean, best.judged, True, found.data_error)
+    if all(1.0 - (1.0 - s.reduction) ** 2 < WORTH_NAMING for s in shrunk.values()):
+        return None
+    return Partial(best.names, gain, {name: (s.reduction, (s.low, s.high)) for name, s in shrunk.items()})
+
+
+def nearest(found: Attribution) -> tuple[str, ...]:
+    """In words what the model that gains most would do, where nothing was named although it gains something."""
+    best = max(found.contenders, key=lambda one: one.nats, default=found.base)
+    gain = best.nats - found.base.nats
+    if gain < SURE:
+        return ()
+    shrunk = error_reduction(found.problem, found.clean, best.judged, True, found.data_error)
+    parts = ", ".join(f"{100.0 * s.reduction:.0f} % of the error of {name}" for name, s in shrunk.items())
+    only = ", with an amplitude on the bound of what is physical" if best.cut_short else ""
+    return (f"nearest of the known effects: {best.label}, which gains {gain:.0f} nats and would remove {parts}{only}",)
+
 
 TOLD = 0.5  # of the prior's spread that the fit's may be, for a parameter that the trials tell
 
@@ -240,7 +286,7 @@ def on_bounds(chosen: Contender, base: Contender, values: dict[str, float], alon
 
 
 def estimates(judged: Judged, told: dict[str, float]) -> dict[str, Estimate]:
-    """Every free parameter of the fit that is reported and drawn (`gap.case.measured_fit`), with its interval.
+    """Every free parameter of the fit that is reported and drawn (`gap.case.plain_fit`), with its interval.
 
     Parameters
     ----------

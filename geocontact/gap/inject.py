@@ -16,14 +16,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.gap.case.plain_fit import Plain
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import derivatives
-from geocontact.gap.data_errors.correction import mistaken
+from geocontact.gap.data_errors import mistaken
 from geocontact.gap.identifiability.signatures import reach_of, rest_of
 
 DOUBLINGS = 10

@@ -18,10 +18,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from geocontact.gap_benchmark.answers import Plain, constant_answer, true_distribution
-from geocontact.gap_benchmark.confounding import clearly_ahead, one_law
-from geocontact.gap_benchmark.rates import Rate
-from geocontact.gap_benchmark.score import answers, score, small_set, visible
+from geocontact.gap_benchmark.answers import Plain, clearly_ahead, constant_answer, one_law, true_distribution
+from geocontact.gap_benchmark.score import Rate, answers, score, small_set, visible
 
 LEAST = 1e-3
 """Probability as which a smaller one counts in the log score."""

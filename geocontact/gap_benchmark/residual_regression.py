@@ -23,8 +23,8 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.candidate import Candidate
 from geocontact.chain.differentiated_inputs import recorded
+from geocontact.chain.effect import Candidate
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Measured, Whiten, at
 

@@ -16,19 +16,102 @@ cases. *Unknown called*: outside the table, visible, not reproduced, verdict "un
 a true one (0 where nothing is missing or base parameters reproduce it); `coverage` of `ci95`: over channels of cases
 with an effect of the table, if explained. *Brier*: sum over answers of (stated - true)^2, 0..2, mean over cases; the
 reliability table pools every stated probability of 1 % or more and holds it against how much of the truth it got.
+
+From what diagnosis.json says itself. A channel is *significantly worse* where its held-out error grows by more than
+half the width of the interval that is stated for its reduction, and by more than `LEAST`; an answer is *worse in the
+sum* where the squared held-out errors of all channels, in units of their true floors, sum to more than before.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.stats import beta
 
-from geocontact.gap_benchmark.answers import Plain, constant_answer, oracle_answer, true_distribution
-from geocontact.gap_benchmark.harm import SURE, certainty, harmful, worse_channels, worse_in_sum
-from geocontact.gap_benchmark.rates import Rate
+from geocontact.gap_benchmark.answers import NONE, Plain, constant_answer, oracle_answer, true_distribution
+
+
+@dataclass(frozen=True)
+class Rate:
+    """So many of so many; NaN where there are none."""
+
+    hits: int
+    count: int
+
+    @classmethod
+    def of(cls, answers: Iterable[bool]) -> Rate:
+        """How many are true."""
+        found = [bool(one) for one in answers]
+        return cls(sum(found), len(found))
+
+    @property
+    def value(self) -> float:
+        """Share in 0..1."""
+        return self.hits / self.count if self.count else float("nan")
+
+    def interval(self, level: float = 0.95) -> tuple[float, float]:
+        """Exact interval of Clopper and Pearson (1934) Biometrika 26:404; conservative. (0, 1) where there are none."""
+        if not self.count:
+            return 0.0, 1.0
+        tail = 0.5 * (1.0 - level)
+        low = float(beta.ppf(tail, self.hits, self.count - self.hits + 1)) if self.hits else 0.0
+        high = float(beta.isf(tail, self.hits + 1, self.count - self.hits)) if self.hits < self.count else 1.0
+        return low, high
+
+    def __str__(self) -> str:
+        low, high = self.interval()
+        return f"{self.hits}/{self.count} = {self.value:.1%} [{low:.1%}, {high:.1%}]" if self.count else "no case"
+
+
+LEAST = 0.01
+"""Growth of an error below which nobody cares."""
+SURE = 0.9
+"""Probability from which on a false claim is a certain one."""
+
+
+def worse_channels(label: Plain, diagnosis: Plain) -> list[str]:
+    """Channels that a named effect makes significantly worse; none where nothing is named."""
+    found = []
+    for channel, _, ratio in _named(label, diagnosis):
+        low, high = diagnosis["gap"][channel].get("ci95") or (0.0, 0.0)
+        if ratio - 1.0 > max(0.5 * (high - low), LEAST):
+            found.append(channel)
+    return found
+
+
+def worse_in_sum(label: Plain, diagnosis: Plain) -> bool:
+    """Whether a named effect makes the sum over channels worse."""
+    squares = [(before / label["floor"][channel]) ** 2 for channel, before, _ in _named(label, diagnosis)]
+    ratios = [ratio for *_, ratio in _named(label, diagnosis)]
+    return bool(sum(s * r * r for s, r in zip(squares, ratios, strict=True)) > sum(squares))
+
+
+def harmful(label: Plain, diagnosis: Plain) -> bool:
+    """Either of them."""
+    return bool(worse_channels(label, diagnosis)) or worse_in_sum(label, diagnosis)
+
+
+def certainty(diagnosis: Plain) -> float:
+    """Largest probability of anything but "none": of a single answer, or of what is named together."""
+    stated = diagnosis["probabilities"]
+    together = sum((float(stated.get(name, 0.0)) for name in diagnosis["effects"]), 0.0)
+    return max([together, *(float(p) for name, p in stated.items() if name != NONE)])
+
+
+def _named(label: Plain, diagnosis: Plain) -> Iterator[tuple[str, float, float]]:
+    """Channel, error before, and after over before, where an effect is named; the true error where none is stated."""
+    if not diagnosis["effects"]:
+        return
+    for channel, gap in diagnosis["gap"].items():
+        before, after = gap.get("rmse_before"), gap.get("rmse_after")
+        if before and after is not None:
+            yield channel, float(before), float(after) / float(before)
+        elif label["rmse_before"].get(channel):
+            yield channel, float(label["rmse_before"][channel]), 1.0 - float(gap["reduction"])
+
 
 VISIBLE = 10.0
 """Nats."""

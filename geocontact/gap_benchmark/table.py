@@ -10,8 +10,7 @@ import numpy as np
 from scipy.stats import binomtest
 
 from geocontact.gap_benchmark.answers import Plain, constant_answer, oracle_answer
-from geocontact.gap_benchmark.rates import Rate
-from geocontact.gap_benchmark.score import GAPS, Score, answers, reduction_errors, score, visible
+from geocontact.gap_benchmark.score import GAPS, Rate, Score, answers, reduction_errors, score, visible
 
 ANSWERERS = ("diagnosis", "regression", "regression_aware", "constant", "oracle")
 """Who is scored; "regression" knows nothing of trial-to-trial variation, "regression_aware" does."""

@@ -1,14 +1,58 @@
-"""Flexion angles of places on a component: where a point lies about an axis, from one direction towards another."""
+"""Flexion angles of places on a component: where a point lies about an axis, from one direction towards another.
+
+Scalar in, scalar out: columns of arrays and CasADi symbols go through the same lines, so that a tube's distance and the
+contact inside of it in a simulation are one formula.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, TypeVar
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from geocontact.geometry.sweep import Axis
+
+X = TypeVar("X", bound=Any)
+"""A number, a column or a symbol."""
+
+
+def off_axis(offset: tuple[X, X, X], axis: tuple[X, X, X]) -> tuple[X, tuple[X, X, X]]:
+    """Distance along a unit vector, and the part of the offset that is across it, in the same axes.
+
+    Parameters
+    ----------
+    offset
+        From any point of the line to the point [m].
+    axis
+        Unit vector along the line.
+    """
+    along = offset[0] * axis[0] + offset[1] * axis[1] + offset[2] * axis[2]
+    return along, (offset[0] - along * axis[0], offset[1] - along * axis[1], offset[2] - along * axis[2])
+
+
+def silhouette(
+    vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"], direction: Float[np.ndarray, " 3"]
+) -> Int[np.ndarray, "e 2"]:
+    """Edges (pairs of vertices) where the surface turns away from `direction`, and open edges.
+
+    Parameters
+    ----------
+    vertices, faces
+        Triangle surface; corners in one sense of rotation. A vertex that stands twice counts twice: merge it before.
+    direction
+        From the surface towards the eye.
+    """
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    looks = np.cross(b - a, c - a) @ direction > 0.0
+    corners = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    edges, which = np.unique(np.sort(corners, axis=1), axis=0, return_inverse=True)
+    seen = np.bincount(which.ravel(), np.tile(looks, 3), len(edges))
+    around = np.bincount(which.ravel(), minlength=len(edges))
+    return np.asarray(edges[((seen > 0) & (seen < around)) | (around == 1)])
+
 
 STEEPEST = 0.95  # cosine to the axis above which a direction says nothing about angles around it
 Vector = tuple[float, float, float]

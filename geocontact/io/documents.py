@@ -42,7 +42,7 @@ from pydantic_core import CoreSchema, ErrorDetails, PydanticCustomError, core_sc
 
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import Plausible
-from geocontact.io.text.near_names import near_names
+from geocontact.io.text.column_names import near_names
 from geocontact.io.text.toml_text import toml_of
 from geocontact.io.text.units import si_unit
 

@@ -1,4 +1,4 @@
-"""Centre of pressure of a foot on spheres: one point, one force, one free moment per frame."""
+"""Centre of pressure of a foot: on spheres, from a plate, and along the foot from its heel."""
 
 from __future__ import annotations
 
@@ -7,11 +7,80 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
+from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.wrench import Wrench
-from geocontact.loads.resultant import resultant
-from geocontact.loads.sphere_loads import SphereLoads
-from geocontact.loads.weighted_centre import weighted_centre
+from geocontact.loads.resultant import resultant, weighted_centre
+from geocontact.loads.sphere_set import SphereLoads, SphereSet
+
+
+@dataclass(frozen=True)
+class FootAxis:
+    """From the heel to the toe.
+
+    Parameters
+    ----------
+    direction
+        Unit vector towards the toe in the foot's frame.
+    heel
+        Place of the heel along it, from the origin of the foot's frame [m].
+    length
+        Of the foot [m].
+    """
+
+    direction: Float[np.ndarray, " 3"]
+    heel: float
+    length: float
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.length) and self.length > 0.0):
+            raise ValueError("the length of a foot must be positive")
+
+    def from_heel(self, points: Float[np.ndarray, "t 3"], poses: RigidTransform) -> Float[np.ndarray, " t"]:
+        """Distance from the heel along the foot [m] of points in the frame of the ground; NaN stays NaN.
+
+        `poses` are those of the foot in the ground's frame, one per point.
+        """
+        turn = poses.rotation.as_matrix().reshape(-1, 3, 3)
+        offset = points - poses.translation.reshape(-1, 3)
+        return np.asarray(np.einsum("ti,tij,j->t", offset, turn, self.direction) - self.heel)
+
+    def share(self, distance: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
+        """Distance from the heel over the length of the foot: 0 at the heel, 1 at the tip of the toe."""
+        return distance / self.length
+
+
+def axis_of_sole(spheres: SphereSet, direction: Float[np.ndarray, " 3"], length: float | None = None) -> FootAxis:
+    """The heel is the rearmost point of any sphere; the length [m] is the way to the foremost unless given."""
+    along = direction / np.linalg.norm(direction)
+    place = spheres.centre @ along
+    heel = float((place - spheres.radius).min())
+    return FootAxis(along, heel, float((place + spheres.radius).max()) - heel if length is None else length)
+
+
+def centre_in_foot(
+    centre: Float[np.ndarray, " t"],
+    x: Float[np.ndarray, " t"],
+    y: Float[np.ndarray, " t"],
+    pitch: Float[np.ndarray, " t"],
+) -> Float[np.ndarray, " t"]:
+    """Place along the foot's x axis of a point of the ground [m].
+
+    The foot's frame lies at (x, y) in the ground's frame and is turned by pitch, positive where the toe is up; a point
+    (centre, 0) of level ground has (centre - x) cos(pitch) - y sin(pitch) there. It is what the foot on spheres
+    predicts as px - radius sin(pitch) of a sphere that touches the ground (`systems.foot.spheres`).
+
+    Parameters
+    ----------
+    centre
+        Centre of pressure in the ground's frame [m]; NaN where there is none, and so is what comes out.
+    x, y
+        Origin of the foot's frame [m], y above the ground.
+    pitch
+        [rad].
+    """
+    return np.asarray((centre - x) * np.cos(pitch) - y * np.sin(pitch))
+
 
 GROUND_POINT = "ground"
 SPHERE_CENTRE = "sphere"

@@ -8,7 +8,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.geometry.proximity import Proximity, within
+from geocontact.geometry.shapes import Proximity, within
 from geocontact.geometry.surface import Surface
 
 Vector = tuple[float, float, float]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.geometry.phong_offset import phong_offset
+from geocontact.geometry.curvature import phong_offset
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.surface_quadrature import SurfaceQuadrature
 

@@ -9,8 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.data.wrench import Wrench
-from geocontact.loads.resultant import resultant
-from geocontact.loads.weighted_centre import weighted_centre
+from geocontact.loads.resultant import resultant, weighted_centre
 
 
 @dataclass(frozen=True)

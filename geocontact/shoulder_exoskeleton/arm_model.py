@@ -15,18 +15,17 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.contact.joint_stop import stop_force
-from geocontact.data.multibody.joint_kinds import revolute
+from geocontact.data.multibody.joint import revolute
 from geocontact.data.multibody.model import GROUND, Body, Multibody
-from geocontact.dynamics.body_contact import action_and_reaction, together
 from geocontact.dynamics.equations import Equations, LawState, equations_of_motion
 from geocontact.dynamics.equilibrium import Equilibrium
 from geocontact.dynamics.simulate import Stepper
+from geocontact.dynamics.sphere_contact import action_and_reaction, together
 from geocontact.dynamics.symbols import constant
 from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.shoulder_exoskeleton.arm_numbers import BODIES, COLUMN, SIZES, slices
 from geocontact.shoulder_exoskeleton.cuff_contact import Cuff, held_at_a_point, held_by_a_surface
-from geocontact.shoulder_exoskeleton.cylinder import lever
-from geocontact.shoulder_exoskeleton.device import JOINTS, Device
+from geocontact.shoulder_exoskeleton.device import JOINTS, Device, lever
 
 if TYPE_CHECKING:
     from casadi import SX, Function

@@ -7,8 +7,7 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.shoulder_exoskeleton.cylinder import piston_area
-from geocontact.shoulder_exoskeleton.device import JOINTS, Device, Wearer
+from geocontact.shoulder_exoskeleton.device import JOINTS, Device, Wearer, piston_area
 
 BODIES = ("link_1", "link_2", "arm")
 SIZES: dict[str, int] = {

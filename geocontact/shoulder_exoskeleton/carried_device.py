@@ -13,8 +13,8 @@ from scipy.spatial.transform import Rotation
 
 from geocontact.shoulder_exoskeleton.arm_model import arm_model
 from geocontact.shoulder_exoskeleton.arm_numbers import BODIES, COLUMN, adjusted_numbers, slices
+from geocontact.shoulder_exoskeleton.cuff_contact import MIRROR, mirrored_arm
 from geocontact.shoulder_exoskeleton.device import JOINTS
-from geocontact.shoulder_exoskeleton.recorded_arm import MIRROR, mirrored_arm
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
 
 Rows = Float[np.ndarray, "t 3"]

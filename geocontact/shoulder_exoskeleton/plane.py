@@ -1,4 +1,4 @@
-"""A simulated arm in its plane of elevation, as the base model `shoulder` has it: a hinge that does not move.
+"""A simulated arm as others see it: in its plane of elevation, and on a pressure mat under it.
 
 The upper arm's elevation is the base model's angle a; its length L_h, and where the hinge is from the human shoulder,
 are means over the trial. What the hinge moves by, and what happens out of the plane, is what such a case leaves out.
@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers, slices
-from geocontact.shoulder_exoskeleton.cylinder import lever
+from geocontact.shoulder_exoskeleton.device import lever
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
 
 ACTIVE = 2
@@ -67,3 +67,27 @@ def plane_arm(s: ArmSimulation) -> PlaneArm:
     }
     torque = d.peak_force * lever(SUPPORTED, d["lever_a"], d["lever_b"], d["lever_phase"])
     return PlaneArm(constants, SUPPORTED, np.asarray(torque), (float(spread[0]), float(spread[1])))
+
+
+PLACES = 180
+"""Of springs around the cuff."""
+
+
+def armrest_force(s: ArmSimulation, pressed: Float[np.ndarray, " t"] | None = None) -> Float[np.ndarray, " t"]:
+    """Force with which the armrest alone presses the arm up [N], without friction and damping.
+
+    Above it a strap presses down (`contact.sphere_in_tube`): that part of the force on the arm no mat below sees.
+
+    Parameters
+    ----------
+    pressed
+        As the simulation was given it [N].
+    """
+    k, strap = s.device["k"], s.device["strap"]
+    radial = s.told["place"][:, 1:].copy()
+    if pressed is not None:
+        radial[:, 1] -= pressed / k
+    angle = -np.pi * (np.arange(PLACES // 2) + 0.5) / (PLACES // 2)  # from medial downwards
+    depth = radial @ np.array([np.cos(angle), np.sin(angle)]) + strap
+    each = 2.0 * k / np.pi * np.maximum(depth, 0.0) * -np.sin(angle)
+    return np.asarray(each.sum(axis=1) * 2.0 * np.pi / PLACES)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.sourced_number import Source
+from geocontact.data.parameter import Source
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.arm_numbers import PADDED
 from geocontact.shoulder_exoskeleton.cuff_contact import Cuff

@@ -5,34 +5,45 @@ numbers of a strap at thigh or shank are those of one leg, as a mat on one leg s
 between the chains. That is the only place where a 2 enters besides the masses; the pelvis has one module. All numbers
 of the exoskeleton are invented. A hinge of the exoskeleton lies where the person's does, but for the knee, which is
 higher by `SHIFT`.
+
+As in the study, where nothing is known yet of the forces between the two: inverse dynamics of this chain has the
+torques that person and exoskeleton have together at ankle, knee and hip.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.contact.bushing import bushing_force
-from geocontact.data.multibody.joint_kinds import revolute
+from geocontact.data.multibody.joint import revolute
 from geocontact.data.multibody.model import Body, Multibody
-from geocontact.dynamics.body_contact import together
 from geocontact.dynamics.equations import equations_of_motion
 from geocontact.dynamics.inverse_dynamics import Wrenches
+from geocontact.dynamics.sphere_contact import together
 from geocontact.dynamics.tree import Tree, tree_of
-from geocontact.standing_up.chain import JOINTS, SHANK, THIGH, Subject, leg_chain
-from geocontact.standing_up.chair import COMPONENTS, chair_on_person
-from geocontact.standing_up.contact_parameter import ContactParameter, searched
-from geocontact.standing_up.feet import FOOT_PARAMETERS, GROUND_LAW, ground_on_feet
-from geocontact.standing_up.model_constants import ModelConstants
-from geocontact.standing_up.standing_model import StandingModel
-from geocontact.standing_up.strap_sites import SHIFT, THIGH_STRAP, StrapSite
+from geocontact.standing_up.chain import (
+    COMPONENTS,
+    FOOT_PARAMETERS,
+    GROUND_LAW,
+    JOINTS,
+    SHANK,
+    THIGH,
+    Subject,
+    chair_on_person,
+    ground_on_feet,
+    leg_chain,
+)
+from geocontact.standing_up.standing_model import ModelConstants, StandingModel
+from geocontact.standing_up.strap_sites import SHIFT, THIGH_STRAP, ContactParameter, StrapSite, searched
 
 if TYPE_CHECKING:
     from casadi import SX
+
 
 LEGS = THIGH_STRAP.count
 """Straps in parallel at the thigh."""
@@ -243,3 +254,29 @@ def _turn_between(tree: Tree, hinges: int) -> tuple[SX, SX]:
         return sum(turned[1:hinges], turned[0])
 
     return between(tree.q), between(tree.u)
+
+
+CARRIES = {"shank": ("exo_shank", 0.0), "thigh": ("exo_thigh", SHIFT), "trunk": ("exo_module", 0.0)}
+"""By segment: part of the exoskeleton, and its origin above the segment's [m]."""
+
+
+def coupled_chain(subject: Subject) -> Multibody:
+    """The person's chain with the masses of both, aligned as with all angles at 0."""
+    chain = leg_chain(subject)
+    both = {body.name: body for body in two_chains(subject).bodies}
+    bodies = [replace(body, mass=both[body.name].mass) for body in chain.bodies]
+    joined = [_joined(body, both[CARRIES[body.name][0]], CARRIES[body.name][1]) if body.name in CARRIES else body
+              for body in bodies]  # fmt: skip
+    return replace(chain, name="sit to stand, rigidly coupled", bodies=tuple(joined))
+
+
+def _joined(body: Body, other: Body, above: float) -> Body:
+    """One rigid body of two, by the parallel axis theorem."""
+    mass = body.mass + other.mass
+    places = (body.centre, other.centre + np.array([0.0, above, 0.0]))
+    centre = (body.mass * places[0] + other.mass * places[1]) / mass
+    inertia = np.zeros((3, 3))
+    for each, place in zip((body, other), places, strict=True):
+        arm = place - centre
+        inertia += each.inertia + each.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    return Body(body.name, mass, centre, inertia)

@@ -12,8 +12,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.standing_up.contact_parameter import bounds, usual
 from geocontact.standing_up.standing_model import StandingModel
+from geocontact.standing_up.strap_sites import bounds, usual
 from geocontact.standing_up.trials import StandingTrial
 
 FORCE, CENTRE = 20.0, 5e-3

@@ -13,14 +13,12 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.multibody.model import Body, Multibody
-from geocontact.data.sourced_number import Source
+from geocontact.data.parameter import Source
 from geocontact.dynamics.collocation.motion import CollocatedMotion
 from geocontact.dynamics.collocation.problem import ControlProblem
-from geocontact.standing_up.contact_parameter import ContactParameter
-from geocontact.standing_up.model_constants import GroundLaw
 from geocontact.standing_up.phase import PhaseProblem, PhaseSizes
-from geocontact.standing_up.standing_model import StandingModel
-from geocontact.standing_up.strap_sites import StrapSite
+from geocontact.standing_up.standing_model import GroundLaw, StandingModel
+from geocontact.standing_up.strap_sites import ContactParameter, StrapSite
 from geocontact.standing_up.trials import StandingTrial
 
 DE_LEVA = "fractions of mass and height for men, both sides: de Leva (1996)"

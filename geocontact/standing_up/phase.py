@@ -17,17 +17,91 @@ from jaxtyping import Float
 from numpy.polynomial import Polynomial
 from scipy.interpolate import CubicSpline
 
+from geocontact.dynamics.collocation.certificate import (
+    Certificate,
+    Resimulation,
+    certificate,
+    fine_residual,
+    resimulation,
+)
 from geocontact.dynamics.collocation.multibody import jerk_controlled
 from geocontact.dynamics.collocation.problem import Bounds, ControlProblem, Course
+from geocontact.dynamics.collocation.solve import CollocationResult
+from geocontact.dynamics.equations import Equations
+from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.symbols import residual, scaled
 from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.contact_parameter import ContactParameter, bounds, usual
 from geocontact.standing_up.first_fit import first_fit
 from geocontact.standing_up.standing_model import StandingModel
+from geocontact.standing_up.strap_sites import ContactParameter, bounds, usual
 from geocontact.standing_up.trials import StandingNoise, StandingTrial, problem_scales, standing_trial
 
 if TYPE_CHECKING:
     from casadi import SX
+
+
+MOST_OF_IT = 0.99
+"""Share from which on one term is nearly all of the cost."""
+
+
+def cost_shares(phase: PhaseProblem, found: CollocationResult) -> dict[str, float]:
+    """By term, integrated as the problem integrates it; the parameters' belief is left out. They add up to 1."""
+    from casadi import Function, vertcat
+
+    s = phase.control.system
+    terms = Function("terms", [s.x, s.u, s.w, s.p], [vertcat(*phase.terms.values())])
+    total = np.zeros(len(phase.terms))
+    for trial, motion in zip(phase.control.trials, found.motions, strict=True):
+        lengths = np.diff(motion.breaks)
+        points = (motion.breaks[:-1, None] + lengths[:, None] * motion.scheme.points).ravel()
+        weights = (lengths[:, None] * motion.scheme.weights).ravel()
+        x = motion.states[:, 1:].reshape(len(points), -1)
+        u = motion.controls.reshape(len(points), -1)
+        given = (x.T, u.T, trial.inputs(points).T, np.tile(found.p[:, None], (1, len(points))))
+        total += terms.map(len(points))(*given).full() @ weights
+    return dict(zip(phase.terms, (total / total.sum()).tolist(), strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class JudgedMotion:
+    """One trial.
+
+    Parameters
+    ----------
+    certificate
+        None where the search was ended before its time, so that there is nothing to certify.
+    time
+        Of the finer grid [s].
+    force, moment
+        Largest residual of the balance there [N], [N m].
+    """
+
+    certificate: Certificate | None
+    time: Float[np.ndarray, " t"]
+    force: Float[np.ndarray, " t"]
+    moment: Float[np.ndarray, " t"]
+
+
+def judged(
+    equations: Equations,
+    controlled: Sequence[int],
+    turning: Sequence[bool],
+    phase: PhaseProblem,
+    found: CollocationResult,
+    *,
+    certify: bool = True,
+) -> tuple[JudgedMotion, ...]:
+    """Of every trial; `controlled` are those of the equations' inputs that were sought."""
+    stepper = Stepper(equations)
+    system = phase.control.system
+    each = []
+    for trial, motion in zip(phase.control.trials, found.motions, strict=True):
+        again: Resimulation = resimulation(stepper, motion, found.p, trial.inputs, controlled)
+        left = fine_residual(system, trial, motion, found.p, turning)
+        seen = certificate(found.solved, system, trial, again, turning) if certify else None
+        each.append(JudgedMotion(seen, left.time, left.force, left.moment))
+    return tuple(each)
+
 
 RATE = 100.0
 """Samples a second at which a deviation counts as itself [Hz]."""

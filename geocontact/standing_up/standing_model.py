@@ -1,4 +1,4 @@
-"""A model that stands up: its equations, its parameters, and what plates, encoders and mats see of it."""
+"""A model that stands up: its bodies, the ground's law, its equations, and what its sensors show."""
 
 from __future__ import annotations
 
@@ -9,13 +9,48 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.contact.smooth_half_space import CONSTANT, HERTZ_SMOOTHING, HUNT_CROSSLEY_SMOOTHING
+from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.equations import Equations
+from geocontact.dynamics.sphere_contact import StribeckFriction
 from geocontact.dynamics.symbols import column
-from geocontact.standing_up.contact_parameter import ContactParameter
-from geocontact.standing_up.model_constants import ModelConstants
+from geocontact.standing_up.strap_sites import ContactParameter, StrapSite
 
 if TYPE_CHECKING:
     from casadi import SX
+
+
+@dataclass(frozen=True)
+class GroundLaw:
+    """OpenSim's sphere on the ground, without what is searched.
+
+    Parameters
+    ----------
+    friction
+        Before its factor.
+    hertz, hunt_crossley, constant
+        `hertz_smoothing` [1/m], `hunt_crossley_smoothing` [s/m] and `constant_contact_force` [m^2].
+    """
+
+    friction: StribeckFriction
+    hertz: float = HERTZ_SMOOTHING
+    hunt_crossley: float = HUNT_CROSSLEY_SMOOTHING
+    constant: float = CONSTANT
+
+
+@dataclass(frozen=True)
+class ModelConstants:
+    """Of one model, as its equations were built.
+
+    Parameters
+    ----------
+    sites
+        Where straps are; none without an exoskeleton.
+    """
+
+    chain: Multibody
+    ground: GroundLaw
+    sites: tuple[StrapSite, ...] = ()
 
 
 @dataclass(frozen=True)

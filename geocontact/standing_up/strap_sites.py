@@ -1,4 +1,4 @@
-"""Where an exoskeleton is strapped to a person: thigh, shank and pelvis, and what is believed of each strap.
+"""Sites of straps between exoskeleton and person, and numbers of contacts with their bounds and priors.
 
 A mat lies on one leg, both legs are one chain: at thigh and shank two straps act in parallel, and numbers and forces
 are those of one of them. The module at the pelvis is one, and mats on it see all of it. All that is believed is
@@ -7,10 +7,69 @@ invented.
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
-from geocontact.standing_up.contact_parameter import ContactParameter
+import numpy as np
+from jaxtyping import Float
+
+Vector = Float[np.ndarray, " p"]
+
+
+@dataclass(frozen=True)
+class ContactParameter:
+    """A parameter, searched as itself or as the logarithm of its part of the usual value.
+
+    Parameters
+    ----------
+    name, unit
+        As tables call it.
+    usual, sd
+        Belief beforehand: mean in `unit`, standard deviation of what is searched.
+    least, most
+        Bounds in `unit`.
+    logarithm
+        Whether ln(value / usual) is searched.
+    """
+
+    name: str
+    unit: str
+    usual: float
+    sd: float
+    least: float
+    most: float
+    logarithm: bool = False
+
+    def searched(self, value: float) -> float:
+        """What stands for a value in the search."""
+        return float(np.log(value / self.usual)) if self.logarithm else value
+
+    def value(self, searched: float) -> float:
+        """In `unit`."""
+        return float(self.usual * np.exp(searched)) if self.logarithm else searched
+
+
+def searched(parameters: Sequence[ContactParameter], values: Sequence[float]) -> Vector:
+    """What stands for values in the search."""
+    return np.array([each.searched(value) for each, value in zip(parameters, values, strict=True)])
+
+
+def usual(parameters: Sequence[ContactParameter]) -> Vector:
+    """Where a search starts: what is believed."""
+    return searched(parameters, [each.usual for each in parameters])
+
+
+def bounds(parameters: Sequence[ContactParameter], free: Sequence[str]) -> tuple[Vector, Vector]:
+    """Of what is searched; both are the usual value where a parameter is not free. ValueError for a name not there."""
+    unknown = set(free) - {each.name for each in parameters}
+    if unknown:
+        raise ValueError(f"there is no parameter {min(unknown)!r}")
+    low, high = (
+        searched(parameters, [getattr(p, side) if p.name in free else p.usual for p in parameters])
+        for side in ("least", "most")
+    )
+    return low, high
+
 
 LEGS, MODULES = 2, 1
 """Straps in parallel at thigh and shank, and at the pelvis."""

@@ -17,8 +17,7 @@ from geocontact.dynamics.collocation.multibody import jerk_controlled
 from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem, Course
 from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions, solve
 from geocontact.dynamics.symbols import residual
-from geocontact.standing_up.chain import COORDINATES, Subject
-from geocontact.standing_up.feet import PLANTED
+from geocontact.standing_up.chain import COORDINATES, PLANTED, Subject
 from geocontact.standing_up.standing_model import StandingModel
 
 SEATED = np.radians([22.0, 70.0, 45.0])

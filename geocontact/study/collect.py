@@ -10,7 +10,7 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from geocontact.io.results.ragged_netcdf import RaggedTable, write_ragged
+from geocontact.io.results import RaggedTable, write_ragged
 from geocontact.study.store import Store
 from geocontact.study.trials import CohortTrial
 

@@ -11,7 +11,7 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
-from geocontact.io.results.netcdf import coordinates_of, over_time
+from geocontact.io.results import coordinates_of, over_time
 from geocontact.study.description import StudyFile
 from geocontact.study.store import Store
 from geocontact.study.trials import CohortTrial

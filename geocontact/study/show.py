@@ -11,7 +11,7 @@ import pandas as pd
 from geocontact.analyses.page_words import headline
 from geocontact.analyses.result import REPORT
 from geocontact.analyses.run_record import Record
-from geocontact.data.ensemble import mean_and_sd
+from geocontact.data.trial import mean_and_sd
 from geocontact.io.text.units import split_header
 from geocontact.study.curves import STEPS, StudyCurves
 from geocontact.view.curves.over_cycle import mean_over_cycle

@@ -12,8 +12,8 @@ import pandas as pd
 from jaxtyping import Float, Int
 
 from geocontact.analyses.area.distance_file import FILE, read_series
-from geocontact.data.ensemble import mean_and_sd
 from geocontact.data.errors import InputError
+from geocontact.data.trial import mean_and_sd
 from geocontact.geometry.surface import Surface
 from geocontact.io.mesh.particles import read_particles
 from geocontact.study.curves import conditions_of, subjects_of

@@ -9,11 +9,11 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.data.ensemble import mean_and_sd
+from geocontact.data.trial import mean_and_sd
 from geocontact.io.text.units import split_header
 from geocontact.study.curves import STEPS, StudyCurves
 from geocontact.study.statistics import LIMIT, SignFlips, reliability, scores, sign_flips
-from geocontact.view.curves.agreement import limits_of_agreement
+from geocontact.view.curves.bland_altman import limits_of_agreement
 
 _SIGNS = {
     "\\": r"\textbackslash{}",

@@ -5,13 +5,13 @@ from __future__ import annotations
 from geocontact.chain.system import System
 from geocontact.data.gap.case import COMMAND, GapCase
 from geocontact.systems.base import Base
-from geocontact.systems.elbow.model import ELBOW
-from geocontact.systems.external.program import program_system
+from geocontact.systems.elbow import ELBOW
 from geocontact.systems.external.python_model import python_system
+from geocontact.systems.external.simulator import program_system
 from geocontact.systems.foot.model import FOOT
 from geocontact.systems.knee.model import KNEE
 from geocontact.systems.shoulder.model import SHOULDER
-from geocontact.systems.sit_to_stand.model import SIT_TO_STAND
+from geocontact.systems.sit_to_stand import SIT_TO_STAND
 from geocontact.systems.validate import refusal, validated
 
 SYSTEMS: tuple[Base, ...] = (ELBOW, FOOT, SHOULDER, KNEE, SIT_TO_STAND)
@@ -41,7 +41,7 @@ def system_of(case: GapCase) -> System:
     ...     torque = 60.0 * angle + 3.0 * np.gradient(angle, time) + noise.normal(0.0, 0.2, 160)
     ...     trial = pd.DataFrame({"time [s]": time, "angle [rad]": angle, "torque [N m]": torque})
     ...     trial.to_csv(f"case/trials/t{k}.csv", index=False)
-    >>> text = 'format = 1\nsystem = "geocontact.systems.elastic_joint.model:JOINT"\n'
+    >>> text = 'format = 1\nsystem = "geocontact.systems.elastic_joint:JOINT"\n'
     >>> text += 'calibration = ["t1", "t2", "t3"]\nevaluation = ["t4", "t5"]\n[noise]\ntorque = 0.2\n'
     >>> text += '[parameters.k]\nstart = 50.0\nlower = 10.0\nupper = 200.0\nunit = "N m/rad"\n'
     >>> _ = Path("case/case.toml").write_text(text)

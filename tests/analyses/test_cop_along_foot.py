@@ -14,7 +14,7 @@ from geocontact.analyses.cop.page import cop_page
 from geocontact.analyses.cop.result import CopResult
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
-from geocontact.identify.signals.zero_lag import zero_lag
+from geocontact.identify.signals.filters import zero_lag
 from geocontact.view.page.content import Curves, Picture
 from tests.cli.calls import written
 

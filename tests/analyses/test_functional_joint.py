@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.io.mocap.trc import read_trc
 from tests import legs

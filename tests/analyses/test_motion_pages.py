@@ -12,7 +12,7 @@ from geocontact.analyses.motion.inverse_dynamics.forces import Forces
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.sides import stem_and_side
 from geocontact.analyses.motion.skeleton import forces_on, markers_beside, scene_of, skeleton
-from geocontact.data.multibody.joint_kinds import gimbal, revolute
+from geocontact.data.multibody.joint import gimbal, revolute
 from geocontact.data.multibody.model import GROUND, Multibody
 from geocontact.data.wrench import Wrench
 from geocontact.view.page.content import Curves, Scale

@@ -13,7 +13,7 @@ from geocontact.analyses.job import Job
 from geocontact.analyses.options import declared
 from geocontact.analyses.table_forms import TableForms
 from geocontact.data.errors import InputError
-from geocontact.io.results.netcdf import coordinates_of, write_netcdf
+from geocontact.io.results import coordinates_of, write_netcdf
 from tests.analyses.jobs import JOBS
 
 GRID = pd.DataFrame(

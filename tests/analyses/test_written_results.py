@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from geocontact.analyses.finished_page import INPUTS, OPTIONS, Thinned, finished
 from geocontact.analyses.result import Part, Result
 from geocontact.analyses.run_record import Record
-from geocontact.io.text.written_units import CASES
+from geocontact.io.text.results import CASES
 from geocontact.view.page.content import Page, Picture, Table, Words
 from geocontact.view.page.write import page_html
 

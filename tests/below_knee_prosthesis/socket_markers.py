@@ -11,12 +11,11 @@ from dataclasses import replace
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
-from geocontact.below_knee_prosthesis.from_markers.marker_names import BODIES
-from geocontact.below_knee_prosthesis.from_markers.standing import hip_by_regression
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.from_markers import BODIES, hip_by_regression
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg import Leg
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Marker
 from meshes.gait_course import course
 from meshes.gait_persons import PARTICIPANTS, SPINES, marker_places, true_leg

@@ -6,12 +6,12 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
-from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
+from geocontact.below_knee_prosthesis.model.leg_tree import LegMotion
 from geocontact.below_knee_prosthesis.simulate import Push, Stance
 from geocontact.contact.bushing import SOCKET
 from geocontact.dynamics.simulate import SimulatedMotion
-from geocontact.loads.sphere_loads import SphereLoads
+from geocontact.loads.sphere_set import SphereLoads
 from tests.below_knee_prosthesis.model.legs import a_leg, a_motion
 
 FULCRUM = 0.1174

@@ -8,13 +8,11 @@ from functools import partial
 import numpy as np
 import pytest
 
-from geocontact.below_knee_prosthesis.from_markers.marker_names import BODIES
-from geocontact.below_knee_prosthesis.from_markers.walking import Walked, walked
+from geocontact.below_knee_prosthesis.from_markers import BODIES, Walked, walked
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket, without_socket
-from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, LegMotion
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from tests.below_knee_prosthesis.socket_markers import body_places, markers_of, planted_stance
 
 MEDIUM, HIGH = 0.1174, 0.151

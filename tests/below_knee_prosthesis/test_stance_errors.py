@@ -8,10 +8,8 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfiltfilt
 
-from geocontact.below_knee_prosthesis.evaluation.judged_stance import judged
-from geocontact.below_knee_prosthesis.evaluation.outliers import reasons
+from geocontact.below_knee_prosthesis.evaluation import PlateStance, judged, reasons, stance_errors
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
-from geocontact.below_knee_prosthesis.stance_errors import PlateStance, stance_errors
 from tests.below_knee_prosthesis.stances import a_stance
 
 WEIGHT = 77.3 * GRAVITY

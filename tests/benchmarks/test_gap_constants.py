@@ -16,12 +16,14 @@ from benchmarks import gap_constants, gap_told_constants
 from benchmarks.constants_of import _numbers, bare, constants, in_use, put, tables, with_others
 from benchmarks.gap_constants import ROOMS, choices, figures, searched
 from benchmarks.gap_told_constants import attributed, changes, inside, row, told
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
 from geocontact.effects.catalogue import candidates
-from geocontact.gap import levels, partial_answer
+from geocontact.gap import diagnose as partial_answer
+from geocontact.gap import levels
 from geocontact.gap.case import plain_fit, refit
-from geocontact.gap.selection import clipping, surrogate, verdict
+from geocontact.gap.selection import residual_anomalies as clipping
+from geocontact.gap.selection import surrogate, verdict
 from tests.house.test_gap_theory import ROWS
 
 WHOLE = ("gap", "identify")
@@ -30,8 +32,8 @@ WHOLE = ("gap", "identify")
 def test_a_number_is_another_one_wherever_it_was_imported() -> None:
     found = {one.label: one for one in constants(ROOMS)}
     sure = found["gap.levels.SURE"]
-    assert sure.value == levels.SURE and "gap.selection.clipping.NEXT" in found
-    assert found["identify.optimise.tolerances.BROKEN"].value == 0.25  # one of two that a line names
+    assert sure.value == levels.SURE and "gap.selection.residual_anomalies.NEXT" in found
+    assert found["identify.optimise.bounded_gauss_newton.BROKEN"].value == 0.25  # one of two that a line names
     assert "gap.selection.surrogate.ALONG" not in found
     assert "gap.selection.surrogate.ALONG" in {one.label for one in tables(ROOMS)}
     before, other = sure.value, clipping.NEXT
@@ -42,7 +44,7 @@ def test_a_number_is_another_one_wherever_it_was_imported() -> None:
     finally:
         put({sure: before})
     assert used[0] != partial_answer.SURE
-    assert found["gap.selection.clipping.NEXT"].times(0.01) == 1
+    assert found["gap.selection.residual_anomalies.NEXT"].times(0.01) == 1
 
 
 def test_a_default_of_an_argument_is_another_one_too() -> None:
@@ -182,7 +184,7 @@ def test_tables_are_halved_number_by_number() -> None:
     found = {one.label: one for one in tables(ROOMS)}
     assert found["gap.selection.surrogate.SIZES"].times(2.0) == (0.6, 2.0, 6.0, 20.0, 60.0)
     assert found["gap.inputs.spectrum_components.BROAD"].times(0.5) == ((0.04, 0.35), (0.1, 0.35))
-    assert found["gap.selection.model_discrepancy.POWERS"].times(0.5) == ((1, 0), (1, 0), (0, 1), (0, 1), (1, 1))
+    assert found["gap.selection.model_comparison.POWERS"].times(0.5) == ((1, 0), (1, 0), (0, 1), (0, 1), (1, 1))
     assert found["gap.selection.residual_anomalies.BESIDE"].times(0.5)[:3] == (-4, -4, -3)
     sizes = found["gap.selection.surrogate.SIZES"]
     assert with_others({sizes: sizes.times(2.0)}, lambda: surrogate.SIZES) == sizes.times(2.0) != surrogate.SIZES

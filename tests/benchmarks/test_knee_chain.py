@@ -45,8 +45,7 @@ def test_areas_of_the_truth_are_those_of_the_chain_by_other_code() -> None:
 
 
 def test_cells_of_the_truth_are_those_of_the_chain_by_other_code() -> None:
-    from geocontact.loads.cell_shares import cell_forces
-    from geocontact.loads.loadcells import PUBLISHED
+    from geocontact.loads.loadcells import PUBLISHED, cell_forces
 
     force, centre = np.array([[640.0, 310.0], [0.0, 90.0]]), np.array([[0.004, -0.002], [0.0, 0.02]])
     want = cell_forces(force, centre, knee_truth.ROWS, PUBLISHED)

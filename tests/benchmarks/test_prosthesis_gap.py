@@ -10,7 +10,7 @@ import pytest
 from benchmarks.prosthesis_gap import gathered, off_of
 from benchmarks.prosthesis_refit import fulcrum
 from benchmarks.prosthesis_truth import FootPath, Truth, Withheld, measure
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 
 
 @pytest.mark.slow

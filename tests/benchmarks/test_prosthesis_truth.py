@@ -10,7 +10,7 @@ import pytest
 
 from benchmarks.prosthesis_refit import FullModel, foot_without, fulcrum, predicted
 from benchmarks.prosthesis_truth import EVERY, FootPath, Measured, Truth, Withheld, given_way, measure
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
 
 
 @lru_cache(maxsize=1)

@@ -15,11 +15,11 @@ from benchmarks.shoulder_planted import HELD, PLANTED, STEP, motion_of, trial_of
 from benchmarks.shoulder_refit import ADDED, MEANS, NAMED, Seen, fitted, offs, rms
 from benchmarks.shoulder_trials import dominant_arm, wearer_of
 from benchmarks.shoulder_truth import MAT, Measured
-from geocontact.shoulder_exoskeleton.armrest import armrest_force
 from geocontact.shoulder_exoskeleton.device import Device
+from geocontact.shoulder_exoskeleton.plane import armrest_force
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
-from geocontact.shoulder_exoskeleton.support.phases import SCREW
-from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial
+from geocontact.shoulder_exoskeleton.support.phase_machine import SCREW
+from geocontact.shoulder_exoskeleton.synthetic import OverheadTrial
 
 SMOOTH = HELD.having(mu_s=0.0, mu_k=0.0)
 """Nothing rubs in its cuff."""

@@ -11,7 +11,7 @@ import pytest
 import geocontact as gc
 from benchmarks.shoulder_mat import lifting_force, readings, with_noise, write_mat
 from benchmarks.shoulder_truth import ALONG
-from geocontact.shoulder_exoskeleton.lucy import lucy
+from geocontact.shoulder_exoskeleton.device import lucy
 from meshes.mat_placement import UPPER_ARM_MAT
 
 COLUMNS = 11

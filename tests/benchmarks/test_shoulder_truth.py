@@ -9,12 +9,10 @@ import pytest
 
 from benchmarks.shoulder_truth import Truth, Withheld, measure
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
-from geocontact.shoulder_exoskeleton.device import Wearer
+from geocontact.shoulder_exoskeleton.device import Wearer, lucy
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import arm_motions
-from geocontact.shoulder_exoskeleton.lucy import lucy
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
-from geocontact.shoulder_exoskeleton.synthetic.design import condition, participant, task
-from geocontact.shoulder_exoskeleton.synthetic.trial import synthetic_trial
+from geocontact.shoulder_exoskeleton.synthetic import condition, participant, synthetic_trial, task
 
 WEARER = Wearer(upper_arm=0.296, shoulder_width=0.385)
 FRAMES = slice(60, 160)

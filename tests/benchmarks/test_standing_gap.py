@@ -14,7 +14,7 @@ from benchmarks.standing_truth import PADS, PLANTED, PaddedStrap
 from geocontact.contact.bushing import bushing_force
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton import DAMPING, StrapLaw, with_exoskeleton
-from geocontact.standing_up.strap_motion import strap_motion
+from geocontact.standing_up.strap import strap_motion
 from geocontact.standing_up.trials import StandingTrial, with_noise
 
 POSTURE = np.array([0.0, 0.083, 0.0, -0.4, 1.6, -2.0, -0.42, 1.66, -1.9])

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.chain.interface_law import INTERFACE_LAW, MEMORY, interface_force
 from geocontact.chain.interface_slopes import UNKNOWN, interface_slopes
 from geocontact.chain.links import Law, Motion
 from geocontact.chain.single_deflection import SingleDeflection
-from geocontact.chain.tangents import tangents
+from geocontact.chain.system import tangents
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial

@@ -9,10 +9,10 @@ import pytest
 
 from geocontact.cli.opensim_setup import with_setup
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.scaling import scaled
 from geocontact.io.mocap.markers import read_markers
-from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.io.mocap.trc import write_trc
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.opensim.tool_setup import read_tool_setup
 from geocontact.io.text.tables import read_table

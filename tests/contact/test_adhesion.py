@@ -19,7 +19,7 @@ from geocontact.contact.adhesion import (
     jkr_pull_off,
     tabor_number,
 )
-from geocontact.contact.hertz_point import point_force, point_radius
+from geocontact.contact.hertz import point_force, point_radius
 
 R, E, W = 37e-3, 5e6, 0.05
 forces, works = st.floats(-1e-3, 1e3), st.floats(1e-3, 1.0)

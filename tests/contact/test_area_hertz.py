@@ -21,8 +21,7 @@ from geocontact.contact.area_hertz import (
     threshold_force,
 )
 from geocontact.contact.elasticity import plane_modulus
-from geocontact.contact.hertz_line import line_half_width
-from geocontact.contact.hertz_point import point_force, point_radius
+from geocontact.contact.hertz import line_half_width, point_force, point_radius
 from tests.closed_forms import sphere_plane_on_sphere
 
 R = 37e-3

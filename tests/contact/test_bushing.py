@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.contact.bushing import PISTONING, PRINTED, SOCKET, Bushing
-from geocontact.systems.sit_to_stand.model import SITES
+from geocontact.systems.sit_to_stand import SITES
 from tests.systems.examples import LEVERS, SITES_CONSTANTS, STIFFNESS, example
 
 

@@ -10,14 +10,18 @@ from scipy.integrate import quad
 from scipy.special import ellipkm1
 
 from geocontact.contact.elasticity import layer_modulus, plane_modulus
-from geocontact.contact.hertz_ellipse import (
+from geocontact.contact.hertz import (
     ellipse_force,
     ellipse_half_axis,
     ellipse_peak_pressure,
     ellipse_shape,
+    line_half_width,
+    line_load,
+    line_peak_pressure,
+    point_force,
+    point_peak_pressure,
+    point_radius,
 )
-from geocontact.contact.hertz_line import line_half_width, line_load, line_peak_pressure
-from geocontact.contact.hertz_point import point_force, point_peak_pressure, point_radius
 from tests.contact.half_space import by_root, displacement, semi_ellipse
 
 R, E, D = 37e-3, 1e9, 2e-4

@@ -9,7 +9,7 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.misalignment.law_numbers import NUMBERS
-from geocontact.data import ranges
+from geocontact.data import plausible as ranges
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import Plausible, numbers_in
 

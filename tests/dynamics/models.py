@@ -7,9 +7,8 @@ from itertools import product
 import numpy as np
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.data.multibody import joint_kinds
-from geocontact.data.multibody.joint import Coordinate, JointModel, TransformAxis
-from geocontact.data.multibody.joint_function import Affine, JointFunction
+from geocontact.data.multibody import joint as joint_kinds
+from geocontact.data.multibody.joint import Affine, Coordinate, JointFunction, JointModel, TransformAxis
 from geocontact.data.multibody.model import Body, Marker, Multibody
 from geocontact.io.opensim.osim_functions import piecewise_linear, polynomial, simm_spline
 

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from casadi import SX
 
-from geocontact.data.multibody.joint_kinds import free
+from geocontact.data.multibody.joint import free
 from geocontact.data.multibody.model import Body, Multibody
-from geocontact.dynamics.body_contact import action_and_reaction, together
 from geocontact.dynamics.equations import equations_of_motion
 from geocontact.dynamics.simulate import Stepper
+from geocontact.dynamics.sphere_contact import action_and_reaction, together
 from geocontact.dynamics.tree import tree_of
 from tests.dynamics.models import pendulum
 

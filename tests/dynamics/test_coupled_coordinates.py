@@ -9,13 +9,12 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.joint_function import Affine
-from geocontact.data.multibody.marker_tasks import MarkerTasks
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.joint import Affine
+from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics
 from geocontact.dynamics.scaling import scaled
 from geocontact.dynamics.tree import Tree, tree_of
-from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.io.mocap.trc import write_trc
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.opensim.osim_scaler import write_scaled_model

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.dynamics.functional_joint import functional_axis, functional_centre
-from geocontact.dynamics.segment_poses import segment_poses
+from geocontact.dynamics.functional_joint import functional_axis, functional_centre, segment_poses
 
 FIRST, SECOND = np.array([0.03, -0.41, 0.05]), np.array([-0.02, 0.39, 0.01])
 AXIS = np.array([0.1, -0.2, 0.95]) / np.linalg.norm([0.1, -0.2, 0.95])

@@ -10,12 +10,11 @@ import numpy as np
 
 import geocontact as gc
 from geocontact.data.errors import InputWarning
-from geocontact.data.multibody.marker_tasks import MarkerTasks
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics
 from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.io.mocap.markers import read_markers
-from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.io.mocap.trc import write_trc
 from geocontact.io.opensim.osim_multibody import read_multibody
 from tests import opensim_oracle
 from tests.cli.calls import MESHES

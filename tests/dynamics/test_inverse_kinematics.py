@@ -11,11 +11,9 @@ import pytest
 
 from benchmarks.full_body import write_full_body
 from geocontact.data.multibody.joint import Coordinate
-from geocontact.data.multibody.marker_tasks import MarkerTasks
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Marker, Multibody
-from geocontact.dynamics.inverse_kinematics import inverse_kinematics
-from geocontact.dynamics.marker_fit import MarkerFit
+from geocontact.dynamics.inverse_kinematics import MarkerFit, inverse_kinematics
 from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from tests.dynamics.models import all_kinds

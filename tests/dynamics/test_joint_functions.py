@@ -6,7 +6,7 @@ import casadi
 import numpy as np
 import pytest
 
-from geocontact.data.multibody.joint_function import Affine, JointFunction
+from geocontact.data.multibody.joint import Affine, JointFunction
 from geocontact.dynamics.symbols import value_of
 from geocontact.io.opensim.osim_functions import piecewise_linear, polynomial, simm_spline
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.dynamics.marker_fit import MarkerFit
+from geocontact.dynamics.inverse_kinematics import MarkerFit
 from geocontact.dynamics.tree import tree_of
 from tests.dynamics.models import all_kinds
 

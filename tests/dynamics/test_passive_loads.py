@@ -10,9 +10,8 @@ import pytest
 from casadi import Function
 
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.passive_forces import FrameBushing, PassiveForces
-from geocontact.dynamics.inverse_dynamics import generalised_forces
-from geocontact.dynamics.passive_loads import passive_loads
+from geocontact.data.multibody.model import FrameBushing, PassiveForces
+from geocontact.dynamics.inverse_dynamics import generalised_forces, passive_loads
 from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.io.opensim.osim_forces import read_passive_forces
 from geocontact.io.opensim.osim_multibody import read_multibody

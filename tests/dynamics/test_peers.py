@@ -9,7 +9,7 @@ import casadi
 import numpy as np
 import pytest
 
-from geocontact.data.multibody.joint_kinds import revolute
+from geocontact.data.multibody.joint import revolute
 from geocontact.dynamics.equations import equations_of_motion
 from geocontact.dynamics.inverse_dynamics import generalised_forces
 from geocontact.dynamics.tree import tree_of

@@ -13,7 +13,7 @@ from geocontact.dynamics.equations import LawState, equations_of_motion
 from geocontact.dynamics.recorded_inputs import RecordedInputs, recorded_inputs, stepped_inputs
 from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.tree import tree_of
-from geocontact.identify.signals.filled import filled_and_smoothed
+from geocontact.identify.signals.filters import filled_and_smoothed
 from tests.dynamics.models import pendulum
 
 NONE = np.zeros(0)

@@ -11,7 +11,7 @@ from casadi import SX
 from scipy.special import ellipj, ellipk
 
 from geocontact.contact.bristle_friction import bristle_force, deflection_rate
-from geocontact.data.multibody.joint_kinds import prismatic
+from geocontact.data.multibody.joint import prismatic
 from geocontact.data.multibody.model import Body, Multibody
 from geocontact.dynamics import compiled as code
 from geocontact.dynamics.equations import Equations, LawState, equations_of_motion

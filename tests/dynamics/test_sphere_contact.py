@@ -11,15 +11,14 @@ from casadi import SX, Function, vertcat
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.chain.contact_law import CONTACT_LAW
-from geocontact.data.multibody.joint_kinds import free
+from geocontact.data.multibody.joint import free
 from geocontact.data.multibody.model import GROUND, Body, Multibody
 from geocontact.dynamics.sphere_contact import STILL, ContactLaw, SphereLaw, laws_by_zone, laws_of, sole_wrench
 from geocontact.dynamics.symbolic_ground import SymbolicPlane, SymbolicStairs, plane_numbers, stairs_numbers
 from geocontact.dynamics.tree import tree_of
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.ground import Stairs
-from geocontact.loads.sphere_loads import SphereLoads, sphere_loads
-from geocontact.loads.sphere_set import SoleLaw, SphereSet
+from geocontact.loads.sphere_set import SoleLaw, SphereLoads, SphereSet, sphere_loads
 from geocontact.systems.foot.spheres import approach, rub, stand
 from tests.loads.scenes import law, scattered, twist
 from tests.systems.examples import foot

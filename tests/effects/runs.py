@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates

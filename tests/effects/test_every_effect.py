@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import EFFECTS, candidates
 from tests.effects.runs import DISCRETE, EXAMPLES, FITTED, OFFERED, difference, label, outputs, truth

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.chain.candidate import Candidate
 from geocontact.chain.differentiated_inputs import recorded
+from geocontact.chain.effect import Candidate
 from tests.effects.runs import EXAMPLES, FITTED, OFFERED, label
 from tests.systems.examples import ELBOW_CONSTANTS, recording
 from tests.systems.test_elbow import restated

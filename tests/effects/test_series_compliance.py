@@ -9,8 +9,7 @@ import pytest
 from scipy.optimize import brentq
 
 from geocontact.chain.differentiated_inputs import recorded
-from geocontact.chain.implicit import NotConverged
-from geocontact.chain.system import FAR
+from geocontact.chain.system import FAR, NotConverged
 from geocontact.effects.mechanical.damping import DAMPING
 from geocontact.effects.mechanical.series_compliance import SERIES_COMPLIANCE
 from geocontact.systems.foot.spheres import INPUTS

@@ -9,12 +9,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.systems.shoulder.arm import ShoulderArm
+from geocontact.systems.shoulder.model import ShoulderArm
 from tests.effects.runs import EXAMPLES, FITTED, label, outputs, truth
 from tests.systems.examples import recording
 

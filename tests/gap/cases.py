@@ -9,7 +9,7 @@ from unittest.mock import patch
 import numpy as np
 from scipy.signal import butter, filtfilt
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.cell import Cell
@@ -24,11 +24,11 @@ from geocontact.gap.case.refit import Measured, Refit
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.localise.gap_map import Window, gap_map, windows
 from geocontact.gap.selection import model_comparison as contest
-from geocontact.gap.selection.clipping import ClippedChannel, clipped_channels
 from geocontact.gap.selection.evidence import Judged, judged
-from geocontact.gap.selection.model_comparison import Contender, Ends, base_contender, pairs, singles
-from geocontact.gap.selection.model_discrepancy import discrepancy_basis
+from geocontact.gap.selection.model_comparison import Contender, Ends, base_contender, discrepancy_basis, pairs, singles
 from geocontact.gap.selection.residual_anomalies import (
+    ClippedChannel,
+    clipped_channels,
     lines,
     recorder_remarks,
     residual_anomalies,

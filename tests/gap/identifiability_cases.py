@@ -9,7 +9,7 @@ from unittest.mock import patch
 import numpy as np
 from scipy.stats import ncx2
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.diagnosis import NextExperiment
 from geocontact.data.motion import Signals
@@ -22,8 +22,15 @@ from geocontact.gap.experiment.menu import menu
 from geocontact.gap.experiment.proposal import TELLS, first_of, next_experiment
 from geocontact.gap.identifiability.detectability import SURE, detectabilities, power
 from geocontact.gap.identifiability.non_identifiable import non_identifiable
-from geocontact.gap.identifiability.one_law import OneLaw, one_law
-from geocontact.gap.identifiability.separability import classes, confounder_of, refitted, separation, separations
+from geocontact.gap.identifiability.separability import (
+    OneLaw,
+    classes,
+    confounder_of,
+    one_law,
+    refitted,
+    separation,
+    separations,
+)
 from geocontact.gap.identifiability.signatures import BaseState, at_nats, base_state_of, own_slopes, sized
 from geocontact.gap.selection.model_comparison import base_contender, pairs, singles
 from geocontact.gap.selection.verdict import Answer

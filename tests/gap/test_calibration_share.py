@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from geocontact.chain.system import FAR
-from geocontact.gap.selection.calibration_share import calibration_share, changes
+from geocontact.gap.selection.held_out_rules import calibration_share, changes
 from geocontact.identify.optimise.least_squares import NO_VALUE
 
 FLOOR, ROUGH = np.array([2.0, 0.5]), np.array([1.0, 0.3])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geocontact.gap.levels import SURE
-from geocontact.gap.selection.clipping import pile
+from geocontact.gap.selection.residual_anomalies import pile
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Clip, diagnosis, flat, held
 

@@ -9,7 +9,7 @@ import pytest
 
 from geocontact.chain.system import System
 from geocontact.gap.case.refit import Measured, derivatives, free
-from geocontact.gap.experiment.competing_models import Hypothesis, Rows, SimulatedTrials, remaining_nats
+from geocontact.gap.experiment.proposal import Hypothesis, Rows, SimulatedTrials, remaining_nats
 from tests.systems.examples import example
 
 SIGMA = 20.0  # N

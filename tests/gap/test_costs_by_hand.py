@@ -8,12 +8,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-import geocontact.gap_benchmark.synthetic.base_fit as base_fit
+import geocontact.gap_benchmark.synthetic.visibility as base_fit
 from geocontact.chain.system import System
 from geocontact.data.trial import Trial
 from geocontact.gap.case.plain_fit import Plain
 from geocontact.gap.case.refit import Measured, RefitSearch, derivatives, free, magnitude
-from geocontact.gap.experiment.competing_models import Hypothesis, SimulatedTrials, remaining_nats
+from geocontact.gap.experiment.proposal import Hypothesis, SimulatedTrials, remaining_nats
 from geocontact.identify.optimise.least_squares import NO_VALUE
 from tests.systems.examples import example
 

@@ -13,7 +13,7 @@ from geocontact.chain.system import System
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Measured, Refit
-from geocontact.gap.selection.model_discrepancy import discrepancy_basis
+from geocontact.gap.selection.model_comparison import discrepancy_basis
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case
 

@@ -8,7 +8,7 @@ from scipy.signal import butter, filtfilt
 
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.inputs.filter_cutoff import USUAL, filters_of, likely_noise
+from geocontact.gap.inputs.spectrum_components import USUAL, filters_of, likely_noise
 from geocontact.identify.signals.low_pass import LowPass
 
 STEP = 0.005

@@ -8,8 +8,18 @@ import numpy as np
 import pytest
 
 from geocontact.data.gap.cell import Cell
-from geocontact.gap.localise.frequency_map import PHASES, _placed, energies
-from geocontact.gap.localise.gap_map import BLOCKS, Window, _least, in_order, load_outputs, shortest, systematic
+from geocontact.gap.localise.gap_map import (
+    BLOCKS,
+    PHASES,
+    Window,
+    _least,
+    _placed,
+    energies,
+    in_order,
+    load_outputs,
+    shortest,
+    systematic,
+)
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Bump, Drift, Swing, Unmeasured, elbow_case, located

@@ -10,8 +10,8 @@ import pytest
 from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
+from geocontact.gap import data_errors as faults
 from geocontact.gap.case.preparation import problem_of
-from geocontact.gap.data_errors import gross as faults
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import elbow_case

@@ -14,12 +14,13 @@ from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import evaluated, floor_of
 from geocontact.gap.case.refit import refit
 from geocontact.gap.levels import DEVIATIONS, SLIGHT
-from geocontact.gap.selection.held_out_error import TrialWeight, taken_away
 from geocontact.gap.selection.held_out_rules import (
     ONLY_NOISE,
     TOO_LITTLE,
     WORTH_NAMING,
     HeldOutRules,
+    TrialWeight,
+    taken_away,
     trimmed,
     with_one,
 )

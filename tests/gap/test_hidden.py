@@ -8,8 +8,7 @@ import pytest
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.refit import refit
-from geocontact.gap.data_errors.gross import data_error_of
-from geocontact.gap.data_errors.hidden import hidden_mistakes, undone
+from geocontact.gap.data_errors import data_error_of, hidden_mistakes, undone
 from geocontact.gap.selection.evidence import by_smoothing
 from geocontact.gap.selection.model_comparison import base_contender, finished
 from geocontact.gap.selection.tails import Tails

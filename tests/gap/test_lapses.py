@@ -6,8 +6,16 @@ from dataclasses import replace
 
 import pytest
 
-from geocontact.gap.selection.lapses import NAMED, QUESTIONED, SILENT, with_lapses
-from geocontact.gap.selection.verdict import Answer, answer, ranking, with_refused
+from geocontact.gap.selection.verdict import (
+    NAMED,
+    QUESTIONED,
+    SILENT,
+    Answer,
+    answer,
+    ranking,
+    with_lapses,
+    with_refused,
+)
 from tests.gap.test_verdict import OFFERED, contender, shares
 
 EFFECTS = {one.name for one in OFFERED.values()}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import multivariate_normal
 
-from geocontact.gap.reduction.leave_one_out import left_out
+from geocontact.gap.reduction.error_reduction import left_out
 
 
 def test_it_is_the_density_given_a_fit_to_the_other_trials() -> None:

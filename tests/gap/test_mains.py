@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.gap.diagnosis import Diagnosis
-from geocontact.gap.case.mains import HUM, MAINS, hum, wave_count
+from geocontact.gap.case.noise_sources import HUM, MAINS, hum, wave_count
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.selection.model_comparison import base_contender

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from geocontact.gap.selection.model_discrepancy import BENT
+from geocontact.gap.selection.model_comparison import BENT
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import evidence_of_bends
 

@@ -12,7 +12,7 @@ from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.case.numerical_error import coarse_rates, error_of_rates
+from geocontact.gap.case.noise_sources import coarse_rates, error_of_rates
 from geocontact.gap.case.placement import placement
 from geocontact.gap.case.preparation import problem_of
 

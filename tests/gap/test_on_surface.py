@@ -10,8 +10,7 @@ import pytest
 
 from geocontact.data.errors import InputError
 from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.cell_channels import CellChannels, CellTrial
-from geocontact.data.gap.surface_gap import SurfaceGap
+from geocontact.data.gap.cell import CellChannels, CellTrial, SurfaceGap
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.diagnose import diagnose

@@ -11,12 +11,12 @@ from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.gap.case.mains import wave_count
+from geocontact.gap.case.noise_sources import wave_count
 from geocontact.gap.case.placement import ANGLE, GAIN, clock_offset, placement, put_on
 from geocontact.gap.diagnose import diagnose
-from geocontact.gap.selection.held_out_error import TrialWeight
+from geocontact.gap.selection.held_out_rules import TrialWeight
 from geocontact.systems.catalogue import system_of
-from geocontact.systems.elastic_joint.model import JOINT
+from geocontact.systems.elastic_joint import JOINT
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import TRUE, elbow_case
 

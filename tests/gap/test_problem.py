@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from geocontact.gap.case.rate_smoothing import REACHES, best_of
+from geocontact.gap.case.preparation import REACHES, best_of
 
 
 @pytest.mark.parametrize("peak", REACHES)

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from geocontact.data.trial import Trial
-from geocontact.gap.experiment.competing_models import Rows
 from geocontact.gap.experiment.menu import HELD, HOLDS, _settings, bench, menu, swap
+from geocontact.gap.experiment.proposal import Rows
 from tests.elsewhere import Elsewhere
 from tests.gap.identifiability_cases import LAG, on_the_menu, proposed
 from tests.systems.examples import KNEE_CONSTANTS, example, knee, knee_trial

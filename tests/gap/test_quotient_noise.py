@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from geocontact.data.parameter import Parameter
-from geocontact.gap.case.quotient_noise import noise_spread
-from geocontact.systems.elastic_joint.model import JOINT
+from geocontact.gap.case.noise_sources import noise_spread
+from geocontact.systems.elastic_joint import JOINT
 
 PLAIN = JOINT.build((Parameter("k", "N m/rad", 60.0, 10.0, 200.0),), {}, {})
 SYSTEM = replace(PLAIN, balance=replace(PLAIN.balance, outputs=("force_y", "cop_x")), quotients={"cop_x": "force_y"})

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case import refit as refit_module
+from geocontact.gap.case.noise_sources import rough_noise
 from geocontact.gap.case.plain_fit import Plain, base_starts
 from geocontact.gap.case.refit import Measured, derivatives, free, magnitude, moved_at_once, refit
-from geocontact.gap.case.rough_noise import rough_noise
-from geocontact.identify.optimise.tolerances import STEP
+from geocontact.identify.optimise.bounded_gauss_newton import STEP
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import NOISE, TRUE, elbow_case, lost
 from tests.systems.examples import example

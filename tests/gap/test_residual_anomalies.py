@@ -7,7 +7,7 @@ import pytest
 
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.case.mains import at_mains
+from geocontact.gap.case.noise_sources import at_mains
 from geocontact.gap.inputs.spectrum import switches
 from geocontact.gap.levels import SURE
 from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, moving

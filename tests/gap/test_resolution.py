@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.gap.inputs.quantisation import resolution
+from geocontact.gap.inputs.spectrum import resolution
 
 
 @pytest.mark.parametrize("unit", [1.0, 1e-9])

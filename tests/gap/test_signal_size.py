@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from geocontact.gap.case.noise_sources import seen_growth, signal_size
 from geocontact.gap.case.preparation import problem_of
-from geocontact.gap.case.signal_size import seen_growth, signal_size
 from geocontact.identify.noise.noise_search import CostSurface
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere

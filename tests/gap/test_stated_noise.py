@@ -104,7 +104,7 @@ def joint_case(torque: Torque) -> GapCase:
             Trial(f"t{k}", Signals(time, np.column_stack([angle, read]), ("angle", "torque"), ("rad", "N m")), {})
         )
     parameters = (Parameter("k", "N m/rad", 20.0, 5.0, 80.0), Parameter("angle0", "rad", 0.0, -0.3, 0.3))
-    joint = "geocontact.systems.elastic_joint.model:JOINT"
+    joint = "geocontact.systems.elastic_joint:JOINT"
     return GapCase("case", joint, tuple(trials[:3]), tuple(trials[3:]), parameters, noise={"torque": 0.1})
 
 

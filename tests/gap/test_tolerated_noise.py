@@ -13,11 +13,10 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.plain_fit import plain_fit
-from geocontact.gap.case.preparation import problem_of
+from geocontact.gap.case.preparation import problem_of, worse_somewhere
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.tolerated_noise import worse_somewhere
 from geocontact.gap.levels import SLIGHT
-from geocontact.systems.elastic_joint.model import JOINT
+from geocontact.systems.elastic_joint import JOINT
 
 STEP = 0.04
 
@@ -36,7 +35,7 @@ def case(noise: float, told: dict[str, float]) -> GapCase:
     rng = np.random.default_rng(3)
     trials = tuple(swing(pace, noise, rng) for pace in (0.35, 0.5, 0.7, 0.4, 0.6))
     stiffness = Parameter("k", "N m/rad", 50.0, 10.0, 200.0)
-    name = "geocontact.systems.elastic_joint.model:JOINT"
+    name = "geocontact.systems.elastic_joint:JOINT"
     return GapCase("swing", name, trials[:3], trials[3:], (stiffness,), noise=told)
 
 

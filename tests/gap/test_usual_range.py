@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.gap.case.usual_range import usual_range
+from geocontact.gap.case.noise_sources import usual_range
 
 
 def test_one_in_a_hundred_lies_beyond_either_end() -> None:

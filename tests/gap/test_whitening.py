@@ -8,9 +8,8 @@ import pytest
 from geocontact.gap.case.whitening import SENSOR_LOUDER, Whitening, usual_levels
 from geocontact.gap.selection.evidence import log_evidence
 from geocontact.identify.noise.covariance import Layout
-from geocontact.identify.noise.input_noise import Instant
+from geocontact.identify.noise.input_noise import Instant, NoiseSpectrum
 from geocontact.identify.noise.noise_levels import NoiseLevels
-from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case

@@ -6,9 +6,8 @@ import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.motion import Motion
-from geocontact.geometry.contact_area.area import AS_GIVEN
+from geocontact.geometry.contact_area.area import AS_GIVEN, RULES
 from geocontact.geometry.contact_area.evolution import ContactPair, Settings, area_evolution
-from geocontact.geometry.contact_area.rules import RULES
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 from meshes.total_knee import total_knee

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.geometry.contact_area import depth, gap
+from geocontact.geometry.contact_area import evolution as depth
+from geocontact.geometry.contact_area import gap
 from geocontact.geometry.contact_area.area import AS_GIVEN, area_within
 from geocontact.geometry.contact_area.evolution import ContactPair, Settings
-from geocontact.geometry.contact_area.rise import Rise
+from geocontact.geometry.contact_area.gap import Rise
 from geocontact.geometry.kernels.rise import plane_of, rise_of, size_of
 from geocontact.geometry.separation import Collider, settle
 from meshes import reference

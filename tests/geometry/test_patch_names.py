@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from geocontact.geometry.patch_names import about, about_flexion, about_other
-from geocontact.geometry.regions import faces_where
+from geocontact.geometry.regions import about, about_flexion, about_other, faces_where
 from geocontact.geometry.sagittal import Sagittal
 from geocontact.geometry.sweep import Axis
 from meshes.simple_shapes import cup, cylinder, sphere

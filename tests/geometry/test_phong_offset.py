@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.geometry.phong_offset import corner_normals, phong_offset
+from geocontact.geometry.curvature import corner_normals, phong_offset
 from geocontact.geometry.surface import Surface
 from meshes.simple_shapes import sphere
 from tests.geometry.bodies import MM, cube, surface, turned

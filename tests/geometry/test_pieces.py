@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from geocontact.geometry.pieces.closed_pieces import closed_pieces
-from geocontact.geometry.pieces.union import united
+from geocontact.geometry.pieces.union import closed_pieces, united
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.topology import signed_volume
 from meshes import simple_shapes

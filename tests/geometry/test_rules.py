@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from geocontact.geometry.contact_area.rules import ALL_VERTICES, ANY_VERTEX, CENTROID, CLIP, REFINED, RULES
+from geocontact.geometry.contact_area.area import ALL_VERTICES, ANY_VERTEX, CENTROID, CLIP, REFINED, RULES
 from meshes import simple_shapes as shapes
 from tests.geometry.bodies import MM, contact, cube, pose_of, surface, turned
 

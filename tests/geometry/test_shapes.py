@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from geocontact.geometry.proximity import Proximity
-from geocontact.geometry.shapes import HalfSpace, Sphere, Tube
+from geocontact.geometry.shapes import HalfSpace, Proximity, Sphere, Tube
 from geocontact.geometry.surface import Surface
 from meshes import simple_shapes
 from tests.geometry.bodies import cube, order_of

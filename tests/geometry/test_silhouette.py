@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.geometry.silhouette import silhouette
+from geocontact.geometry.sagittal import silhouette
 from meshes.simple_shapes import block, sphere
 
 

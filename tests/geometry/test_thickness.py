@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from geocontact.data.mesh import Mesh
 from geocontact.geometry.surface import Surface
-from geocontact.geometry.thickness import thickness_below
+from geocontact.geometry.surface_quadrature import thickness_below
 from geocontact.io.mesh.meshes import read_mesh
 from tests.cli.calls import MESHES
 from tests.geometry.bodies import MM, cube, joined, moved, surface, turned

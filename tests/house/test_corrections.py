@@ -9,11 +9,11 @@ import pytest
 
 from geocontact.axis_misalignment.explicit import Offsets, displacement
 from geocontact.axis_misalignment.synthetic import PAPER
-from geocontact.below_knee_prosthesis.keel.beam import SUPPORTS, tip_compliance
+from geocontact.below_knee_prosthesis.keel.keel import SUPPORTS, tip_compliance
 from geocontact.contact.area_hertz import disc_force
 from geocontact.contact.bushing import PRINTED, SOCKET
 from geocontact.contact.smooth_half_space import half_space_force
-from geocontact.shoulder_exoskeleton.lucy import lucy, lucy_new_cylinder
+from geocontact.shoulder_exoskeleton.device import lucy, lucy_new_cylinder
 from tests.house.first_screens import ROOT
 
 PAGE = (ROOT / "docs" / "theory" / "corrections.md").read_text(encoding="utf-8")

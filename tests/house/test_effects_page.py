@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from geocontact.effects.catalogue import EFFECTS, candidates
-from geocontact.systems.sit_to_stand.model import SITES
+from geocontact.systems.sit_to_stand import SITES
 from tests.elsewhere import Elsewhere
 from tests.systems.examples import example
 

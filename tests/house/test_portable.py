@@ -10,7 +10,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 
 import pytest
 
-from geocontact.data.file_names import cannot_be_named, same_place
+from geocontact.data.text import cannot_be_named, same_place
 from geocontact.study.trials import expression_of, split_pattern
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -11,9 +11,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.io.text.results import write_table
+from geocontact.io.text.results import CASES, RESULTS, misfits, write_table
 from geocontact.io.text.units import si_unit
-from geocontact.io.text.written_units import CASES, RESULTS, misfits
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "reference" / "written_files.md").read_text(encoding="utf-8")

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.identify.noise.covariance import Layout
-from geocontact.identify.noise.input_noise import Instant
+from geocontact.identify.noise.input_noise import Instant, NoiseSpectrum
 from geocontact.identify.noise.noise_levels import NoiseLevels
-from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 
 COUNT, STEP = 150, 0.02

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geocontact.identify.signals.agreement import agreement, over_stretches, per_phase
-from geocontact.identify.signals.zero_lag import zero_lag
+from geocontact.identify.signals.filters import zero_lag
 
 STEP = 0.02
 TIME = STEP * np.arange(400)

@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import goodness_of_fit, norm
 
 from geocontact.identify.intervals.bin_tests import DRAWS, between_bins, between_neighbours, lilliefors
-from geocontact.identify.noise.bin_noise import mean_covariance
+from geocontact.identify.noise.autocorrelation import mean_covariance
 from geocontact.identify.signals.angle_bins import AngleBins, angle_bins, edges_over
 
 

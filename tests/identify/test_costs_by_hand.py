@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from geocontact.axis_misalignment.compensation import TOTAL, DisplacementScale
 from geocontact.axis_misalignment.law import NAMES, ElbowLaw
 from geocontact.axis_misalignment.least_squares import ElbowProblem, Prior
-from geocontact.axis_misalignment.scale import TOTAL, DisplacementScale
 from geocontact.data.parameter import Parameter
 from geocontact.identify.optimise.least_squares import NO_VALUE, divided, fit
 from geocontact.identify.optimise.quasi_newton import search

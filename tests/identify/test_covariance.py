@@ -10,9 +10,8 @@ from numpy.testing import assert_allclose
 from scipy.signal import butter, filtfilt
 
 from geocontact.identify.noise.covariance import Layout, NoiseBlock
-from geocontact.identify.noise.input_noise import Lasting
+from geocontact.identify.noise.input_noise import Lasting, NoiseSpectrum
 from geocontact.identify.noise.noise_levels import NoiseLevels
-from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 from tests.identify.synthetic_noise import COUNT, LEVELS, PASSED, STEP, layout
 

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geocontact.data.ensemble import mean_and_sd
+from geocontact.data.trial import mean_and_sd
+from geocontact.identify.signals.agreement import rms_difference
 from geocontact.identify.signals.cycles import STEPS, Span, loaded_spans, normalised, strides
-from geocontact.identify.signals.ensemble import rms_difference
 
 PERIOD, PEAK = 1.1, 1500.0
 TIME = np.arange(0.0, 5.0, 1.0 / 120.0)

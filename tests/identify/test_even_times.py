@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.identify.signals.agreement import agreement
-from geocontact.identify.signals.even_times import at_times, even_times
+from geocontact.identify.signals.filters import at_times, even_times
 
 EVEN = 0.02 * np.arange(200)
 UNEVEN = np.concatenate([EVEN[:15], EVEN[25:100], EVEN[100::2]])

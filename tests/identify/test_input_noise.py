@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from geocontact.identify.noise.input_noise import Instant, Lasting
-from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
+from geocontact.identify.noise.input_noise import Instant, Lasting, NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 
 COUNT, STEP, AHEAD = 80, 0.02, 3

@@ -16,10 +16,9 @@ from geocontact.gap.inputs.spectrum_components import Parts
 from geocontact.identify.noise.autocorrelation import autocorrelation_of, sandwich
 from geocontact.identify.noise.autoregressive import noise_of
 from geocontact.identify.noise.covariance import Layout
-from geocontact.identify.noise.input_noise import Instant
+from geocontact.identify.noise.input_noise import Instant, NoiseSpectrum
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_search import CostSurface
-from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.noise.student import DEGREES, student_noise
 from geocontact.identify.noise.trial_variation import Products, deviations, variation
 from geocontact.identify.signals.low_pass import LowPass

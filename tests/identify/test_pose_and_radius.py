@@ -7,11 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
+from geocontact.data.evolution import TiltedAreas
 from geocontact.data.parameter import Parameter
-from geocontact.data.tilted_areas import TiltedAreas
 from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, MODULUS, SLOPE, AreaForce
-from geocontact.elastic_modulus.both_sides import end_to_end
-from geocontact.elastic_modulus.identify import Identification, fitted, identify, modulus_parameter
+from geocontact.elastic_modulus.identify import Identification, end_to_end, fitted, identify, modulus_parameter
 from tests.elsewhere import Elsewhere
 from tests.identify.synthetic_contact import DURATION, RADIUS, TRUE, coloured, synthetic_model
 

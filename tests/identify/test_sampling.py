@@ -7,8 +7,15 @@ import pytest
 from scipy import stats
 
 from geocontact.identify.intervals.quantile_intervals import probability, quantile
-from geocontact.identify.intervals.sampling import Normal, People, Sampling, Uniform, root
-from geocontact.identify.intervals.sobol_indices import rank_regression, variance_shares
+from geocontact.identify.intervals.sampling import (
+    Normal,
+    People,
+    Sampling,
+    Uniform,
+    rank_regression,
+    root,
+    variance_shares,
+)
 
 SHARES = np.linspace(0.001, 0.999, 999)
 

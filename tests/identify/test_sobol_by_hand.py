@@ -7,7 +7,7 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from geocontact.identify.intervals.sobol_indices import REPEATS, rank_regression, variance_shares
+from geocontact.identify.intervals.sampling import REPEATS, rank_regression, variance_shares
 
 STUDENT_15 = 2.1314495455597742
 """Of 15 degrees of freedom at 97.5 %: tables."""

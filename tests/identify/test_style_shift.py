@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.identify.signals.style_shift import style_shift
+from geocontact.identify.signals.cycles import style_shift
 
 STEPS = np.arange(101.0)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.identify.noise.typical_noise import typical_noise
+from geocontact.identify.noise.noise_levels import typical_noise
 
 SD = 0.7
 

@@ -10,11 +10,8 @@ import pytest
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.mocap.c3d_markers import markers_of, read_c3d_markers
-from geocontact.io.mocap.c3d_plates import plates_of
-from geocontact.io.mocap.c3d_units import plate_units
-from geocontact.io.mocap.clipped import clipped_runs
-from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
-from geocontact.io.mocap.on_plate import lengths_outside
+from geocontact.io.mocap.c3d_plates import clipped_runs, plate_units, plates_of
+from geocontact.io.mocap.force_plates import ForcePlate, lengths_outside, plate_named, read_force_plates
 from tests.io.plate_files import CENTRE, FREE, PEAK, channels, plate_file, stance
 
 OFFSET = np.array([3.0, 2.0, 25.0, 0.5, -0.8, 0.1])

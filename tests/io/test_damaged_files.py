@@ -16,19 +16,16 @@ from geocontact.analyses.misalignment.compare.pairs import _law
 from geocontact.analyses.quantities import axis
 from geocontact.analyses.run_again import read_run
 from geocontact.data.errors import InputError
-from geocontact.data.magnitude import too_large
-from geocontact.data.plausible import LARGEST_MEANT
+from geocontact.data.plausible import LARGEST_MEANT, too_large
 from geocontact.io.mesh.particles import read_particles
 from geocontact.io.mocap.force_plates import read_force_plates
 from geocontact.io.mocap.markers import read_markers
 from geocontact.io.motion.motion import read_motion
 from geocontact.io.motion.poses import read_pose
-from geocontact.io.opensim.osim_contact_spheres import read_contact_spheres
-from geocontact.io.recordings.area_table import read_area_table
-from geocontact.io.recordings.contact_parameters import read_contact_intervals
+from geocontact.io.opensim.osim_contact import read_contact_spheres
+from geocontact.io.recordings.area_table import read_area_table, read_radius_profile
 from geocontact.io.recordings.load_cells import read_regression
-from geocontact.io.recordings.radius_profile import read_radius_profile
-from geocontact.io.recordings.spheres import read_law, read_spheres
+from geocontact.io.recordings.spheres import read_contact_intervals, read_law, read_spheres
 from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.tables import read_table
 from geocontact.study.description import read_study_file

@@ -9,7 +9,7 @@ import pytest
 
 from geocontact.data.errors import InputError
 from geocontact.io.mesh.meshes import read_mesh
-from geocontact.io.mocap.csv_markers import read_csv_markers
+from geocontact.io.mocap.markers import read_csv_markers
 from geocontact.io.mocap.trc import read_trc
 from geocontact.io.motion.poses import motion_from_csv, read_pose
 from geocontact.io.recordings.spheres import read_spheres

@@ -9,8 +9,8 @@ import pytest
 from pydantic import Field
 
 from geocontact.data.errors import InputError
-from geocontact.data.file_names import same_place
 from geocontact.data.plausible import KG, Plausible
+from geocontact.data.text import same_place
 from geocontact.io.documents import (
     Document,
     File,

@@ -403,7 +403,7 @@ def test_large_files_are_refused_before_they_are_read(
 
 
 def test_many_large_trials_are_refused_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geocontact.io.cases.case_folder.MOST_BYTES", 3 * len(TRIAL) - 1)
+    monkeypatch.setattr("geocontact.io.cases.case_settings.MOST_BYTES", 3 * len(TRIAL) - 1)
     assert refusal(case_in(tmp_path)).startswith("trials: the trials have 0 MB, more than the 0 MB that are read")
 
 

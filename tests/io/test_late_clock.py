@@ -11,13 +11,12 @@ import pandas as pd
 import pytest
 
 from geocontact.data.motion import Signals
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
-from geocontact.data.seconds import seconds
+from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.data.text import seconds
 from geocontact.data.trial import Trial
 from geocontact.io.cases.gap_case_writer import write_trials
 from geocontact.io.cases.trial_table import read_trial
-from geocontact.io.mocap.trc import read_trc
-from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.io.mocap.trc import read_trc, write_trc
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.text.results import write_table
 from geocontact.io.text.tables import read_table

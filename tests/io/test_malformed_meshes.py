@@ -15,9 +15,9 @@ import pytest
 import trimesh
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.io.mesh import limits
+from geocontact.io.mesh import mesh_checks as limits
 from geocontact.io.mesh.meshes import read_mesh
-from geocontact.io.mesh.ply_preflight import read_header
+from geocontact.io.mesh.ply import read_header
 from geocontact.io.text import file_preflight
 
 BALL = trimesh.creation.icosphere(subdivisions=1, radius=31.4159)

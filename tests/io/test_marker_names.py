@@ -10,9 +10,9 @@ import pytest
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.mocap import c3d_markers
 from geocontact.io.mocap.c3d_markers import read_c3d_markers
-from geocontact.io.mocap.marker_map import marker_map_typed, read_marker_map
-from geocontact.io.mocap.subject import without_subject
-from geocontact.io.text.near_names import near_names
+from geocontact.io.mocap.markers import marker_map_typed, read_marker_map
+from geocontact.io.mocap.trc import without_subject
+from geocontact.io.text.column_names import near_names
 
 
 def test_names_alike_but_for_case_marks_and_a_letter() -> None:

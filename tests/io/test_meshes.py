@@ -17,11 +17,10 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geocontact.data.coincident import repeated_faces
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.mesh import repeated_faces
 from geocontact.io.mesh.faces import read_face_indices
-from geocontact.io.mesh.merge import merge_coincident
-from geocontact.io.mesh.mesh_checks import SIZES, degenerate, require_plausible
+from geocontact.io.mesh.mesh_checks import SIZES, degenerate, merge_coincident, require_plausible
 from geocontact.io.mesh.meshes import READERS, read_mesh
 from geocontact.io.text.units import ANGLE, LENGTH, split_header
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.io.opensim.osim_contact_spheres import read_contact_spheres
+from geocontact.io.opensim.osim_contact import read_contact_spheres
 from tests import opensim_oracle
 from tests.cli.calls import call, done
 from tests.elsewhere import Elsewhere

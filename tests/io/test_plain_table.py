@@ -16,12 +16,9 @@ from hypothesis import strategies as st
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.cases.trial_table import read_trial
 from geocontact.io.motion.motion import read_motion
-from geocontact.io.recordings.area_table import read_area_table
-from geocontact.io.recordings.cycle_table import read_cycle_table
+from geocontact.io.recordings.area_table import read_area_table, read_force_curves, read_radius_profile
 from geocontact.io.recordings.elbow_recording import read_elbow_recording
-from geocontact.io.recordings.force_curves import read_force_curves
-from geocontact.io.recordings.load_cells import read_load_cells
-from geocontact.io.recordings.radius_profile import read_radius_profile
+from geocontact.io.recordings.load_cells import read_cycle_table, read_load_cells
 from geocontact.io.recordings.spheres import read_spheres
 from geocontact.io.text.column_names import ColumnNames
 from geocontact.io.text.plain_table import open_plain

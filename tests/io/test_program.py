@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.simulator import SimulatorError
-from geocontact.io.cases.program import Program, program
+from geocontact.io.cases.gap_case import Program, program
 
 UNITS = {"angle": "rad", "torque": "N m"}
 TIME = np.linspace(0.0, 1.0, 21)
@@ -50,7 +50,7 @@ def test_the_same_run_is_not_made_twice(tmp_path: Path) -> None:
 
 def test_what_is_remembered_is_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     own = simulator(tmp_path, SPRING)
-    monkeypatch.setattr("geocontact.io.cases.program.KEPT", 2 * 8 * len(TIME))
+    monkeypatch.setattr("geocontact.io.cases.gap_case.KEPT", 2 * 8 * len(TIME))
     for k in (1.0, 2.0, 3.0, 1.0):
         own.run(TIME, ANGLE, {"k": k})
     assert own.runs == 4 and len(own._known) == 2
@@ -75,7 +75,7 @@ def test_a_program_that_fails_is_one_sentence(tmp_path: Path, text: str, message
 
 
 def test_a_program_that_hangs_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geocontact.io.cases.program.TIMEOUT", 0.2)
+    monkeypatch.setattr("geocontact.io.cases.gap_case.TIMEOUT", 0.2)
     with pytest.raises(SimulatorError, match=r"took more than 0\.2 s"):
         simulator(tmp_path, "import time; time.sleep(30)").run(TIME, ANGLE, {"k": 7.0})
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError
-from geocontact.io.cases.storage_trial import columns_of, read_storage_trial
+from geocontact.io.cases.gathering import columns_of, read_storage_trial
 from geocontact.io.opensim.storage_writer import write_storage
 
 TIME = np.linspace(0.0, 1.0, 11)

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.io.mats.units import length_unit as mat_length
+from geocontact.io.mats.layout import length_unit as mat_length
 from geocontact.io.mocap.c3d_markers import read_c3d_markers
-from geocontact.io.mocap.csv_markers import read_csv_markers
-from geocontact.io.mocap.markers import read_markers
+from geocontact.io.mocap.markers import read_csv_markers, read_markers
 from geocontact.io.mocap.trc import read_trc
 from geocontact.io.motion.poses import motion_from_csv
 from geocontact.io.recordings.spheres import read_spheres

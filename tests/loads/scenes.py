@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.loads.ground import Ground
-from geocontact.loads.sphere_loads import SphereLoads, sphere_loads
-from geocontact.loads.sphere_set import SoleLaw, SphereSet
+from geocontact.loads.sphere_set import SoleLaw, SphereLoads, SphereSet, sphere_loads
 
 RADIUS = 0.02
 ROOT = Path(__file__).resolve().parents[2]

@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geocontact.data.cell_regression import CellRegression
-from geocontact.loads.cell_shares import CELLS, cell_forces
-from geocontact.loads.loadcells import PUBLISHED, compartment_forces
+from geocontact.loads.loadcells import CELLS, PUBLISHED, cell_forces, compartment_forces
 
 ROWS = (-0.017, 0.013)
 force, place = st.floats(0.0, 3000.0), st.floats(-0.03, 0.03)

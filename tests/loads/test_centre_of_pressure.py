@@ -11,7 +11,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.centre_of_pressure import centre_of_pressure
 from geocontact.loads.ground import Stairs
-from geocontact.loads.sphere_loads import SphereLoads, sphere_loads
+from geocontact.loads.sphere_set import SphereLoads, sphere_loads
 from tests.loads.scenes import RADIUS, law, rigid, scattered, sole, standing, still, twist
 
 LEVEL = HalfSpace()

@@ -10,10 +10,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from benchmarks.pairs import PAIRS
-from geocontact.geometry.phong_offset import corner_normals, phong_offset
+from geocontact.geometry.curvature import corner_normals, phong_offset
 from geocontact.geometry.surface import Surface
-from geocontact.geometry.surface_quadrature import surface_quadrature
-from geocontact.geometry.thickness import thickness_below
+from geocontact.geometry.surface_quadrature import surface_quadrature, thickness_below
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.loads.foundation import Layer, Pressed, Skin, pressed
 from meshes import simple_shapes

@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.geometry.register.uncertainty import PoseCovariance
+from geocontact.geometry.register.quality import PoseCovariance
 from geocontact.geometry.surface import Surface
-from geocontact.loads.mat.errors import MatErrors, wrench_covariance
-from geocontact.loads.mat.load import mat_load, segment_loads
+from geocontact.loads.mat.load import MatErrors, mat_load, segment_loads, unloaded, wrench_covariance
 from geocontact.loads.mat.map import MatMap, mat_map
-from geocontact.loads.mat.offset import unloaded
 
 HALF = 0.6  # rad, of the cylinder and the cap that the mat spans
 RADIUS, LENGTH = 0.08, 0.2

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.loads.pose_rate import pose_rate
+from geocontact.loads.resultant import pose_rate
 from tests.loads.scenes import rigid
 
 POINT = np.array([0.2, -0.05, 0.03, 1.0])

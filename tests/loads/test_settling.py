@@ -11,22 +11,15 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from geocontact.geometry.phong_offset import corner_normals, phong_offset
+from geocontact.geometry.curvature import corner_normals, phong_offset
 from geocontact.geometry.surface import Surface
-from geocontact.geometry.surface_quadrature import surface_quadrature
-from geocontact.geometry.thickness import thickness_below
+from geocontact.geometry.surface_quadrature import surface_quadrature, thickness_below
 from geocontact.io.mesh.meshes import read_mesh
-from geocontact.loads.foundation import Layer
-from geocontact.loads.foundation_stiffness import LAWS, layer_loads
-from geocontact.loads.settling import energy_balance as energy_balance_room
-from geocontact.loads.settling.along import settle_along
-from geocontact.loads.settling.coordinates import NAMES, coordinates_of, poses_of
-from geocontact.loads.settling.energy_balance import energy_balance
-from geocontact.loads.settling.first_touch import pressing
-from geocontact.loads.settling.indeterminate import not_held
-from geocontact.loads.settling.newton import equilibrium
-from geocontact.loads.settling.potential import AxialLoad, Bed, total_at
-from geocontact.loads.settling.start_pose import lowest_places
+from geocontact.loads.foundation import LAWS, Layer, layer_loads
+from geocontact.loads.settling import newton as energy_balance_room
+from geocontact.loads.settling.newton import energy_balance, equilibrium, not_held, settle_along
+from geocontact.loads.settling.potential import NAMES, AxialLoad, Bed, coordinates_of, poses_of, total_at
+from geocontact.loads.settling.start_pose import lowest_places, pressing
 from tests.cli.calls import FEMUR, INSERT
 from tests.contact.sphere_on_layer import linear_force, logarithmic_force
 from tests.geometry.bodies import cube, joined, surface

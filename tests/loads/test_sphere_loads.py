@@ -15,8 +15,7 @@ from geocontact.geometry.shapes import HalfSpace
 from geocontact.geometry.surface import Surface
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.loads.ground import Ground, Sheet, Stairs
-from geocontact.loads.sphere_loads import sphere_loads
-from geocontact.loads.sphere_set import SoleLaw, SphereSet
+from geocontact.loads.sphere_set import SoleLaw, SphereSet, sphere_loads
 from tests.loads.scenes import RADIUS, ROOT, law, rigid, scattered, sole, standing, still, twist
 
 LEVEL = HalfSpace()

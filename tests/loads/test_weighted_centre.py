@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.loads.weighted_centre import weighted_centre
+from geocontact.loads.resultant import weighted_centre
 from tests.loads.scenes import rigid
 
 seeds = st.integers(0, 2**31)

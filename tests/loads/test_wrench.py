@@ -10,8 +10,7 @@ from jaxtyping import TypeCheckError
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.wrench import Wrench
-from geocontact.loads.resultant import resultant
-from geocontact.loads.weighted_centre import weighted_centre
+from geocontact.loads.resultant import resultant, weighted_centre
 from tests.loads.scenes import rigid, vectors
 
 seeds = st.integers(0, 2**31)

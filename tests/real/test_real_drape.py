@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.geometry.drape.geodesics import Geodesics
 from geocontact.geometry.drape.lay import lay
 from geocontact.geometry.drape.mat import Mat
-from geocontact.geometry.drape.spread import Anchor
+from geocontact.geometry.drape.spread import Anchor, Geodesics
 from geocontact.geometry.register.icp import icp
 from geocontact.geometry.surface import Surface
 from geocontact.io.mesh.meshes import read_mesh

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputWarning
-from geocontact.data.multibody.marker_tasks import MarkerTasks
+from geocontact.data.multibody.markers import MarkerTasks
 from geocontact.dynamics.inverse_dynamics import generalised_forces
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics
 from geocontact.dynamics.scaling import scaled

@@ -9,10 +9,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.geometry.drape.geodesics import Geodesics
 from geocontact.geometry.drape.lay import lay
 from geocontact.geometry.drape.mat import Mat
-from geocontact.geometry.drape.spread import Anchor
+from geocontact.geometry.drape.spread import Anchor, Geodesics
 from geocontact.geometry.surface import Surface
 from geocontact.io.mesh.meshes import read_mesh
 from tests.cli.calls import call, done, written

@@ -13,7 +13,7 @@ import pytest
 
 import geocontact as gc
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.io.mocap.markers import read_markers
 from geocontact.io.opensim.coordinates import motion_of

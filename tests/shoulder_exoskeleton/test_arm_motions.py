@@ -10,14 +10,17 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.markers import read_markers
-from geocontact.io.mocap.trc_writer import write_trc
-from geocontact.shoulder_exoskeleton.from_markers.arm_motions import ArmMotions, MarkerSettings, arm_motions
-from geocontact.shoulder_exoskeleton.from_markers.gaps import longest_gap
-from geocontact.shoulder_exoskeleton.from_markers.virtual_device import Attachment, virtual_reference
-from geocontact.shoulder_exoskeleton.synthetic.design import condition, participant, task
-from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial, synthetic_trial
+from geocontact.io.mocap.trc import write_trc
+from geocontact.shoulder_exoskeleton.from_markers.arm_motions import (
+    ArmMotions,
+    MarkerSettings,
+    arm_motions,
+    longest_gap,
+)
+from geocontact.shoulder_exoskeleton.from_markers.device_frame import Attachment, virtual_reference
+from geocontact.shoulder_exoskeleton.synthetic import OverheadTrial, condition, participant, synthetic_trial, task
 
 SETTINGS = MarkerSettings(upright=(0.0, 0.25))
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from geocontact.shoulder_exoskeleton.human_arm.arm_weight import arm_moment
-from geocontact.shoulder_exoskeleton.support.arm_scales import scales_of
+from geocontact.shoulder_exoskeleton.human_arm import arm_moment
+from geocontact.shoulder_exoskeleton.support.arm_trial import scales_of
 
 
 def test_the_moment_of_a_man_s_arm_by_hand() -> None:

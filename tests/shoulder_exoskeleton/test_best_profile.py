@@ -19,10 +19,9 @@ from geocontact.shoulder_exoskeleton.support.best_profile import (
 )
 from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport, Maker, held_out, judged
 from geocontact.shoulder_exoskeleton.support.outcome import PRESENT, TABLE_3, Factors, outcome
-from geocontact.shoulder_exoskeleton.support.phases import LIFT, LOWER, REST
-from geocontact.shoulder_exoskeleton.support.profile_limits import Among, Limits
-from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, SupportCase, lagged
-from geocontact.shoulder_exoskeleton.synthetic.arm_trials import all_arms
+from geocontact.shoulder_exoskeleton.support.phase_machine import LIFT, LOWER, REST
+from geocontact.shoulder_exoskeleton.support.profile_limits import Among, FactorKey, Limits, SupportCase, lagged
+from geocontact.shoulder_exoskeleton.synthetic import all_arms
 
 TIME = np.arange(301) / 100.0
 

@@ -7,7 +7,7 @@ import pytest
 
 from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.carried_device import weight_and_inertia
-from geocontact.shoulder_exoskeleton.lucy import lucy
+from geocontact.shoulder_exoskeleton.device import lucy
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 from tests.shoulder_exoskeleton.arms import FITTING, GRAVITY, lifted
 from tests.shoulder_exoskeleton.device_by_hand import MASSES, weight_and_inertia_by_hand

@@ -6,18 +6,16 @@ import numpy as np
 import pytest
 
 from geocontact.analyses.shoulder.optimise.profiles import support_of
-from geocontact.shoulder_exoskeleton import in_cuff
-from geocontact.shoulder_exoskeleton.in_cuff import OutOfCuffError
-from geocontact.shoulder_exoskeleton.lucy import lucy_new_cylinder
+from geocontact.shoulder_exoskeleton import cuff_contact as in_cuff
+from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
+from geocontact.shoulder_exoskeleton.device import lucy_new_cylinder
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial, ModelError, support_case, varied_case
 from geocontact.shoulder_exoskeleton.support.best_profile import best_profile, scaled, uniform_profile
 from geocontact.shoulder_exoskeleton.support.closed_loop_profile import JUMP, SLACK, ClosedLoop, SettledProfile
+from geocontact.shoulder_exoskeleton.support.controlled_arm import SimulatedSupport, simulated_support
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, outcome
 from geocontact.shoulder_exoskeleton.support.profile_limits import Limits
-from geocontact.shoulder_exoskeleton.support.simulated_support import SimulatedSupport, simulated_support
-from geocontact.shoulder_exoskeleton.synthetic.arm_trials import arms_of
-from geocontact.shoulder_exoskeleton.synthetic.design import PARTICIPANTS, TASKS, condition
-from geocontact.shoulder_exoskeleton.synthetic.trial import synthetic_trial
+from geocontact.shoulder_exoskeleton.synthetic import PARTICIPANTS, TASKS, arms_of, condition, synthetic_trial
 
 DEVICE = lucy_new_cylinder()
 RESERVE = 0.1

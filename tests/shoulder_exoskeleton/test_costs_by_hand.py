@@ -9,8 +9,8 @@ import pytest
 
 from geocontact.shoulder_exoskeleton.support.best_profile import Aim, Limits, best_profile, uniform_profile
 from geocontact.shoulder_exoskeleton.support.outcome import outcome
-from geocontact.shoulder_exoskeleton.support.phases import SUPPORTED
-from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, SupportCase
+from geocontact.shoulder_exoskeleton.support.phase_machine import SUPPORTED
+from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey, SupportCase
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
 GRID = (0.5, 0.8, 0.97, 1.03, 1.3)

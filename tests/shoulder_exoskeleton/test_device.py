@@ -5,10 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.data.sourced_number import SOURCES
-from geocontact.shoulder_exoskeleton.cylinder import cylinder_length, lever, piston_area
-from geocontact.shoulder_exoskeleton.device import QUANTITIES
-from geocontact.shoulder_exoskeleton.lucy import BUILT_IN, lucy, lucy_new_cylinder
+from geocontact.data.parameter import SOURCES
+from geocontact.shoulder_exoskeleton.device import (
+    BUILT_IN,
+    QUANTITIES,
+    cylinder_length,
+    lever,
+    lucy,
+    lucy_new_cylinder,
+    piston_area,
+)
 
 
 def test_the_papers_numbers_agree_with_each_other() -> None:

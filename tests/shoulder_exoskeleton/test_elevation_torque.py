@@ -10,17 +10,21 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.body_segments import SEGMENTS
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.joint_kinds import free, gimbal, weld
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.joint import free, gimbal, weld
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import GROUND, Body, Marker, Multibody
 from geocontact.dynamics.inverse_dynamics import generalised_forces
 from geocontact.dynamics.tree import tree_of
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
-from geocontact.shoulder_exoskeleton.human_arm.arm_track import ArmTrack, arm_track
-from geocontact.shoulder_exoskeleton.human_arm.elevation_torque import elevation_torque
-from geocontact.shoulder_exoskeleton.human_arm.hand_load import HandLoad, ToolWork, hand_load
-from geocontact.shoulder_exoskeleton.synthetic.design import condition, participant, task
-from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial, synthetic_trial
+from geocontact.shoulder_exoskeleton.human_arm import (
+    ArmTrack,
+    HandLoad,
+    ToolWork,
+    arm_track,
+    elevation_torque,
+    hand_load,
+)
+from geocontact.shoulder_exoskeleton.synthetic import OverheadTrial, condition, participant, synthetic_trial, task
 
 G = np.array([0.0, -9.80665, 0.0])
 DOWN = np.array([0.0, -1.0, 0.0])

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
-from geocontact.shoulder_exoskeleton.device import Device, Wearer
-from geocontact.shoulder_exoskeleton.in_cuff import MOST_LOST, OutOfCuffError, require_in_cuff
-from geocontact.shoulder_exoskeleton.lucy import lucy
+from geocontact.shoulder_exoskeleton.cuff_contact import MOST_LOST, OutOfCuffError, require_in_cuff
+from geocontact.shoulder_exoskeleton.device import Device, Wearer, lucy
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 from tests.shoulder_exoskeleton.arms import lifted
 

@@ -13,8 +13,7 @@ from geocontact.contact.sphere_in_tube import TubeLaw, tube_contact
 from geocontact.dynamics.symbols import apply_numpy
 from geocontact.dynamics.tree import Moving
 from geocontact.shoulder_exoskeleton import padded_cuff
-from geocontact.shoulder_exoskeleton.device import Wearer
-from geocontact.shoulder_exoskeleton.lucy import lucy
+from geocontact.shoulder_exoskeleton.device import Wearer, lucy
 from geocontact.shoulder_exoskeleton.padded_cuff import ArmLine, CuffLaw, CuffLoad, cuff_load
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 from tests.shoulder_exoskeleton.arms import lifted

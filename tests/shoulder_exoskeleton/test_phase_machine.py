@@ -7,13 +7,28 @@ from itertools import product
 import numpy as np
 import pytest
 
-from geocontact.shoulder_exoskeleton.support.phase_check import ONSET, PhaseCheck, phase_check, phases_by_onset
-from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds, detected
-from geocontact.shoulder_exoskeleton.support.phases import LIFT, LOWER, REST, SCREW
-from geocontact.shoulder_exoskeleton.support.sensing import Sensing, sensed
-from geocontact.shoulder_exoskeleton.synthetic.course import minimum_jerk
-from geocontact.shoulder_exoskeleton.synthetic.design import CONDITIONS, PARTICIPANTS, TASKS
-from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial, synthetic_trial
+from geocontact.shoulder_exoskeleton.support.phase_machine import (
+    LIFT,
+    LOWER,
+    ONSET,
+    REST,
+    SCREW,
+    PhaseCheck,
+    Sensing,
+    Thresholds,
+    detected,
+    phase_check,
+    phases_by_onset,
+    sensed,
+)
+from geocontact.shoulder_exoskeleton.synthetic import (
+    CONDITIONS,
+    PARTICIPANTS,
+    TASKS,
+    OverheadTrial,
+    minimum_jerk,
+    synthetic_trial,
+)
 
 ORDER = [REST, LIFT, SCREW, LIFT, LOWER, REST]
 TIME = np.arange(801) / 100.0

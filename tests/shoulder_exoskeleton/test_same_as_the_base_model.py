@@ -10,9 +10,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.dynamics.recorded_inputs import recorded_inputs, stepped_inputs
 from geocontact.shoulder_exoskeleton.arm_model import arm_model, output_slices
 from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers, slices
-from geocontact.shoulder_exoskeleton.cylinder import lever
-from geocontact.shoulder_exoskeleton.device import Wearer
-from geocontact.shoulder_exoskeleton.lucy import lucy
+from geocontact.shoulder_exoskeleton.device import Wearer, lever, lucy
 from geocontact.systems.shoulder import model as base_shoulder
 from tests.shoulder_exoskeleton.arms import GRAVITY, raised
 from tests.systems.examples import recording

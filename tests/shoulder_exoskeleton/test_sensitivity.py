@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.shoulder_exoskeleton.device import Wearer
-from geocontact.shoulder_exoskeleton.lucy import lucy
+from geocontact.shoulder_exoskeleton.device import Wearer, lucy
 from geocontact.shoulder_exoskeleton.sensitivity import AXES, IDLE, influences
 from tests.shoulder_exoskeleton.arms import lifted
 

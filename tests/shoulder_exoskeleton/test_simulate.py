@@ -11,11 +11,10 @@ import pytest
 from geocontact.dynamics.compiled import compiler
 from geocontact.shoulder_exoskeleton.arm_model import arm_model
 from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers, slices
-from geocontact.shoulder_exoskeleton.armrest import armrest_force
-from geocontact.shoulder_exoskeleton.lucy import lucy
-from geocontact.shoulder_exoskeleton.recorded_arm import arm_inputs
-from geocontact.shoulder_exoskeleton.simulate import TOLERANCE, ArmSimulation, simulate_arm
-from geocontact.shoulder_exoskeleton.start import at_rest
+from geocontact.shoulder_exoskeleton.cuff_contact import arm_inputs
+from geocontact.shoulder_exoskeleton.device import lucy
+from geocontact.shoulder_exoskeleton.plane import armrest_force
+from geocontact.shoulder_exoskeleton.simulate import TOLERANCE, ArmSimulation, at_rest, simulate_arm
 from tests.shoulder_exoskeleton.arms import FITTING, GRAVITY, lifted
 
 LUCY, WEARER = lucy(), FITTING

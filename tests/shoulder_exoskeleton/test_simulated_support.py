@@ -7,17 +7,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geocontact.shoulder_exoskeleton.lucy import lucy_new_cylinder
+from geocontact.shoulder_exoskeleton.device import lucy_new_cylinder
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial
+from geocontact.shoulder_exoskeleton.support.controlled_arm import raising_torque, simulated_support
 from geocontact.shoulder_exoskeleton.support.outcome import Factors
-from geocontact.shoulder_exoskeleton.support.phase_check import phase_check, phases_by_onset
-from geocontact.shoulder_exoskeleton.support.phases import SUPPORTED
-from geocontact.shoulder_exoskeleton.support.sensing import Sensing
-from geocontact.shoulder_exoskeleton.support.simulated_support import raising_torque, simulated_support
-from geocontact.shoulder_exoskeleton.support.support_case import FactorKey
-from geocontact.shoulder_exoskeleton.synthetic.arm_trials import arms_of
-from geocontact.shoulder_exoskeleton.synthetic.design import PARTICIPANTS, TASKS, condition
-from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial, synthetic_trial
+from geocontact.shoulder_exoskeleton.support.phase_machine import SUPPORTED, Sensing, phase_check, phases_by_onset
+from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey
+from geocontact.shoulder_exoskeleton.synthetic import (
+    PARTICIPANTS,
+    TASKS,
+    OverheadTrial,
+    arms_of,
+    condition,
+    synthetic_trial,
+)
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
 DEVICE = lucy_new_cylinder()

@@ -10,10 +10,9 @@ import pytest
 from geocontact.shoulder_exoskeleton.arm_model import arm_model
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers
-from geocontact.shoulder_exoskeleton.lucy import lucy
-from geocontact.shoulder_exoskeleton.recorded_arm import arm_inputs
-from geocontact.shoulder_exoskeleton.simulate import TOLERANCE, simulate_arm
-from geocontact.shoulder_exoskeleton.start import HANGING, PACE, elevation_of, raising
+from geocontact.shoulder_exoskeleton.cuff_contact import arm_inputs
+from geocontact.shoulder_exoskeleton.device import lucy
+from geocontact.shoulder_exoskeleton.simulate import HANGING, PACE, TOLERANCE, elevation_of, raising, simulate_arm
 from tests.shoulder_exoskeleton.arms import FITTING, lifted
 
 LUCY, WEARER, REACH = lucy(), FITTING, 0.19

@@ -15,8 +15,8 @@ from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.standing_up.assistance.assisted_model import SHARE, assisted_model
 from geocontact.standing_up.assistance.design import KNEE, NAMES, STRAP, HelpTask, designed
 from geocontact.standing_up.assistance.movement import Movement, Movements
+from geocontact.standing_up.chain import EVERY_PLANTED
 from geocontact.standing_up.exoskeleton import STRAP_PLANTED
-from geocontact.standing_up.feet import EVERY_PLANTED
 from tests.cli.calls import MESHES
 
 P = np.r_[EVERY_PLANTED, STRAP_PLANTED, 0.3, 0.25]

@@ -12,13 +12,12 @@ from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions, solve
 from geocontact.standing_up.assumed_shares import JERK_KNOWN, AssumedShares, assumed_shares
-from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.chain import EVERY_PLANTED, FOOT_PARAMETERS, Subject
 from geocontact.standing_up.contact_numbers import ContactNumber, ContactNumbers, contact_numbers, held_covariance
-from geocontact.standing_up.contact_parameter import searched, usual
 from geocontact.standing_up.exoskeleton import STRAP, with_exoskeleton
-from geocontact.standing_up.feet import EVERY_PLANTED, FOOT_PARAMETERS
 from geocontact.standing_up.phase import FOOT_JERK, JOINT_JERK, PhaseProblem, standing_phase
-from geocontact.standing_up.phase_b import LITTLE_ENERGY, TRACKS_B, phase_b
+from geocontact.standing_up.phases import LITTLE_ENERGY, TRACKS_B, phase_b
+from geocontact.standing_up.strap_sites import searched, usual
 from geocontact.standing_up.trials import StandingNoise, with_noise
 from tests.cli.calls import MESHES
 

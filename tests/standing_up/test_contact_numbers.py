@@ -8,13 +8,11 @@ import numpy as np
 import pytest
 
 from geocontact.dynamics.collocation.solve import SolverOptions, solve
-from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.chain import FOOT_PARAMETERS, LAW, PLANTED, Subject, feet_on_ground
 from geocontact.standing_up.contact_numbers import contact_numbers
-from geocontact.standing_up.contact_parameter import ContactParameter, bounds, searched, usual
-from geocontact.standing_up.cost_shares import cost_shares
-from geocontact.standing_up.feet import FOOT_PARAMETERS, LAW, PLANTED, feet_on_ground
-from geocontact.standing_up.phase import PhaseProblem
-from geocontact.standing_up.phase_a import phase_a
+from geocontact.standing_up.phase import PhaseProblem, cost_shares
+from geocontact.standing_up.phases import phase_a
+from geocontact.standing_up.strap_sites import ContactParameter, bounds, searched, usual
 from geocontact.standing_up.trials import StandingNoise, recorded, standing_up
 
 OPTIONS = SolverOptions("radau", 4, 20, 1e-7)

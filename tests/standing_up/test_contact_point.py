@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from geocontact.dynamics.smooth_sphere_contact import OpenSimSphereLaw, StribeckFriction, smooth_sphere_wrench
+from geocontact.dynamics.sphere_contact import OpenSimSphereLaw, StribeckFriction, smooth_sphere_wrench
 from geocontact.dynamics.symbols import apply_numpy
 from geocontact.dynamics.tree import Moving
 from geocontact.geometry.shapes import HalfSpace

@@ -13,10 +13,10 @@ from geocontact.standing_up import calibrated_phase as module
 from geocontact.standing_up import contact_numbers as numbers_module
 from geocontact.standing_up.assumed_shares import AssumedShares
 from geocontact.standing_up.calibrated_phase import CalibratedPhase, PhaseSearch, calibrated_phase
-from geocontact.standing_up.contact_parameter import ContactParameter
+from geocontact.standing_up.contact_numbers import Resampled
 from geocontact.standing_up.phase import PhaseProblem
-from geocontact.standing_up.resample import Resampled
 from geocontact.standing_up.standing_model import StandingModel
+from geocontact.standing_up.strap_sites import ContactParameter
 from geocontact.standing_up.trials import StandingNoise
 
 T = TypeVar("T")

@@ -13,16 +13,13 @@ import numpy as np
 import pytest
 
 from geocontact.dynamics.collocation.blocks import sparse_program
+from geocontact.dynamics.collocation.motion import scheme
 from geocontact.dynamics.collocation.problem import ControlledSystem
-from geocontact.dynamics.collocation.scheme import scheme
 from geocontact.dynamics.collocation.transcription import Transcription, scales_from
-from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.chain import FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN, Subject, feet_on_ground
 from geocontact.standing_up.exoskeleton import strapped, with_exoskeleton
-from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN, feet_on_ground
 from geocontact.standing_up.phase import PhaseProblem
-from geocontact.standing_up.phase_a import phase_a
-from geocontact.standing_up.phase_b import phase_b
-from geocontact.standing_up.phase_c import phase_c
+from geocontact.standing_up.phases import phase_a, phase_b, phase_c
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.strap_sites import STRAP_SITES
 from geocontact.standing_up.trials import StandingNoise, StandingTrial

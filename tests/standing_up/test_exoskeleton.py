@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.chain import EVERY_PLANTED, PLANTED, Subject
 from geocontact.standing_up.exoskeleton import (
     LEGS,
     STRAP_PARAMETERS,
@@ -16,8 +16,7 @@ from geocontact.standing_up.exoskeleton import (
     two_chains,
     with_exoskeleton,
 )
-from geocontact.standing_up.feet import EVERY_PLANTED, PLANTED
-from geocontact.standing_up.phase_b import phase_b
+from geocontact.standing_up.phases import phase_b
 from geocontact.standing_up.strap_sites import STRAP_SITES
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 

@@ -7,8 +7,7 @@ import pytest
 
 from geocontact.dynamics.tree import tree_of
 from geocontact.standing_up.chain import Subject, leg_chain
-from geocontact.standing_up.coupled_chain import coupled_chain
-from geocontact.standing_up.exoskeleton import EXO_JOINTS, SHIFT, two_chains
+from geocontact.standing_up.exoskeleton import EXO_JOINTS, SHIFT, coupled_chain, two_chains
 from geocontact.standing_up.exoskeleton_torque import human_torque, identified, regressor
 
 SUBJECT = Subject()

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from geocontact.dynamics.tree import tree_of
-from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.chain import PLANTED, Subject, ground_on_feet
 from geocontact.standing_up.exoskeleton import STRAP_PLANTED, thigh_strap, two_chains, with_exoskeleton
-from geocontact.standing_up.feet import PLANTED, ground_on_feet
 from geocontact.standing_up.trials import rising
 from tests import rigid_body_oracle
 from tests.elsewhere import another_process

@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 from casadi import Function, vertcat
 
-from geocontact.dynamics.smooth_sphere_contact import StribeckFriction
-from geocontact.standing_up import chain, exoskeleton, feet, strap_sites
-from geocontact.standing_up.chain import Subject
+from geocontact.dynamics.sphere_contact import StribeckFriction
+from geocontact.standing_up import chain, exoskeleton, strap_sites
+from geocontact.standing_up import chain as feet
+from geocontact.standing_up.chain import FOOT_PARAMETERS, Subject, feet_on_ground
 from geocontact.standing_up.exoskeleton import strapped
-from geocontact.standing_up.feet import FOOT_PARAMETERS, feet_on_ground
-from geocontact.standing_up.model_constants import GroundLaw
 from geocontact.standing_up.numbers_that_ran import (
     Ran,
     belief_numbers,
@@ -21,8 +20,8 @@ from geocontact.standing_up.numbers_that_ran import (
     parameter_numbers,
     size_numbers,
 )
-from geocontact.standing_up.phase_a import phase_a
-from geocontact.standing_up.standing_model import StandingModel
+from geocontact.standing_up.phases import phase_a
+from geocontact.standing_up.standing_model import GroundLaw, StandingModel
 from geocontact.standing_up.strap_sites import STRAP_SITES
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 from tests.standing_up.from_table import Chains, belief

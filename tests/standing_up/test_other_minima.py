@@ -10,19 +10,26 @@ from scipy.stats import norm
 
 from benchmarks.standing_other_world import World, own_trials
 from geocontact.dynamics.collocation.solve import SolverOptions
-from geocontact.standing_up.calibrated_phase import PhaseSearch, calibrated_phase
-from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.calibrated_phase import (
+    DOUBTFUL,
+    PhaseSearch,
+    beside_rivals,
+    calibrated_phase,
+    doubtful,
+    ended,
+    misfit,
+    rivals,
+)
+from geocontact.standing_up.chain import FOOT_PARAMETERS, SOUGHT_WORN, Subject, feet_on_ground
 from geocontact.standing_up.contact_numbers import (
     ContactNumber,
     ContactNumbers,
     believed_covariance,
     held_covariance,
 )
-from geocontact.standing_up.contact_parameter import ContactParameter, searched
 from geocontact.standing_up.exoskeleton import with_exoskeleton
-from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT_WORN, feet_on_ground
-from geocontact.standing_up.other_minima import DOUBTFUL, beside_rivals, doubtful, ended, misfit, rivals
-from geocontact.standing_up.phase_a import phase_a
+from geocontact.standing_up.phases import phase_a
+from geocontact.standing_up.strap_sites import ContactParameter, searched
 from geocontact.standing_up.trials import StandingNoise, StandingTrial, with_noise
 from tests.unchecked import unchecked
 

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from geocontact.dynamics.collocation.solve import SolverOptions, solve
-from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.feet import PLANTED, feet_on_ground
-from geocontact.standing_up.judged import judged
-from geocontact.standing_up.phase_a import phase_a
+from geocontact.standing_up.chain import PLANTED, Subject, feet_on_ground
+from geocontact.standing_up.phase import judged
+from geocontact.standing_up.phases import phase_a
 from geocontact.standing_up.trials import StandingNoise, recorded, standing_up
 
 HIGHER = np.radians([12.0, 50.0, 30.0])

@@ -5,15 +5,22 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.dynamics.collocation.certificate import certificate
-from geocontact.dynamics.collocation.resimulation import resimulation
+from geocontact.dynamics.collocation.certificate import certificate, resimulation
 from geocontact.dynamics.collocation.solve import SolverOptions, solve
 from geocontact.dynamics.simulate import Stepper
-from geocontact.standing_up.chain import TURNING, Subject, leg_chain
+from geocontact.standing_up.chain import (
+    EVERY_PLANTED,
+    PLANTED,
+    SOUGHT,
+    SOUGHT_WORN,
+    TURNING,
+    Subject,
+    feet_on_ground,
+    leg_chain,
+)
 from geocontact.standing_up.contact_numbers import contact_numbers
 from geocontact.standing_up.exoskeleton import STRAP_PLANTED, with_exoskeleton
-from geocontact.standing_up.feet import EVERY_PLANTED, PLANTED, SOUGHT, SOUGHT_WORN, feet_on_ground
-from geocontact.standing_up.phase_a import phase_a
+from geocontact.standing_up.phases import phase_a
 from geocontact.standing_up.trials import StandingNoise, recorded, seen_in, standing_up
 
 

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from geocontact.dynamics.collocation.solve import SolverOptions, solve
-from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.chain import FOOT_PARAMETERS, Subject, feet_on_ground
 from geocontact.standing_up.contact_numbers import contact_numbers
-from geocontact.standing_up.contact_parameter import usual
-from geocontact.standing_up.feet import FOOT_PARAMETERS, feet_on_ground
-from geocontact.standing_up.phase_a import phase_a
+from geocontact.standing_up.phases import phase_a
 from geocontact.standing_up.profile import FARTHEST, profiles
+from geocontact.standing_up.strap_sites import usual
 from geocontact.standing_up.trials import StandingNoise, recorded, standing_up
 
 

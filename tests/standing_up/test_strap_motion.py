@@ -10,12 +10,11 @@ import geocontact as gc
 from geocontact.analyses.sit_to_stand.exports import motion_table, write_strap_case
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.data.parameter import Parameter
-from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.chain import EVERY_PLANTED, Subject
 from geocontact.standing_up.exoskeleton import DAMPING, STRAP_PARAMETERS, STRAP_PLANTED, with_exoskeleton
-from geocontact.standing_up.feet import EVERY_PLANTED
-from geocontact.standing_up.strap_motion import strap_motion
+from geocontact.standing_up.strap import strap_motion
 from geocontact.standing_up.trials import StandingTrial
-from geocontact.systems.sit_to_stand import model as sit_to_stand
+from geocontact.systems import sit_to_stand
 from tests.systems.examples import recording
 
 SUBJECT = Subject()

@@ -15,7 +15,7 @@ from geocontact.chain.single_deflection import SingleDeflection, read_off
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.catalogue import candidates
-from geocontact.systems.elastic_joint import model as elastic_joint
+from geocontact.systems import elastic_joint
 from tests.systems.examples import joint, joint_trial, measured, recording
 
 K = Parameter("k", "N m/rad", 200.0, 0.0, 1e4)

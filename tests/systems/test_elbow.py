@@ -7,9 +7,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from geocontact.axis_misalignment.deflection import misalignment
+from geocontact.axis_misalignment.explicit import misalignment
 from geocontact.chain.differentiated_inputs import recorded
-from geocontact.systems.elbow.model import build
+from geocontact.systems.elbow import build
 from tests.systems.examples import ELBOW_CONSTANTS, elbow, elbow_trial, recording
 
 

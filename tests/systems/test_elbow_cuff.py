@@ -12,11 +12,9 @@ from scipy.integrate import solve_ivp
 
 from geocontact.axis_misalignment.bins import binned
 from geocontact.axis_misalignment.explicit import Offsets, constraint_force, displacement
-from geocontact.axis_misalignment.fixation import yielded
-from geocontact.axis_misalignment.law import ElbowLaw
+from geocontact.axis_misalignment.law import CuffLoads, ElbowLaw, cuff_loads, yielded
 from geocontact.axis_misalignment.least_squares import estimated, problem_of
 from geocontact.axis_misalignment.synthetic import PAPER, Design, ideal
-from geocontact.axis_misalignment.transmission import CuffLoads, cuff_loads
 from geocontact.axis_misalignment.uncertainty import separability
 from tests.systems.elbow_trials import parameters, trials
 

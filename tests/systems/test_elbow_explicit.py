@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from geocontact.analyses.misalignment.simulate.trials import surfaces
 from geocontact.axis_misalignment.compensation import taken_up
-from geocontact.axis_misalignment.deflection import ELBOW_GEOMETRY
-from geocontact.axis_misalignment.explicit import Offsets, constraint_force, displacement, pole_angles
+from geocontact.axis_misalignment.explicit import ELBOW_GEOMETRY, Offsets, constraint_force, displacement, pole_angles
 
 FIG5 = {"l": 0.2, "z": 0.08}
 shifts = st.floats(-0.11, 0.11)

@@ -10,17 +10,25 @@ import numpy as np
 import pytest
 
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
-from geocontact.axis_misalignment.end_stop import RecordedStroke, bin_means, recorded_stroke, stiffness_by_displacement
+from geocontact.axis_misalignment.compensation import (
+    DisplacementScale,
+    RecordedStroke,
+    bin_means,
+    displacement_scale,
+    recorded_stroke,
+    stiffness_by_displacement,
+)
 from geocontact.axis_misalignment.law import NAMES, ElbowLaw
 from geocontact.axis_misalignment.least_squares import (
     ElbowFit,
     Prior,
     estimated,
+    normal_residuals,
+    normality,
     problem_of,
     r_squared,
+    standard_residuals,
 )
-from geocontact.axis_misalignment.residuals import normal_residuals, normality, standard_residuals
-from geocontact.axis_misalignment.scale import DisplacementScale, displacement_scale
 from geocontact.axis_misalignment.synthetic import PAPER, Design, ideal, multisine
 from geocontact.axis_misalignment.uncertainty import (
     along_the_scale,

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.chain.tangents import tangents
+from geocontact.chain.system import tangents
 from geocontact.data.errors import InputError
 from geocontact.data.gap.case import CaseMesh, GapCase
 from geocontact.effects.catalogue import candidates

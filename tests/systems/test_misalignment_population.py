@@ -8,8 +8,8 @@ from scipy import stats
 
 from geocontact.axis_misalignment.axis_drift import polynomial
 from geocontact.axis_misalignment.compensation import Compensation
+from geocontact.axis_misalignment.design import Exposure, peak_forces
 from geocontact.axis_misalignment.planar_joint import FOLD, POLE, SOUND, STEP, PlanarJoint
-from geocontact.axis_misalignment.population import Exposure, peak_forces
 
 STOP = np.radians(120.0)
 

@@ -11,8 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.chain.candidate import Candidate
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
@@ -22,11 +21,10 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.simulator import SimulatorError
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import EFFECTS, candidates
-from geocontact.io.cases.gap_case import read_gap_case
-from geocontact.io.cases.program import program
+from geocontact.io.cases.gap_case import program, read_gap_case
+from geocontact.systems import elastic_joint
 from geocontact.systems.base import Base
 from geocontact.systems.catalogue import SYSTEMS, system_of
-from geocontact.systems.elastic_joint import model as elastic_joint
 from geocontact.systems.external.acting_law import ActingLaw
 from geocontact.systems.external.python_model import python_base
 from geocontact.systems.external.simulator import PythonSimulator, Run, simulator_base
@@ -38,7 +36,7 @@ MODEL = """
 from dataclasses import replace
 from types import SimpleNamespace
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.chain.effect import Effect
 from geocontact.chain.single_deflection import SingleDeflection
 from geocontact.data.parameter import Parameter
@@ -117,7 +115,7 @@ def test_own_model_runs_and_has_its_own_effect_beside_the_others(here: Path, nam
 
 
 def test_a_model_of_the_package_is_one_like_any_other() -> None:
-    assert system_of(case("geocontact.systems.elastic_joint.model:JOINT")).name == "elastic_joint"
+    assert system_of(case("geocontact.systems.elastic_joint:JOINT")).name == "elastic_joint"
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geocontact.axis_misalignment.axis_drift import STILL, AxisDrift, from_instant_centre, polynomial, table
-from geocontact.axis_misalignment.deflection import POLE_SHARE, deflect
-from geocontact.axis_misalignment.explicit import Offsets, require_no_pole
+from geocontact.axis_misalignment.explicit import POLE_SHARE, Offsets, deflect, require_no_pole
 from geocontact.axis_misalignment.planar_joint import FOLD, LOST, POLE, SOUND, PlanarJoint, extremes_of, grid
 
 TURN = np.radians(120.0)

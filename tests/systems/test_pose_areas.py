@@ -9,7 +9,7 @@ import pytest
 
 from geocontact.data.errors import InputWarning
 from geocontact.geometry.contact_area.area import AS_GIVEN
-from geocontact.systems.knee import pose_areas
+from geocontact.systems.knee import posed as pose_areas
 from geocontact.systems.knee.posed import PosedKnee
 from tests.systems.posed_knees import chain, poses
 

@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geocontact.chain.candidate import Candidate
 from geocontact.chain.differentiated_inputs import recorded
+from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
+from geocontact.systems import sit_to_stand
 from geocontact.systems.catalogue import system_of
-from geocontact.systems.sit_to_stand import model as sit_to_stand
 from tests.systems.examples import LEVERS, SITES_CONSTANTS, STIFFNESS, example, recording, sites, sites_trial
 
 SYSTEM, TRIALS = example("sit_to_stand")

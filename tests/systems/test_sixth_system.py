@@ -14,8 +14,7 @@ import numpy as np
 import pytest
 
 import geocontact
-from geocontact.chain.candidate import Candidate
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.chain.traits import Mass, Migration, Traits, Way
 from geocontact.data.gap.case import LISTED_SYSTEMS

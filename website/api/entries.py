@@ -15,7 +15,7 @@ import geocontact
 from geocontact import chain
 from geocontact.analyses.catalogue import Room
 from geocontact.analyses.job import Job
-from geocontact.chain.law_parameters import LawParameters
+from geocontact.chain.links import LawParameters
 from geocontact.data.units import Unit
 
 JOBS, FUNCTIONS, TYPES, CHAIN, UNITS = "Jobs", "Functions", "Types", "Models of one's own", "Units"

@@ -11,7 +11,7 @@ from typing import Any
 
 from geocontact.analyses.job import Job
 from geocontact.analyses.options import Declared, declared
-from geocontact.chain.law_parameters import LawParameters
+from geocontact.chain.links import LawParameters
 from geocontact.data.units import Unit
 from website.api.docstring import cell, entry_list, markdown, parts
 from website.api.entries import Entry

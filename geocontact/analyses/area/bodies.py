@@ -20,8 +20,8 @@ from geocontact.analyses.run_record import Record
 from geocontact.analyses.sides import MedialSide, medial_side, refuse_other_axes
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import MM2
-from geocontact.data.file_names import cannot_be_named, same_place
 from geocontact.data.motion import Motion
+from geocontact.data.text import cannot_be_named, same_place
 from geocontact.geometry.contact_area.area import Refinement
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.pose_error import PoseError
@@ -31,7 +31,7 @@ from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.sweep import sweep
 from geocontact.io.motion.motion import read_motion
-from geocontact.io.text.frame import read_frame
+from geocontact.io.text.results import read_frame
 from geocontact.io.text.units import LENGTH
 from geocontact.view.surfaces.vtp_series import require_pyvista
 

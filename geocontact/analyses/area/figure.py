@@ -14,9 +14,8 @@ from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Course
 from geocontact.data.version import VERSION
 from geocontact.view.curves.sheet import sheet
-from geocontact.view.surfaces.camera import View
-from geocontact.view.surfaces.directions import camera_directions
-from geocontact.view.surfaces.palette import distance_colours
+from geocontact.view.surfaces.camera import View, camera_directions
+from geocontact.view.surfaces.legend import distance_colours
 from geocontact.view.surfaces.scene import ContactScene, ContactSeries, MappedBody
 from geocontact.view.surfaces.still import draw_stills
 from geocontact.view.surfaces.vtp_series import write_vtp_series

@@ -28,7 +28,7 @@ from geocontact.analyses.options import (
 )
 from geocontact.analyses.sides import Medial, Side, medial_side
 from geocontact.data.errors import InputError
-from geocontact.data.ranges import (
+from geocontact.data.plausible import (
     DIFFERENCE,
     FITTED,
     FRAME_RATE,

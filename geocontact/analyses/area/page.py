@@ -27,9 +27,9 @@ from geocontact.analyses.finished_page import INPUTS, OPTIONS, Thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, counted, rounded
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Motion
+from geocontact.geometry.contact_area.area import CLIP, REFINED
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
-from geocontact.geometry.contact_area.rules import CLIP, REFINED
 from geocontact.geometry.surface import Surface
 from geocontact.view.page.content import Choices, Page, PageChoice, Readout, Section, Table, Words
 

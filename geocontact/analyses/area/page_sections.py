@@ -14,12 +14,12 @@ from geocontact.analyses.area.pose_error import NORMAL, AreaUncertainty
 from geocontact.analyses.area.pressure_page import Pressures, face_map, pressure_rows
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Motion
+from geocontact.geometry.contact_area.area import CLIP, REFINED
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
-from geocontact.geometry.contact_area.rules import CLIP, REFINED
 from geocontact.geometry.surface import Surface
 from geocontact.view.page.content import Curve, Curves, Points, Row, Scene, SceneBody, Strip, Table
-from geocontact.view.surfaces.directions import camera_directions
+from geocontact.view.surfaces.camera import camera_directions
 
 READ = (
     ("certainly at least", "area_fixed_lower [mm^2]", 2),

@@ -17,7 +17,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.evolution import Settings
-from geocontact.geometry.phong_offset import corner_normals, phong_offset
+from geocontact.geometry.curvature import corner_normals, phong_offset
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.surface_quadrature import surface_quadrature
 from geocontact.loads.foundation import Layer, Pressed, Skin, pressed

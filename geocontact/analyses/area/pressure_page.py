@@ -11,7 +11,7 @@ from jaxtyping import Float, Int
 from geocontact.analyses.area.pressure import PressureEvolution
 from geocontact.analyses.page_words import rounded
 from geocontact.data.motion import Course
-from geocontact.geometry.silhouette import silhouette
+from geocontact.geometry.sagittal import silhouette
 from geocontact.geometry.surface import Surface
 from geocontact.view.page.content import Curve, Curves, FaceMap, Plan, Row, Section, Track, Words
 

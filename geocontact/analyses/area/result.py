@@ -56,9 +56,9 @@ from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
 from geocontact.data.evolution import MM2, AreaEvolution
 from geocontact.data.motion import Motion
+from geocontact.geometry.contact_area.area import REFINED
 from geocontact.geometry.contact_area.evolution import FrameContact, Settings, area_evolution
 from geocontact.geometry.contact_area.maps import DistanceMaps
-from geocontact.geometry.contact_area.rules import REFINED
 from geocontact.geometry.contact_area.warm_up import warm_up
 from geocontact.geometry.surface import Surface
 

@@ -19,13 +19,12 @@ from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.plausible import numbers_in
 from geocontact.geometry.surface import Surface
-from geocontact.identify.signals.even_times import UNEVEN
-from geocontact.identify.signals.zero_lag import zero_lag
+from geocontact.identify.signals.filters import UNEVEN, zero_lag
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
 from geocontact.io.motion.poses import read_pose
 from geocontact.io.opensim.osim import bodies_at_rest, read_joint
-from geocontact.io.opensim.osim_contact_spheres import read_contact_spheres
+from geocontact.io.opensim.osim_contact import read_contact_spheres
 from geocontact.io.recordings.spheres import LawFile, SphereTable, read_law, read_spheres
 from geocontact.loads.centre_of_pressure import CentreOfPressure
 from geocontact.loads.ground import Ground, Sheet

@@ -12,9 +12,8 @@ from geocontact.analyses.cop.foot import Foot, PlateCurves
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.result import Result
 from geocontact.identify.signals.cycles import STEPS, Span, loaded_spans, normalised
-from geocontact.loads.along_foot import FootAxis
-from geocontact.loads.centre_of_pressure import CentreOfPressure
-from geocontact.loads.sphere_loads import SphereLoads
+from geocontact.loads.centre_of_pressure import CentreOfPressure, FootAxis
+from geocontact.loads.sphere_set import SphereLoads
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)

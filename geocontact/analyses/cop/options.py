@@ -19,8 +19,7 @@ from geocontact.analyses.options import (
     Spelled,
     Typed,
 )
-from geocontact.data.plausible import PLAIN, ByName, Plausible
-from geocontact.data.ranges import CUTOFF, DAMPING, DEPTH, FORCE, FRICTION, SPEED
+from geocontact.data.plausible import CUTOFF, DAMPING, DEPTH, FORCE, FRICTION, PLAIN, SPEED, ByName, Plausible
 from geocontact.data.units import mm
 
 EXPONENT = Plausible("the exponent of a force over depth", PLAIN, (0.1, 10.0), (0.8, 3.0))

@@ -11,7 +11,7 @@ from geocontact.analyses.cop.foot import root_mean_squares
 from geocontact.analyses.cop.loads import SHARE, FootLoads, along_foot
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, counted, rounded
-from geocontact.data.seconds import seconds
+from geocontact.data.text import seconds
 from geocontact.view.page.content import (
     Curve,
     Curves,

@@ -33,11 +33,10 @@ from geocontact.analyses.job import Job
 from geocontact.analyses.result import REPORT
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.loads.along_foot import FootAxis, axis_of_sole
-from geocontact.loads.centre_of_pressure import POINTS
+from geocontact.loads.centre_of_pressure import POINTS, FootAxis, axis_of_sole
 from geocontact.loads.centre_of_pressure import centre_of_pressure as centre_of
-from geocontact.loads.pose_rate import pose_rate
-from geocontact.loads.sphere_loads import SphereLoads, sphere_loads
+from geocontact.loads.resultant import pose_rate
+from geocontact.loads.sphere_set import SphereLoads, sphere_loads
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

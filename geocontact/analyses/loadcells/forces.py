@@ -15,18 +15,16 @@ from geocontact.analyses.loadcells.options import FOUND, STANCE, STRIDE, Loadcel
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.data.cell_regression import CellRegression
-from geocontact.data.ensemble import mean_and_sd
 from geocontact.data.errors import InputError
-from geocontact.data.seconds import seconds
-from geocontact.identify.signals.cycles import STEPS, Span, loaded_spans, normalised, strides
-from geocontact.identify.signals.ensemble import rms_difference
-from geocontact.identify.signals.gaps import gaps
-from geocontact.identify.signals.style_shift import style_shift
-from geocontact.io.recordings.cycle_table import read_cycle_table
-from geocontact.io.recordings.load_cells import CellRecording, read_load_cells, read_regression
+from geocontact.data.text import seconds
+from geocontact.data.trial import mean_and_sd
+from geocontact.identify.signals.agreement import rms_difference
+from geocontact.identify.signals.cycles import STEPS, Span, loaded_spans, normalised, strides, style_shift
+from geocontact.identify.signals.filters import gaps
+from geocontact.io.recordings.load_cells import CellRecording, read_cycle_table, read_load_cells, read_regression
 from geocontact.io.text.columns import parse_map
 from geocontact.loads.loadcells import PUBLISHED, CompartmentForces, compartment_forces
-from geocontact.view.curves.given import SERIES
+from geocontact.view.curves.quantity import SERIES
 
 GivenCycle = tuple[str, Path, Span]
 """Style, recording, times."""

@@ -8,9 +8,8 @@ from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import Expression, ForceUnit, Fraction, Options, Requires
 from geocontact.data.errors import InputError
-from geocontact.data.file_names import cannot_be_named, same_place
-from geocontact.data.plausible import N, Plausible
-from geocontact.data.ranges import MASS, SHARE
+from geocontact.data.plausible import MASS, SHARE, N, Plausible
+from geocontact.data.text import cannot_be_named, same_place
 
 STRIDE, STANCE = "stride", "stance"
 FOUND = (STRIDE, STANCE)

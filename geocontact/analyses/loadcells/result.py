@@ -49,7 +49,7 @@ from geocontact.analyses.loadcells.show import (
 from geocontact.analyses.result import Result
 from geocontact.analyses.run_record import Record
 from geocontact.data.cell_regression import CellRegression
-from geocontact.view.curves.given import SERIES
+from geocontact.view.curves.quantity import SERIES
 from geocontact.view.page.tables import frame_table
 
 ROWS = 100  # cycles that the page lists; cycles.csv has all

@@ -13,14 +13,14 @@ from geocontact.analyses.loadcells.forces import SIDES, Cut, RecordedCells, stac
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, counted
 from geocontact.data.cell_regression import CellRegression
-from geocontact.data.ensemble import mean_and_sd
-from geocontact.data.seconds import seconds
+from geocontact.data.text import seconds
+from geocontact.data.trial import mean_and_sd
 from geocontact.identify.signals.cycles import STEPS, Span
-from geocontact.identify.signals.gaps import broken, gaps
+from geocontact.identify.signals.filters import broken, gaps
 from geocontact.view.curves.over_cycle import mean_over_cycle
 from geocontact.view.curves.quantity import CYCLE, FORCE, TIME, Quantity
+from geocontact.view.curves.sheet import plain
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, legend, panels
-from geocontact.view.curves.text import plain
 from geocontact.view.extremes import FRAMES, thinned_line
 from geocontact.view.page.content import (
     Choices,

@@ -16,7 +16,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.wrench import Wrench
 from geocontact.identify.signals.agreement import FEWEST, Agreement, agreement, over_stretches, per_phase
-from geocontact.identify.signals.even_times import at_times, even_times
+from geocontact.identify.signals.filters import at_times, even_times
 from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.tables import TextTable, read_table
 from geocontact.io.text.units import si_unit

@@ -19,13 +19,11 @@ from geocontact.analyses.run_record import Record
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.cells import Drape
 from geocontact.geometry.drape.slip import slip_covariance
-from geocontact.geometry.register.quality import Registration
-from geocontact.geometry.register.uncertainty import PoseCovariance
+from geocontact.geometry.register.quality import PoseCovariance, Registration
 from geocontact.geometry.surface import Surface
-from geocontact.io.recordings.mat_landmarks import MatLandmarks
-from geocontact.loads.mat.errors import MatErrors, wrench_covariance
-from geocontact.loads.mat.fill import filling_covariance
-from geocontact.loads.mat.load import MatLoad, mat_load, segment_loads
+from geocontact.io.recordings.mat_results import MatLandmarks
+from geocontact.loads.mat.dead_cells import filling_covariance
+from geocontact.loads.mat.load import MatErrors, MatLoad, mat_load, segment_loads, wrench_covariance
 from geocontact.loads.mat.map import MatMap
 
 

@@ -21,7 +21,7 @@ from geocontact.analyses.options import (
     Typed,
 )
 from geocontact.data.errors import InputError
-from geocontact.data.ranges import BORDER, CUTOFF, DISPLACEMENT, FORCE, SHARE, TOUCH
+from geocontact.data.plausible import BORDER, CUTOFF, DISPLACEMENT, FORCE, SHARE, TOUCH
 
 TimeWindows = Annotated[
     tuple[tuple[float, float], ...], Typed("s", "windows", "((0.0, 0.5), (9.0, 9.5))"), Spelled(dashed=True)

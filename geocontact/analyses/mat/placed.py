@@ -32,12 +32,12 @@ from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.belt import NotAroundError
 from geocontact.geometry.drape.cells import Drape
 from geocontact.geometry.drape.closest_point import project
-from geocontact.geometry.drape.geodesics import Geodesics
 from geocontact.geometry.drape.lay import lay
 from geocontact.geometry.drape.mat import Marks, Mat
+from geocontact.geometry.drape.spread import Geodesics
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.surface import Surface
-from geocontact.io.recordings.mat_landmarks import MatLandmarks, read_mat_landmarks
+from geocontact.io.recordings.mat_results import MatLandmarks, read_mat_landmarks
 from geocontact.io.text.units import LENGTH
 from geocontact.loads.mat.load import MatLoad, mat_load
 from geocontact.loads.mat.map import MatMap, mat_map

@@ -16,18 +16,15 @@ from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.belt import NotAroundError
 from geocontact.geometry.drape.cells import Drape
-from geocontact.geometry.drape.geodesics import Geodesics
 from geocontact.geometry.drape.mat import Mat
-from geocontact.geometry.drape.rectangle import Rectangle, rectangle_on
-from geocontact.geometry.drape.scan_difference import ScanDifference, scan_difference
-from geocontact.geometry.register.icp import icp
+from geocontact.geometry.drape.scan_difference import Rectangle, ScanDifference, rectangle_on, scan_difference
+from geocontact.geometry.drape.spread import Geodesics
+from geocontact.geometry.register.icp import icp, same_place, shape_covariance, unguided
 from geocontact.geometry.register.landmarks import fit_landmarks
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.scale_guard import compare_boxes, compare_landmarks
-from geocontact.geometry.register.shape_covariance import shape_covariance
-from geocontact.geometry.register.unguided import same_place, unguided
 from geocontact.geometry.surface import Surface
-from geocontact.io.recordings.mat_landmarks import MatLandmarks
+from geocontact.io.recordings.mat_results import MatLandmarks
 from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.units import LENGTH
 

@@ -18,15 +18,12 @@ from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames
-from geocontact.geometry.register.moving import poses_at
-from geocontact.identify.signals.zero_lag import zero_lag
+from geocontact.geometry.register.landmarks import poses_at
+from geocontact.identify.signals.filters import zero_lag
 from geocontact.io.mats.catalogue import read_mat
 from geocontact.io.mats.layout import read_layout
-from geocontact.loads.mat.dead_cells import dead_cells
-from geocontact.loads.mat.fill import Hole, filled, holes
-from geocontact.loads.mat.load import MatLoad
-from geocontact.loads.mat.moving import covariance_in, load_in
-from geocontact.loads.mat.offset import Unloaded, unloaded
+from geocontact.loads.mat.dead_cells import Hole, dead_cells, filled, holes
+from geocontact.loads.mat.load import MatLoad, Unloaded, covariance_in, load_in, unloaded
 
 NAMED = 8  # cells in a warning; run.json has them all
 MM2 = 1e6

@@ -30,8 +30,8 @@ from geocontact.analyses.result import REPORT
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
-from geocontact.io.text.written_units import CASES
-from geocontact.view.surfaces.mat_vtp import write_mat_vtp
+from geocontact.io.text.results import CASES
+from geocontact.view.surfaces.points_vtp import write_mat_vtp
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -6,8 +6,7 @@ from collections.abc import Mapping
 
 from geocontact.analyses import quantities
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import ByName, ByPlace, Plausible
-from geocontact.data.ranges import ATTACHMENT, DAMPING
+from geocontact.data.plausible import ATTACHMENT, DAMPING, ByName, ByPlace, Plausible
 from geocontact.data.units import Unit, mm
 from geocontact.io.text.units import ANGLE, DIMENSIONS
 

@@ -14,7 +14,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.axis_drift import STILL, AxisDrift, from_instant_centre, polynomial, table
 from geocontact.axis_misalignment.planar_joint import FOLD, LOST, POLE, SOUND
 from geocontact.data.errors import InputError
-from geocontact.io.recordings.axis_drift import read_axis_drift
+from geocontact.io.recordings.elbow_recording import read_axis_drift
 from geocontact.view.page.content import Table
 
 MODEL = (

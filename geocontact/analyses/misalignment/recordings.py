@@ -12,8 +12,7 @@ import numpy as np
 from geocontact.analyses.run_record import Record
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
-from geocontact.identify.signals.even_times import at_times, even_times
-from geocontact.identify.signals.zero_lag import zero_lag
+from geocontact.identify.signals.filters import at_times, even_times, zero_lag
 from geocontact.io.recordings import elbow_recording as channels
 from geocontact.io.recordings.elbow_recording import read_elbow_recording
 from geocontact.io.text.columns import parse_map

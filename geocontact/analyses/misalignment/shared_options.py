@@ -11,7 +11,7 @@ from typing import Annotated
 from geocontact.analyses.misalignment.law_numbers import DRIFT, STROKE
 from geocontact.analyses.options import AngleUnit, Expression, ForceUnit, Options, Spelled, Typed
 from geocontact.data.errors import InputError
-from geocontact.data.ranges import CUTOFF, JOINT_ANGLE
+from geocontact.data.plausible import CUTOFF, JOINT_ANGLE
 
 Angles = Annotated[tuple[float, float], Typed("rad", "angle_span", "gc.deg(0, 120)"), Spelled(dashed=True), JOINT_ANGLE]
 Stroke = Annotated[

@@ -15,11 +15,19 @@ from geocontact.contact.area_hertz import READINGS, Reading
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
 from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, SLOPE, THRESHOLD, Adhesion, AreaForce, ThresholdAreas
-from geocontact.elastic_modulus.both_sides import end_to_end
-from geocontact.identify.signals.gaps import gaps, in_gaps
-from geocontact.io.recordings.area_table import FEWEST, AreaTable, read_area_over_force, read_area_table
-from geocontact.io.recordings.force_curves import SIDES, ForceCurves, read_force_curves
-from geocontact.io.recordings.radius_profile import RadiusProfile, read_radius_profile
+from geocontact.elastic_modulus.identify import end_to_end
+from geocontact.identify.signals.filters import gaps, in_gaps
+from geocontact.io.recordings.area_table import (
+    FEWEST,
+    SIDES,
+    AreaTable,
+    ForceCurves,
+    RadiusProfile,
+    read_area_over_force,
+    read_area_table,
+    read_force_curves,
+    read_radius_profile,
+)
 from geocontact.io.text.columns import angles_of, parse_map
 from geocontact.io.text.tables import read_table
 

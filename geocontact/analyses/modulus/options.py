@@ -23,8 +23,7 @@ from geocontact.analyses.options import (
     Typed,
 )
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import J_PER_M2, ByName, Plausible
-from geocontact.data.ranges import DELAY, POISSON, RADIUS, STRIP, THRESHOLD, TURN
+from geocontact.data.plausible import DELAY, J_PER_M2, POISSON, RADIUS, STRIP, THRESHOLD, TURN, ByName, Plausible
 
 ADHESION = Plausible("the work of adhesion", J_PER_M2, (1e-6, 1e3), (1e-3, 1.0))
 FREE = ByName((("threshold", THRESHOLD), ("lag", DELAY), ("adduction", TURN)))

@@ -38,11 +38,11 @@ from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
-from geocontact.data.seconds import seconds
+from geocontact.data.text import seconds
 from geocontact.elastic_modulus.area_force import MODULUS
 from geocontact.elastic_modulus.identify import Identification, agreement, identify
 from geocontact.elastic_modulus.threshold_calibration import Calibration, calibrated
-from geocontact.identify.signals.gaps import gaps
+from geocontact.identify.signals.filters import gaps
 from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.view.curves.quantity import TIME
+from geocontact.view.curves.sheet import plain
 from geocontact.view.curves.style import DOUBLE, LINES, PALETTE, in_style, legend, panels
-from geocontact.view.curves.text import plain
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.motion.heel_strikes import Strikes
 from geocontact.analyses.motion.sides import LEFT, RIGHT, stem_and_side
-from geocontact.data.ensemble import mean_and_sd
+from geocontact.data.trial import mean_and_sd
 from geocontact.identify.signals.cycles import STEPS, cut
 from geocontact.view.curves.over_cycle import mean_over_cycle
 from geocontact.view.curves.quantity import Quantity

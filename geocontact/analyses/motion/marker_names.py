@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from geocontact.analyses.quantities import named_file
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
-from geocontact.io.mocap.marker_map import marker_map_typed, read_marker_map
-from geocontact.io.text.near_names import near_names
+from geocontact.io.mocap.markers import marker_map_typed, read_marker_map
+from geocontact.io.text.column_names import near_names
 from geocontact.io.text.tables import listed
 
 MANY = 80  # names that a message still lists: marker sets of whole bodies

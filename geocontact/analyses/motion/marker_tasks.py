@@ -11,8 +11,7 @@ from geocontact.analyses.motion.marker_names import map_hint, names_told
 from geocontact.analyses.quantities import number
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_tasks import Followed, MarkerTasks
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import Followed, MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import FEWEST
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of

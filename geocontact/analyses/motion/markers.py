@@ -11,10 +11,9 @@ from geocontact.analyses.options import LengthUnit
 from geocontact.analyses.quantities import named_file, turned_axes
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
-from geocontact.io.mocap.marker_map import marker_map_typed, read_marker_map
-from geocontact.io.mocap.markers import read_markers
+from geocontact.io.mocap.markers import marker_map_typed, read_marker_map, read_markers
 from geocontact.io.opensim.osim_multibody import read_marker_set
 
 LARGEST, SMALLEST, FEW = 20.0, 0.05, 5

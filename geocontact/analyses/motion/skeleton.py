@@ -9,8 +9,7 @@ from jaxtyping import Float, Int
 
 from geocontact.data.multibody.model import GROUND, Body, Multibody
 from geocontact.data.wrench import Wrench
-from geocontact.view.page.linkage import Linkage
-from geocontact.view.page.scene import Scene
+from geocontact.view.page.scene import Linkage, Scene
 
 JOINT, BONE, MARKER, RAY, ROD = 0.02, 0.022, 0.012, 0.005, 0.016
 """Radius of joints and thickness of segments, radius of markers, thickness of what joins them and of forces [m]."""

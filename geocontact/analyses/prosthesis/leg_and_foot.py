@@ -12,15 +12,14 @@ import pandas as pd
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.stale_results import digest
 from geocontact.below_knee_prosthesis.foot_numbers import foot_numbers, socket_numbers
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
-from geocontact.below_knee_prosthesis.model.foot_offset import AS_STOOD, FootOffset
-from geocontact.below_knee_prosthesis.model.leg import Leg
+from geocontact.below_knee_prosthesis.model.leg import AS_STOOD, FootOffset, Leg
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.contact.bushing import Bushing
 from geocontact.data.errors import InputError
-from geocontact.data.sourced_number import Number
+from geocontact.data.parameter import Number
 from geocontact.io.recordings.spheres import read_law
 from geocontact.loads.sphere_set import SoleLaw
 

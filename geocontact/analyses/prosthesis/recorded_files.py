@@ -9,13 +9,13 @@ from jaxtyping import Float
 
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.analyses.run_record import Record
-from geocontact.below_knee_prosthesis.from_markers.sides import as_right, of_side
+from geocontact.below_knee_prosthesis.evaluation import PlateStance
+from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
 from geocontact.below_knee_prosthesis.model.leg import Side
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import GATE
-from geocontact.below_knee_prosthesis.stance_errors import PlateStance
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 
 LEAST, MOST = 0.3, 5.0

@@ -9,19 +9,18 @@ import pandas as pd
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times, longest_stance
 from geocontact.below_knee_prosthesis.foot_in_plane import FootInPlane, RowNumbers, in_plane, row_numbers, rows_of
-from geocontact.below_knee_prosthesis.from_markers.sides import of_side
+from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.keel.on_tree import coordinates
 from geocontact.below_knee_prosthesis.model.leg import Side
 from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, SOCKET
 from geocontact.below_knee_prosthesis.simulate import Stance
-from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times, longest_stance
-from geocontact.io.opensim.external_loads_writer import write_external_loads
+from geocontact.io.opensim.external_loads import write_external_loads
 from geocontact.io.opensim.storage_writer import write_storage
-from geocontact.io.text.results import write_table
-from geocontact.io.text.written_units import CASES
+from geocontact.io.text.results import CASES, write_table
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
-from geocontact.view.surfaces.line_series import LineSeries, write_line_series
+from geocontact.view.surfaces.vtp_series import LineSeries, write_line_series
 
 FOOT: dict[Side, str] = {"right": "calcn_r", "left": "calcn_l"}
 """Bodies of OpenSim's models that the force acts on."""

@@ -19,8 +19,8 @@ from geocontact.analyses.sides import medial_side, refuse_other_axes
 from geocontact.data.errors import InputError
 from geocontact.geometry.fit.found import ShapeFit
 from geocontact.geometry.fit.profile import SagittalProfile
-from geocontact.geometry.patch_names import Values, about, about_flexion, about_other
 from geocontact.geometry.plane import Plane
+from geocontact.geometry.regions import Values, about, about_flexion, about_other
 from geocontact.geometry.sagittal import Sagittal
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.sweep import Axis

@@ -9,8 +9,7 @@ from typing import Annotated, ClassVar, Literal
 from geocontact.analyses.checks import refuse
 from geocontact.analyses.options import Degrees, Excludes, Expression, MeshUnit, Options, Requires, Spelled, Typed
 from geocontact.analyses.sides import Medial, Side, medial_side
-from geocontact.data.plausible import Plausible
-from geocontact.data.ranges import JOINT_ANGLE
+from geocontact.data.plausible import JOINT_ANGLE, Plausible
 from geocontact.data.units import deg
 
 NEEDS = {

@@ -44,7 +44,7 @@ from geocontact.geometry.fit.found import ShapeFit
 from geocontact.geometry.fit.profile import SagittalProfile, sagittal_profile
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.sweep import Axis
-from geocontact.view.surfaces.fit_vtp import write_fit_vtp
+from geocontact.view.surfaces.points_vtp import write_fit_vtp
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -12,9 +12,10 @@ from jaxtyping import Float, Int
 from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.shape.fitting import Fitting
-from geocontact.geometry.fit.directions import across
 from geocontact.geometry.fit.found import OUTLYING, ShapeFit
 from geocontact.geometry.fit.profile import SagittalProfile
+from geocontact.geometry.fit.solver import across
+from geocontact.view.curves.sheet import plain
 from geocontact.view.curves.style import (
     BLACK,
     DOUBLE,
@@ -28,7 +29,6 @@ from geocontact.view.curves.style import (
     legend,
     panels,
 )
-from geocontact.view.curves.text import plain
 from geocontact.view.page.content import Page, Picture, Scene, SceneBody, Section, Table, Words
 
 if TYPE_CHECKING:

@@ -10,14 +10,13 @@ import pandas as pd
 
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.sourced_number import SOURCES, Number, Source
+from geocontact.data.parameter import SOURCES, Number, Source
 from geocontact.io.recordings.shoulder_device import read_device_file, read_person_file
 from geocontact.io.text.side_table import read_side_table
-from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Wearer
-from geocontact.shoulder_exoskeleton.lucy import BUILT_IN
+from geocontact.shoulder_exoskeleton.device import BUILT_IN, JOINTS, QUANTITIES, Device, Wearer
 from geocontact.shoulder_exoskeleton.support.outcome import Factors
-from geocontact.shoulder_exoskeleton.support.phases import SUPPORTED
-from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, Hand
+from geocontact.shoulder_exoskeleton.support.phase_machine import SUPPORTED
+from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey, Hand
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
 LENGTHS = ("upper_arm", "shoulder_width", "torso")

@@ -17,22 +17,17 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
-from geocontact.io.opensim.external_loads_writer import write_external_loads
-from geocontact.io.opensim.moco_trajectory_writer import write_moco_trajectory
-from geocontact.io.opensim.osim_contact_forces import bushing_force_between, smooth_sphere_force, torque_along
+from geocontact.io.opensim.external_loads import write_external_loads
+from geocontact.io.opensim.osim_contact import bushing_force_between, smooth_sphere_force, torque_along
 from geocontact.io.opensim.osim_writer import ContactBall, write_osim
-from geocontact.io.opensim.storage_writer import write_storage
-from geocontact.io.text.results import write_table
-from geocontact.io.text.written_units import CASES
-from geocontact.standing_up.chain import COORDINATES, TRUNK, TURNING, Subject, leg_chain
-from geocontact.standing_up.chair import SITS
+from geocontact.io.opensim.storage_writer import write_moco_trajectory, write_storage
+from geocontact.io.text.results import CASES, write_table
+from geocontact.standing_up.chain import COORDINATES, FRICTION, SITS, TRUNK, TURNING, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import DAMPING, EXO_JOINTS, HEIGHT, two_chains
-from geocontact.standing_up.feet import FRICTION
-from geocontact.standing_up.strap_force import StrapForce, strap_force
-from geocontact.standing_up.strap_motion import StrapMotion, strap_motion
+from geocontact.standing_up.strap import StrapForce, StrapMotion, strap_force, strap_motion
 from geocontact.standing_up.strap_sites import StrapSite, sites_of
 from geocontact.standing_up.trials import StandingTrial
-from geocontact.view.surfaces.line_series import LineSeries, write_line_series
+from geocontact.view.surfaces.vtp_series import LineSeries, write_line_series
 
 LINE_FRAMES = 101
 """Frames that ParaView gets, evenly over the movement."""

@@ -17,8 +17,7 @@ from geocontact.standing_up.chain import COORDINATES, FOOT, TRUNK, Subject, leg_
 from geocontact.standing_up.exoskeleton import HEIGHT, STRAP_PARAMETERS, two_chains
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.view.page.content import Curve, Curves, Page, Section, Words
-from geocontact.view.page.linkage import Linkage
-from geocontact.view.page.scene import Scene
+from geocontact.view.page.scene import Linkage, Scene
 
 Of = Callable[[Any], Any]
 FRAMES = 101

@@ -12,18 +12,14 @@ from jaxtyping import Bool, Float
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import Multibody
-from geocontact.identify.signals.even_times import UNEVEN
-from geocontact.identify.signals.zero_lag import zero_lag
+from geocontact.identify.signals.filters import UNEVEN, zero_lag
 from geocontact.io.mocap.force_plates import LOADED, ForcePlate, plate_named, read_force_plates
 from geocontact.io.opensim.coordinates import columns_of, motion_of
 from geocontact.io.recordings.standing_study import StandingTrialFiles, read_standing_study
 from geocontact.io.text.tables import read_table
-from geocontact.standing_up.chain import Subject, leg_chain
-from geocontact.standing_up.chair import COMPONENTS
+from geocontact.standing_up.chain import COMPONENTS, FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import two_chains
-from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN
-from geocontact.standing_up.phase_a import TRACKS
-from geocontact.standing_up.phase_b import TRACKS_B
+from geocontact.standing_up.phases import TRACKS, TRACKS_B
 from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite, strap_sites
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 

@@ -11,12 +11,11 @@ from jaxtyping import Float
 
 from geocontact.dynamics.collocation.certificate import Certificate
 from geocontact.dynamics.collocation.motion import CollocatedMotion
-from geocontact.dynamics.collocation.refinement import MOST_HALVINGS
+from geocontact.dynamics.collocation.solve import MOST_HALVINGS
 from geocontact.standing_up.chain import COORDINATES
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
-from geocontact.standing_up.judged import JudgedMotion
 from geocontact.standing_up.numbers_that_ran import Ran
-from geocontact.standing_up.phase import PhaseProblem, PhaseSizes
+from geocontact.standing_up.phase import JudgedMotion, PhaseProblem, PhaseSizes
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
 DEGREE, MILLIMETRE = float(np.degrees(1.0)), 1e3

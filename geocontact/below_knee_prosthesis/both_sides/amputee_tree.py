@@ -12,17 +12,50 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.spatial.transform import RigidTransform
+from jaxtyping import Float
+from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
-from geocontact.below_knee_prosthesis.both_sides.mirrored import mirrored
-from geocontact.below_knee_prosthesis.from_markers.marker_names import mirrored_name
+from geocontact.below_knee_prosthesis.from_markers import MIRROR, mirrored_name
 from geocontact.below_knee_prosthesis.keel.on_tree import keel_bodies, posterior_part
 from geocontact.below_knee_prosthesis.model.leg import Side
 from geocontact.below_knee_prosthesis.model.leg_tree import FORWARD, GRAVITY, HIP, PELVIS, RIGHT, SOCKET, UP
-from geocontact.data.multibody.joint import Coordinate, JointModel
-from geocontact.data.multibody.joint_kinds import cardan, revolute, weld
+from geocontact.data.multibody.joint import Coordinate, JointModel, TransformAxis, cardan, revolute, weld
 from geocontact.data.multibody.model import GROUND, Body, Marker, Multibody
+
+PLANE = np.diag(MIRROR)
+
+
+def mirrored(model: Multibody) -> Multibody:
+    """Every coordinate means the same in the image, but for those of joints on the ground.
+
+    Those keep their axes, which are the laboratory's: their turns about x and y and their shift along z change sign.
+    """
+    bodies = tuple(Body(b.name, b.mass, b.centre * MIRROR, _turned(b.inertia)) for b in model.bodies)
+    markers = tuple(replace(m, location=m.location * MIRROR) for m in model.markers)
+    gravity = model.gravity * MIRROR
+    return replace(model, bodies=bodies, joints=tuple(map(_joint, model.joints)), markers=markers, gravity=gravity)
+
+
+def _joint(joint: JointModel) -> JointModel:
+    joint = replace(joint, parent_offset=_pose(joint.parent_offset), child_offset=_pose(joint.child_offset))
+    if joint.parent == GROUND:
+        return joint
+    axes = tuple(
+        TransformAxis(axis.direction * MIRROR * (-1.0 if k < 3 else 1.0), axis.coordinates, axis.function)
+        for k, axis in enumerate(joint.axes)
+    )
+    return replace(joint, axes=axes)
+
+
+def _pose(pose: RigidTransform) -> RigidTransform:
+    turn = Rotation.from_matrix(_turned(pose.rotation.as_matrix()))
+    return RigidTransform.from_components(pose.translation * MIRROR, turn)
+
+
+def _turned(matrix: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
+    return np.asarray(PLANE @ matrix @ PLANE)
+
 
 KNEE = ("knee_flexion", "knee_adduction", "knee_rotation")
 ANKLE = ("ankle_flexion", "ankle_inversion", "ankle_rotation")

@@ -12,11 +12,10 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
-from geocontact.below_knee_prosthesis.model.frustum import Frustum, taper
-from geocontact.below_knee_prosthesis.model.leg import Inertial, Person
+from geocontact.below_knee_prosthesis.model.leg import Frustum, Inertial, Person, taper
 from geocontact.data.body_segments import SEGMENTS
 from geocontact.data.multibody.model import Marker
-from geocontact.data.sourced_number import Number
+from geocontact.data.parameter import Number
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
 
 Vector = Float[np.ndarray, " 3"]

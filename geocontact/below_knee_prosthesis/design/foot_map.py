@@ -1,4 +1,4 @@
-"""What a foot does at a pitch and under a load: height, centre of pressure and bend of its keel, tabulated once.
+"""What a foot does at a pitch and under a load, from many feet pressed against the ground, and a foot that carries it.
 
 Quasi-static, elastic and upright in the frontal plane: then a foot is a function of its pitch, its load and the force
 along the ground, and a stance is a path on that table. Solving the keel along one stance for a load costs as much as
@@ -7,10 +7,20 @@ the whole table, from which every kinematic draw is read for next to nothing. Be
 The force along the ground bends the keel as well, for it acts below its joints: a fifth of the load in push-off adds a
 quarter to what a keel stores. Each sphere has its share of it, as it has of the load. Its effect is tabulated for a
 fifth of the load forwards, and taken as linear in the force.
+
+`FootMap` read the other way round. Between its rows of pitch heights are linear, and so they are between its loads, so
+that the load of a height is exact; beyond the last load of a row the foot is as stiff as before it.
+
+People neither keep their angles on another foot nor their torques; what they do is taken to lie between. With the
+angles kept the socket turns as recorded and the leg, free upwards, finds the height at which the load is carried. With
+the torque kept the foot turns until the load acts about the ankle with the moment that it had on the recorded foot.
+Both are quasi-static: the recorded load is kept, which with a pelvis that is free upwards is nearly so. Torques kept in
+hip and knee are `joint_torques_kept`.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,9 +28,70 @@ from jaxtyping import Float
 from scipy.interpolate import RegularGridInterpolator
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.design.terrain import LEVEL, Terrain
+from geocontact.below_knee_prosthesis.design.foot_task import LEVEL, FootTask, Terrain
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
 from geocontact.loads.centre_of_pressure import GROUND_POINT, centre_of_pressure
+
+
+@dataclass(frozen=True, eq=False)
+class FeetOnGround:
+    """Maps with the same rows.
+
+    Parameters
+    ----------
+    pitch, load
+        Of the rows [rad, N].
+    table
+        Height, centre of pressure along x and y [m] of each foot.
+    """
+
+    pitch: Float[np.ndarray, " p"]
+    load: Float[np.ndarray, " l"]
+    table: Float[np.ndarray, "n p l c"]
+
+    def height(self, pitch: Float[np.ndarray, " n"], load: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+        """At which each foot bears a load [m]."""
+        rows = self._rows(pitch)[..., 0]
+        at = np.clip(np.searchsorted(self.load, load) - 1, 0, len(self.load) - 2)
+        return _between(rows, at, (load - self.load[at]) / self.load[1])
+
+    def borne(
+        self, pitch: Float[np.ndarray, " n"], height: Float[np.ndarray, " n"]
+    ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "n 2"]]:
+        """Load [N], 0 above the ground, and centre of pressure in each keel's frame [m]."""
+        rows = self._rows(pitch)
+        at = np.clip((rows[..., 0] >= height[:, None]).sum(axis=1) - 1, 0, len(self.load) - 2)
+        n = np.arange(len(at))
+        first, second = rows[n, at], rows[n, at + 1]
+        fall = np.maximum(first[:, 0] - second[:, 0], LEAST)
+        share = np.maximum((first[:, 0] - height) / fall, 0.0)
+        inside = np.minimum(share, 1.0)[:, None]
+        return (at + share) * self.load[1], first[:, 1:] + inside * (second - first)[:, 1:]
+
+    def _rows(self, pitch: Float[np.ndarray, " n"]) -> Float[np.ndarray, "n l c"]:
+        step = self.pitch[1] - self.pitch[0]
+        place = np.clip((pitch - self.pitch[0]) / step, 0.0, len(self.pitch) - 1.0)
+        at = np.minimum(place.astype(int), len(self.pitch) - 2)
+        n, share = np.arange(len(at)), (place - at)[:, None, None]
+        return np.asarray((1.0 - share) * self.table[n, at] + share * self.table[n, at + 1])
+
+
+LEAST = 1e-9
+"""m; by which a foot sinks from one row of loads to the next, at least."""
+
+
+def feet_on_ground(maps: Sequence[FootMap]) -> FeetOnGround:
+    """Of maps whose rows are the same; ValueError for others."""
+    first = maps[0]
+    if any(each.pitch is not first.pitch and not np.array_equal(each.pitch, first.pitch) for each in maps):
+        raise ValueError("the maps have other rows")
+    return FeetOnGround(first.pitch, first.load, np.stack([each.table[..., :PLACES] for each in maps]))
+
+
+def _between(rows: Float[np.ndarray, "n l"], at: np.ndarray, share: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+    n = np.arange(len(at))
+    return np.asarray(rows[n, at] + share * (rows[n, at + 1] - rows[n, at]))
+
 
 PITCHES, LOADS, DEPTHS = np.radians(2.0), 21, 16
 """Step of pitch [rad], rows of load, and depths that each pitch is pressed to."""
@@ -208,3 +279,89 @@ def _touching(keel: QuasiStaticKeel, poses: RigidTransform, terrain: Terrain) ->
         if float(np.abs(clear).max()) < NEAR:
             break
     return height
+
+
+REACH, STEP = np.radians(8.0), np.radians(0.1)
+"""How far a foot is turned to keep a torque, and in which steps it is looked for [rad]."""
+
+
+@dataclass(frozen=True, eq=False)
+class CarriedLoad:
+    """The foot along a stance.
+
+    Parameters
+    ----------
+    tilt
+        By which each frame is turned against the recorded one [rad], toes up.
+    centre
+        Of pressure, x and y in the keel's frame [m].
+    angles
+        Of the keel's joints [rad].
+    stored
+        Energy of the keel's springs [J].
+    height
+        Of the keel's origin above the floor [m].
+    kept
+        Share of the frames in which the wanted torque is reached.
+    """
+
+    task: FootTask
+    foot: FootMap
+    tilt: Float[np.ndarray, " t"]
+    height: Float[np.ndarray, " t"]
+    centre: Float[np.ndarray, "t 2"]
+    angles: Float[np.ndarray, "t n"]
+    stored: Float[np.ndarray, " t"]
+    kept: float
+
+    def moment(self, point: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " t"]:
+        """Of the ground's force about a point of the keel's frame in its sagittal plane [N m]; positive: toes up."""
+        return _moment(self.task, self.centre, self.task.pitch + self.tilt, point)
+
+    @property
+    def ankle_moment(self) -> Float[np.ndarray, " t"]:
+        """About the ankle [N m]."""
+        return self.moment(self.task.ankle)
+
+
+def carried(foot: FootMap, task: FootTask, tilt: Float[np.ndarray, " t"], kept: float) -> CarriedLoad:
+    """The foot turned by that much against the stance [rad], toes up."""
+    channels = foot.at(task.pitch + tilt, task.load, task.forward)
+    return CarriedLoad(
+        task, foot, tilt, channels[:, 0], channels[:, 1:PLACES], channels[:, PLACES:], foot.stored(channels), kept
+    )
+
+
+def with_angles_kept(foot: FootMap, task: FootTask) -> CarriedLoad:
+    """The socket turns as recorded."""
+    return carried(foot, task, np.zeros(len(task.time)), 1.0)
+
+
+def with_torque_kept(foot: FootMap, task: FootTask, moment: Float[np.ndarray, " t"]) -> CarriedLoad:
+    """The foot turns, as little as it must, until the ankle has that moment [N m]; where it cannot, as near as it can.
+
+    The moment falls as the toes go up, so that there is one such turn where there is any.
+    """
+    tilt = np.arange(-REACH, REACH + 0.5 * STEP, STEP)
+    pitch = task.pitch[:, None] + tilt
+    load, forward = (np.broadcast_to(each[:, None], pitch.shape) for each in (task.load, task.forward))
+    channels = foot.at(pitch, load, forward)
+    off = _moment(task, channels[..., 1:PLACES], pitch, task.ankle) - moment[:, None]
+    crossing = np.signbit(off[:, :-1]) != np.signbit(off[:, 1:])
+    away = np.where(crossing, np.abs(0.5 * (tilt[1:] + tilt[:-1])), np.inf)
+    at, reached, rows = np.argmin(away, axis=1), crossing.any(axis=1), np.arange(len(off))
+    before, after = off[rows, at], off[rows, at + 1]
+    between = np.clip(before / np.where(before == after, 1.0, before - after), 0.0, 1.0)
+    found = np.where(reached, tilt[at] + STEP * between, tilt[np.argmin(np.abs(off), axis=1)])
+    return carried(foot, task, found, float(reached.mean()))
+
+
+def _moment(
+    task: FootTask, centre: Float[np.ndarray, "*s 2"], pitch: Float[np.ndarray, "*s"], point: Float[np.ndarray, " 3"]
+) -> Float[np.ndarray, "*s"]:
+    """The load acts at the centre, and the recorded force along the floor as well."""
+    along, up = (each.reshape(-1, *[1] * (pitch.ndim - 1)) for each in (task.forward, task.load))
+    x, y = centre[..., 0] - point[0], centre[..., 1] - point[1]
+    fx = np.cos(pitch) * along + np.sin(pitch) * up
+    fy = -np.sin(pitch) * along + np.cos(pitch) * up
+    return np.asarray(x * fy - y * fx)

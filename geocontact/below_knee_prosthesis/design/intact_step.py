@@ -13,13 +13,13 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import IntactLeg
-from geocontact.below_knee_prosthesis.calibration.stance_from_markers import RATE, body_poses
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import RATE, body_poses
 from geocontact.below_knee_prosthesis.design.foot_task import EVERY, LOADED
 from geocontact.below_knee_prosthesis.design.outcomes import LANDING, Aim, radius_of_path
+from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times, longest_stance
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
-from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times, longest_stance
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 
 OF_INTACT: tuple[Aim, ...] = ("ankle_moment", "radius", "loading_rate")
 """What an intact foot has of a prosthetic one: it has neither a socket nor a keel."""

@@ -22,10 +22,9 @@ import numpy as np
 from jaxtyping import Float
 from scipy.interpolate import make_interp_spline
 
-from geocontact.below_knee_prosthesis.design.feet_on_ground import FeetOnGround
-from geocontact.below_knee_prosthesis.design.foot_map import PLACES, FootMap
-from geocontact.below_knee_prosthesis.design.foot_task import FootTask
-from geocontact.below_knee_prosthesis.design.sagittal_leg import (
+from geocontact.below_knee_prosthesis.design.foot_map import PLACES, FeetOnGround, FootMap
+from geocontact.below_knee_prosthesis.design.foot_task import (
+    FootTask,
     SagittalLeg,
     bias,
     force_along,

@@ -9,22 +9,23 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.below_knee_prosthesis.design.carried_load import (
+from geocontact.below_knee_prosthesis.design.foot_map import (
     REACH,
     CarriedLoad,
+    FootMap,
     carried,
+    feet_on_ground,
+    foot_map,
+    needed,
     with_angles_kept,
     with_torque_kept,
 )
-from geocontact.below_knee_prosthesis.design.feet_on_ground import feet_on_ground
-from geocontact.below_knee_prosthesis.design.foot_map import FootMap, foot_map, needed
-from geocontact.below_knee_prosthesis.design.foot_task import FootTask
+from geocontact.below_knee_prosthesis.design.foot_task import LEVEL, FootTask, Terrain
 from geocontact.below_knee_prosthesis.design.joint_torques_kept import OtherFeet, curve, recorded_motion, stacked
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, outcomes
-from geocontact.below_knee_prosthesis.design.terrain import LEVEL, Terrain
+from geocontact.below_knee_prosthesis.evaluation import at_times
 from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
-from geocontact.below_knee_prosthesis.stance_errors import at_times
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 
 Vary = Literal["fulcrum", "alignment", "stiffness"]
 Response = Literal["angles kept", "torque kept", "joint torques kept"]

@@ -17,10 +17,9 @@ from jaxtyping import Float
 
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.design.drawn import KEEL, finer_feet
-from geocontact.below_knee_prosthesis.design.foot_task import FootTask
+from geocontact.below_knee_prosthesis.design.foot_task import FootTask, Terrain
 from geocontact.below_knee_prosthesis.design.knob import RESPONSES, Knob, Vary
-from geocontact.below_knee_prosthesis.design.terrain import Terrain
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 
 Unit = Literal["m", "rad", "-", "factor"]
 UNITS: dict[Vary, Unit] = {"fulcrum": "m", "alignment": "rad", "stiffness": "-"}

@@ -24,7 +24,7 @@ from geocontact.below_knee_prosthesis.keel.on_tree import (
 )
 from geocontact.below_knee_prosthesis.keel.quasi_static import DOWNWARDS
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
-from geocontact.data.multibody.joint_kinds import free
+from geocontact.data.multibody.joint import free
 from geocontact.data.multibody.model import GROUND, Body, Multibody
 from geocontact.dynamics.equations import Equations, equations_of_motion
 from geocontact.dynamics.recorded_inputs import recorded_inputs

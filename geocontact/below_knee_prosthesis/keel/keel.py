@@ -1,4 +1,5 @@
-"""The keel in pieces: rigid segments on hinges whose stiffness stands for the beam's, as a function of the fulcrum.
+"""The keel: rigid segments on hinges whose stiffness stands for the beam's, the beam itself, and its elastica as
+truth.
 
 The study of the variable-stiffness foot prints 16 segments, the first of 66 mm and 15 more of 11.64 mm, for 229 mm in
 all. That is 240.6 mm; 229 mm are reached with 14 more. It also prints eight revolute joints that alternate with welds,
@@ -10,16 +11,82 @@ density 1/EI and gathered at the fulcrum for the part behind it, is shared among
 which keeps its sum and its mean place (but for what lies in front of the last hinge), and then scaled by one factor so
 that the tip gives exactly what the beam's does. Hinges behind the fulcrum get next to nothing: what the beam bows there
 is left out (`beam.deflected` tells how much).
+
+Euler and Bernoulli, small deflections, constant EI. The beam of length L is held at x = 0, may turn but not move at
+the fulcrum x = l, and hangs over by a = L - l. A force F at x > l bends the part behind the fulcrum as well, which
+turns the beam there by M l/(3 EI) with M = F (x - l) where the end at x = 0 is pinned, by M l/(4 EI) where it is
+clamped (Young & Budynas, Roark's Formulas for Stress and Strain, table 8.1). So the tip gives
+
+    F (a² r + a³/(3 EI)),   r = l/(3 EI) pinned, l/(4 EI) clamped
+
+which is F a² L/(3 EI) and F a² (3 l + 4 a)/(12 EI).
+
+EI theta'' = -F cos(theta) along the arc, theta(0) = r EI theta'(0), theta'(a) = 0: an inextensible cantilever under a
+force that keeps its direction, upwards on the tip (Bisshopp & Drucker 1945, Large deflection of cantilever beams,
+Q Appl Math 3, 272-275), but with the turn r M of the part behind the fulcrum, which is taken as small.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
+from scipy.integrate import solve_bvp
 
-from geocontact.below_knee_prosthesis.keel.beam import Support, root_compliance, tip_compliance
+Support = Literal["pinned", "clamped"]
+SUPPORTS: tuple[Support, ...] = ("pinned", "clamped")
+SHARE: dict[Support, float] = {"pinned": 1.0 / 3.0, "clamped": 0.25}
+"""Turn at the fulcrum over M l/EI."""
+
+
+def root_compliance(fulcrum: float, bending: float, support: Support) -> float:
+    """Turn of the beam at the fulcrum per moment there, from the part behind it [rad/(N m)].
+
+    Parameters
+    ----------
+    fulcrum
+        l [m].
+    bending
+        EI [N m²].
+    support
+        How the posterior end is held.
+    """
+    return SHARE[support] * fulcrum / bending
+
+
+def tip_compliance(fulcrum: float, length: float, bending: float, support: Support) -> float:
+    """Deflection of the tip per force on it [m/N]; `length` is L [m], the others as for `root_compliance`."""
+    overhang = length - fulcrum
+    return overhang**2 * root_compliance(fulcrum, bending, support) + overhang**3 / (3.0 * bending)
+
+
+def deflected(
+    x: Float[np.ndarray, " n"], fulcrum: float, length: float, bending: float, support: Support
+) -> Float[np.ndarray, " n"]:
+    """Deflection at places along the beam per force on the tip [m/N], along the force.
+
+    Behind the fulcrum the beam bows to the other side, at most by 0.064 M l²/EI (pinned) or 0.037 M l²/EI (clamped).
+    """
+    overhang, moment = length - fulcrum, length - fulcrum
+    s = np.clip(x, 0.0, fulcrum) / fulcrum
+    bow = (s**3 - s) / 6.0 if support == "pinned" else (s**3 - s**2) / 4.0
+    u = np.clip(x - fulcrum, 0.0, None)
+    front = root_compliance(fulcrum, bending, support) * moment * u + u**2 * (3.0 * overhang - u) / (6.0 * bending)
+    return np.where(x < fulcrum, moment * fulcrum**2 / bending * bow, front)
+
+
+def compression_stiffness(fulcrum: float, length: float, bending: float, series: float, support: Support) -> float:
+    """Force per travel of a plate on the tip [N/m], through what gives besides the keel: sole, pylon, fixture.
+
+    Parameters
+    ----------
+    series
+        Its stiffness [N/m]; infinite for the keel alone.
+    """
+    return 1.0 / (tip_compliance(fulcrum, length, bending, support) + 1.0 / series)
+
 
 HELD = 0.064
 """Over the joints' number squared: least turn per moment of a hinge over that of the beam's piece it stands for.
@@ -168,3 +235,48 @@ def torsional_stiffness(modulus: float, width: float, thickness: float) -> float
     if width < 2.0 * thickness:
         raise ValueError(f"a section of {width:g} by {thickness:g} m is not flat enough")
     return modulus * width * thickness**3 / 3.0 * (1.0 - 0.63 * thickness / width)
+
+
+POINTS, LEAST = 201, 1e-10
+"""Of the shape, and the relative error allowed."""
+
+
+@dataclass(frozen=True)
+class BentKeel:
+    """Shape of the overhang.
+
+    Parameters
+    ----------
+    arc
+        Length along the keel from the fulcrum [m].
+    turn
+        Angle there [rad].
+    x, y
+        Place in the keel's frame [m].
+    """
+
+    arc: Float[np.ndarray, " n"]
+    turn: Float[np.ndarray, " n"]
+    x: Float[np.ndarray, " n"]
+    y: Float[np.ndarray, " n"]
+
+
+def elastica(keel: Keel, fulcrum: float, force: float) -> BentKeel:
+    """Shape under an upward force on the tip [N]; ArithmeticError where none is found."""
+    overhang = keel.length - fulcrum
+    load = force * overhang**2 / keel.bending
+    root = root_compliance(fulcrum, keel.bending, keel.support) * keel.bending / overhang
+
+    def slopes(_: Float[np.ndarray, " n"], v: Float[np.ndarray, "four n"]) -> Float[np.ndarray, "four n"]:
+        return np.stack([v[1], -load * np.cos(v[0]), np.cos(v[0]), np.sin(v[0])])
+
+    def ends(a: Float[np.ndarray, " four"], b: Float[np.ndarray, " four"]) -> Float[np.ndarray, " four"]:
+        return np.array([a[0] - root * a[1], b[1], a[2], a[3]])
+
+    s = np.linspace(0.0, 1.0, POINTS)
+    straight = np.stack([load * (root + s - 0.5 * s**2), load * (1.0 - s), s, load * s**2 / 3.0])
+    found = solve_bvp(slopes, ends, s, straight, tol=LEAST, max_nodes=100_000)
+    if not found.success:
+        raise ArithmeticError(f"no shape of the keel is found under {force:g} N: {found.message}")
+    turn, _, x, y = found.sol(s)
+    return BentKeel(s * overhang, turn, fulcrum + x * overhang, y * overhang)

@@ -1,4 +1,5 @@
-"""The keel without inertia: its joints are in equilibrium with the ground in every frame of a given motion of the foot.
+"""The keel without inertia: loads on its spheres, and its joints in equilibrium with the ground in every frame of a
+motion.
 
 Springs, dampers and friction of the joints, weight of the segments, spheres by `contact.sphere_foot` with damping and
 friction. Without rates of the pose the frames do not know each other: elastic, without friction. With them each frame
@@ -11,22 +12,85 @@ falls with speed, from the static to the kinetic coefficient, a keel without ine
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float, Int
-from scipy.spatial.transform import RigidTransform
+from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.keel import newton_kernel
 from geocontact.below_knee_prosthesis.keel.balance_kernel import balance
-from geocontact.below_knee_prosthesis.keel.in_keel import InKeel, Planes, plane_under, planes_under, seen_by_keel
 from geocontact.below_knee_prosthesis.keel.keel import Keel
-from geocontact.below_knee_prosthesis.keel.on_tree import joint_numbers, rubbing_numbers
+from geocontact.below_knee_prosthesis.keel.on_tree import (
+    InKeel,
+    Planes,
+    joint_numbers,
+    plane_under,
+    planes_under,
+    rubbing_numbers,
+    seen_by_keel,
+)
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.ground import Ground
-from geocontact.loads.sphere_loads import SphereLoads
-from geocontact.loads.sphere_set import SoleLaw
+from geocontact.loads.sphere_set import SoleLaw, SphereLoads, sphere_loads
+
+FIELDS = ("pressing", "force", "point", "centre", "normal", "depth")
+
+
+def loads_at(
+    keel: QuasiStaticKeel,
+    angles: Float[np.ndarray, "t m"],
+    speeds: Float[np.ndarray, "t m"],
+    poses: RigidTransform,
+    rate: Float[np.ndarray, "t 4 4"],
+    ground: Ground,
+) -> SphereLoads:
+    """At angles [rad] and their rates [rad/s] of a keel without torsion, along poses `X_GK` and their derivative.
+
+    Off a plane each segment is a rigid foot of its own, for `loads.sphere_set`; ValueError where a sphere is deeper
+    than its radius there.
+    """
+    if isinstance(ground, HalfSpace):
+        return keel.at(angles, speeds, poses, ground, rate).loads
+    frames, segments = len(angles), np.array(keel.sole.segment)
+    matrix, moving = poses.as_matrix().reshape(-1, 4, 4), np.asarray(rate)
+    found: dict[str, Float[np.ndarray, ...]] = {}
+    for segment in range(keel.keel.joints + 1):
+        if segment:
+            at = keel.keel.places[0] if segment == 1 else keel.keel.pitch
+            step, slope = _hinge(angles[:, segment - 1], speeds[:, segment - 1], at)
+            matrix, moving = matrix @ step, moving @ step + matrix @ slope
+        spheres, chosen = keel.sole.on(segment, keel.keel), segments == segment
+        if spheres is None:
+            continue
+        law = replace(
+            keel.law,
+            stiffness=keel.law.stiffness[chosen],
+            damping=keel.law.damping[chosen],
+            static=np.broadcast_to(keel.law.static, len(segments))[chosen],
+            kinetic=np.broadcast_to(keel.law.kinetic, len(segments))[chosen],
+        )
+        own = sphere_loads(spheres, law, RigidTransform.from_matrix(matrix), moving, ground)
+        for name in FIELDS:
+            values = getattr(own, name)
+            if name not in found:
+                found[name] = np.empty((frames, len(segments), *values.shape[2:]))
+            found[name][:, chosen] = values
+    return SphereLoads(**found)
+
+
+def _hinge(
+    angle: Float[np.ndarray, " t"], speed: Float[np.ndarray, " t"], ahead: float
+) -> tuple[Float[np.ndarray, "t 4 4"], Float[np.ndarray, "t 4 4"]]:
+    """Pose of a segment in the one before, and its derivative."""
+    step, slope = np.zeros((2, len(angle), 4, 4))
+    step[:, :3, :3] = Rotation.from_euler("z", angle[:, None]).as_matrix()
+    step[:, 0, 3], step[:, 3, 3] = ahead, 1.0
+    s, c = np.sin(angle) * speed, np.cos(angle) * speed
+    slope[:, 0, 0], slope[:, 0, 1], slope[:, 1, 0], slope[:, 1, 1] = -s, -c, c, -s
+    return step, slope
+
 
 TOLERANCE = 1e-8
 """N m; torque about a joint that is left."""
@@ -104,7 +168,7 @@ class QuasiStaticKeel:
         ground
             On uneven ground each sphere is on the plane that touches it where the sphere is nearest, found in turns.
         rate, time
-            Time derivative of the poses (`loads.pose_rate`) and their times [s], both or neither.
+            Time derivative of the poses (`loads.resultant`) and their times [s], both or neither.
         gravity
             In the ground's frame [m/s²].
         start

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from geocontact.below_knee_prosthesis.keel.keel import Keel
-from geocontact.data.sourced_number import Number, Source
+from geocontact.data.parameter import Number, Source
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
 
 ZONES: dict[str, tuple[float, float, int]] = {

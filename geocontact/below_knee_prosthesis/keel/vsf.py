@@ -1,4 +1,4 @@
-"""The variable-stiffness foot, as far as its study describes it; the rest is derived or invented.
+"""The variable-stiffness foot of the study: its numbers, and keel, sole and law fitted to the study's three tests.
 
 The study of gait with a below-knee amputation and a semi-active variable-stiffness foot (VSF) gives length, range of
 the fulcrum, first segment, count of joints, spheres and zones, and stiffnesses in compression at low, medium and high.
@@ -8,11 +8,15 @@ It does not say where medium is, nor any number of the keel's section or of the 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
 
-from geocontact.below_knee_prosthesis.keel.beam import Support
-from geocontact.below_knee_prosthesis.keel.compression import Compressed, CompressionFit, fitted
-from geocontact.below_knee_prosthesis.keel.keel import Keel, torsional_stiffness
-from geocontact.data.sourced_number import Number, Source
+from geocontact.below_knee_prosthesis.keel.compression import Compressed, CompressionFit, calibrated_on_sole, fitted
+from geocontact.below_knee_prosthesis.keel.keel import Keel, Support, torsional_stiffness
+from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
+from geocontact.below_knee_prosthesis.keel.sole import COLUMNS, KeelSole, law_of, sole_of
+from geocontact.data.parameter import Number, Source
+from geocontact.loads.sphere_set import SoleLaw
 
 SETTINGS: Mapping[str, float] = {"low": 10e3, "medium": 19e3, "high": 32e3}
 """Stiffness in compression [N/m], table 2 of the study, rounded to 1 N/mm."""
@@ -80,3 +84,32 @@ def fulcrum_of(setting: str, support: Support = "pinned") -> float:
     """Of low, medium or high [m]; KeyError for another name."""
     name = {"low": "lowest", "medium": "medium", "high": "highest"}[setting]
     return numbers(support)[name].value
+
+
+@dataclass(frozen=True)
+class VariableStiffnessFoot:
+    """A keel on its sole, at no fulcrum in particular."""
+
+    keel: Keel
+    sole: KeelSole
+    law: SoleLaw
+
+    def at(self, fulcrum: float, *, torsion: bool = False) -> QuasiStaticKeel:
+        """At a fulcrum [m], without inertia."""
+        return QuasiStaticKeel(self.keel, fulcrum, self.sole, self.law, torsion)
+
+
+@lru_cache(maxsize=8)
+def vsf_foot(
+    support: Support = "pinned", *, joints: int = 8, finer: int = 1, columns: int = COLUMNS
+) -> VariableStiffnessFoot:
+    """EI and the forefoot's stiffness from low, medium and high; medium where beam theory puts it.
+
+    A plate on the sole presses 8 mm behind the tip, so that EI is less than with the plate on the tip itself. Finer
+    soles are fitted anew. `finer` and `columns` as for `sole_of`.
+    """
+    keel = vsf_keel(support, joints=joints)
+    sole = sole_of(keel, finer=finer, columns=columns)
+    measured = [Compressed(fulcrum_of(name, support), stiffness) for name, stiffness in SETTINGS.items()]
+    bent, law = calibrated_on_sole(keel, sole, law_of(sole), measured)
+    return VariableStiffnessFoot(bent, sole, law)

@@ -25,18 +25,16 @@ from geocontact.below_knee_prosthesis.keel.on_tree import (
     rubbing_numbers,
 )
 from geocontact.below_knee_prosthesis.keel.sole import ZONES
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.model.leg import Leg
-from geocontact.below_knee_prosthesis.model.leg_motion import carried_mass
-from geocontact.below_knee_prosthesis.model.leg_tree import FORWARD, GRAVITY, SOCKET, UP
+from geocontact.below_knee_prosthesis.model.leg_tree import FORWARD, GRAVITY, SOCKET, UP, carried_mass
 from geocontact.contact.bushing import Bushing, bushing_force
-from geocontact.data.multibody.joint_kinds import free, prismatic, weld
+from geocontact.data.multibody.joint import free, prismatic, weld
 from geocontact.data.multibody.model import GROUND, Body, Multibody
-from geocontact.dynamics.body_contact import together
 from geocontact.dynamics.equations import Equations, equations_of_motion
 from geocontact.dynamics.inverse_dynamics import Wrenches
 from geocontact.dynamics.simulate import Stepper
-from geocontact.dynamics.sphere_contact import SphereLaw, sole_wrench
+from geocontact.dynamics.sphere_contact import SphereLaw, sole_wrench, together
 from geocontact.dynamics.symbolic_ground import (
     SymbolicGround,
     SymbolicPlane,

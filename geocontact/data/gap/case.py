@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import pandas as pd
 
-from geocontact.data.gap.cell_channels import CellChannels
+from geocontact.data.gap.cell import CellChannels
 from geocontact.data.mesh import Mesh
 from geocontact.data.parameter import Parameter
 from geocontact.data.simulator import Simulator

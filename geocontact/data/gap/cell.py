@@ -1,7 +1,8 @@
-"""One cell of the map of a gap, and the axes that are frequencies."""
+"""Cells of the map of a gap, and cells of a pressure mat beside the channel that they add up to."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,3 +47,72 @@ class Cell:
 def shares(parts: Float[np.ndarray, " b"]) -> Float[np.ndarray, " b"]:
     """Parts of their sum; 0 where there is nothing."""
     return np.asarray(parts / max(float(parts.sum()), 1e-300))
+
+
+@dataclass(frozen=True, eq=False)
+class CellTrial:
+    """One trial: time [s], strictly increasing, and pressures [Pa]; NaN where a cell was not measured."""
+
+    time: Float[np.ndarray, " t"]
+    pressure: Float[np.ndarray, "t n"]
+
+
+@dataclass(frozen=True, eq=False)
+class CellChannels:
+    """One site of a case.
+
+    Parameters
+    ----------
+    channel
+        Output that the cells are the parts of ("thigh_force").
+    ids
+        Names of the cells, as in the layout.
+    place, area
+        Middle of each cell in the scan's frame [m], and its area [m^2].
+    trials
+        By the trial's id; a trial without cells is not there.
+    """
+
+    channel: str
+    ids: tuple[str, ...]
+    place: Float[np.ndarray, "n 3"]
+    area: Float[np.ndarray, " n"]
+    trials: Mapping[str, CellTrial]
+
+    def forces(self, trial: str, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t n"]:
+        """Force of every cell [N] at other times of a trial, straight between frames; NaN outside of them."""
+        own = self.trials[trial]
+        columns = [np.interp(time, own.time, column, np.nan, np.nan) for column in own.pressure.T]
+        return np.asarray(np.column_stack(columns) * self.area)
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceGap:
+    """One channel's gap over the cells of its site.
+
+    Parameters
+    ----------
+    site, channel, ids, place
+        Of the cells; middles in the scan's frame [m].
+    load, gap
+        Part of each cell in the base model's force and in the gap; either adds up to 1.
+    holding
+        The fewest cells that hold 70 % of the gap, the fullest first.
+    p_value
+        That a gap spread as the load is would differ so much from that spread, family-wise over the cells.
+    """
+
+    site: str
+    channel: str
+    ids: tuple[str, ...]
+    place: Float[np.ndarray, "n 3"]
+    load: Float[np.ndarray, " n"]
+    gap: Float[np.ndarray, " n"]
+    holding: tuple[str, ...]
+    p_value: float
+
+    @property
+    def held(self) -> tuple[float, float]:
+        """What those cells hold of the gap, and of the load."""
+        which = [self.ids.index(name) for name in self.holding]
+        return float(self.gap[which].sum()), float(self.load[which].sum())

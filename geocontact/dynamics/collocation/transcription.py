@@ -10,9 +10,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.dynamics.collocation.blocks import ProgramBlock
-from geocontact.dynamics.collocation.motion import CollocatedMotion
+from geocontact.dynamics.collocation.motion import CollocatedMotion, Scheme
 from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem, Course
-from geocontact.dynamics.collocation.scheme import Scheme
 from geocontact.dynamics.symbols import residual, scaled
 
 if TYPE_CHECKING:

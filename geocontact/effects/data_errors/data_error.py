@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from geocontact.chain.candidate import Candidate
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Candidate
 from geocontact.chain.links import RECORDING, Channels, Modifier, Values
 from geocontact.chain.system import System
 from geocontact.effects.parts import with_motion, with_sensor

@@ -7,9 +7,8 @@ No parameter: discrete.
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.links import Channels, Values
 from geocontact.chain.system import System
 from geocontact.effects.data_errors.data_error import SWAP, output_error

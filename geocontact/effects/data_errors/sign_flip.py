@@ -5,8 +5,7 @@ output → -output; an input is turned back before the model sees it. No paramet
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.effects.data_errors.data_error import REVERSAL, input_error, output_error
 from geocontact.effects.data_errors.unit_error import input_over, output_times

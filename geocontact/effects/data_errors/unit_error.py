@@ -12,9 +12,8 @@ from math import degrees
 
 import numpy as np
 
-from geocontact.chain.candidate import Candidate
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.links import Channels, Values
 from geocontact.chain.system import System
 from geocontact.effects.data_errors.data_error import MIX_UP, input_error, output_error

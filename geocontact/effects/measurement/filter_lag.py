@@ -7,9 +7,8 @@ signals is the amplitude, the order in 1..2 the shape; order 2 is critically dam
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.history import lagged
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System

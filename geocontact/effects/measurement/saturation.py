@@ -9,9 +9,8 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.candidate import Candidate
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter

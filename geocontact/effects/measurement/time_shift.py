@@ -6,9 +6,8 @@ first sample the output is taken to have run straight, within its range in the t
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.history import delayed
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System

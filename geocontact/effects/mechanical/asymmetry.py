@@ -9,8 +9,7 @@ three times as stiff as the other), the same throughout: no shape.
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_geometry, with_law

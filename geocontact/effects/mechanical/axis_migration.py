@@ -10,8 +10,7 @@ from __future__ import annotations
 
 import math
 
-from geocontact.chain.candidate import Candidate
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_geometry

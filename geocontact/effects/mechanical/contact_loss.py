@@ -10,9 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.chain.candidate import Candidate
-from geocontact.chain.effect import Effect
-from geocontact.chain.law_parameters import Source
+from geocontact.chain.effect import Candidate, Effect
+from geocontact.chain.links import Source
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import largest_load, with_law

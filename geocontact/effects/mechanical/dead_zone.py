@@ -5,8 +5,7 @@ F = F_base(u - min(max(u, -(1 - a) w), a w)): w >= 0 is the whole play, a in 0..
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_law

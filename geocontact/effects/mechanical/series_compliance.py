@@ -9,8 +9,7 @@ measured, so the lever of the rolling speed x' - pitch' (h - radius - y) grows w
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import largest_load, with_geometry

@@ -7,8 +7,7 @@ force: further terms do not push the cuff along. Exact over each sample for a de
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate
-from geocontact.chain.effect import Effect
+from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import largest_load, with_law

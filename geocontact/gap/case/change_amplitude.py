@@ -20,7 +20,7 @@ from jaxtyping import Float, Int
 
 from geocontact.gap.levels import SLIGHT
 from geocontact.identify.intervals.quantile_intervals import CONFIDENCE
-from geocontact.identify.optimise.tolerances import ROUNDING
+from geocontact.identify.optimise.bounded_gauss_newton import ROUNDING
 
 BLOCKS = 16  # per trial
 

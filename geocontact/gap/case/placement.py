@@ -20,8 +20,7 @@ from geocontact.chain.links import LAST, Modifier
 from geocontact.chain.system import FAR, System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.gap.case.mains import hum
-from geocontact.gap.case.numerical_error import error_of_rates
+from geocontact.gap.case.noise_sources import error_of_rates, hum
 from geocontact.gap.levels import DEVIATIONS, FLAT
 
 LENGTH = 0.006  # of the device's largest length: 1 mm of 17 cm
@@ -47,8 +46,8 @@ def placement(
     """Per trial, what one usual standard deviation of each changes in the outputs, in their units.
 
     Known lengths and angles, zeros of the inputs in `movable`, zeros of outputs, gains of outputs, the offset of
-    two clocks, hum of the mains (`gap.case.mains`) beside noise of the level `rough`, the numerical error of rates
-    (`gap.case.numerical_error`), in this order; 0 where the model has no value.
+    two clocks, hum of the mains beside noise of the level `rough`, the numerical error of rates (both of
+    `gap.case.noise_sources`), in this order; 0 where the model has no value.
     """
     return tuple(_of_trial(system, trial, values, movable, rough) for trial in trials)
 

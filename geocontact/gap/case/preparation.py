@@ -1,28 +1,142 @@
-"""From a case to its problem: base model fitted, noise of inputs estimated and taken off, rates smoothed."""
+"""From a case to its problem: base model fitted, noise of inputs estimated and taken off, rates smoothed.
+
+A spectrum alone does not tell noise from a movement that ends where a filter might. Noise that is taken off leaves the
+base model's error as it is or smaller; movement that is taken off makes it larger, in some channel if not in the sum:
+one that hardly notices may have most of the error.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
+from geocontact.gap.case.change_amplitude import amplitude
+from geocontact.gap.case.noise_sources import (
+    noise_spread,
+    rough_noise,
+    seen_growth,
+    signal_size,
+    typical_step,
+    with_rounding,
+)
 from geocontact.gap.case.placement import placement, varies_by
 from geocontact.gap.case.plain_fit import base_starts, plain_fit
 from geocontact.gap.case.problem import Noise, Problem, differences, floor_of
-from geocontact.gap.case.quotient_noise import noise_spread
-from geocontact.gap.case.rate_smoothing import REACHES, with_smoothed_rates
 from geocontact.gap.case.refit import ROUNDS, Measured, Refit, free
-from geocontact.gap.case.rough_noise import rough_noise, typical_step, with_rounding
-from geocontact.gap.case.signal_size import seen_growth, signal_size
-from geocontact.gap.case.tolerated_noise import tolerated
-from geocontact.gap.case.whitening import SENSOR_LOUDER, layouts_of, usual_levels
+from geocontact.gap.case.whitening import SENSOR_LOUDER, layouts_of, sensitivity, usual_levels
 from geocontact.gap.inputs.denoise import Filters, Left, denoised, highest_noise, left, seen_noise, shaken
-from geocontact.gap.inputs.filter_cutoff import filters_of, likely_noise
 from geocontact.gap.inputs.spectrum import measured_inputs
+from geocontact.gap.inputs.spectrum_components import filters_of, likely_noise
+from geocontact.gap.levels import SLIGHT
+from geocontact.identify.noise.noise_search import most_likely
+
+REACHES = (14.0, 10.0, 7.0, 5.0, 3.5, 2.5)  # samples to either side, that rates may be smoothed over
+
+
+def with_smoothed_rates(
+    system: System,
+    stated: Mapping[str, float],
+    measured: Measured,
+    plain: Refit,
+    passed: Filters,
+    seen: Mapping[str, float],
+    most: Mapping[str, float],
+) -> System:
+    """The system with the smoothing of rates that makes the base model's residuals most likely; `plain` fits it.
+
+    That is a local best, searched from the middle of `REACHES` uphill. How far rates have to be smoothed depends on the
+    noise of the inputs, which is not known. Where the base does not depend on rates, least is smoothed.
+    """
+    rough = measured.rough
+    system = system.scaled(measured.trials, plain.values)
+    if not system.dynamic and not any(
+        sensitivity(system, trial, plain.values, ()).to_rate.any() for trial in measured.trials
+    ):
+        return system
+    spread, signal = noise_spread(system, measured.outputs, rough), signal_size(measured.outputs)
+    beliefs = usual_levels(system, stated, rough, seen, most, seen_growth(measured.outputs, spread))
+    usual = np.array([varies_by(system, p, plain.values[p.name]) for p in free(system)])
+
+    def likelihood(reach: float) -> float:
+        other = system.reaching(reach)
+        model = plain_fit(other, measured, rough, [plain.values], ROUNDS // 2)
+        layouts = layouts_of(other, measured.trials, model.values, measured.present, passed, {}, spread, signal)
+        varied = [j[..., : len(usual)] * usual for j in model.jacobian]
+        return most_likely(layouts, model.residuals, varied, beliefs, beliefs.middle, ROUNDS)[2]
+
+    return system.reaching(best_of(likelihood, [each * system.scale.step for each in REACHES]))
+
+
+def best_of(likelihood: Callable[[float], float], points: Sequence[float]) -> float:
+    """Where a function with one peak is largest among ordered points, from the middle uphill."""
+    at = len(points) // 2
+    known = {at: likelihood(points[at]), at - 1: likelihood(points[at - 1])}
+    step = -1 if known[at - 1] > known[at] else 1
+    at = max(known, key=lambda k: known[k])
+    while 0 <= at + step < len(points):
+        known[at + step] = likelihood(points[at + step])
+        if known[at + step] <= known[at]:
+            break
+        at += step
+    return points[at]
+
+
+def tolerated(
+    system: System,
+    measured: Measured,
+    held_out: Measured,
+    values: Mapping[str, float],
+    levels: Mapping[str, float],
+    passed: Filters,
+) -> dict[str, float]:
+    """The largest of each level, its half, its quarter and so on whose taking off does no harm; 0 where all do.
+
+    Levels below `SLIGHT` of what they were are not tried.
+
+    Every input is tried alone. The base model is refitted to the calibration trials, every channel divided by its rough
+    noise. The error there may not grow in the sum, nor surely in any channel of the held-out trials.
+
+    Parameters
+    ----------
+    measured, held_out
+        Calibration trials, and those that nothing is fitted to.
+    values
+        Of the base model where it was fitted to `measured`.
+    levels
+        Standard deviations of the noise of inputs, in their units.
+    """
+
+    def without(noise: Mapping[str, float]) -> tuple[float, list[Float[np.ndarray, "_ c"]]]:
+        first, later = (
+            replace(some, trials=tuple(denoised(trial, noise, passed) for trial in some.trials))
+            for some in (measured, held_out)
+        )
+        fitted = plain_fit(system, first, measured.rough, [values], ROUNDS // 2)
+        return fitted.cost, later.residuals(system, fitted.values)
+
+    def harmless(name: str, level: float) -> bool:
+        cost, after = without({name: level})
+        return cost <= (1.0 + SLIGHT) * whole and not worse_somewhere(before, after)
+
+    (whole, before), found = without({}), {}
+    for name, level in levels.items():
+        tried = (level * 0.5**k for k in range(int(np.log2(1.0 / SLIGHT)) + 1))
+        found[name] = next((own for own in tried if harmless(name, own)), 0.0)
+    return found
+
+
+def worse_somewhere(before: Sequence[Float[np.ndarray, "_ c"]], after: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
+    """Whether the error of some channel surely grows."""
+    change = [b - a for b, a in zip(before, after, strict=True)]
+    channels = (slice(c, c + 1) for c in range(before[0].shape[1]))
+    each = (amplitude([b[:, own] for b in before], [m[:, own] for m in change]) for own in channels)
+    return any(one is not None and one.worse for one in each)
 
 
 @dataclass(frozen=True)

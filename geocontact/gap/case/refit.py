@@ -10,13 +10,11 @@ from itertools import zip_longest
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.system import System
-from geocontact.chain.tangents import tangents
+from geocontact.chain.system import System, tangents
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.identify.optimise.bounded_gauss_newton import GaussNewtonResult, least
+from geocontact.identify.optimise.bounded_gauss_newton import STEP, GaussNewtonResult, least
 from geocontact.identify.optimise.least_squares import NO_VALUE
-from geocontact.identify.optimise.tolerances import STEP
 
 ROUNDS = 24  # of a search to its end; twice as many from far away, half of it where it sets out near
 ENOUGH = 0.01  # nats that a search does not go on for
@@ -124,7 +122,7 @@ def derivatives(
 ) -> list[Float[np.ndarray, "_ c p"]]:
     """Derivative of the prediction with respect to each free parameter, per trial.
 
-    Exact where the model's geometry knows them (`chain.tangents`), else by one-sided differences: parameters that no
+    Exact where the model's geometry knows them (`chain.system`), else by one-sided differences: parameters that no
     output has two of are moved at once (Curtis, Powell & Reid 1974, J. Inst. Math. Appl. 13:117). 0 in a trial in which
     so small a step changes a prediction by a thousand times its channel's largest value: the motion left its way.
     """

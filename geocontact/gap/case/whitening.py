@@ -14,13 +14,12 @@ from geocontact.chain.differentiated_inputs import DifferentiatedInputs, rate_of
 from geocontact.chain.links import LAST, Modifier
 from geocontact.chain.system import System
 from geocontact.data.trial import Trial
-from geocontact.gap.inputs.filter_cutoff import USUAL
-from geocontact.gap.inputs.responses import BUMP, responses
+from geocontact.gap.inputs.denoise import BUMP, responses
+from geocontact.gap.inputs.spectrum_components import USUAL
 from geocontact.gap.levels import INPUT_NOISE, TWOFOLD
 from geocontact.identify.noise.covariance import Layout
-from geocontact.identify.noise.input_noise import InputNoise, Instant
+from geocontact.identify.noise.input_noise import InputNoise, Instant, NoiseSpectrum
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
-from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 
 SENSOR_LOUDER = 1.2  # times the stated noise of a sensor

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.gap.case.refit import magnitude
 from geocontact.gap.identifiability.signatures import (
     ADDS,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from threadpoolctl import threadpool_limits
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.diagnosis import NextExperiment

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.gap.case.plain_fit import Plain, base_starts
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Measured, derivatives, refit
-from geocontact.gap.data_errors.correction import exchanged
+from geocontact.gap.data_errors import exchanged
 from geocontact.gap.levels import APART
 
 VISIBLE = 0.03  # share of the energy that may be left of an effect that counts as absorbed

@@ -14,14 +14,14 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.gap.case.problem import Noise, Problem
 from geocontact.gap.case.refit import ROUNDS, Measured, Refit, at, magnitude
 from geocontact.gap.case.whitening import Whitening
 from geocontact.gap.levels import SLIGHT
-from geocontact.identify.optimise.tolerances import STEP
+from geocontact.identify.optimise.bounded_gauss_newton import STEP
 
 ADDS = 1e-9  # of the largest singular value, from which a direction counts
 LEAST, FAINT = 1e-6, 1e-3  # of the way to the end of its bounds, and of the nats asked for, that are looked at

@@ -1,4 +1,4 @@
-"""Power of a measured input over frequency, from all trials."""
+"""Power of a measured input over frequency, on an even grid, and the steps that a recorder writes values in."""
 
 from __future__ import annotations
 
@@ -9,9 +9,36 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.trial import Trial
-from geocontact.gap.inputs.even_grid import even_grid
-from geocontact.gap.inputs.quantisation import resolution
-from geocontact.gap.levels import FEWEST, FLAT
+from geocontact.gap.levels import FEWEST, FLAT, SLIGHT
+
+
+def even_grid(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " n"]:
+    """Evenly spaced times over a trial, about as many as there would be without missing rows."""
+    steps = max(round((time[-1] - time[0]) / float(np.median(np.diff(time)))), 1)
+    return np.linspace(time[0], time[-1], steps + 1)
+
+
+MOST = 10  # steps that a small difference may be
+
+
+def resolution(columns: Sequence[Float[np.ndarray, " _"]]) -> float:
+    """Step that nearly all differences are multiples of; 0 where there is none.
+
+    The small ones among them may be a few steps, where a channel hardly rests.
+    """
+    if not columns:
+        return 0.0
+    moves = np.abs(np.concatenate([np.diff(x) for x in columns]))
+    moves = moves[moves > 0.0]
+    if len(moves) < FEWEST:
+        return 0.0
+    small = float(np.quantile(moves, SLIGHT, method="lower"))
+    for parts in range(1, MOST + 1):
+        units = moves / small * parts
+        if (np.abs(units - np.round(units)) > 0.1).mean() < 0.1:
+            return small / parts
+    return 0.0
+
 
 ROUNDED = 1e-5  # of a half-range, up to which a white rest is rounding at any rate: five digits
 TREND = 3  # degree of the polynomial that is taken off before the window

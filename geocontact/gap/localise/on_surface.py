@@ -23,15 +23,13 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.gap.cell_channels import CellChannels
-from geocontact.data.gap.surface_gap import SurfaceGap
+from geocontact.data.gap.cell import CellChannels, SurfaceGap
 from geocontact.data.trial import Trial
 from geocontact.gap.case.change_amplitude import BLOCKS
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.data_errors.gross import DataError
+from geocontact.gap.data_errors import DataError
 from geocontact.gap.levels import DRAWS
-from geocontact.gap.localise.frequency_map import FEW_DRAWS
-from geocontact.gap.localise.gap_map import HOLDS, missed, smoothed
+from geocontact.gap.localise.gap_map import FEW_DRAWS, HOLDS, missed, smoothed
 from geocontact.gap.selection.evidence import Judged
 
 SHOWN = 0.5  # of the gap that the cells together must show: less, and most of it was made behind the mat

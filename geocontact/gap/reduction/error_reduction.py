@@ -12,6 +12,13 @@ the one error beyond the other, which may be less than nothing. Then
 The interval comes from the spread of g²/a²: parameters and the form of the effect, which is never exactly that of the
 candidate (from the fit), trials that differ in motion and in their deviations. What the held-out trials show is always
 inside: where what is named is not all that is missing, the best fit is not the truth, and the curves are right.
+
+Leaving a trial out needs no fit of its own: with each trial's whitened residual r_i and derivatives D_i at the common
+fit, A_i = D_iᵀ D_i and g_i = D_iᵀ r_i, one Gauss-Newton step without trial i is
+
+    δ₋ᵢ = (A - A_i + S⁻²)⁻¹ (g - g_i),   C₋ᵢ = (A - A_i + S⁻²)⁻¹,
+
+S the prior spread of the parameters, and the trial's predictive density N(r_i - D_i δ₋ᵢ; 0, I + D_i C₋ᵢ D_iᵀ).
 """
 
 from __future__ import annotations
@@ -19,12 +26,32 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 
+from geocontact.data.gap.diagnosis import HeldOut
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.data_errors.gross import DataError
+from geocontact.gap.data_errors import DataError
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors, misjudged, passed_on, raw_input_errors
-from geocontact.gap.selection.evidence import Judged
+from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.identify.intervals.quantile_intervals import ENDS
+
+
+def held_out(problem: Problem, errors: RawInputErrors, named: bool) -> tuple[HeldOut, ...]:
+    """Every held-out trial of the case as it came, by name; without predictions of the answer where nothing is named.
+
+    Parameters
+    ----------
+    errors
+        Of base model and answer (`raw_input_errors.raw_input_errors`).
+    """
+    trials = []
+    for k in range(len(problem.calibration.trials), len(problem.recorded.trials)):
+        trial, measured = problem.recorded.trials[k], problem.recorded.outputs[k]
+        there = np.isfinite(measured)
+        base, after = (np.where(there, measured - part[k], np.nan) for part in (errors.before, errors.after))
+        trials.append(HeldOut(trial.name, trial.time, measured, base, after if named else None))
+    return tuple(sorted(trials, key=lambda trial: trial.name))
+
 
 FORM = 0.04  # relative standard deviation of g² for the form of the effect
 LONE = 0.3  # the same between trials, where one alone was held out
@@ -156,3 +183,58 @@ def _gone(problem: Problem, errors: RawInputErrors, c: int) -> tuple[float, floa
     gone = float(np.mean(squares)) + more
     scatter = float(np.var(squares, ddof=1)) / len(squares) if len(squares) > 1 else (LONE * gone) ** 2
     return gone, float(np.sqrt(slope @ errors.known @ slope + scatter + (FORM * gone) ** 2 + more**2))
+
+
+@dataclass(frozen=True)
+class TrialGain:
+    """How much better a trial is predicted from all others with what was named [nats], and whether it was held out."""
+
+    trial: str
+    held_out: bool
+    nats: float
+
+
+def leave_one_out(problem: Problem, base: Judged, named: Judged) -> tuple[TrialGain, ...]:
+    """Gain of every trial, calibration trials first; both models under the noise of the one that was named.
+
+    Levels of noise stay as they were estimated, from the calibration trials together.
+    """
+    without, with_it = predictive(problem, base, named), predictive(problem, named, named)
+    count = len(problem.calibration.trials)
+    return tuple(
+        TrialGain(trial.name, i >= count, float(b - a))
+        for i, (trial, a, b) in enumerate(zip(problem.recorded.trials, without, with_it, strict=True))
+    )
+
+
+def predictive(problem: Problem, one: Judged, under: Judged) -> Float[np.ndarray, " i"]:
+    """Logarithm of each trial's predictive density given all others, without the constant [nats]."""
+    whitenings = problem.whitenings(under.noise, one.model)
+    spread = prior_spread(one.model.system, one.model.values)
+    whitened = [
+        whiten(np.concatenate([residual[..., None], jacobian * spread], axis=-1))
+        for whiten, residual, jacobian in zip(whitenings, one.model.residuals, one.model.jacobian, strict=True)
+    ]
+    densities = left_out([each[:, 0] for each in whitened], [each[:, 1:] for each in whitened])
+    return np.asarray(densities - [whiten.log_scale for whiten in whitenings])
+
+
+def left_out(
+    residuals: list[Float[np.ndarray, " _"]], designs: list[Float[np.ndarray, "_ p"]]
+) -> Float[np.ndarray, " i"]:
+    """Logarithm of N(r_i; D_i m, I + D_i C D_iᵀ), without the constant.
+
+    m and C are the mean and covariance of the parameters given all other trials, under a unit prior.
+    """
+    grams = [design.T @ design for design in designs]
+    pulls = [design.T @ residual for residual, design in zip(residuals, designs, strict=True)]
+    scores = []
+    for residual, design, gram, pull in zip(residuals, designs, grams, pulls, strict=True):
+        others = np.eye(len(gram)) + sum(grams) - gram
+        left = residual - design @ np.linalg.solve(others, sum(pulls) - pull)
+        inner = others + gram  # I + D C Dᵀ by the matrix determinant lemma and Woodbury's identity
+        part = design.T @ left
+        quadratic = float(left @ left) - float(part @ np.linalg.solve(inner, part))
+        half = 0.5 * float(np.linalg.slogdet(inner)[1] - np.linalg.slogdet(others)[1])
+        scores.append(-0.5 * quadratic - half)
+    return np.array(scores)

@@ -11,12 +11,10 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import System
-from geocontact.gap.case.measured_fit import measured_fit
-from geocontact.gap.case.plain_fit import Plain
+from geocontact.gap.case.plain_fit import Plain, measured_fit
 from geocontact.gap.case.problem import Problem, differences, noise_variance
 from geocontact.gap.case.refit import ROUNDS, refit
-from geocontact.gap.data_errors.correction import put_back
-from geocontact.gap.data_errors.gross import DataError
+from geocontact.gap.data_errors import DataError, put_back
 from geocontact.gap.inputs.denoise import changed, drawn
 from geocontact.gap.inputs.spectrum import measured_inputs
 from geocontact.gap.selection.evidence import Judged, prior_spread
@@ -34,10 +32,10 @@ class RawInputErrors:
     before
         Base model refitted to the calibration trials by plain least squares, every channel divided by its floor.
     after
-        The answer, fitted to the calibration trials likewise, as it was judged (`gap.case.measured_fit`).
+        The answer, fitted to the calibration trials likewise, as it was judged (`gap.case.plain_fit`).
     best
         The answer where all trials together put it (to first order), its effects bent as they may be otherwise than
-        their candidates (`gap.selection.model_discrepancy`): nearest to the truth, not to be reported as an error on
+        their candidates (`gap.selection.model_comparison`): nearest to the truth, not to be reported as an error on
         trials it was fitted to.
     derivatives
         Of the answer's predictions, with respect to its parameters and to how its effects are bent.

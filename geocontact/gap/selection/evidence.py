@@ -20,7 +20,7 @@ from geocontact.gap.case.problem import Noise, Problem
 from geocontact.gap.case.refit import Refit, free, magnitude
 from geocontact.gap.case.whitening import Whitening
 from geocontact.gap.levels import FLAT
-from geocontact.identify.optimise.tolerances import ROUNDING, STEP
+from geocontact.identify.optimise.bounded_gauss_newton import ROUNDING, STEP
 
 
 @dataclass(frozen=True)

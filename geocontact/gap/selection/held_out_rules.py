@@ -16,6 +16,9 @@ beside what the held-out trials differ by, too: two of them have two deviations,
 The share is that of an error cleared of what the base parameters differ by in each trial: nobody can predict that, and
 what they can take of an effect they have taken when the base model was refitted, so that clearing leaves the effect.
 No base parameter is refitted beside something without a name: its share is that of the error as it is.
+
+Held-out trials may be faster, larger or longer: an effect that calibration trials hardly show may show there. Its gain
+is to be borne out in proportion to what the model with it changes, not to the number of samples.
 """
 
 from __future__ import annotations
@@ -24,22 +27,86 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
+from geocontact.chain.system import FAR
 from geocontact.gap.case.change_amplitude import Amplitude, amplitude
-from geocontact.gap.case.measured_fit import measured_fit, smoothed_fit
+from geocontact.gap.case.noise_sources import measured_columns
 from geocontact.gap.case.placement import GAIN
+from geocontact.gap.case.plain_fit import Plain, measured_fit, smoothed_fit
 from geocontact.gap.case.problem import Noise, Problem
-from geocontact.gap.case.recorded_steps import measured_columns
-from geocontact.gap.case.refit import free, refit
+from geocontact.gap.case.refit import ENOUGH, free, refit
 from geocontact.gap.case.whitening import Whitening
 from geocontact.gap.levels import DEVIATIONS, LEFT_OVER, SLIGHT, SURE, WORTH_NAMING
-from geocontact.gap.selection.calibration_share import changes
 from geocontact.gap.selection.evidence import Judged, prior_spread
-from geocontact.gap.selection.held_out_error import TrialWeight, taken_away
 from geocontact.gap.selection.model_comparison import Contender, finished
 from geocontact.gap.selection.surrogate import Surrogate
+from geocontact.identify.optimise.least_squares import NO_VALUE
+
+
+def changes(problem: Problem, base: Contender, one: Contender) -> list[Float[np.ndarray, "_ c"]]:
+    """What a model predicts otherwise than the base model, per trial, base parameters refitted.
+
+    0 where either has no value, or no solution.
+    """
+    no_value = NO_VALUE * problem.calibration.rough
+
+    def silent(residual: Float[np.ndarray, "_ c"]) -> Bool[np.ndarray, "_ c"]:
+        return np.asarray((residual == no_value) | (np.abs(residual) > 0.5 * FAR))
+
+    models = zip(base.judged.model.residuals, one.judged.model.residuals, strict=True)
+    return [np.where(silent(a) | silent(b), 0.0, a - b) for a, b in models]
+
+
+def calibration_share(problem: Problem, changed: Sequence[Float[np.ndarray, "_ c"]]) -> float:
+    """Part of changes of all trials, squared, in units of the noise floor, that is in the calibration trials.
+
+    That part of all samples where the changes are no more than rounding, or no number.
+    """
+    count = len(problem.calibration.trials)
+    size = np.array([float(np.sum((each / problem.floor) ** 2)) for each in changed])
+    if not ENOUGH < size.sum() < np.inf:
+        size = np.array([float(each.size) for each in changed])
+    return float(size[:count].sum() / size.sum())
+
+
+@dataclass(frozen=True)
+class TrialWeight:
+    """What a residual of one trial weighs: (I + B Q Bᵀ)^(-1/2) D⁻¹, D the floor, B Q Bᵀ what trials differ by."""
+
+    present: Bool[np.ndarray, "t c"]
+    whitening: Whitening
+
+    @classmethod
+    def of(
+        cls, present: Bool[np.ndarray, "t c"], floor: Float[np.ndarray, " c"], varied: Float[np.ndarray, "t c q"]
+    ) -> TrialWeight:
+        """From derivatives with respect to what varies, times its standard deviation."""
+        return cls(present, Whitening.of(Plain(present, floor), varied))
+
+    def __call__(self, values: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "t c"]:
+        """Weighed; 0 where nothing was measured."""
+        out = np.zeros(values.shape)
+        out[self.present] = self.whitening(values[..., None])[:, 0]
+        return out
+
+    def cleared(self, values: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "t c"]:
+        """What is left of a residual r, in units of the floor, once the trial's own deviation d is taken out.
+
+        The most probable d is that of the least |r - B d|² + dᵀ Q⁻¹ d; what it leaves is r - B d = (I + B Q Bᵀ)⁻¹ r.
+        """
+        w, out = self.whitening, np.zeros(values.shape)
+        white = w.whitener(values[..., None])[:, 0]
+        out[self.present] = white - w.directions @ ((1.0 - (1.0 - w.gains) ** 2) * (w.directions.T @ white))
+        return out
+
+
+def taken_away(before: Sequence[Float[np.ndarray, "_ c"]], after: Sequence[Float[np.ndarray, "_ c"]]) -> float:
+    """The largest share of a channel's squared error that is gone, below 0 where all grow; 0 where nothing is there."""
+    old, new = (np.sum([(part**2).sum(axis=0) for part in parts], axis=0) for parts in (before, after))
+    return float(np.max(1.0 - new[old > 0.0] / old[old > 0.0], initial=-np.inf)) if (old > 0.0).any() else 0.0
+
 
 ONLY_NOISE = f"with the noise of the inputs taken off it takes less than {WORTH_NAMING:.0%} of the squared error away"
 TOO_LITTLE = f"in no channel it takes {WORTH_NAMING:.0%} of the squared error away"
@@ -263,7 +330,7 @@ def whitened_samples(
 
 
 def left_out_residuals(problem: Problem, one: Judged, noise: Noise) -> list[Float[np.ndarray, "_ c"]]:
-    """Of every trial, predicted from all others: one Gauss-Newton step without it (`gap.reduction.leave_one_out`)."""
+    """Of every trial, predicted from all others: one Gauss-Newton step without it (`gap.reduction.error_reduction`)."""
     whitenings = problem.whitenings(noise, one.model)
     spread = prior_spread(one.model.system, one.model.values)
     both = [

@@ -23,7 +23,7 @@ from geocontact.gap.case.problem import Problem, noise_variance
 from geocontact.gap.case.whitening import SENSOR_LOUDER
 from geocontact.gap.levels import LEFT_OVER
 from geocontact.gap.selection.evidence import Judged
-from geocontact.gap.selection.held_out_error import TrialWeight
+from geocontact.gap.selection.held_out_rules import TrialWeight
 from geocontact.gap.selection.model_comparison import Contender
 from geocontact.gap.selection.verdict import MOST, Answer
 from geocontact.identify.noise.noise_levels import BEYOND

@@ -15,11 +15,11 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.differentiated_inputs import recorded
+from geocontact.gap.case.noise_sources import usual_range
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.usual_range import usual_range
 from geocontact.gap.selection.evidence import Judged, log_evidence, prior_spread
 from geocontact.gap.selection.evidence import judged as judged_as
-from geocontact.identify.optimise.tolerances import CLOSE
+from geocontact.identify.optimise.bounded_gauss_newton import CLOSE
 
 ALONG = (12, 30)  # bumps over one input's position or rate, wide ones and narrow ones
 ACROSS = (6,)  # bumps per side over position and rate together

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap_benchmark.synthetic.base_fit import refit, starts
 from geocontact.gap_benchmark.synthetic.catalogue import (
     CONFOUNDED,
     LABORATORIES,
@@ -23,11 +22,9 @@ from geocontact.gap_benchmark.synthetic.data_errors import draw_data_error
 from geocontact.gap_benchmark.synthetic.data_errors import words as fault_words
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Outputs
 from geocontact.gap_benchmark.synthetic.label import KINDS, Kind, Label, SyntheticCase, ideal
-from geocontact.gap_benchmark.synthetic.laboratories.placement import placed_as_usual
-from geocontact.gap_benchmark.synthetic.laboratories.unseen import slightly_wrong
+from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import placed_as_usual, slightly_wrong
 from geocontact.gap_benchmark.synthetic.magnitudes import magnitudes_of
 from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, NotFoundError, SyntheticMagnitudes
-from geocontact.gap_benchmark.synthetic.reach import Reach, reach
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError
 from geocontact.gap_benchmark.synthetic.trials import (
@@ -40,7 +37,17 @@ from geocontact.gap_benchmark.synthetic.trials import (
     record,
     truth,
 )
-from geocontact.gap_benchmark.synthetic.visibility import Sight, WhitenedTrial, floor, sight, whitener
+from geocontact.gap_benchmark.synthetic.visibility import (
+    Reach,
+    Sight,
+    WhitenedTrial,
+    floor,
+    reach,
+    refit,
+    sight,
+    starts,
+    whitener,
+)
 
 FRESH = 40
 """Fresh trials on which the true reduction is measured."""

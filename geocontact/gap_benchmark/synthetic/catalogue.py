@@ -30,10 +30,9 @@ from geocontact.gap_benchmark.synthetic.effects.sensors import (
     SMALL_LOADS,
 )
 from geocontact.gap_benchmark.synthetic.effects.unknown import UNKNOWN
-from geocontact.gap_benchmark.synthetic.laboratories.inputs import inputs_laboratory
+from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import placement_laboratory
 from geocontact.gap_benchmark.synthetic.laboratories.kinds import LABORATORY_KINDS, laboratory_of_kind
-from geocontact.gap_benchmark.synthetic.laboratories.placement import placement_laboratory
-from geocontact.gap_benchmark.synthetic.laboratories.recorder import recorder_laboratory
+from geocontact.gap_benchmark.synthetic.laboratories.recorder import inputs_laboratory, recorder_laboratory
 from geocontact.gap_benchmark.synthetic.laboratory import Forms
 from geocontact.gap_benchmark.synthetic.plan import EffectNumbers, InjectionPlan
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene

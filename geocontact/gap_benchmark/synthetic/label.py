@@ -13,11 +13,10 @@ from scipy.linalg import solve_triangular
 from geocontact.data.gap.case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial as CaseTrial
-from geocontact.gap_benchmark.synthetic.base_fit import jacobian
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Outputs
 from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
 from geocontact.gap_benchmark.synthetic.trials import truth
-from geocontact.gap_benchmark.synthetic.visibility import WhitenedTrial
+from geocontact.gap_benchmark.synthetic.visibility import WhitenedTrial, jacobian
 
 
 @dataclass(frozen=True)

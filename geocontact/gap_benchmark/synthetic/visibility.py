@@ -8,13 +8,134 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Bool, Float
 from scipy.linalg import cho_factor, cho_solve, solve_triangular
+from scipy.optimize import least_squares
 
-from geocontact.gap_benchmark.synthetic.base_fit import Model, jacobian, refit
 from geocontact.gap_benchmark.synthetic.course import InputCourse, Path
-from geocontact.gap_benchmark.synthetic.hooks import Outputs, Values
+from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs, Values
 from geocontact.gap_benchmark.synthetic.noise import NoiseFilter, smooth_covariance
 from geocontact.gap_benchmark.synthetic.scene import Numbers, SyntheticScene
-from geocontact.gap_benchmark.synthetic.trials import samples
+from geocontact.gap_benchmark.synthetic.trials import SyntheticTrial, as_measured, predicted, samples
+
+Model = Callable[[Values], Values]
+
+
+def jacobian(model: Model, theta: Float[np.ndarray, " p"]) -> Float[np.ndarray, "c s p"]:
+    """By central differences."""
+    columns = []
+    for i, value in enumerate(theta):
+        step = np.zeros_like(theta)
+        step[i] = 1e-4 * max(abs(value), 1e-3)
+        columns.append((model(theta + step) - model(theta - step)) / (2.0 * step[i]))
+    return np.stack(columns, axis=-1)
+
+
+def refit(
+    scene: SyntheticScene,
+    models: Sequence[Model],
+    measured: Sequence[Values],
+    floor: Float[np.ndarray, " c"],
+    starts: Sequence[Float[np.ndarray, " p"]],
+) -> Float[np.ndarray, " p"]:
+    """Best of the fits from `starts`: every channel divided by its floor, within the parameters' bounds."""
+    low = np.array([p.lower for p in scene.parameters])
+    high = np.array([p.upper for p in scene.parameters])
+    there = [np.isfinite(y) for y in measured]
+
+    def residual(theta: Float[np.ndarray, " p"]) -> Float[np.ndarray, " r"]:
+        parts = [((m(theta) - y) / floor[:, None])[ok] for m, y, ok in zip(models, measured, there, strict=True)]
+        return np.concatenate(parts)
+
+    def slope(theta: Float[np.ndarray, " p"]) -> Float[np.ndarray, "r p"]:
+        parts = [(jacobian(m, theta) / floor[:, None, None])[ok] for m, ok in zip(models, there, strict=True)]
+        return np.concatenate(parts)
+
+    scale = np.array([max(abs(p.start), 1e-6) for p in scene.parameters])
+    inside = 1e-6 * (high - low)
+    fits = [
+        least_squares(
+            residual,
+            np.clip(start, low + inside, high - inside),
+            jac=slope,
+            bounds=(low, high),
+            x_scale=scale,
+            ftol=1e-7,
+            xtol=1e-7,
+            gtol=1e-7,
+            max_nfev=60,
+        )
+        for start in starts
+    ]
+    return np.asarray(min(fits, key=lambda fit: float(fit.cost)).x)
+
+
+def starts(scene: SyntheticScene, rng: np.random.Generator) -> list[Float[np.ndarray, " p"]]:
+    """Where the parameters begin, the nominal ones, and some out of the scene's box, where it has one."""
+    begin = [np.array([p.start for p in scene.parameters]), scene.theta]
+    if scene.begin is not None:
+        low, high = (np.array(side) for side in scene.begin)
+        begin += [rng.uniform(low, high) for _ in range(3)]
+    return begin
+
+
+BINS = 100
+"""Of the phase of a trial."""
+MOST = 0.7
+"""Share of the squared gap that a window holds."""
+
+
+@dataclass(frozen=True)
+class Reach:
+    """Per channel: rmse of the refitted base and of the truth on fresh trials, and where the gap sits."""
+
+    before: dict[str, float]
+    after: dict[str, float]
+    window: dict[str, tuple[float, float]]
+    shares: dict[str, float]
+
+
+def reach(
+    scene: SyntheticScene,
+    fresh: Sequence[SyntheticTrial],
+    theta: Float[np.ndarray, " p"],
+    hooks: Hooks,
+    fine: int,
+    floor: Float[np.ndarray, " c"],
+) -> Reach:
+    """Base at `theta` against the true simulator at nominal parameters, both on measured inputs."""
+    count = len(scene.outputs)
+    before, after, number = np.zeros(count), np.zeros(count), np.zeros(count)
+    along = np.zeros((count, BINS))
+    for one in fresh:
+        base = scene.base_model(as_measured(one))(theta)
+        true = predicted(scene, one, hooks, fine)
+        there = np.isfinite(one.outputs) & np.isfinite(base) & np.isfinite(true)
+        before += np.where(there, one.outputs - base, 0.0).__pow__(2).sum(axis=1)
+        after += np.where(there, one.outputs - true, 0.0).__pow__(2).sum(axis=1)
+        number += there.sum(axis=1)
+        gap: Outputs = np.where(there, true - base, 0.0) ** 2
+        phase = np.clip((one.time / one.duration * BINS).astype(int), 0, BINS - 1)
+        for c in range(count):
+            along[c] += np.bincount(phase, gap[c], BINS)
+    number = np.maximum(number, 1.0)
+    whole = along.sum(axis=1) / number / floor**2
+    names = scene.outputs
+    return Reach(
+        dict(zip(names, np.sqrt(before / number).tolist(), strict=True)),
+        dict(zip(names, np.sqrt(after / number).tolist(), strict=True)),
+        {name: shortest(along[c]) for c, name in enumerate(names)},
+        dict(zip(names, (whole / max(float(whole.sum()), 1e-300)).tolist(), strict=True)),
+    )
+
+
+def shortest(squares: Float[np.ndarray, " b"]) -> tuple[float, float]:
+    """Shortest window that holds `MOST` of the sum, as phases."""
+    total = np.concatenate([[0.0], np.cumsum(squares)])
+    need = MOST * total[-1]
+    ends = np.searchsorted(total, total + need - 1e-12 * max(need, 1e-300))
+    widths = np.where(ends < len(total), ends - np.arange(len(total)), len(total))
+    begin = int(np.argmin(widths))
+    return begin / BINS, min(int(ends[begin]), BINS) / BINS
+
 
 FAINT = 1e-7
 """White part of the variance of input noise, for the sake of arithmetic."""

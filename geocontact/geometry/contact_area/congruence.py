@@ -21,8 +21,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.geometry.contact_area.evolution import Settings
-from geocontact.geometry.curvature import Curvatures
-from geocontact.geometry.phong_offset import corner_shares
+from geocontact.geometry.curvature import Curvatures, corner_shares
 from geocontact.geometry.surface import Surface
 
 FACING = np.cos(np.radians(45.0))

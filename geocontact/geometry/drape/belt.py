@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.drape.geodesics import Geodesics, SurfacePoints
 from geocontact.geometry.drape.mat import Mat
-from geocontact.geometry.drape.spread import Way
+from geocontact.geometry.drape.spread import Geodesics, SurfacePoints, Way
 
 AROUND = 0.1  # a belt may be this much longer or shorter than the way around the body
 ALONG = 0.7  # of the gap between the ends that is along the belt: they face each other, or passed each other

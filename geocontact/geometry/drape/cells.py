@@ -8,8 +8,8 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial import cKDTree
 
-from geocontact.geometry.drape.geodesics import Geodesics, Joins, SurfacePoints
 from geocontact.geometry.drape.mat import Mat
+from geocontact.geometry.drape.spread import Geodesics, Joins, SurfacePoints
 
 APART = 0.5  # of the smaller pitch: centres nearer to each other belong to cells that lie on one another
 

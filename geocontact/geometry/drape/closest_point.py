@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.geometry.boundary import on_boundary
 from geocontact.geometry.drape.cells import Drape, measured
-from geocontact.geometry.drape.geodesics import Geodesics, SurfacePoints
 from geocontact.geometry.drape.mat import Marks, Mat
-from geocontact.geometry.drape.positions import between
+from geocontact.geometry.drape.spread import Geodesics, SurfacePoints, between
 from geocontact.geometry.register.landmarks import fit_landmarks
+from geocontact.geometry.surface import on_boundary
 
 ASIDE = 1e-6  # of the pitch; a corner so far beside the rim is not above the surface
 

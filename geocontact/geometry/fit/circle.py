@@ -9,8 +9,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.geometry.fit.cylinder import circle_through
-from geocontact.geometry.fit.directions import across
 from geocontact.geometry.fit.found import Quality, ShapeFit, arc_covered, fitted, local
+from geocontact.geometry.fit.solver import across
 
 LEAST = 5  # points
 

@@ -8,9 +8,8 @@ from typing import ClassVar
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.geometry.fit.directions import across, half_sphere
 from geocontact.geometry.fit.found import ShapeFit, arc_covered, fitted, local
-from geocontact.geometry.fit.solver import FEW
+from geocontact.geometry.fit.solver import FEW, across, half_sphere
 
 STARTS = 24  # directions over the half-sphere
 LEAST = 6  # points

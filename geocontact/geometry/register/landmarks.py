@@ -1,4 +1,4 @@
-"""Rigid fit of points that were named on both bodies."""
+"""Rigid fit of points that were named on both bodies, and poses of a segment between the recorded times."""
 
 from __future__ import annotations
 
@@ -6,10 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 from jaxtyping import Float
-from scipy.spatial.transform import RigidTransform, Rotation
+from scipy.spatial.transform import RigidTransform, Rotation, Slerp
 
-from geocontact.geometry.register.quality import Registration
-from geocontact.geometry.register.uncertainty import landmark_covariance
+from geocontact.geometry.register.quality import Registration, landmark_covariance
 
 FLAT = 1e-3  # spread across the line of the landmarks over that along it, below which they leave a turn open
 TOLERANCE = 5e-3  # m; hand-placed landmarks on skin
@@ -72,3 +71,17 @@ def _fix_a_pose(points: Float[np.ndarray, "n 3"], side: str) -> None:
     along, across = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[:2]
     if not across > FLAT * along:
         raise ValueError(f"the {side} landmarks lie in one line, about which the pose stays open; add one beside it")
+
+
+def poses_at(time: Float[np.ndarray, " t"], poses: RigidTransform, at: Float[np.ndarray, " s"]) -> RigidTransform:
+    """Poses X_GB at other times within those recorded [s].
+
+    Rotations turn at constant rate about one axis between neighbours (slerp: Shoemake 1985), the origin of B goes
+    straight: exact at the recorded times, the error of second order in the time step between them.
+    """
+    if len(time) < 2:
+        raise ValueError("one pose is no motion")
+    if len(at) and (at.min() < time[0] or at.max() > time[-1]):
+        raise ValueError(f"poses are known from {time[0]:g} to {time[-1]:g} s only")
+    origin = np.column_stack([np.interp(at, time, poses.translation[:, k]) for k in range(3)])
+    return RigidTransform.from_components(origin, Slerp(time, poses.rotation)(at))

@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.geometry.register.icp import BIWEIGHT, IcpSearch, judged
+from geocontact.geometry.register.icp import BIWEIGHT, IcpSearch, judged, samples
 from geocontact.geometry.register.quality import Registration
-from geocontact.geometry.register.samples import samples
 from geocontact.geometry.surface import Surface
 
 DENSE = 200_000  # points that stand for the fixed surface, which open3d takes as a cloud

@@ -1,4 +1,4 @@
-"""How long the residual of a fit remembers, when the residual is all there is to tell it.
+"""How long the residual of a fit remembers, and what a noise that remembers leaves in the means of bins.
 
 The residual is taken for an Ornstein-Uhlenbeck process (`noise.Noise`): correlation exp(-h/tau) at a distance h.
 Over one gait cycle tau is poorly known, and intervals that take its best value for the truth are too short. So each
@@ -12,14 +12,16 @@ gives the estimates; their variance under such noise is the sandwich s^2 (J'J)^-
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import exp
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 from scipy.optimize import brentq
 from scipy.stats import t as student
 
+from geocontact.geometry.kernels.compile import kernel
 from geocontact.identify.noise.autoregressive import AutoregressiveNoise
-from geocontact.identify.optimise.tolerances import ROUNDING
+from geocontact.identify.optimise.bounded_gauss_newton import ROUNDING
 
 GRID = 30  # correlation times
 SHORTEST = 0.2  # of a step: no memory at all
@@ -120,3 +122,36 @@ def _log_prior(time: Float[np.ndarray, " n"], tau: float) -> float:
     """Logarithm of the reference prior per log tau: half that of sum (rho h/tau)^2 / (1 - rho^2), rho = exp(-h/tau)."""
     h = np.diff(time) / tau
     return 0.5 * float(np.logaddexp.reduce(2.0 * (np.log(h) - h) - np.log(-np.expm1(-2.0 * h))))
+
+
+@kernel
+def mean_covariance(
+    time: Float[np.ndarray, " t"], place: Int[np.ndarray, " t"], bins: int, tau: float
+) -> Float[np.ndarray, "b b"]:
+    """Covariance of the bins' means of an Ornstein-Uhlenbeck noise of variance 1 and correlation time `tau` [s].
+
+    Parameters
+    ----------
+    time, place
+        Of each sample of one trial, in the order of time [s]; the bin that it falls into.
+
+    Returns
+    -------
+    array
+        Mean of exp(-lag/tau) over the pairs of samples of two bins; 0 for a bin without samples.
+    """
+    out, count, kept = np.zeros((bins, bins)), np.zeros(bins), np.zeros(bins)
+    for i in range(time.size):
+        if i > 0:
+            kept *= exp(-(time[i] - time[i - 1]) / tau)
+        here = place[i]
+        for b in range(bins):
+            out[here, b] += kept[b]
+            out[b, here] += kept[b]
+        out[here, here] += 1.0
+        kept[here] += 1.0
+        count[here] += 1.0
+    for a in range(bins):
+        for b in range(bins):
+            out[a, b] /= max(count[a] * count[b], 1.0)
+    return out

@@ -25,7 +25,7 @@ from scipy.linalg import lapack
 from geocontact.identify.noise.block_sums import carried, pulled, summed
 from geocontact.identify.noise.input_noise import InputNoise
 from geocontact.identify.noise.noise_levels import NoiseLevels
-from geocontact.identify.optimise.tolerances import ROUNDING
+from geocontact.identify.optimise.bounded_gauss_newton import ROUNDING
 
 BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
 

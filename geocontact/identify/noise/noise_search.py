@@ -17,8 +17,16 @@ from scipy.linalg import lapack
 
 from geocontact.identify.noise.covariance import Layout, NoiseBlock, factor_of
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
-from geocontact.identify.optimise.bounded_gauss_newton import QuadraticModel
-from geocontact.identify.optimise.tolerances import BROKEN, CLOSE, DAMPED, KEPT, LIMIT, ROUNDING, TENFOLD
+from geocontact.identify.optimise.bounded_gauss_newton import (
+    BROKEN,
+    CLOSE,
+    DAMPED,
+    KEPT,
+    LIMIT,
+    ROUNDING,
+    TENFOLD,
+    QuadraticModel,
+)
 
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
 LONGEST = 2.0  # that a correlation time is, and how noise grows: longer, and noise becomes what the model misses

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.optimise.tolerances import CLOSE, LIMIT
+from geocontact.identify.optimise.bounded_gauss_newton import CLOSE, LIMIT
 
 DEGREES = (1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
 """Degrees of freedom that are tried; with more a sample of four standard deviations still weighs a third or more."""

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.optimise.tolerances import CLOSE, LIMIT
+from geocontact.identify.optimise.bounded_gauss_newton import CLOSE, LIMIT
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from typing import TypeAlias
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.identify.optimise.tolerances import CLOSE, DAMPED, LIMIT, ROUNDING, TENFOLD
+from geocontact.identify.optimise.bounded_gauss_newton import CLOSE, DAMPED, LIMIT, ROUNDING, TENFOLD
 
 Batch: TypeAlias = Float[np.ndarray, "k p"]
 Scored: TypeAlias = tuple[Float[np.ndarray, " k"], Batch, Float[np.ndarray, "k p p"]]

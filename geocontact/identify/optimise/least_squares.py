@@ -10,7 +10,7 @@ from jaxtyping import Float
 from scipy.optimize import least_squares
 
 from geocontact.data.parameter import Parameter
-from geocontact.identify.optimise.tolerances import STEP
+from geocontact.identify.optimise.bounded_gauss_newton import STEP
 
 Predict = Callable[[Mapping[str, float]], list[Float[np.ndarray, "_ c"]]]
 """Predicted channels of every trial at given values of the free parameters."""

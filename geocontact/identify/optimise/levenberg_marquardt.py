@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.optimise.tolerances import DAMPED, LIMIT, ROUNDING
+from geocontact.identify.optimise.bounded_gauss_newton import DAMPED, LIMIT, ROUNDING
 
 Vector = Float[np.ndarray, " p"]
 Residual = Callable[[Vector], Float[np.ndarray, " n"]]

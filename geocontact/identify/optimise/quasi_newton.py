@@ -12,8 +12,8 @@ from scipy.optimize import minimize
 from scipy.stats import qmc
 
 from geocontact.data.parameter import Parameter
+from geocontact.identify.optimise.bounded_gauss_newton import ROUNDING, STEP
 from geocontact.identify.optimise.least_squares import Fit, Predict, divided, fit
-from geocontact.identify.optimise.tolerances import ROUNDING, STEP
 
 OPTIONS: Any = {"maxiter": 200, "ftol": 1e-10, "gtol": 1e-7}
 

@@ -9,6 +9,13 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Float
 
+
+def rms_difference(first: Float[np.ndarray, " t"], second: Float[np.ndarray, " t"]) -> float:
+    """Root mean square of the difference where both have a value; NaN where they never do."""
+    there = np.isfinite(first) & np.isfinite(second)
+    return float(np.sqrt(np.mean((first[there] - second[there]) ** 2))) if there.any() else float("nan")
+
+
 FEWEST = 3  # samples that both have
 NAN = float("nan")
 LONGEST = 0.5  # s, of the lags that are looked at

@@ -1,30 +1,141 @@
-"""A gap case: the folder with case.toml, trials and tables, to SI units."""
+"""A gap case: the folder with case.toml, trials and tables, to SI units.
+
+For each run it is given the paths of three files in a folder of its own: params, a JSON object of numbers by name
+(parameters, constants, covariates of the trial, SI); trial, a CSV table of `time [s]` and the inputs; out, where it
+writes a CSV table of `time [s]` and the outputs, a row for each row of trial. It is started without a shell, in the
+folder from which geocontact was started.
+"""
 
 from __future__ import annotations
 
+import json
 import os
+import shlex
+import subprocess
 import warnings
+from collections import OrderedDict
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from os import PathLike
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
+import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.gap.case import CaseMesh, GapCase
 from geocontact.data.parameter import Parameter
+from geocontact.data.simulator import SimulatorError
 from geocontact.data.trial import Trial
-from geocontact.io.cases.case_cells import read_cells
-from geocontact.io.cases.case_consistency import KNOWN_SYSTEMS, check_settings, parameters_of
-from geocontact.io.cases.case_folder import SETTINGS, case_folder, check_trial_files, inside, trial_file
-from geocontact.io.cases.case_settings import CaseSettings, read_settings
-from geocontact.io.cases.program import Program, program
-from geocontact.io.cases.trial_set import alike, noise_in_si
-from geocontact.io.cases.trial_table import TrialTable, read_trial
+from geocontact.io.cases.case_settings import (
+    KNOWN_SYSTEMS,
+    SETTINGS,
+    CaseSettings,
+    case_folder,
+    check_settings,
+    check_trial_files,
+    inside,
+    parameters_of,
+    read_settings,
+    trial_file,
+)
+from geocontact.io.cases.trial_table import TrialTable, alike, noise_in_si, read_cells, read_trial
 from geocontact.io.mesh.meshes import READERS, read_mesh
 from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.units import LENGTH
+
+PLACES = ("{params}", "{trial}", "{out}")
+TIMEOUT = 120.0
+"""Seconds for one run."""
+KEPT = 50_000_000
+"""Bytes of results that are remembered: what an effect does to inputs or outputs asks for the same run again."""
+SAME_TIME = 1e-6
+"""Relative to the duration, that times of outputs may be rounded by."""
+
+
+@dataclass(eq=False)
+class Program:
+    """A program that simulates one trial per run; results are remembered."""
+
+    command: tuple[str, ...]
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    units: Mapping[str, str]
+    runs: int = 0
+    _known: OrderedDict[tuple[bytes, ...], Float[np.ndarray, "t c"]] = field(default_factory=OrderedDict, repr=False)
+
+    def run(
+        self, time: Float[np.ndarray, " t"], inputs: Float[np.ndarray, "i t"], numbers: Mapping[str, float]
+    ) -> Float[np.ndarray, "t c"]:
+        """Outputs at the times of the inputs; SimulatorError where there are none."""
+        told = json.dumps({name: float(numbers[name]) for name in sorted(numbers)})
+        key = (told.encode(), time.tobytes(), inputs.tobytes())
+        if key in self._known:
+            self._known.move_to_end(key)
+            return self._known[key].copy()
+        found = self._run(time, inputs, told)
+        self.runs += 1
+        self._known[key] = found
+        while len(self._known) > 1 and len(self._known) * found.nbytes > KEPT:
+            self._known.popitem(last=False)
+        return found.copy()
+
+    def _run(self, time: Float[np.ndarray, " t"], inputs: Float[np.ndarray, "i t"], told: str) -> np.ndarray:
+        with TemporaryDirectory(prefix="geocontact-") as folder:
+            params, trial, out = (Path(folder) / name for name in ("params.json", "trial.csv", "out.csv"))
+            params.write_text(told + "\n", encoding="utf-8")
+            header = ",".join(["time [s]", *(f"{name} [{self.units[name]}]" for name in self.inputs)])
+            np.savetxt(trial, np.vstack([time, inputs]).T, "%.17g", ",", header=header, comments="", encoding="utf-8")
+            paths = dict(zip(PLACES, map(str, (params, trial, out)), strict=True))
+            self._call([_filled(word, paths) for word in self.command])
+            return self._read(out, time)
+
+    def _call(self, words: list[str]) -> None:
+        try:
+            done = subprocess.run(words, capture_output=True, timeout=TIMEOUT, check=False, stdin=subprocess.DEVNULL)
+        except subprocess.TimeoutExpired:
+            raise SimulatorError(f"{words[0]} took more than {TIMEOUT:g} s") from None
+        except OSError as error:
+            raise SimulatorError(f"{words[0]} cannot be started: {error.strerror or error}") from error
+        if done.returncode:
+            lines = done.stderr.decode("utf-8", "replace").strip().splitlines()
+            said = f": {lines[-1]}" if lines else ""
+            raise SimulatorError(f"{words[0]} ended with code {done.returncode}{said}")
+
+    def _read(self, out: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t c"]:
+        if not out.is_file():
+            raise SimulatorError(f"{self.command[0]} wrote no {{out}}")
+        try:
+            table = read_trial(out)
+        except InputError as error:
+            raise SimulatorError(f"its output cannot be used: {error}") from error
+        for name in self.outputs:
+            if name not in table.signals.channels:
+                raise SimulatorError(f"its output has no column {name}")
+            unit = table.column(name).si
+            if unit != self.units[name]:
+                raise SimulatorError(f"its output has {name} in {unit}, the trials in {self.units[name]}")
+        theirs = table.signals.time
+        if len(theirs) != len(time) or np.abs(theirs - time).max() > SAME_TIME * (time[-1] - time[0]):
+            raise SimulatorError(f"its output has {len(theirs)} rows or other times than the {len(time)} of the trial")
+        return np.column_stack([table.signals.column(name) for name in self.outputs])
+
+
+def program(command: str, inputs: tuple[str, ...], outputs: tuple[str, ...], units: Mapping[str, str]) -> Program:
+    """Simulator from what case.toml says; ValueError when the command lacks one of its three places."""
+    words = tuple(shlex.split(command))
+    for place in PLACES:
+        if not any(place in word for word in words):
+            raise ValueError(f'has no {place}; write for example "my_simulator {" ".join(PLACES)}"')
+    return Program(words, inputs, outputs, dict(units))
+
+
+def _filled(word: str, paths: Mapping[str, str]) -> str:
+    for place, path in paths.items():
+        word = word.replace(place, path)
+    return word
 
 
 def gap_case_folders(folder: str | PathLike[str]) -> list[Path]:
@@ -74,13 +185,13 @@ def read_gap_case(
     ...     torque = 60.0 * angle + 3.0 * np.gradient(angle, time) + noise.normal(0.0, 0.2, 160)
     ...     trial = pd.DataFrame({"time [s]": time, "angle [rad]": angle, "torque [N m]": torque})
     ...     trial.to_csv(f"case/trials/t{k}.csv", index=False)
-    >>> text = 'format = 1\nsystem = "geocontact.systems.elastic_joint.model:JOINT"\n'
+    >>> text = 'format = 1\nsystem = "geocontact.systems.elastic_joint:JOINT"\n'
     >>> text += 'calibration = ["t1", "t2", "t3"]\nevaluation = ["t4", "t5"]\n[noise]\ntorque = 0.2\n'
     >>> text += '[parameters.k]\nstart = 50.0\nlower = 10.0\nupper = 200.0\nunit = "N m/rad"\n'
     >>> _ = Path("case/case.toml").write_text(text)
     >>> case = gc.read_gap_case("case")
     >>> case.system, [trial.name for trial in case.calibration]
-    ('geocontact.systems.elastic_joint.model:JOINT', ['t1', 't2', 't3'])
+    ('geocontact.systems.elastic_joint:JOINT', ['t1', 't2', 't3'])
     """
     home = case_folder(folder)
     file = home / SETTINGS

@@ -12,11 +12,11 @@ import numpy as np
 import pandas as pd
 
 from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.cell_channels import CellChannels
+from geocontact.data.gap.cell import CellChannels
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.io.cases.case_cells import AREA, PLACE, cells_file, channel_name
-from geocontact.io.cases.case_folder import SETTINGS, TRIALS
+from geocontact.io.cases.case_settings import SETTINGS, TRIALS
+from geocontact.io.cases.trial_table import AREA, PLACE, cells_file, channel_name
 from geocontact.io.text.results import with_microseconds
 from geocontact.io.text.units import si_unit
 

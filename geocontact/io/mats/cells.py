@@ -14,8 +14,7 @@ from jaxtyping import Bool, Float, Int
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.pressure_frames import PressureFrames
-from geocontact.io.mats.layout import MatLayout
-from geocontact.io.mats.units import pressure_unit
+from geocontact.io.mats.layout import MatLayout, pressure_unit
 from geocontact.io.text.units import DIMENSIONS
 
 LEAST, MOST = 1e2, 2e6

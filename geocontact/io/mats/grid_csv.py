@@ -16,9 +16,8 @@ import numpy as np
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.cells import MatRecording, frames_of
-from geocontact.io.mats.layout import MatLayout
+from geocontact.io.mats.layout import MatLayout, pressure_unit
 from geocontact.io.mats.text import MatText, Notation, notation_of, shown
-from geocontact.io.mats.units import pressure_unit
 from geocontact.io.text.csv_text import LONGEST_NAME
 from geocontact.io.text.units import split_header
 

@@ -18,9 +18,8 @@ from dataclasses import dataclass, replace
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.cells import MatRecording, frames_of
-from geocontact.io.mats.layout import LARGEST, SMALLEST, MatLayout
+from geocontact.io.mats.layout import LARGEST, SMALLEST, MatLayout, pressure_unit
 from geocontact.io.mats.text import MatText, notation_of, shown
-from geocontact.io.mats.units import pressure_unit
 
 KIND = "pedar"
 

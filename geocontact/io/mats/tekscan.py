@@ -16,9 +16,17 @@ from itertools import dropwhile, islice
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.cells import MatRecording, frames_of
-from geocontact.io.mats.layout import LARGEST, MOST_LINES, SMALLEST, MatLayout, Turned
+from geocontact.io.mats.layout import (
+    LARGEST,
+    MOST_LINES,
+    SMALLEST,
+    MatLayout,
+    Turned,
+    area_unit,
+    length_unit,
+    pressure_unit,
+)
 from geocontact.io.mats.text import MatText, Notation, notation_of, shown
-from geocontact.io.mats.units import area_unit, length_unit, pressure_unit
 
 KIND = "tekscan"
 

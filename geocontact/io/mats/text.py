@@ -13,8 +13,7 @@ from pathlib import Path
 
 from geocontact.data.errors import InputError
 from geocontact.io.mats.layout import MatLayout
-from geocontact.io.text.file_preflight import UNKNOWN, looks_like, read_bytes
-from geocontact.io.text.text_lines import BYTE_ORDER_MARK, lines
+from geocontact.io.text.file_preflight import BYTE_ORDER_MARK, UNKNOWN, lines, looks_like, read_bytes
 
 LARGEST_RECORDING = 512_000_000
 """Bytes of one file."""

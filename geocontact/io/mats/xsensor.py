@@ -18,9 +18,8 @@ import numpy as np
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.cells import MatRecording, frames_of
-from geocontact.io.mats.layout import LARGEST, MOST_LINES, SMALLEST, MatLayout
+from geocontact.io.mats.layout import LARGEST, MOST_LINES, SMALLEST, MatLayout, area_unit, length_unit, pressure_unit
 from geocontact.io.mats.text import MatText, Notation, notation_of, shown
-from geocontact.io.mats.units import area_unit, length_unit, pressure_unit
 from geocontact.io.text.csv_text import LONGEST_NAME
 
 Said = tuple[int, str, str]

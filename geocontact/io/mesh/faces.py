@@ -9,8 +9,7 @@ import numpy as np
 from jaxtyping import Int
 
 from geocontact.data.errors import InputError
-from geocontact.io.text.file_preflight import read_bytes
-from geocontact.io.text.text_lines import BYTE_ORDER_MARK, integer, lines, shown
+from geocontact.io.text.file_preflight import BYTE_ORDER_MARK, integer, lines, read_bytes, shown
 
 
 def read_face_indices(path: str | PathLike[str], count: int) -> Int[np.ndarray, " k"]:

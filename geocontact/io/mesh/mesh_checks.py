@@ -1,4 +1,4 @@
-"""What is asked of a mesh once it is parsed: finite, used, of a plausible size; and what is worth a warning."""
+"""What is asked of a mesh once it is parsed, the largest that is read, and its polygons and vertices made plain."""
 
 from __future__ import annotations
 
@@ -7,9 +7,94 @@ import warnings
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from geocontact.data.coincident import repeated_faces
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.mesh import first_of_coincident, repeated_faces
 from geocontact.io.text.units import LENGTH, MESH_UNITS
+
+MAX_FACES = 20_000_000
+"""Most triangles of one mesh; a binary STL of that size has 1 GB."""
+
+MAX_VERTICES = 3 * MAX_FACES
+"""Most vertices of one mesh: three of its own for every triangle."""
+
+
+def require_count(count: int, limit: int, noun: str, file: str) -> None:
+    """Refuse `count` things called `noun` when there are none of them or more than `limit`."""
+    if count <= 0:
+        raise InputError(file, "", f"no {noun}", "export it again as a triangle surface")
+    require_at_most(count, limit, noun, file)
+
+
+def require_at_most(count: int, limit: int, noun: str, file: str) -> None:
+    """Refuse `count` things called `noun` when there are more than `limit`."""
+    if count > limit:
+        raise InputError(file, "", f"{count} {noun}, more than the {limit} that are read", "decimate the mesh first")
+
+
+def merge_coincident(
+    vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"], file: str
+) -> tuple[Float[np.ndarray, "k 3"], Int[np.ndarray, "m 3"]]:
+    """One vertex for all that are equal to the last bit; −0 equals 0.
+
+    Faces keep their order and corners, vertices the order in which they first appear. Vertices that no face uses are
+    left out with a warning. `vertices` must be finite.
+    """
+    vertices = vertices + vertices.dtype.type(0)  # −0 + 0 is +0
+    representative = first_of_coincident(vertices)
+    used = np.zeros(len(vertices), dtype=bool)
+    used[representative[faces]] = True
+    distinct = np.count_nonzero(representative == np.arange(len(vertices)))
+    unused = int(distinct - np.count_nonzero(used))
+    if unused:
+        noun = "vertices belong" if unused > 1 else "vertex belongs"
+        warnings.warn(InputWarning(f"{file}: {unused} {noun} to no face, left out"), stacklevel=3)
+    number = np.cumsum(used, dtype=np.int32) - 1
+    return vertices[used], number[representative][faces].astype(np.int64)
+
+
+def triangles(
+    corners: Int[np.ndarray, " k"], sizes: Int[np.ndarray, " p"], vertex_count: int, file: str
+) -> Int[np.ndarray, "m 3"]:
+    """Fan triangles of polygons, polygon after polygon, each from its first corner.
+
+    Triangles stay as they are: then triangle i is face i of the file. A polygon of n corners becomes n − 2
+    consecutive triangles (warned about: the numbers of later faces move, and a concave polygon comes out wrong).
+
+    Parameters
+    ----------
+    corners
+        Vertex indices of all polygons, one polygon after the other, 0-based.
+    sizes
+        Number of corners of each polygon; 3 at least, else refused.
+    vertex_count
+        Vertices there are; an index outside 0 … vertex_count − 1 is refused.
+    """
+    _require_valid(corners, sizes, vertex_count, file)
+    split = int(np.count_nonzero(sizes > 3))
+    if split == 0:
+        return corners.reshape(-1, 3)
+    each = sizes - 2
+    require_count(int(each.sum()), MAX_FACES, "faces", file)
+    first = np.repeat(np.cumsum(sizes) - sizes, each)
+    step = np.arange(len(first)) - np.repeat(np.cumsum(each) - each, each)
+    noun = "polygon" if split == 1 else "polygons"
+    message = f"{file}: {split} {noun} with more than 3 corners cut into triangles; face numbers count triangles"
+    warnings.warn(InputWarning(message), stacklevel=2)
+    return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)
+
+
+def _require_valid(corners: Int[np.ndarray, " k"], sizes: Int[np.ndarray, " p"], vertex_count: int, file: str) -> None:
+    require_count(len(sizes), MAX_FACES, "faces", file)
+    if sizes.min() < 3:
+        face = int(np.argmax(sizes < 3))
+        raise InputError(file, f"face {face}", f"has {sizes[face]} corners, 3 are needed", "export it again")
+    bad = (corners < 0) | (corners >= vertex_count)
+    if bad.any():
+        corner = int(np.argmax(bad))
+        face = int(np.searchsorted(np.cumsum(sizes), corner, side="right"))
+        what = f"vertex index {corners[corner]} is outside 0 to {vertex_count - 1}"
+        raise InputError(file, f"face {face}", what, "the file is damaged, export it again")
+
 
 FLAT = 1e-12
 """A face is degenerate when its height is below this fraction of its longest edge: rounding, not shape."""

@@ -12,12 +12,17 @@ from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
 from geocontact.data.mesh import Mesh
-from geocontact.io.mesh.anatomical_space import space_of_stl
-from geocontact.io.mesh.merge import merge_coincident
-from geocontact.io.mesh.mesh_checks import SIZES, check_faces, metres_per, require_finite, require_plausible
+from geocontact.io.mesh.mesh_checks import (
+    SIZES,
+    check_faces,
+    merge_coincident,
+    metres_per,
+    require_finite,
+    require_plausible,
+)
 from geocontact.io.mesh.obj import read_obj
 from geocontact.io.mesh.ply import read_ply
-from geocontact.io.mesh.stl import read_stl
+from geocontact.io.mesh.stl import read_stl, space_of_stl
 from geocontact.io.mesh.vtp import read_vtp
 from geocontact.io.text.file_preflight import read_bytes
 

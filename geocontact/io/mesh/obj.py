@@ -17,13 +17,13 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
-from geocontact.io.mesh import limits
-from geocontact.io.mesh.polygons import triangles
-from geocontact.io.text.file_preflight import not_a
-from geocontact.io.text.text_lines import (
+from geocontact.io.mesh import mesh_checks as limits
+from geocontact.io.mesh.mesh_checks import triangles
+from geocontact.io.text.file_preflight import (
     BYTE_ORDER_MARK,
     as_integers,
     lines,
+    not_a,
     remedy,
     require_numbers,
     shown,

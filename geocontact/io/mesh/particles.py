@@ -13,10 +13,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
-from geocontact.data.magnitude import too_large
-from geocontact.data.plausible import TOO_LARGE
-from geocontact.io.text.file_preflight import read_bytes
-from geocontact.io.text.text_lines import BYTE_ORDER_MARK, is_number, lines, shown
+from geocontact.data.plausible import TOO_LARGE, too_large
+from geocontact.io.text.file_preflight import BYTE_ORDER_MARK, is_number, lines, read_bytes, shown
 from geocontact.io.text.units import LENGTH
 
 

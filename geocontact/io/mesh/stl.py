@@ -16,9 +16,31 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
-from geocontact.io.mesh import limits
-from geocontact.io.text.file_preflight import UNKNOWN, looks_like, not_a
-from geocontact.io.text.text_lines import BLOCK, BYTE_ORDER_MARK, is_number, remedy, require_numbers, shown
+from geocontact.data.mesh import AXES
+from geocontact.io.mesh import mesh_checks as limits
+from geocontact.io.text.file_preflight import (
+    BLOCK,
+    BYTE_ORDER_MARK,
+    UNKNOWN,
+    is_number,
+    looks_like,
+    not_a,
+    remedy,
+    require_numbers,
+    shown,
+)
+
+HEADER = 256
+"""Bytes of a file that are looked at: the free text of a binary STL, the first line of an ASCII one."""
+_SPACE = re.compile(rf"\bSPACE=({'|'.join(AXES)})\b".encode())
+
+
+def space_of_stl(data: bytes) -> str:
+    """ "LPS" or "RAS"; empty where the header says nothing."""
+    head = data[:80] if b"\0" in data[:HEADER] else data[:HEADER].split(b"\n", 1)[0]
+    found = _SPACE.search(head)
+    return found[1].decode() if found else ""
+
 
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 """One facet of a binary STL file, 50 bytes."""

@@ -13,10 +13,9 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
-from geocontact.io.mocap.c3d_plates import Arrays, read_apart
-from geocontact.io.mocap.c3d_units import point_metre
-from geocontact.io.mocap.subject import without_subject
+from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.io.mocap.c3d_plates import Arrays, point_metre, read_apart
+from geocontact.io.mocap.trc import without_subject
 
 
 def read_c3d_markers(path: str | PathLike[str], c3d_unit: str | None = None) -> MarkerTrajectories:

@@ -7,24 +7,184 @@ from __future__ import annotations
 
 import io
 import os
+import re
 import struct
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from jaxtyping import Float, Int
 
-from geocontact.data.errors import InputError
-from geocontact.data.magnitude import too_large
-from geocontact.data.plausible import TOO_LARGE
-from geocontact.io.mocap.c3d_byte_order import as_intel
-from geocontact.io.mocap.c3d_parameters import MIPS, processor, with_real_numbers, with_whole_counts
-from geocontact.io.mocap.clipped import clipped_runs
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.plausible import TOO_LARGE, too_large
+from geocontact.io.mocap.c3d_parameters import MIPS, as_intel, processor, with_real_numbers, with_whole_counts
 from geocontact.io.text.file_preflight import read_bytes
+from geocontact.io.text.units import LENGTH, length_unit, si_unit
+
+RUN = 3
+"""Samples in a row at the limit that are no chance."""
+
+BITS = (12, 14, 16)
+"""Of converters, where the file does not say."""
+
+_WHOLE = 0.02  # of a count; files hold single precision
+
+
+def clipped_runs(
+    counts: Float[np.ndarray, "t c"], offset: Float[np.ndarray, " c"], bits: int
+) -> Int[np.ndarray, "r 3"]:
+    """Channel, first sample and length of every run of samples at the end of the converter.
+
+    Parameters
+    ----------
+    counts
+        As the converter gave them, before offset and scale; channels whose counts are not whole are passed over.
+    offset
+        Count that means nothing; where it is above 0, counts may begin at 0.
+    bits
+        Of the converter; 0 where the file does not say.
+    """
+    found = []
+    for channel, column in enumerate(counts.T):
+        if not len(column) or not (np.isfinite(column).all() and np.abs(column - np.round(column)).max() < _WHOLE):
+            continue
+        whole = np.round(column).astype(np.int64)
+        limits = _limits((bits,) if bits in range(8, 33) else BITS, bool(offset[channel] > 0.0))
+        for extreme in {int(whole.max()), int(whole.min())} & limits:
+            edges = np.flatnonzero(np.diff(np.concatenate([[0], whole == extreme, [0]])))
+            found += [(channel, start, end - start) for start, end in edges.reshape(-1, 2) if end - start >= RUN]
+    return np.array(found, np.int64).reshape(-1, 3)
+
+
+def _limits(widths: tuple[int, ...], from_zero: bool) -> set[int]:
+    ends = {0} if from_zero else set[int]()
+    for width in widths:
+        half = 1 << (width - 1)
+        ends |= {half - 1, -half, 1 - half, 2 * half - 1}
+    return ends
+
+
+_POUND_FORCE = 4.4482216152605
+_KILOGRAM_FORCE = 9.80665
+_FORCE = {"n": 1.0, "nt": 1.0, "newton": 1.0, "newtons": 1.0, "kn": 1e3, "lbf": _POUND_FORCE, "kgf": _KILOGRAM_FORCE}
+_MOMENT = re.compile(r"(?P<force>newtons?|nt|kn|n|lbf|kgf)[\s.*·⋅-]*(?P<length>[a-zµμ]+)\.?", re.IGNORECASE)
+
+MOMENTS_LAST = (2, 4)
+"""Types of plates with three channels of force and three of moment."""
+
+_CENTRE = 1
+_CALIBRATED = 4
+"""Type whose channels may be in volts: its matrix makes newtons of them."""
+
+
+@dataclass(frozen=True)
+class PlateUnits:
+    """SI units that one unit of a plate's numbers is: newtons, metres (of points), newton metres (of its moments).
+
+    `doubt` says what is odd about them; empty where nothing is.
+    """
+
+    newton: float
+    metre: float
+    newton_metre: float
+    doubt: str = ""
+
+
+def point_metre(file: str, written: str, stated: str | None) -> float:
+    """Metres per unit of places, from POINT:UNITS, or as the user states it where that is empty.
+
+    InputError where neither says it, and for what is no unit of length; a warning where they contradict each other.
+    """
+    if not written.strip():
+        if stated is None:
+            raise InputError(file, "POINT:UNITS", "is empty: the unit of its places is not known", _STATE_IT)
+        return LENGTH[stated]
+    unit = length_unit(written)
+    if unit is None:
+        raise InputError(file, "POINT:UNITS", f"is '{written[:20]}'", f"expected one of {', '.join(LENGTH)}")
+    if stated not in (None, unit):
+        what = f"POINT:UNITS is '{written[:20]}', which counts; `c3d_unit` {stated} is for files whose own is empty"
+        warnings.warn(InputWarning(f"{file}: {what}"), stacklevel=4)
+    return LENGTH[unit]
+
+
+_STATE_IT = f"state it with `c3d_unit` {', '.join([*LENGTH][:-1])} or {[*LENGTH][-1]}"
+
+
+def plate_units(
+    file: str, place: str, kind: int, points: str, channels: Sequence[str], stated: str | None = None
+) -> PlateUnits:
+    """Units of a plate of a type from POINT:UNITS and ANALOG:UNITS of its channels.
+
+    Channels without a unit of force or moment are in N and in N times the unit of points, as ezc3d has it. `stated` is
+    the unit of points where the file says none.
+    """
+    metre, doubt = point_metre(file, points, stated), ""
+    pushing = channels[:3] if kind in (*MOMENTS_LAST, _CENTRE) else channels
+    newton = _one(file, place, "forces", pushing, [_force(each) for each in pushing]) or 1.0
+    if kind in MOMENTS_LAST:
+        turning = channels[3:6]
+        moment = _one(file, place, "moments", turning, [_moment(each) for each in turning]) or newton * metre
+    else:
+        moment = newton * metre
+        _require_of_points(file, place, kind, channels, points, metre)
+    odd = next((each for each in channels if _strange(each)), None)
+    if odd is not None and not (kind == _CALIBRATED and _electric(odd)):
+        doubt = f"ANALOG:UNITS of its channels is '{odd[:20]}'; they are taken to be in N and N{_name(metre)}"
+    return PlateUnits(newton, metre, moment, doubt)
+
+
+def _one(file: str, place: str, what: str, written: Sequence[str], known: list[float | None]) -> float | None:
+    """The one unit of some channels; None where none has a unit that is known, InputError where they differ."""
+    found = {each for each in known if each is not None}
+    if len(found) > 1:
+        units = ", ".join(map(repr, written))
+        raise InputError(file, place, f"its {what} are in {units}", "correct ANALOG:UNITS: one unit is expected")
+    return found.pop() if found else None
+
+
+def _strange(written: str) -> bool:
+    """Whether a unit is written that is none of force, moment or length: pounds would be 4.4 times too small."""
+    return bool(written.strip()) and (_force(written), _moment(written), length_unit(written)) == (None, None, None)
+
+
+def _require_of_points(file: str, place: str, kind: int, channels: Sequence[str], points: str, metre: float) -> None:
+    """A plate whose channels hold the centre of pressure itself: in the unit of points, as ezc3d takes it."""
+    if kind != _CENTRE:
+        return
+    for written in channels[3:5]:
+        unit = length_unit(written)
+        if unit is not None and LENGTH[unit] != metre:
+            what = f"its centre of pressure is in '{written}', points are in '{points}'"
+            raise InputError(file, place, what, "save the file with one unit of length")
+
+
+def _force(written: str) -> float | None:
+    return _FORCE.get(written.strip().lower())
+
+
+def _moment(written: str) -> float | None:
+    """Newton metres per unit: `Nmm`, `N.mm`, `ntmm`, `N m`, `N-m`."""
+    match = _MOMENT.fullmatch(written.strip())
+    unit = length_unit(match["length"]) if match else None
+    return None if match is None or unit is None else _FORCE[match["force"].lower()] * LENGTH[unit]
+
+
+def _name(metre: float) -> str:
+    return next(name for name, size in LENGTH.items() if size == metre)
+
+
+def _electric(written: str) -> bool:
+    known = si_unit(written)
+    return known is not None and known[0] in ("V", "A")
+
 
 PATIENCE = 8.0, 2e-7
 """Seconds for a file on an idle machine: to start, and per byte; several times what whole files take."""

@@ -1,4 +1,4 @@
-"""Marker trajectories of .trc files, as Motion Analysis' software and OpenSim write them.
+"""Marker trajectories as .trc files, as Motion Analysis' software and OpenSim read and write them.
 
 Line 3 tells rate, counts and unit, line 4 the markers' names, line 5 the columns; then frame, time and x y z of each
 marker between tabs. An empty cell is a marker that was not seen; so is one at exactly 0 0 0, which some exports write.
@@ -11,18 +11,26 @@ rounding, they count.
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 from os import PathLike, fspath
+from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
-from geocontact.io.mocap.subject import without_subject
-from geocontact.io.text.encoding import decoded
-from geocontact.io.text.file_preflight import read_bytes
-from geocontact.io.text.table_rows import read_rows
+from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.data.text import seconds
+from geocontact.io.text.file_preflight import decoded, read_bytes
+from geocontact.io.text.tables import read_rows
 from geocontact.io.text.units import LENGTH, length_unit
+
+
+def without_subject(labels: Sequence[str]) -> list[str]:
+    """Labels without what stands before a colon, unless two different ones would then be alike."""
+    short = [label.rpartition(":")[2] for label in labels]
+    return short if len(set(short)) == len(set(labels)) else list(labels)
+
 
 _HEAD = 5
 _ROUNDED = 0.51e-3
@@ -157,3 +165,39 @@ def _seen(file: str, positions: Float[np.ndarray, "t m 3"]) -> Float[np.ndarray,
         warnings.warn(InputWarning(message), stacklevel=3)
     lost = zero | np.any(np.isnan(positions), axis=2)
     return np.where(lost[..., None], np.nan, positions)
+
+
+ASKED = (
+    "DataRate",
+    "CameraRate",
+    "NumFrames",
+    "NumMarkers",
+    "Units",
+    "OrigDataRate",
+    "OrigDataStartFrame",
+    "OrigNumFrames",
+)
+
+
+def write_trc(path: Path, markers: MarkerTrajectories) -> None:
+    """Cells of a marker that was not seen are empty; the rate in the head is that of the mean step."""
+    path.write_text(trc_text(path.name, markers), encoding="utf-8")
+
+
+def trc_text(name: str, markers: MarkerTrajectories, decimals: int = 6) -> str:
+    """The file's text, with so many decimals of a millimetre."""
+    count, steps = len(markers.names), len(markers) - 1
+    rate = steps / float(markers.time[-1] - markers.time[0]) if steps > 0 else 1.0
+    told = (f"{rate:.6g}", f"{rate:.6g}", str(len(markers)), str(count), "mm", f"{rate:.6g}", "1", str(len(markers)))
+    lines = [
+        f"PathFileType\t4\t(X/Y/Z)\t{name}",
+        "\t".join(ASKED),
+        "\t".join(told),
+        "Frame#\tTime\t" + "\t\t\t".join(markers.names),
+        "\t\t" + "\t".join(f"{axis}{k + 1}" for k in range(count) for axis in "XYZ"),
+        "",
+    ]
+    for k, (time, places) in enumerate(zip(markers.time, 1e3 * markers.positions, strict=True)):
+        cells = ("" if np.isnan(value) else f"{value:.{decimals}f}" for value in places.ravel())
+        lines.append("\t".join((str(k + 1), seconds(float(time), 9), *cells)))
+    return "\n".join(lines) + "\n"

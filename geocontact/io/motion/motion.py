@@ -7,9 +7,14 @@ from pathlib import Path
 
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
-from geocontact.io.motion.grood_suntay import motion_from_grood_suntay
-from geocontact.io.motion.pose_rows import is_pose_rows, motion_from_rows
-from geocontact.io.motion.poses import motion_from_csv, motion_from_joint, motion_from_map
+from geocontact.io.motion.poses import (
+    is_pose_rows,
+    motion_from_csv,
+    motion_from_grood_suntay,
+    motion_from_joint,
+    motion_from_map,
+    motion_from_rows,
+)
 from geocontact.io.opensim.osim import joint_names, read_joint
 from geocontact.io.text.tables import CELLS, listed, read_table
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_tasks import MarkerTasks
+from geocontact.data.multibody.markers import MarkerTasks
 from geocontact.io.opensim.osim_xml import is_true, label, numbers_of, read_document, text_of
 
 FROM_FILE = "from_file"

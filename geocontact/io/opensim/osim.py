@@ -1,26 +1,109 @@
 """Joints of OpenSim models: the pose of the child body in the parent body as a function of coordinates.
 
 Both dialects: OpenSim 4 (JointSet, sockets, offset frames) and OpenSim 3 (Joint inside Body, `reverse`).
+
+Seth et al. (2016), A biomechanical model of the scapulothoracic joint, PLoS ONE 11(1):e0141028; OpenSim 4.6,
+ScapulothoracicJoint.cpp; Simbody 3.8, RigidBodyNodeSpec_Ellipsoid.h. Two joints with a body without mass between: three
+body-fixed turns x, y, z whose frame's origin is the turned z, a point of the unit sphere, times the radii; then a pin.
+The ellipsoid's normal there is not the turned z, but for a sphere.
 """
 
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from os import PathLike, fspath
 from xml.etree.ElementTree import Element
 
 import numpy as np
 from jaxtyping import Float
-from scipy.spatial.transform import RigidTransform
+from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.multibody.joint import Coordinate, JointModel, Kind, TransformAxis
-from geocontact.data.multibody.joint_function import JointFunction
-from geocontact.io.opensim import osim_scapula
+from geocontact.data.multibody.joint import (
+    Affine,
+    Coordinate,
+    JointFunction,
+    JointModel,
+    Kind,
+    SineProduct,
+    TransformAxis,
+)
 from geocontact.io.opensim.osim_functions import constant, function_of, linear
 from geocontact.io.opensim.osim_meshes import mesh_placement, mesh_placements
 from geocontact.io.opensim.osim_xml import Frames, is_true, label, numbers_of, offset, read_model, socket_of, text_of
 from geocontact.io.text.tables import listed
+
+TAG = "ScapulothoracicJoint"
+QUARTER = RigidTransform.from_rotation(Rotation.from_rotvec([0.0, 0.0, 0.5 * np.pi]))
+"""The ellipsoid's frame stands a quarter turn about z from the joint's: abduction and elevation are positive so."""
+_STILL, _ITSELF = Affine(np.zeros(0), 0.0), Affine(np.ones(1), 0.0)
+_COSINE = 0.5 * np.pi
+
+
+def between(name: str) -> str:
+    """Name of the body without mass."""
+    return f"{name}_on_ellipsoid"
+
+
+def scapulothoracic(
+    joint: JointModel, radii: Float[np.ndarray, " 3"], origin: Float[np.ndarray, " 2"], direction: float
+) -> tuple[JointModel, JointModel]:
+    """Both joints.
+
+    Parameters
+    ----------
+    joint
+        Bodies, offsets and the four coordinates abduction, elevation, upward rotation, winging; its axes do not matter.
+    radii
+        Of the ellipsoid along x, y, z of the joint's frame on the thorax [m].
+    origin
+        Of the winging axis in the scapula's plane, x and y of the gliding frame [m].
+    direction
+        Of that axis, from y towards -x [rad].
+    """
+    first, second, third, fourth = joint.coordinates
+    semi = np.array([radii[1], radii[0], radii[2]])  # of the frame a quarter turn away
+    about = np.array([-np.sin(direction), np.cos(direction), 0.0])
+    axis = RigidTransform.from_translation([*origin, 0.0])
+    middle = between(joint.name)
+    return (
+        replace(
+            joint,
+            child=middle,
+            coordinates=(first, second, third),
+            axes=_glide((first.name, second.name, third.name), semi),
+            parent_offset=joint.parent_offset * QUARTER,
+            child_offset=QUARTER,
+        ),
+        replace(
+            joint,
+            name=f"{joint.name}_winging",
+            parent=middle,
+            coordinates=(fourth,),
+            axes=_pin(fourth.name, about),
+            parent_offset=axis,
+            child_offset=joint.child_offset * axis,
+        ),
+    )
+
+
+def _glide(names: tuple[str, str, str], semi: Float[np.ndarray, " 3"]) -> tuple[TransformAxis, ...]:
+    """Turns about x, y, z, and the shift by the turned z times `semi`."""
+    turns = (TransformAxis(each, (name,), _ITSELF) for each, name in zip(np.eye(3), names, strict=True))
+    x, y, z = np.eye(3)
+    return (
+        *turns,
+        TransformAxis(x, names[1:2], SineProduct(float(semi[0]), (0.0,))),
+        TransformAxis(y, names[:2], SineProduct(-float(semi[1]), (0.0, _COSINE))),
+        TransformAxis(z, names[:2], SineProduct(float(semi[2]), (_COSINE, _COSINE))),
+    )
+
+
+def _pin(name: str, about: Float[np.ndarray, " 3"]) -> tuple[TransformAxis, ...]:
+    still = [TransformAxis(each, (), _STILL) for each in (*np.eye(3), *np.eye(3))]
+    return (TransformAxis(about, (name,), _ITSELF), *still[1:])
+
 
 __all__ = ["Coordinate", "JointModel", "TransformAxis", "joints_of", "mesh_placement", "mesh_placements", "read_joint"]
 
@@ -77,7 +160,7 @@ def joints_of(file: str, model: Element, frames: Frames) -> tuple[JointModel, ..
 
 def _joints(file: str, model: Element, frames: Frames, element: Element, owner: Element) -> tuple[JointModel, ...]:
     """The joints that one element of the file stands for: one, or two by way of a body without mass."""
-    if element.tag != osim_scapula.TAG:
+    if element.tag != TAG:
         return (_joint(file, model, frames, element, owner),)
     coordinates = tuple(
         _coordinate(file, e.get("name", ""), e, "rotational") for e in element.findall("coordinates/Coordinate")
@@ -91,7 +174,7 @@ def _joints(file: str, model: Element, frames: Frames, element: Element, owner: 
     radii = numbers_of(file, element, "thoracic_ellipsoid_radii_x_y_z", 3)
     origin = numbers_of(file, element, "scapula_winging_axis_origin", 2, (0.0, 0.0))
     direction = numbers_of(file, element, "scapula_winging_axis_direction", 1, (0.0,))
-    return osim_scapula.scapulothoracic(joint, radii, origin, float(direction[0]))
+    return scapulothoracic(joint, radii, origin, float(direction[0]))
 
 
 def _joint(file: str, model: Element, frames: Frames, element: Element, owner: Element) -> JointModel:

@@ -10,11 +10,12 @@ import numpy as np
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.model import GROUND, Multibody
-from geocontact.data.multibody.passive_forces import (
+from geocontact.data.multibody.model import (
+    GROUND,
     CoordinateLimit,
     CoordinateSpring,
     FrameBushing,
+    Multibody,
     PassiveForce,
     PassiveForces,
 )

@@ -11,9 +11,8 @@ from jaxtyping import Float
 
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import GROUND, Body, Marker, Multibody, outwards
-from geocontact.io.opensim.osim import joints_of
-from geocontact.io.opensim.osim_couplers import read_couplers, read_pairs
-from geocontact.io.opensim.osim_scapula import between
+from geocontact.io.opensim.osim import between, joints_of
+from geocontact.io.opensim.osim_functions import read_couplers, read_pairs
 from geocontact.io.opensim.osim_xml import (
     Frames,
     is_true,

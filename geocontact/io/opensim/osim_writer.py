@@ -11,8 +11,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.data.multibody.joint import Coordinate, JointModel, TransformAxis
-from geocontact.data.multibody.joint_function import Affine
+from geocontact.data.multibody.joint import Affine, Coordinate, JointModel, TransformAxis
 from geocontact.data.multibody.model import GROUND, Body, Marker, Multibody
 
 Vector = Float[np.ndarray, " 3"]

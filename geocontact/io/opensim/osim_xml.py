@@ -16,7 +16,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import LARGEST_MEANT
-from geocontact.io.text.encoding import decoded
+from geocontact.io.text.file_preflight import decoded
 
 LARGEST_MODEL = 32_000_000
 """Bytes of an .osim file; full-body models are below 10 MB."""

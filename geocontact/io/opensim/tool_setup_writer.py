@@ -12,7 +12,7 @@ from xml.etree.ElementTree import Element, ElementTree, SubElement, indent
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.multibody.marker_tasks import MarkerTasks
+from geocontact.data.multibody.markers import MarkerTasks
 from geocontact.io.opensim.marker_weights import FROM_FILE
 
 Ends = tuple[float, float]

@@ -1,8 +1,8 @@
-"""area.csv as `geocontact area` writes it: area over time at one or several thresholds, whole and by side."""
+"""Tables that the analyses write and others read: area.csv, forces.csv, profile.csv."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from os import fspath
 from pathlib import Path
@@ -12,8 +12,10 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
-from geocontact.data.tilted_areas import TiltedAreas
-from geocontact.io.text.frame import read_frame
+from geocontact.data.evolution import TiltedAreas
+from geocontact.io.recordings.load_cells import STRONGEST, column_in_newtons
+from geocontact.io.text.results import read_frame
+from geocontact.io.text.tables import TextTable, listed, read_table
 
 TIME, THRESHOLD, OFFSET = "time [s]", "threshold [mm]", "adduction offset [deg]"
 COLUMNS = {
@@ -116,3 +118,82 @@ def read_area_over_force(path: Path) -> tuple[Float[np.ndarray, " m"], Float[np.
     if (area <= 0.0).any() or len(np.unique(force)) < len(force):
         raise InputError(path, "", "an area is not above 0 or a force occurs twice", "one row for each force")
     return force, area
+
+
+SIDES = ("medial", "lateral", "total")
+
+
+@dataclass(frozen=True, eq=False)
+class ForceCurves:
+    """Forces by side [N] over time [s], compression positive; `unit` is that of the file."""
+
+    file: str
+    time: Float[np.ndarray, " t"]
+    forces: dict[str, Float[np.ndarray, " t"]]
+    unit: str
+
+
+def read_force_curves(path: Path, unit: str | None, mapping: Mapping[str, tuple[float, str]]) -> ForceCurves:
+    """Columns `medial`, `lateral` and `total`, as far as they are there; the total is their sum where it is not.
+
+    Parameters
+    ----------
+    unit
+        Unit of the forces; None where their headers say it.
+    mapping
+        Sign and name of the column that holds a side, by side.
+    """
+    table = read_table(path)
+    if table.time_unit != "s":
+        raise InputError(table.file, "", "time is in per cent of a cycle", "give forces over seconds")
+    sources = {side: mapping.get(side, (1.0, side)) for side in SIDES}
+    there = {side: source for side, source in sources.items() if side in mapping or source[1] in table.channels}
+    if not there:
+        what = f"no column medial, lateral or total; columns are: {listed(table.channels)}"
+        raise InputError(table.file, "", what, "name them: `map` medial=F1,lateral=F2")
+    forces, units = _forces(table, there, unit)
+    if "total" not in forces and {"medial", "lateral"} <= set(forces):
+        forces["total"] = forces["medial"] + forces["lateral"]
+    largest = max(float(np.abs(values).max()) for values in forces.values())
+    if largest > STRONGEST:
+        what = f"forces reach {largest:.0f} N"
+        raise InputError(table.file, "", what, f"is the file in {units} at all? see `unit`")
+    return ForceCurves(table.file, table.time, forces, units)
+
+
+def _forces(
+    table: TextTable, sources: Mapping[str, tuple[float, str]], unit: str | None
+) -> tuple[dict[str, Float[np.ndarray, " t"]], str]:
+    found = {side: (sign, *column_in_newtons(table, name, unit)) for side, (sign, name) in sources.items()}
+    units = ", ".join(sorted({said for _, _, said in found.values()}))
+    return {side: np.asarray(sign * values) for side, (sign, values, _) in found.items()}, units
+
+
+NAMES = ("side", "flexion [deg]", "radius [mm]")
+
+
+@dataclass(frozen=True, eq=False)
+class RadiusProfile:
+    """Radius [m] over flexion [rad], flexion increasing; places where the patch had no face are left out."""
+
+    flexion: Float[np.ndarray, " m"]
+    radius: Float[np.ndarray, " m"]
+
+
+def read_radius_profile(path: Path) -> dict[str, RadiusProfile]:
+    """Profiles by side, in the order of the file."""
+    table = read_frame(path, NAMES, "give a profile.csv")
+    if missing := [name for name in NAMES if name not in table]:
+        raise InputError(path, "line 1", f"no column {', '.join(missing)}", "give the profile.csv of geocontact fit")
+    found = {}
+    for side, rows in table.groupby("side", sort=False):
+        numbers = rows[list(NAMES[1:])].apply(pd.to_numeric, errors="coerce").dropna().sort_values(NAMES[1])
+        flexion, radius = np.radians(numbers[NAMES[1]].to_numpy(float)), numbers[NAMES[2]].to_numpy(float) * 1e-3
+        sound = np.isfinite([flexion, radius]).all() and (radius > 0.0).all() and (np.diff(flexion) > 0.0).all()
+        if len(flexion) < 2 or not sound:
+            what = f"side {side!r:.60}: radii must be above 0 at 2 angles or more, each angle once"
+            raise InputError(path, "", what, "give the profile.csv of geocontact fit")
+        found[str(side)] = RadiusProfile(flexion, radius)
+    if not found:
+        raise InputError(path, "", "no rows", "give the profile.csv of geocontact fit")
+    return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +14,46 @@ from geocontact.data.errors import InputError
 from geocontact.io.mocap.c3d_analogs import read_c3d_analogs
 from geocontact.io.recordings.load_cells import column_in_newtons
 from geocontact.io.text.columns import angles_of, lengths, resolve
+from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.io.text.units import DIMENSIONS, si_unit
+
+SETS = {
+    "exoskeleton": ("beta [rad]", "x [m]", "y [m]"),
+    "joint": ("alpha [rad]", "x [m]", "y [m]"),
+    "instant centre": ("alpha [rad]", "instant_centre_x [m]", "instant_centre_y [m]"),
+}
+"""Columns by what a table tells: offsets over the exoskeleton's or the joint's angle, or the instant centre."""
+
+LARGEST_ANGLE = 2.0 * np.pi
+"""rad; a table of more is in degrees."""
+
+
+@dataclass(frozen=True, eq=False)
+class DriftTable:
+    """What it tells (a key of `SETS`), angles [rad], and x, y [m]."""
+
+    tells: str
+    angle: Float[np.ndarray, " n"]
+    x: Float[np.ndarray, " n"]
+    y: Float[np.ndarray, " n"]
+
+
+def read_axis_drift(path: Path) -> DriftTable:
+    """The table in SI units; InputError unless it holds exactly one of the three sets of columns."""
+    table = read_side_table(path, {name for columns in SETS.values() for name in columns})
+    fitting = [name for name, columns in SETS.items() if set(columns) == set(table.columns)]
+    if not fitting:
+        what = f"columns are {', '.join(map(str, table.columns))}"
+        remedy = (
+            "write beta or alpha [deg], x [mm], y [mm], or alpha [deg], instant_centre_x [mm], instant_centre_y [mm]"
+        )
+        raise InputError(path, "line 1", what, remedy)
+    angle, x, y = (table[column].to_numpy(float) for column in SETS[fitting[0]])
+    if np.abs(angle).max() > LARGEST_ANGLE:
+        raise InputError(path, "", f"angles reach {np.abs(angle).max():.4g} rad", "are these degrees? write [deg]")
+    return DriftTable(fitting[0], angle, x, y)
+
 
 BETA, FORCE, DISPLACEMENT, PRESSURE, TORQUE = "beta", "force", "displacement", "pressure", "torque"
 CHANNELS = (BETA, FORCE, DISPLACEMENT, PRESSURE, TORQUE)

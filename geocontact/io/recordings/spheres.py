@@ -1,9 +1,14 @@
-"""Tables of foot spheres, and the small file with the numbers of their force law."""
+"""Tables of foot spheres, the file with the numbers of their law, and parameters of contacts as a calibration wrote
+them.
+"""
 
 from __future__ import annotations
 
+import csv
+import math
 import re
 import warnings
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
@@ -13,12 +18,12 @@ from jaxtyping import Bool, Float
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.magnitude import too_large
+from geocontact.data.plausible import LARGEST_MEANT, TOO_LARGE, too_large
 from geocontact.io.text.column_names import spelled_as
+from geocontact.io.text.csv_text import text_of
 from geocontact.io.text.file_preflight import read_bytes
-from geocontact.io.text.plain_table import open_plain
-from geocontact.io.text.spreadsheet import is_sheet
-from geocontact.io.text.table_rows import unequal
+from geocontact.io.text.plain_table import is_sheet, open_plain
+from geocontact.io.text.tables import unequal
 from geocontact.io.text.toml_text import toml_of
 from geocontact.io.text.units import LENGTH, length_unit, split_header
 
@@ -291,3 +296,65 @@ def _exponent(cells: _Cells) -> float | None:
         )
     written = match["exponent"] or "1"
     return None if written == "n" else float(written)
+
+
+LARGEST = 1_000_000
+"""Bytes."""
+
+
+def read_contact_parameters(
+    path: Path, units: Mapping[str, str], bounds: Mapping[str, tuple[float, float]]
+) -> dict[str, float]:
+    """Values by name in SI; InputError where one of `units` is missing, twice, in another unit or out of bounds."""
+    text = text_of(path, LARGEST, "a table of parameters").decode("utf-8")
+    rows = csv.DictReader(text.splitlines())
+    if not {"parameter", "unit", "value"} <= set(rows.fieldnames or ()):
+        remedy = "give parameters.csv of a calibration"
+        raise InputError(path, "line 1", "has no columns parameter, unit and value", remedy)
+    found: dict[str, float] = {}
+    for number, row in enumerate(rows, 2):
+        name, unit = row["parameter"], row["unit"]
+        if name not in units:
+            continue
+        if name in found:
+            raise InputError(path, f"line {number}", f"{name} is there twice", "keep one of them")
+        if unit != units[name]:
+            raise InputError(path, f"line {number}", f"{name} is in {unit!r}", f"it is in {units[name]} here")
+        try:
+            found[name] = float(row["value"])
+        except (TypeError, ValueError):
+            found[name] = math.nan
+        if not math.isfinite(found[name]):
+            raise InputError(path, f"line {number}", f"{name} is no number", "calibrate it, or write its value")
+        low, high = bounds[name]
+        if not low <= found[name] <= high:
+            what = f"{name} {found[name]:g} {unit} is outside {low:g} to {high:g}"
+            raise InputError(path, f"line {number}", what, "check value and unit")
+    missing = [name for name in units if name not in found]
+    if missing:
+        raise InputError(path, "", f"no {', '.join(missing)}", "calibrate trials with the exoskeleton")
+    return found
+
+
+def read_contact_intervals(path: Path, names: Collection[str]) -> dict[str, tuple[float, float]]:
+    """Ends of the intervals of `names` in SI, of those that have one: a held parameter has none.
+
+    InputError for an interval without room.
+    """
+    rows = csv.DictReader(text_of(path, LARGEST, "a table of parameters").decode("utf-8").splitlines())
+    found: dict[str, tuple[float, float]] = {}
+    for row in rows:
+        if row.get("parameter") in names:
+            try:
+                low, high = float(row["lower"]), float(row["upper"])
+            except (KeyError, TypeError, ValueError):
+                continue
+            if not (math.isfinite(low) and math.isfinite(high)):
+                continue
+            if max(abs(low), abs(high)) > LARGEST_MEANT:
+                raise InputError(path, row["parameter"], f"an end of its interval {TOO_LARGE}", "calibrate it again")
+            if not low < high:
+                what = f"no room between {low:g} and {high:g}"
+                raise InputError(path, row["parameter"], what, "give lower < upper, or leave both empty")
+            found[row["parameter"]] = low, high
+    return found

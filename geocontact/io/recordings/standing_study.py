@@ -36,8 +36,8 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from geocontact.data.file_names import same_place
 from geocontact.data.plausible import KG, Plausible
+from geocontact.data.text import same_place
 from geocontact.data.units import m
 from geocontact.io.documents import (
     Document,

@@ -12,11 +12,9 @@ from os import fspath
 from pathlib import Path
 
 from geocontact.data.errors import InputError
-from geocontact.io.text.file_preflight import UNKNOWN, looks_like, read_bytes
-from geocontact.io.text.plain_table import open_plain
-from geocontact.io.text.spreadsheet import is_sheet
+from geocontact.io.text.file_preflight import BYTE_ORDER_MARK, UNKNOWN, looks_like, read_bytes
+from geocontact.io.text.plain_table import is_sheet, open_plain
 from geocontact.io.text.storage_header import LONGEST_LINE
-from geocontact.io.text.text_lines import BYTE_ORDER_MARK
 from geocontact.io.text.units import DIMENSIONS, si_unit, split_header
 
 MOST_COLUMNS = 1000

@@ -1,13 +1,52 @@
-"""Before a file is parsed: is it a regular, readable, non-empty file, and what does it look like."""
+"""Before a file is parsed: regular, readable, not empty, its encoding, and its lines a block at a time."""
 
 from __future__ import annotations
 
 import re
 import stat
+import warnings
+from array import array
+from codecs import getincrementaldecoder
+from collections.abc import Iterator
 from os import PathLike, fspath
 from pathlib import Path
 
-from geocontact.data.errors import InputError
+import numpy as np
+from jaxtyping import Int
+
+from geocontact.data.errors import InputError, InputWarning
+
+UTF8, LATIN1 = "utf-8-sig", "latin-1"
+PIECE = 1 << 20
+
+
+def encoding_of(path: str | PathLike[str]) -> str:
+    """UTF-8 where the whole file is that; else Latin-1, with a warning that names the first byte that is not."""
+    decoder, before = getincrementaldecoder("utf-8")(), 0
+    with Path(path).open("rb") as stream:
+        while piece := stream.read(PIECE):
+            try:
+                decoder.decode(piece)
+            except UnicodeDecodeError as error:
+                _warn(path, before + error.start)
+                return LATIN1
+            before += len(piece)
+    return UTF8
+
+
+def decoded(data: bytes, path: str | PathLike[str]) -> str:
+    """The same of bytes that were read."""
+    try:
+        return data.decode(UTF8)
+    except UnicodeDecodeError as error:
+        _warn(path, error.start)
+        return data.decode(LATIN1)
+
+
+def _warn(path: str | PathLike[str], byte: int) -> None:
+    what = f"byte {byte} is not UTF-8; the file is read as Latin-1"
+    warnings.warn(InputWarning(f"{fspath(path)}: {what}"), stacklevel=4)
+
 
 MAX_BYTES = 4 * 2**30
 """Largest file that is read [bytes]."""
@@ -71,3 +110,91 @@ def not_a(kind: str, data: bytes, file: str) -> InputError:
     """The refusal of a file whose content is not of the `kind` ("a PLY file") that its name promises."""
     what, remedy = looks_like(data)
     return InputError(file, "", f"is not {kind} although its name says so: it looks like {what}", remedy)
+
+
+BLOCK = 1 << 21
+"""Bytes that are split into words at once."""
+
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+
+_BLANK = re.compile(rb"\s")
+_WITH_COMMA = re.compile(rb"[-+]?[0-9]*,[0-9]+([eE][-+]?[0-9]+)?")
+_COMMA = "has a decimal comma"
+
+
+def lines(data: bytes, start: int = 0) -> Iterator[bytes]:
+    """Lines of `data` from byte `start` on, without their ends (LF, CR LF or CR)."""
+    while start < len(data):
+        cut = data.find(b"\n", start + BLOCK)
+        stop = len(data) if cut < 0 else cut + 1
+        yield from data[start:stop].splitlines()
+        start = stop
+
+
+def is_number(word: bytes) -> bool:
+    """Whether a word is a number; `nan` and `inf` are, Python's `1_000` is not."""
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return b"_" not in word
+
+
+def require_numbers(words: list[bytes]) -> None:
+    """ValueError names the first word that is no number (`is_number`)."""
+    try:
+        for _ in map(float, words):
+            pass
+        plain = not any(b"_" in word for word in words)
+    except ValueError:
+        plain = False
+    if not plain:
+        word = next(word for word in words if not is_number(word))
+        raise ValueError(f"{shown(word)} {_COMMA if _WITH_COMMA.fullmatch(word) else 'is not a number'}")
+
+
+def remedy(error: Exception, usual: str) -> str:
+    """What to do about numbers that `require_numbers` refused; the usual remedy unless they have decimal commas."""
+    return "export it with decimal points" if _COMMA in str(error) else usual
+
+
+def integer(word: bytes) -> int:
+    """A word as an integer; ValueError when it is none. Python's `1_000` is none here."""
+    if b"_" in word or len(word) > 18:
+        raise ValueError(f"{shown(word)} is not an integer of a mesh")
+    return int(word)
+
+
+def count_of_numbers(text: bytes, *, integers: bool) -> int:
+    """How many numbers a text holds that blanks separate; ValueError names the first word that is none."""
+    count = start = 0
+    while start < len(text):
+        cut = _BLANK.search(text, start + BLOCK)
+        stop = cut.start() if cut else len(text)
+        words = text[start:stop].split()
+        count += len(words)
+        if integers:
+            for word in words:
+                integer(word)
+        else:
+            require_numbers(words)
+        start = stop
+    return count
+
+
+def shown(word: bytes) -> str:
+    """A word of a file as it is quoted in a message: at most 24 characters, nothing but printable ASCII."""
+    text = word[:24].decode("ascii", "backslashreplace")
+    return "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in text).join("''")
+
+
+def as_integers(values: array[int]) -> Int[np.ndarray, " n"]:
+    """The numbers of an `array("q")`, not copied."""
+    return np.frombuffer(values, np.int64) if values else np.empty(0, np.int64)
+
+
+def warn_open_end(data: bytes, file: str) -> None:
+    """Warn when a format without an end mark does not end with a line end: its last number may be cut short."""
+    if not data.endswith((b"\n", b"\r")):
+        message = f"{file}: the last line has no line end; make sure that the file is complete"
+        warnings.warn(InputWarning(message), stacklevel=3)

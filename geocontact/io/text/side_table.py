@@ -14,7 +14,7 @@ import pandas as pd
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import LARGEST_MEANT
 from geocontact.io.text.csv_text import Column, open_csv
-from geocontact.io.text.frame import named
+from geocontact.io.text.results import named
 
 LARGEST_TABLE = 8_000_000
 """Bytes; a layout of 100 000 cells."""

@@ -1,16 +1,73 @@
-"""Frames of a pressure mat as one wrench, one centre and one area per frame, of the whole and of its segments."""
+"""Frames of a pressure mat as one wrench, one centre and one area per frame: offset removed, errors stated, in a
+moving frame.
+
+To first order, for cells with pressures p, areas A and unit forces u (m^2, against the normal) at x:
+
+- each cell by itself off by the share e: covariance e^2 sum p^2 (u, x × u)(u, x × u)^T;
+- all cells off by the same share g: g^2 (F, M)(F, M)^T;
+- the mat moved by d and turned by θ about its middle c: F changes by θ × F, the moment about o by
+  θ × M_c + (c - o) × (θ × F) + d × F, with M_c the moment about c. Components of d and of θ are independent where only
+  their size is stated; where residuals tell their covariance, that is used.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float
+from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.wrench import Wrench
+from geocontact.geometry.register.quality import PoseCovariance
 from geocontact.loads.mat.map import MatMap
-from geocontact.loads.weighted_centre import weighted_centre
+from geocontact.loads.resultant import weighted_centre
+
+FEWEST = 3  # frames of a window
+
+
+@dataclass(frozen=True, eq=False)
+class Unloaded:
+    """Reading of each cell without load, straight in time: offset + drift (t - middle).
+
+    Parameters
+    ----------
+    offset
+        At `middle` [Pa].
+    drift
+        [Pa/s]; 0 where there is one window only.
+    middle
+        [s].
+    """
+
+    offset: Float[np.ndarray, "r c"]
+    drift: Float[np.ndarray, "r c"]
+    middle: float
+
+    def at(self, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t r c"]:
+        """Readings without load [Pa]."""
+        return np.asarray(self.offset + self.drift * (time - self.middle)[:, None, None])
+
+
+def unloaded(
+    time: Float[np.ndarray, " t"], pressure: Float[np.ndarray, "t r c"], windows: Sequence[tuple[float, float]]
+) -> Unloaded:
+    """Offset, and with two windows or more drift by least squares, from frames in `windows` [s]."""
+    inside = np.zeros(len(time), bool)
+    for first, last in windows:
+        own = (time >= first) & (time <= last)
+        if own.sum() < FEWEST:
+            raise ValueError(f"{first:g} … {last:g} s holds {int(own.sum())} frames, at least {FEWEST} are needed")
+        inside |= own
+    middle = float(time[inside].mean())
+    offset = pressure[inside].mean(axis=0)
+    drift = np.zeros_like(offset)
+    if len(windows) > 1:
+        moment = time[inside] - middle
+        drift = np.einsum("t,trc->rc", moment, pressure[inside] - offset) / float(moment @ moment)
+    return Unloaded(offset, drift, middle)
+
 
 AROUND = 0.2  # of the area; cells whose normals add up to less have no side that they look to
 AT_ONCE = 500  # frames, for bounded memory
@@ -131,3 +188,97 @@ def segment_loads(
 ) -> dict[str, MatLoad]:
     """`mat_load` of each segment; together they are the whole where every cell is in one of them."""
     return {name: mat_load(placed, pressure, origin, frame, gate, touched, cells) for name, cells in segments.items()}
+
+
+@dataclass(frozen=True)
+class MatErrors:
+    """Standard deviations.
+
+    Parameters
+    ----------
+    cell
+        Of each cell's reading by itself, as a share of it.
+    gain
+        Of what all cells share.
+    shift
+        Of where the mat lies, along each axis [m].
+    turn
+        Of how it is turned, about each axis [rad].
+    pose
+        Of where the mat lies, as the residuals tell it of the body's registration and of the mat's own marks.
+    """
+
+    cell: float = 0.0
+    gain: float = 0.0
+    shift: float = 0.0
+    turn: float = 0.0
+    pose: PoseCovariance | None = None
+
+
+def wrench_covariance(
+    placed: MatMap, pressure: Float[np.ndarray, "t n"], wrench: Wrench, errors: MatErrors
+) -> Float[np.ndarray, "t six six"]:
+    """Covariance of force [N] and moment [N m] about the wrench's origin, frame by frame."""
+    middle = (placed.area @ placed.centre) / placed.area.sum()
+    origin = wrench.origin[0]
+    own = np.concatenate([placed.force, placed.moment - np.cross(origin, placed.force)], axis=1)
+    total = np.einsum("tn,ni,nj->tij", (errors.cell * pressure) ** 2, own, own, optimize=True)
+    whole = np.concatenate([wrench.force, wrench.moment], axis=1)
+    total += errors.gain**2 * whole[:, :, None] * whole[:, None, :]
+    about = wrench.moved_to(middle).moment
+    turned = np.concatenate([-_crossing(wrench.force), -_crossing(about)], axis=1)
+    turned[:, 3:] += _crossing((middle - origin)[None]) @ turned[:, :3]
+    moved = np.concatenate([np.zeros((len(whole), 3, 3)), -_crossing(wrench.force)], axis=1)
+    for by, jacobian in ((errors.turn, turned), (errors.shift, moved)):
+        total += by**2 * jacobian @ jacobian.transpose(0, 2, 1)
+    if errors.pose is not None:
+        both = np.concatenate([moved, turned], axis=2)
+        total += both @ errors.pose.at(middle) @ both.transpose(0, 2, 1)
+    return np.asarray(total)
+
+
+def _crossing(vector: Float[np.ndarray, "t 3"]) -> Float[np.ndarray, "t 3 3"]:
+    """Matrices [v] with [v] w = v × w."""
+    x, y, z = vector.T
+    nothing = np.zeros_like(x)
+    return np.stack([nothing, -z, y, z, nothing, -x, -y, x, nothing], axis=1).reshape(-1, 3, 3)
+
+
+def load_in(load: MatLoad, X_GB: RigidTransform, point: Float[np.ndarray, " 3"], frame: str) -> MatLoad:
+    """The load of a segment B in the frame G that B has the poses X_GB in, one for each frame of the mat.
+
+    F_G = R F, M_G = R M + (X o - point) x F_G, with o the origin of the moment in B. The centre goes with the segment.
+    What has no direction stays, and so does `normal`, which is one vector of the segment.
+
+    Parameters
+    ----------
+    point
+        Of G, that the moment refers to [m].
+    frame
+        Name of G.
+    """
+    wrench = load.wrench
+    turn = X_GB.rotation
+    force = turn.apply(wrench.force)
+    there = X_GB.apply(wrench.origin)
+    moment = turn.apply(wrench.moment) + np.cross(there - point, force)
+    origin = np.broadcast_to(np.asarray(point, float), force.shape)
+    return replace(load, wrench=Wrench(force, moment, origin, frame), centre=X_GB.apply(load.centre))
+
+
+def covariance_in(
+    covariance: Float[np.ndarray, "t six six"],
+    origin: Float[np.ndarray, " 3"],
+    X_GB: RigidTransform,
+    point: Float[np.ndarray, " 3"],
+) -> Float[np.ndarray, "t six six"]:
+    """Covariance of force and moment about `origin` of B [m] as one about `point` of G: T C T^t, the poses exact."""
+    turn = X_GB.rotation.as_matrix()
+    arm = X_GB.apply(origin) - point
+    x, y, z = arm.T
+    nothing = np.zeros_like(x)
+    crossing = np.stack([nothing, -z, y, z, nothing, -x, -y, x, nothing], axis=1).reshape(-1, 3, 3)
+    change = np.zeros((len(turn), 6, 6))
+    change[:, :3, :3] = change[:, 3:, 3:] = turn
+    change[:, 3:, :3] = crossing @ turn
+    return np.asarray(change @ covariance @ change.transpose(0, 2, 1))

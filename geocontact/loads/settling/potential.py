@@ -1,4 +1,10 @@
-"""Energy of a loaded component on an elastic foundation, with its derivatives to the coordinates."""
+"""Energy of a loaded component on an elastic foundation, with its derivatives to the coordinates.
+
+Axes are those of Grood and Suntay (1983), J Biomech Eng 105:136, as `data.multibody.knee_angles` has them, with MOVING
+the femoral component and FIXED the tibial one (x anterior, y proximal, z to the right):
+R = Ry(rotation) Rx(adduction) Rz(flexion). Translations are those of one point of MOVING along FIXED's axes. Signs are
+those of the axes; which turn is varus or internal depends on the side.
+"""
 
 from __future__ import annotations
 
@@ -6,11 +12,71 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
+from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.geometry.surface import Surface
-from geocontact.loads.foundation import Layer
-from geocontact.loads.foundation_stiffness import FoundationState, foundation_state
-from geocontact.loads.settling.coordinates import AXIAL, Placed, placed_at
+from geocontact.loads.foundation import FoundationState, Layer, foundation_state
+
+NAMES = ("anterior", "axial", "mediolateral", "rotation", "adduction", "flexion")
+"""Translations along x, y, z of FIXED; turns about y of FIXED, the floating axis, and z of MOVING."""
+
+AXIAL, FLEXION = NAMES.index("axial"), NAMES.index("flexion")
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """Where MOVING is: x_fixed = rotation x_moving + translation; `point` is the place of its point in FIXED [m].
+
+    `turns` (3, 3) has the axes of rotation, adduction and flexion as rows.
+    """
+
+    rotation: Float[np.ndarray, "3 3"]
+    translation: Float[np.ndarray, " 3"]
+    point: Float[np.ndarray, " 3"]
+    turns: Float[np.ndarray, "3 3"]
+
+    def to_coordinates(
+        self, slope: Float[np.ndarray, " 6"], stiffness: Float[np.ndarray, "6 6"]
+    ) -> tuple[Float[np.ndarray, " 6"], Float[np.ndarray, "6 6"]]:
+        """Derivatives to displacement and turn about the point as derivatives to the coordinates.
+
+        Turns do not commute: to second order a, then b about the axes e, f is the turn a e + b f + a b e x f / 2.
+        """
+        jacobian = np.zeros((6, 6))
+        jacobian[:3, :3] = np.eye(3)
+        jacobian[3:, 3:] = self.turns.T
+        out = jacobian.T @ stiffness @ jacobian
+        for i in range(3):
+            for j in range(i + 1, 3):
+                more = 0.5 * float(slope[3:] @ np.cross(self.turns[i], self.turns[j]))
+                out[3 + i, 3 + j] += more
+                out[3 + j, 3 + i] += more
+        return jacobian.T @ slope, out
+
+
+def placed_at(values: Float[np.ndarray, " 6"], point: Float[np.ndarray, " 3"]) -> Placed:
+    """MOVING at coordinates in the order of `NAMES` [m, rad]; `point` is the one that moves, in MOVING's frame."""
+    turn = float(values[3])
+    rotation = Rotation.from_euler("YXZ", values[3:]).as_matrix()
+    floating = np.array([np.cos(turn), 0.0, -np.sin(turn)])
+    return Placed(
+        rotation=rotation,
+        translation=values[:3] - rotation @ point,
+        point=values[:3].copy(),
+        turns=np.array([[0.0, 1.0, 0.0], floating, rotation @ np.array([0.0, 0.0, 1.0])]),
+    )
+
+
+def coordinates_of(poses: RigidTransform, point: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "t 6"]:
+    """Coordinates of poses of MOVING in FIXED, in the order of `NAMES`."""
+    rotation = poses.rotation
+    return np.hstack([poses.apply(point).reshape(-1, 3), rotation.as_euler("YXZ").reshape(-1, 3)])
+
+
+def poses_of(values: Float[np.ndarray, "t 6"], point: Float[np.ndarray, " 3"]) -> RigidTransform:
+    """The inverse of `coordinates_of`."""
+    rotation = Rotation.from_euler("YXZ", values[:, 3:])
+    return RigidTransform.from_components(values[:, :3] - rotation.apply(point), rotation)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,19 +1,45 @@
-"""What is known of one arm in one trial, and the case that it makes: exactly, or with the model's own errors."""
+"""What is known of one arm in one recorded trial as the choice of a support profile needs it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
-from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
+from geocontact.data.body_segments import Sex
+from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side, smoothed_motion
 from geocontact.shoulder_exoskeleton.device import Wearer
-from geocontact.shoulder_exoskeleton.human_arm.elevation_torque import ElevationTorque
-from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds, detected
-from geocontact.shoulder_exoskeleton.support.sensing import Sensing, sensed
-from geocontact.shoulder_exoskeleton.support.support_case import Hand, SupportCase
+from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
+from geocontact.shoulder_exoskeleton.human_arm import (
+    CUTOFF,
+    ElevationTorque,
+    ToolWork,
+    arm_moment,
+    arm_track,
+    elevation_torque,
+    hand_load,
+)
+from geocontact.shoulder_exoskeleton.support.phase_machine import Sensing, Thresholds, detected, sensed
+from geocontact.shoulder_exoskeleton.support.profile_limits import Hand, SupportCase
+
+
+def scales_of(moments: Mapping[str, float], makers: Collection[str]) -> dict[str, float]:
+    """By person what a profile is multiplied by: the moment of the arm's weight over the largest of its makers.
+
+    Whoever has a heavier arm than all of them gets what the heaviest has: no simulation shows how a cuff holds more.
+
+    Parameters
+    ----------
+    moments
+        Of all persons [N m], see `human_arm.arm_weight`.
+    makers
+        Persons the profile is made with.
+    """
+    largest = max(moments[each] for each in makers)
+    return {person: min(1.0, moment / largest) for person, moment in moments.items()}
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,3 +190,71 @@ def _case(
         way.own,
         way.own_force,
     )
+
+
+@dataclass(frozen=True)
+class Worker:
+    """A person at work: mass of the body [kg], sex, the side that holds the tool, lengths for the device."""
+
+    name: str
+    mass: float
+    sex: Sex
+    dominant: Side
+    lengths: Wearer
+
+
+@dataclass(frozen=True, eq=False)
+class ToolUse:
+    """What the tool does at the markers' times.
+
+    Parameters
+    ----------
+    work
+        Its mass, and how it is pushed while it runs.
+    running
+        Whether it runs.
+    current
+        As the controller gets to see it [A].
+    """
+
+    work: ToolWork
+    running: Bool[np.ndarray, " t"]
+    current: Float[np.ndarray, " t"]
+
+
+def recorded_arms(
+    name: str,
+    worker: Worker,
+    task: str,
+    markers: MarkerTrajectories,
+    settings: MarkerSettings,
+    use: ToolUse,
+    cutoff: float = CUTOFF,
+) -> tuple[list[ArmTrial], tuple[str, ...]]:
+    """The arms of one trial, the right one first, and what was assumed of the markers, which must not have gaps.
+
+    Parameters
+    ----------
+    cutoff
+        Of the zero-lag low-pass on joints and on the motion of the upper arms [Hz].
+    """
+    motions = arm_motions(markers, settings)
+    gravity = np.array(settings.gravity)
+    kept = np.isin(markers.time, motions.arms[0].time)
+    seen = MarkerTrajectories(markers.time[kept], markers.positions[kept], markers.names, markers.source)
+    found = []
+    for motion in motions.arms:
+        track = arm_track(seen, motions.frame, motion.side)
+        load = hand_load(use.work, motion.side, worker.dominant, use.running[kept])
+        needed = elevation_torque(track, load, mass=worker.mass, sex=worker.sex, gravity=gravity, cutoff=cutoff)
+        own = smoothed_motion(motion, cutoff, settings.gap_limit)
+        lever = float(np.linalg.norm(motion.interface - motion.shoulder, axis=1).mean())
+        hand: Hand = "dominant" if motion.side == worker.dominant else "other"
+        label = f"{name} {motion.side}"
+        current = use.current[kept]
+        reach = float(np.linalg.norm(track.elbow - track.shoulder, axis=1).mean())
+        moment = arm_moment(worker.mass, worker.sex, reach)
+        found.append(
+            ArmTrial(label, worker.name, task, hand, needed, own.elevation, current, lever, own, worker.lengths, moment)
+        )
+    return found, motions.notes

@@ -20,15 +20,16 @@ from scipy.optimize import linprog
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, outcome
 from geocontact.shoulder_exoskeleton.support.profile_limits import (
     Among,
+    FactorKey,
     Limits,
     Rows,
+    SupportCase,
     count_of,
     excess,
     joined,
     mildest,
     nominal_rows,
 )
-from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, SupportCase
 
 Aim = Literal["mean", "worst", "cvar"]
 PROGRAMS = 20

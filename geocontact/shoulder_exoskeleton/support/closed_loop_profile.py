@@ -34,10 +34,9 @@ from geocontact.shoulder_exoskeleton.support.best_profile import (
     passed,
     scaled,
 )
+from geocontact.shoulder_exoskeleton.support.controlled_arm import SimulatedSupport, simulated_support
 from geocontact.shoulder_exoskeleton.support.outcome import Factors
-from geocontact.shoulder_exoskeleton.support.profile_limits import ACTS, Among, Limits
-from geocontact.shoulder_exoskeleton.support.simulated_support import SimulatedSupport, simulated_support
-from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, SupportCase
+from geocontact.shoulder_exoskeleton.support.profile_limits import ACTS, Among, FactorKey, Limits, SupportCase
 
 ROUNDS = 12
 """Programs and simulations until they must agree; two to four do."""

@@ -17,7 +17,7 @@ from geocontact.shoulder_exoskeleton.support.arm_trial import (
     varied_case,
 )
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome, outcome
-from geocontact.shoulder_exoskeleton.support.support_case import SupportCase
+from geocontact.shoulder_exoskeleton.support.profile_limits import SupportCase
 
 Maker = Callable[[Sequence[ArmTrial], Sequence[ArmTrial]], Factors]
 """Makes a profile from the others' trials for the person of the second ones, of whom only the arm's weight counts."""

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.shoulder_exoskeleton.support.phases import SUPPORTED
-from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, Hand, SupportCase
+from geocontact.shoulder_exoskeleton.support.phase_machine import SUPPORTED
+from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey, Hand, SupportCase
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
 Factors = dict[FactorKey, float]

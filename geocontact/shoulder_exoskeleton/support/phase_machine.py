@@ -1,4 +1,4 @@
-"""State machine of the controller: which work phase it is, from what has been measured so far.
+"""State machine of the controller: work phases from what it senses, and how well they are detected.
 
 Yao et al. (2024), Robotics 13:27, fig. 7: lifting and lowering are told by elevation and rate of the device's arm,
 screwing by the tool's current. The paper's thresholds came from tuning and are not printed; those here are tuned on
@@ -15,7 +15,13 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.shoulder_exoskeleton.support.phases import LIFT, LOWER, REST, SCREW
+from geocontact.shoulder_exoskeleton.work_phases import PHASES
+
+REST, LIFT, SCREW, LOWER = (PHASES.index(name) for name in ("rest", "lift", "screw-in", "lower"))
+"""Arms that are held up while the tool does not run count as lifted."""
+SUPPORTED = (LIFT, SCREW, LOWER)
+"""Phases that have a factor of support; at rest there is none."""
+
 
 LOW, HIGH, UP, DOWN, STILL, ON, OFF, CONFIRMED, RUNNING, SMOOTHING, SETTLED, TURNED = range(12)
 """Places of the thresholds where they are an array."""
@@ -139,3 +145,110 @@ def _next(phase: int, elevation: float, rate: float, current: float, limits: Flo
     if phase == LIFT:
         return LOWER if rate < -limits[DOWN] else LIFT
     return LIFT if rate > limits[UP] else LOWER
+
+
+@dataclass(frozen=True)
+class Sensing:
+    """Sensors of the device's arm and of the tool; all invented, the paper tells none of it.
+
+    Parameters
+    ----------
+    noise
+        Standard deviation of the angle [rad].
+    step
+        Of its quantisation [rad]; 0 for none.
+    delay
+        Of angle and current [s].
+    current_noise
+        Standard deviation added to the current [A].
+    """
+
+    noise: float = np.radians(0.1)
+    step: float = np.radians(0.1)
+    delay: float = 0.01
+    current_noise: float = 0.1
+
+
+def sensed(
+    time: Float[np.ndarray, " t"],
+    elevation: Float[np.ndarray, " t"],
+    current: Float[np.ndarray, " t"],
+    sensing: Sensing,
+    rng: np.random.Generator,
+) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"]]:
+    """Angle [rad] and current [A] as they arrive at the same times; before the first they are as at the first."""
+    late = time - sensing.delay
+    angle = np.interp(late, time, elevation) + rng.normal(0.0, sensing.noise, len(time))
+    if sensing.step > 0.0:
+        angle = sensing.step * np.round(angle / sensing.step)
+    return angle, np.interp(late, time, current) + rng.normal(0.0, sensing.current_noise, len(time))
+
+
+ONSET = 0.1
+"""Share of a movement's peak rate at which it begins and ends; 5 and 10 % are usual for reaching movements."""
+
+
+@dataclass(frozen=True)
+class PhaseCheck:
+    """Of one detection beside the true phases.
+
+    Parameters
+    ----------
+    wrong
+        Share of the samples in a wrong phase.
+    changes, true_changes
+        How often the phase changes; more than in truth is chatter.
+    latencies
+        How late each change is [s]; empty where the order of phases is another one.
+    """
+
+    wrong: float
+    changes: int
+    true_changes: int
+    latencies: tuple[float, ...]
+
+    @property
+    def chatter(self) -> bool:
+        """Whether phases change more often than they do in truth."""
+        return self.changes > self.true_changes
+
+
+def phase_check(
+    time: Float[np.ndarray, " t"], detected: Int[np.ndarray, " t"], true: Int[np.ndarray, " t"]
+) -> PhaseCheck:
+    """Detected beside true phases of the same samples."""
+    found, wanted = (np.flatnonzero(np.diff(each)) + 1 for each in (detected, true))
+    same = len(found) == len(wanted) and np.array_equal(detected[found], true[wanted])
+    late = tuple(float(time[a] - time[b]) for a, b in zip(found, wanted, strict=True)) if same else ()
+    return PhaseCheck(float(np.mean(detected != true)), len(found), len(wanted), late)
+
+
+def phases_by_onset(
+    time: Float[np.ndarray, " t"],
+    elevation: Float[np.ndarray, " t"],
+    planned: Int[np.ndarray, " t"],
+    onset: float = ONSET,
+) -> Int[np.ndarray, " t"]:
+    """Phases whose movements begin and end at a share of their peak rate, within the planned ones.
+
+    Parameters
+    ----------
+    elevation
+        Without noise [rad].
+    planned
+        Phases as a trial was planned, movements from standstill to standstill.
+    onset
+        That share.
+    """
+    rate, found = np.gradient(elevation, time), planned.copy()
+    first = np.flatnonzero(planned == LIFT)
+    if len(first):
+        up = first[: int(np.argmax(np.diff(first, append=len(time) + 1) > 1)) + 1]
+        begun = up[np.argmax(rate[up] > onset * rate[up].max())]
+        found[up[up < begun]] = REST
+    down = np.flatnonzero(planned == LOWER)
+    if len(down):
+        fast = down[rate[down] < onset * rate[down].min()]
+        found[down[down < fast[0]]] = LIFT
+        found[down[down > fast[-1]]] = REST
+    return found

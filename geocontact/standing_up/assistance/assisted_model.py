@@ -1,11 +1,16 @@
-"""The exoskeleton helps at the knee with a share of the person's torque, most of all at one time of the movement.
+"""The exoskeleton helps at the knee with a share of the person's torque, and how a person stands up with help.
 
 Its torque there is s g(t/T) times that of the person's knee, with g = exp(-((t/T - c)/w)²/2): the share s and the time
 c are to be chosen, the width w is invented. Its ankle turns freely; its hip holds the module, which no strap holds.
+
+The person does not give way to spare the strap: what is chosen of the exoskeleton changes forces, and the movement only
+as far as its own cost lets it. Sizes are those of the synthetic trials: deviations count in parts of 1 cm and 2°, the
+module's lean against the trunk's in parts of 5°; invented.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -13,15 +18,20 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.dynamics.collocation.motion import CollocatedMotion
+from geocontact.dynamics.collocation.multibody import jerk_controlled
+from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem
+from geocontact.dynamics.symbols import residual
 from geocontact.dynamics.tree import tree_of
-from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.contact_parameter import ContactParameter
+from geocontact.standing_up.chain import COORDINATES, Subject
 from geocontact.standing_up.exoskeleton import WORN_PARAMETERS, StrapLaw, two_chains, worn_model
+from geocontact.standing_up.phase import smooth_coordinates
 from geocontact.standing_up.standing_model import StandingModel
-from geocontact.standing_up.trials import StandingTrial, seen_in
+from geocontact.standing_up.strap_sites import ContactParameter
+from geocontact.standing_up.trials import StandingTrial, problem_scales, seen_in, standing_trial
 
 if TYPE_CHECKING:
     from casadi import SX
+
 
 WIDTH = 0.25
 """Of the help, in parts of the movement; invented."""
@@ -93,3 +103,70 @@ def seen_assisted(
     knee = helped(np.column_stack([part, sought]).T, np.tile(p[:, None], (1, len(time)))).full()[0]
     torque = np.column_stack([sought[:, :3], np.zeros(len(time)), knee, sought[:, 3]])
     return replace(seen, torque=torque)
+
+
+PLACE, TURN, LEAN = 0.01, float(np.radians(2.0)), float(np.radians(5.0))
+LITTLE_JERK, LITTLE_TORQUE = 1e-5, 1e-6
+N = len(COORDINATES)
+
+
+@dataclass(frozen=True)
+class HabitSizes:
+    """What the terms of the movement's cost are measured by.
+
+    Parameters
+    ----------
+    place, turn, lean
+        Deviations that count as 1 [m, rad].
+    jerk, torque
+        Weights of their squares.
+    degree
+        Of the polynomials through the coordinates that are kept to.
+    """
+
+    place: float = PLACE
+    turn: float = TURN
+    lean: float = LEAN
+    jerk: float = LITTLE_JERK
+    torque: float = LITTLE_TORQUE
+    degree: int = 7
+
+
+def habit(
+    model: AssistedModel,
+    subject: Subject,
+    trials: Sequence[StandingTrial],
+    p: Float[np.ndarray, " p"],
+    sizes: HabitSizes = HabitSizes(),
+) -> ControlProblem:
+    """The problem whose solution is the movement with all parameters given; `p` is what is searched of them."""
+    from casadi import SX, sum1, sumsqr
+
+    e, n = model.standing.equations, model.standing.count
+    wanted, jerk = SX.sym("wanted", N), SX.sym("jerk", n)
+    off = residual(e.q[:N, :], wanted, np.array([sizes.place, sizes.place, *[sizes.turn] * (N - 2)]))
+    leans = (sum1(e.q[N:, :]) - sum1(e.q[3:N, :])) / sizes.lean
+    torque = e.w[1:, :]
+    cost = sumsqr(off) + leans**2 + sizes.jerk * sumsqr(jerk) + sizes.torque * sumsqr(torque)
+    system = jerk_controlled(
+        e,
+        controlled=model.controlled,
+        control_names=TORQUES,
+        data=wanted,
+        jerk=jerk,
+        cost=cost,
+        parameter_names=[each.name for each in ASSISTED_PARAMETERS],
+    )
+    made = tuple(_trial(model, trial, p, sizes.degree) for trial in trials)
+    scales = problem_scales(subject, n)
+    return ControlProblem(system, made, (p, p), p, scales[0], scales[1], scales[2][: n + len(TORQUES)])
+
+
+def _trial(model: AssistedModel, trial: StandingTrial, p: Float[np.ndarray, " p"], degree: int) -> ControlledTrial:
+    """From the trial's own start on."""
+    course, seconds = smooth_coordinates(trial, degree), float(np.ptp(trial.time))
+
+    def given(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t w"]:
+        return np.column_stack([time / seconds, course(time)[:, :N]])
+
+    return standing_trial(trial.name, seconds, model.standing, p, course, given, DRIVEN)

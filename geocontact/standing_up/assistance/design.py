@@ -21,8 +21,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS
-from geocontact.standing_up.assistance.movement import Movement, Movements, StoppedByHandError
-from geocontact.standing_up.assistance.peaks import MEASURES, ORDER
+from geocontact.standing_up.assistance.movement import MEASURES, ORDER, Movement, Movements, StoppedByHandError
 from geocontact.standing_up.assistance.room import ROOM
 
 Vector = Float[np.ndarray, " _"]

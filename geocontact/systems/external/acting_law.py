@@ -14,11 +14,10 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
-from geocontact.chain.implicit import NotConverged
 from geocontact.chain.interface_law import MEMORY, interface_force
-from geocontact.chain.known_deflection import along
-from geocontact.chain.law_parameters import LawParameters, Source
-from geocontact.chain.links import Law, Loads, Values
+from geocontact.chain.links import Law, LawParameters, Loads, Source, Values
+from geocontact.chain.single_deflection import along
+from geocontact.chain.system import NotConverged
 from geocontact.data.simulator import SimulatorError
 
 Track = Float[np.ndarray, " t"]

@@ -15,16 +15,28 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
-from geocontact.chain.implicit import NotConverged
 from geocontact.chain.interface_law import INTERFACE_LAW
-from geocontact.chain.law_parameters import LawParameters, Source
-from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor, Values
+from geocontact.chain.links import Balance, Law, LawParameters, Loads, Motion, Sensor, Source, Values
 from geocontact.chain.magnitudes import Magnitudes
-from geocontact.chain.system import System
+from geocontact.chain.system import NotConverged, System
+from geocontact.data.gap.case import GapCase
 from geocontact.data.parameter import Parameter
 from geocontact.data.simulator import Simulator, SimulatorError
 from geocontact.systems.base import Base
 from geocontact.systems.external.acting_law import ActingLaw, RunWithLaw, SimulatedWithLaw
+from geocontact.systems.validate import refusal
+
+
+def program_system(case: GapCase) -> System:
+    """The base model; InputError when the case brings no simulator."""
+    own = case.simulator
+    if own is None:
+        raise refusal(case, "has no simulator", 'give simulate = "prog {params} {trial} {out}"')
+    trials = (*case.calibration, *case.evaluation)
+    covariates = dict.fromkeys(name for trial in trials for name in trial.covariates)
+    names = (*(p.name for p in case.parameters), *case.constants, *covariates)
+    return simulated_system("command", own, tuple(dict.fromkeys(names)), case.parameters, case.constants)
+
 
 Run = Callable[[Float[np.ndarray, " t"], Float[np.ndarray, "i t"], dict[str, float]], object]
 """Time [s], inputs (a row each, SI), numbers by name → outputs (t, c), or (t,) of a single one."""

@@ -12,10 +12,16 @@ from jaxtyping import Float, Int
 
 from geocontact.chain.contact_law import contact_force, friction_coefficient
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
-from geocontact.chain.implicit import ATTEMPTS, TOLERANCE, next_load, nothing_known, require_convergence, start_over
-from geocontact.chain.law_parameters import LawParameters, Source
-from geocontact.chain.links import Law, Loads, Values
-from geocontact.chain.tangents import towards
+from geocontact.chain.links import Law, LawParameters, Loads, Source, Values
+from geocontact.chain.system import (
+    ATTEMPTS,
+    TOLERANCE,
+    next_load,
+    nothing_known,
+    require_convergence,
+    start_over,
+    towards,
+)
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.systems.foot.slopes import BRANCH, ELASTIC, MEMORY, UNKNOWN, B, K, stand_slopes
 
@@ -219,7 +225,7 @@ class FootSpheres:
     def changes(
         self, movement: DifferentiatedInputs, law: Law, values: Values, others: Sequence[Values]
     ) -> tuple[Loads, list[Loads | None]] | None:
-        """Forces along a movement, and how they change towards other values (`chain.tangents`)."""
+        """Forces along a movement, and how they change towards other values (`chain.system`)."""
         n, numbers, spheres = self.slots.numbers(values), law.slots.numbers(values), self.spheres(values)
         if n[0] != 0.0:
             return None

@@ -5,7 +5,7 @@ tibial component (`systems.knee.posed`). Outputs, of `CELLS` the four load cells
 of `SIDES` the forces `force_medial [N]`, `force_lateral [N]`.
 
     area of each side of FIXED within `threshold` of MOVING; F = (4/3) E* a³/R, a = sqrt(area/π) per side;
-    cells by the regression read backwards (`loads.cell_shares`).
+    cells by the regression read backwards (`loads.loadcells`).
 
 Meshes `moving` (femoral component) and `fixed` (tibial insert). Parameter E_star [Pa]; constants R [m], threshold [m],
 side (1 right, -1 left), for the cells cell_posterior and cell_anterior [m], x of the rows of cells in FIXED's frame.
@@ -35,9 +35,8 @@ from geocontact.geometry.pieces.union import united
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.regions import faces_where
 from geocontact.geometry.surface import Surface
-from geocontact.loads.cell_shares import CELLS as CELL_NAMES
-from geocontact.loads.cell_shares import cell_forces
-from geocontact.loads.loadcells import PUBLISHED
+from geocontact.loads.loadcells import CELLS as CELL_NAMES
+from geocontact.loads.loadcells import PUBLISHED, cell_forces
 from geocontact.systems.base import Base, require_numbers
 from geocontact.systems.knee.model import STRAPS, measured_forces, stiffness
 from geocontact.systems.knee.posed import ANGLES, POSE, SHIFTS, PosedKnee

@@ -16,10 +16,10 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.history import between
-from geocontact.chain.implicit import ATTEMPTS, SLOPE, TOLERANCE, next_load, nothing_known, start_over
 from geocontact.chain.interface_law import MEMORY, interface_force
-from geocontact.chain.law_parameters import LawParameters
+from geocontact.chain.links import LawParameters
 from geocontact.chain.single_deflection import gives_way
+from geocontact.chain.system import ATTEMPTS, SLOPE, TOLERANCE, next_load, nothing_known, start_over
 from geocontact.chain.terms.dry_friction import friction_at_rate, friction_state
 from geocontact.geometry.kernels.compile import kernel, part
 

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.ensemble import mean_and_sd
-from geocontact.view.curves.given import named, positions
-from geocontact.view.curves.quantity import CYCLE, Quantity
+from geocontact.data.trial import mean_and_sd
+from geocontact.view.curves.quantity import CYCLE, Quantity, named, positions
+from geocontact.view.curves.sheet import FIXED
 from geocontact.view.curves.style import LINES, PALETTE, in_style, legend, on
-from geocontact.view.curves.text import FIXED
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

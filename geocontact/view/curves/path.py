@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.view.curves.given import array, named, positions
-from geocontact.view.curves.quantity import LENGTH, TIME, Quantity
+from geocontact.view.curves.quantity import LENGTH, TIME, Quantity, array, named, positions
 from geocontact.view.curves.style import GREY, INCH, MARKERS, PALETTE, in_style, legend, on
 
 if TYPE_CHECKING:

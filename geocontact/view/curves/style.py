@@ -1,4 +1,4 @@
-"""One look for every figure: sizes of a printed column, type, colours; whatever the user's own settings are.
+"""One look for every figure, and the files that it is saved into.
 
 Widths are those of a single and a double column in most journals of the field, type is 7 and 8 pt. Colours are those
 of Okabe and Ito (2008), "Color Universal Design"; line styles and markers repeat what they say, for print in grey.
@@ -9,18 +9,19 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
 
-from geocontact.view.curves.sheet import sheet
-from geocontact.view.curves.text import plain
+from geocontact.view.curves.sheet import plain, sheet
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from matplotlib.typing import RcKeyType
+
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -140,3 +141,27 @@ def legend(axes: Axes, entries: Sequence[tuple[Artist | tuple[Artist, ...], str]
         labelspacing=0.3,
         columnspacing=1.4,
     )
+
+
+UNDATED = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}, ".png": None}
+FINE = 300.0  # dots per inch of the layout: with fewer, small letters are hinted to other widths than in the file
+
+
+@in_style
+def save(figure: Figure, path: str | Path) -> None:
+    """Write a figure as SVG or PDF (text stays text, can be searched and edited) or as PNG of 300 dots per inch.
+
+    Files carry no date: the same figure with the same version of matplotlib and the same fonts gives the same bytes.
+    An SVG file names its font and leaves it to the reader's machine; a PDF file brings it along (TrueType).
+    Saving fixes the layout: what is added to the figure afterwards does not move what is there.
+    """
+    ending = Path(path).suffix.lower()
+    if ending not in UNDATED:
+        raise ValueError(f"{Path(path).name}: figures are written as {', '.join(UNDATED)}; end the name in one of them")
+    if (engine := figure.get_layout_engine()) is not None:
+        shown = figure.dpi
+        figure.dpi = FINE
+        engine.execute(figure)
+        figure.dpi = shown
+        figure.set_layout_engine(None)  # a second pass would move everything by a hair, and so change the file
+    figure.savefig(path, format=ending[1:], metadata=UNDATED[ending])

@@ -10,10 +10,42 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.view.page.intervals import IntervalRow, Intervals
-from geocontact.view.page.linkage import Linkage
 from geocontact.view.page.plan import Length, Mark, Plan, Track
-from geocontact.view.page.scene import FaceMap, Scene, SceneBody
+from geocontact.view.page.scene import FaceMap, Linkage, Scene, SceneBody
+
+
+@dataclass(frozen=True)
+class IntervalRow:
+    """A number and the interval that it is known to; NaN where there is none.
+
+    `kind` tells numbers of the same name apart, by a colour of its own.
+    """
+
+    name: str
+    value: float
+    lower: float = float("nan")
+    upper: float = float("nan")
+    kind: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Intervals:
+    """Numbers of one unit below each other: as points with whiskers, or as bars from 0.
+
+    Parameters
+    ----------
+    bars
+        Shares and sizes, which are compared with 0.
+    words
+        What it shows.
+    """
+
+    title: str
+    unit: str
+    intervals: Sequence[IntervalRow]
+    bars: bool = False
+    words: str = ""
+
 
 _LINK = re.compile(r"([\w-][\w.-]*/)*[\w-][\w.-]*|", re.ASCII)
 DRAWN_IN = 12  # colours of a line drawing at most; more are those of a scale

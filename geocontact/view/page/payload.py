@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.seconds import seconds
+from geocontact.data.text import seconds
 from geocontact.view.page.content import (
     Curves,
     FaceMap,
@@ -21,10 +21,9 @@ from geocontact.view.page.content import (
     Strip,
     Track,
 )
-from geocontact.view.page.levels import AmountLevels, Levels, across
-from geocontact.view.page.linkage import Linkage
 from geocontact.view.page.opening import opacities, opening_view
-from geocontact.view.page.pack import Block, Grid, face_words, packed
+from geocontact.view.page.pack import AmountLevels, Block, Grid, Levels, across, face_words, packed
+from geocontact.view.page.scene import Linkage
 
 MM = 1e3
 UNITS = "N m|N|kN|mm²|cm²|mm|cm|m|MPa|kPa|Pa|s|ms|%|deg|°"

@@ -1,18 +1,111 @@
-"""What the colours, lines and lengths of a still mean."""
+"""What the colours, lines and lengths of a still mean: palette, lines of equal distance, legend."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 import numpy as np
+from jaxtyping import Float, Int
 
+from geocontact.view.curves.style import COLOURS
 from geocontact.view.surfaces.camera import Shot, View
-from geocontact.view.surfaces.palette import DISTANCE_MAP, FAR, MOVING, distance_limits, threshold_colour
 from geocontact.view.surfaces.scene import ContactScene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.colors import Colormap
     from matplotlib.figure import Figure
+
+
+def level_lines(
+    vertices: Float[np.ndarray, "n 3"],
+    faces: Int[np.ndarray, "m 3"],
+    values: Float[np.ndarray, " n"],
+    level: float,
+) -> tuple[Float[np.ndarray, "s 2 3"], Int[np.ndarray, " s"]]:
+    """Segments along which linearly interpolated `values` equal `level`, and the face that each lies in.
+
+    A value equal to the level counts as below it, as in the area. Faces with a corner of infinite value have no line.
+    """
+    crossed = np.isfinite(values[faces]).all(axis=1)
+    below = values[faces] <= level
+    crossed &= below.any(axis=1) & ~below.all(axis=1)
+    index = np.flatnonzero(crossed)
+    corners, below = faces[index], below[index]
+    odd = np.where(below.sum(axis=1) == 1, below.argmax(axis=1), (~below).argmax(axis=1))  # the corner on its own side
+    rows = np.arange(len(index))
+    alone = corners[rows, odd]
+    ends = []
+    for step in (1, 2):
+        other = corners[rows, (odd + step) % 3]
+        share = (level - values[alone]) / (values[other] - values[alone])
+        ends.append(vertices[alone] + share[:, None] * (vertices[other] - vertices[alone]))
+    return np.stack(ends, axis=1), index
+
+
+DISTANCE_MAP = "viridis_r"  # perceptually uniform; bright is close
+FAR = "#D9D9D9"  # beyond what was asked for
+MOVING = "#7F97B2"
+
+
+OVERLAP = ("#6a040f", "#b3261e", "#e8590c", "#ff9a3c")
+"""Deep to shallow, as on the page."""
+
+
+def distance_colours(lower: float, upper: float) -> Colormap:
+    """Colours of distances between two limits as the page has them: `DISTANCE_MAP` from 0 on, `OVERLAP` below."""
+    from matplotlib import colormaps
+    from matplotlib.colors import LinearSegmentedColormap, ListedColormap
+
+    levels = np.linspace(lower, upper, 512)
+    near = np.clip((levels - max(lower, 0.0)) / (upper - max(lower, 0.0)), 0.0, 1.0)
+    colours = colormaps[DISTANCE_MAP](near)
+    if lower < 0.0:
+        below = levels < 0.0
+        colours[below] = LinearSegmentedColormap.from_list("overlap", OVERLAP)(1.0 - levels[below] / lower)
+    return ListedColormap(colours)
+
+
+def distance_limits(thresholds: tuple[float, ...]) -> tuple[float, float]:
+    """Lower and upper end of the colour map [m]: the same in every frame, so that pictures can be compared."""
+    span = max(2.0 * max(thresholds), 1e-3)
+    return -span / 4.0, span
+
+
+def threshold_colour(k: int) -> str:
+    """Colour of the line of threshold `k`."""
+    return COLOURS[k % len(COLOURS)]
+
+
+def known_up_to(distance: Float[np.ndarray, "*t n"], faces: Int[np.ndarray, "m 3"]) -> float:
+    """Largest level [m] below which the distance is known all over each face that it reaches; infinite if everywhere.
+
+    Distances end at an infinite value in the middle of a mesh; a picture that ends at this level has a clean edge there
+    instead of one that follows the triangles. Every threshold that was asked for lies below it.
+    """
+    corners = distance[..., faces]
+    unknown = corners == np.inf
+    cut = unknown.any(axis=-1, keepdims=True) & ~unknown
+    return float(corners[cut].min(initial=np.inf))
+
+
+def coloured(
+    distance: Float[np.ndarray, " n"], thresholds: tuple[float, ...], known: float
+) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "1024 3"], tuple[float, float]]:
+    """Finite values [m], colours (red, green, blue in 0 to 1) and the range of values [m] that they cover.
+
+    The colours of `DISTANCE_MAP` up to `known`, then `FAR`.
+    """
+    from matplotlib import colormaps
+    from matplotlib.colors import to_rgb
+
+    lower, upper = distance_limits(thresholds)
+    top = 2.0 * (min(known, upper) - lower) + lower if known < upper else upper
+    levels = np.linspace(lower, top, 1024)
+    colours = colormaps[DISTANCE_MAP]((levels - lower) / (upper - lower))[:, :3]
+    colours[levels >= known] = to_rgb(FAR)
+    return np.clip(distance, lower, top), colours, (lower, top)
+
 
 MM = 1e3
 ROUND = np.array([0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0])  # mm

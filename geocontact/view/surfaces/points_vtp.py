@@ -1,4 +1,4 @@
-"""Points with values as a .vtp of VTK, which ParaView opens; written as text, without VTK."""
+"""Points and surfaces with values as single .vtp files, which ParaView opens; written as text, without VTK."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float, Int
 
-from geocontact.view.surfaces.line_series import HEAD
+from geocontact.view.surfaces.vtp_series import HEAD, encoded_vtp, require_pyvista
 
 DIGITS = 7
 
@@ -47,3 +47,62 @@ def _array(name: str, values: Float[np.ndarray, ...], size: int) -> str:
     cells = " ".join(f"{x:.{DIGITS}g}" for x in values.ravel().tolist())
     head = f'type="Float32" Name={quoteattr(name)} NumberOfComponents="{size}" format="ascii"'
     return f"        <DataArray {head}>{cells}</DataArray>\n"
+
+
+MM = 1e3
+
+
+def write_fit_vtp(
+    file: Path,
+    vertices: Float[np.ndarray, "n 3"],
+    faces: Int[np.ndarray, "m 3"],
+    residual: Float[np.ndarray, " n"],
+    chosen: Bool[np.ndarray, " m"],
+    program: str,
+) -> None:
+    """Write positions [mm] with `residual [mm]` at the vertices (NaN off the patch) and `patch` (0 or 1) of the faces.
+
+    Parameters
+    ----------
+    vertices, faces
+        The surface [m].
+    residual
+        Signed distance of every vertex to the fitted shape [m]; NaN where it does not count.
+    chosen
+        Faces that count.
+    program
+        Name and version of the program, for the record; ASCII, as VTK's texts are.
+    """
+    require_pyvista()
+    import pyvista
+
+    body = pyvista.PolyData.from_regular_faces((vertices * MM).astype(np.float32), faces)
+    body.point_data["residual [mm]"] = (residual * MM).astype(np.float32)
+    body.cell_data["patch"] = chosen.astype(np.uint8)
+    body.set_active_scalars("residual [mm]")
+    body.field_data["length unit"] = ["mm"]
+    body.field_data["program"] = [program]
+    file.write_bytes(encoded_vtp(body))
+
+
+def write_mat_vtp(
+    file: Path,
+    vertices: Float[np.ndarray, "n 3"],
+    faces: Int[np.ndarray, "m 3"],
+    numbers: Mapping[str, Float[np.ndarray, " m"]],
+    program: str,
+) -> None:
+    """Write positions [mm] of the vertices, which are in m, and numbers of the faces, by their name with its unit.
+
+    `program` is its name and version, for the record; ASCII, as VTK's texts are.
+    """
+    require_pyvista()
+    import pyvista
+
+    body = pyvista.PolyData.from_regular_faces((vertices * MM).astype(np.float32), faces)
+    for name, values in numbers.items():
+        body.cell_data[name] = values.astype(np.float32)
+    body.set_active_scalars(next(iter(numbers)))
+    body.field_data["length unit"] = ["mm"]
+    body.field_data["program"] = [program]
+    file.write_bytes(encoded_vtp(body))

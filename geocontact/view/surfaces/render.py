@@ -15,11 +15,11 @@ import numpy as np
 from jaxtyping import Float, Int, UInt8
 
 from geocontact.view.surfaces.camera import Shot
-from geocontact.view.surfaces.level_lines import level_lines
-from geocontact.view.surfaces.palette import (
+from geocontact.view.surfaces.legend import (
     MOVING,
     coloured,
     known_up_to,
+    level_lines,
     threshold_colour,
 )
 from geocontact.view.surfaces.scene import ContactScene

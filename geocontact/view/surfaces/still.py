@@ -13,9 +13,9 @@ from jaxtyping import UInt8
 
 from geocontact.view.surfaces import child, render
 from geocontact.view.surfaces.camera import Shot, View
+from geocontact.view.surfaces.child import off_screen_works
 from geocontact.view.surfaces.legend import annotate
 from geocontact.view.surfaces.painter import paint
-from geocontact.view.surfaces.probe import off_screen_works
 from geocontact.view.surfaces.scene import ContactScene
 
 if TYPE_CHECKING:

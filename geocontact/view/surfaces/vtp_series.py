@@ -2,19 +2,141 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from jaxtyping import Float, Int
+from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.errors import InputError
-from geocontact.view.surfaces.probe import INSTALL
+from geocontact.view.surfaces.child import INSTALL
 from geocontact.view.surfaces.scene import ContactSeries
 
 if TYPE_CHECKING:
     from pyvista import PolyData
+
+
+DIGITS = 7
+"""As many as float32 has."""
+HEAD = '<?xml version="1.0"?>\n<VTKFile type="{kind}" version="0.1" byte_order="LittleEndian">\n'
+
+
+@dataclass(frozen=True, eq=False)
+class LineSeries:
+    """Points that move, and lines through some of them.
+
+    Parameters
+    ----------
+    time
+        [s].
+    points
+        In one frame [m].
+    lines
+        Points of each line, in order.
+    """
+
+    time: Float[np.ndarray, " t"]
+    points: Float[np.ndarray, "t n 3"]
+    lines: Sequence[tuple[int, ...]]
+
+
+def write_line_series(
+    folder: Path, name: str, series: LineSeries, vectors: Mapping[str, Float[np.ndarray, "t n 3"]]
+) -> Path:
+    """Write `name`.pvd and `frames/name_000.vtp` …; returns the collection, which is what ParaView opens.
+
+    Parameters
+    ----------
+    vectors
+        On every point, by name with unit: what ParaView's filter Glyph draws as arrows.
+    """
+    frames = folder / "frames"
+    frames.mkdir(parents=True, exist_ok=True)
+    digits = max(3, len(str(len(series.time) - 1)))
+    rows = []
+    for k, time in enumerate(series.time.tolist()):
+        file = f"frames/{name}_{k:0{digits}d}.vtp"
+        (folder / file).write_text(_polydata(series, k, vectors), encoding="utf-8")
+        rows.append(f'    <DataSet timestep="{time:.6f}" part="0" file={quoteattr(file)}/>\n')
+    written = folder / f"{name}.pvd"
+    text = HEAD.format(kind="Collection") + "  <Collection>\n" + "".join(rows) + "  </Collection>\n</VTKFile>\n"
+    written.write_text(text, encoding="utf-8")
+    return written
+
+
+def _polydata(series: LineSeries, k: int, vectors: Mapping[str, Float[np.ndarray, "t n 3"]]) -> str:
+    joined = [str(i) for line in series.lines for i in line]
+    ends = np.cumsum([len(line) for line in series.lines]).tolist()
+    own = "".join(_array(name, values[k]) for name, values in vectors.items())
+    return (
+        HEAD.format(kind="PolyData")
+        + f'  <PolyData>\n    <Piece NumberOfPoints="{series.points.shape[1]}" NumberOfVerts="0" '
+        + f'NumberOfLines="{len(series.lines)}" NumberOfStrips="0" NumberOfPolys="0">\n'
+        + f"      <PointData>\n{own}      </PointData>\n"
+        + f"      <Points>\n{_array('points', series.points[k])}      </Points>\n"
+        + f"      <Lines>\n{_integers('connectivity', joined)}{_integers('offsets', map(str, ends))}      </Lines>\n"
+        + "    </Piece>\n  </PolyData>\n</VTKFile>\n"
+    )
+
+
+def _array(name: str, values: Float[np.ndarray, "n 3"]) -> str:
+    cells = " ".join(f"{x:.{DIGITS}g}" for x in values.ravel().tolist())
+    head = f'type="Float32" Name={quoteattr(name)} NumberOfComponents="3" format="ascii"'
+    return f"        <DataArray {head}>{cells}</DataArray>\n"
+
+
+def _integers(name: str, values: Iterable[str]) -> str:
+    return f'        <DataArray type="Int32" Name="{name}" format="ascii">{" ".join(values)}</DataArray>\n'
+
+
+@dataclass(frozen=True, eq=False)
+class PressureSeries:
+    """Two bodies over time.
+
+    Parameters
+    ----------
+    time
+        [s].
+    fixed, moving
+        Vertices in the body's own frame [m] and faces.
+    poses
+        Of MOVING in FIXED.
+    pressure
+        Of FIXED's faces [Pa] in a frame.
+    """
+
+    time: Float[np.ndarray, " t"]
+    fixed: tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]
+    moving: tuple[Float[np.ndarray, "k 3"], Int[np.ndarray, "j 3"]]
+    poses: RigidTransform
+    pressure: Callable[[int], Float[np.ndarray, " m"]]
+
+
+def write_pressure_series(series: PressureSeries, folder: Path) -> None:
+    """both.pvd over frames/fixed_000.vtp …: positions [mm] in FIXED's frame, `pressure [MPa]` of FIXED's faces."""
+    require_pyvista()
+    import pyvista
+
+    (folder / "frames").mkdir(parents=True, exist_ok=True)
+    digits = max(3, len(str(len(series.time) - 1)))
+    rows = []
+    for k, time in enumerate(series.time.tolist()):
+        places = (series.fixed[0], series.poses[k].apply(series.moving[0]))
+        for body, faces, vertices in zip(BODIES, (series.fixed[1], series.moving[1]), places, strict=True):
+            surface = pyvista.PolyData.from_regular_faces((vertices * MM).astype(np.float32), faces)
+            if body == "fixed":
+                surface.cell_data["pressure [MPa]"] = (series.pressure(k) * MPA).astype(np.float32)
+            surface.field_data["TimeValue"] = np.array([time])
+            surface.field_data["length unit"] = ["mm"]
+            name = f"frames/{body}_{k:0{digits}d}.vtp"
+            (folder / name).write_bytes(encoded_vtp(surface))
+            rows.append((time, body, name))
+    (folder / "both.pvd").write_text(pvd_text(rows, BODIES), encoding="utf-8")
+
 
 MM = 1e3
 MPA = 1e-6

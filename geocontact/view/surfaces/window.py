@@ -16,8 +16,8 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.data.errors import InputError
 from geocontact.view.surfaces import child
 from geocontact.view.surfaces.camera import Shot, View
-from geocontact.view.surfaces.palette import DISTANCE_MAP, distance_limits
-from geocontact.view.surfaces.probe import INSTALL
+from geocontact.view.surfaces.child import INSTALL
+from geocontact.view.surfaces.legend import DISTANCE_MAP, distance_limits
 from geocontact.view.surfaces.render import MM, add_fixed, add_lines, add_moving, light, look
 from geocontact.view.surfaces.scene import ContactSeries, MappedBody
 

@@ -16,7 +16,7 @@ from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.view.page.content import Curves, Readout, Scene, Strip, Table, Words
 from geocontact.view.page.tables import inputs_table
 from geocontact.view.page.write import page_html
-from geocontact.view.surfaces.directions import camera_directions
+from geocontact.view.surfaces.camera import camera_directions
 from meshes.simple_shapes import sphere
 from tests.analyses.area.ball_on_plate import MM, WIDE, R, T, analysed, moved, page, section, swept, told
 

@@ -21,9 +21,8 @@ from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.cell import Cell
 from geocontact.data.gap.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Partial, Where
-from geocontact.gap.diagnose import Findings, behind
-from geocontact.gap.partial_answer import partial
-from geocontact.view.curves.text import number
+from geocontact.gap.diagnose import Findings, behind, partial
+from geocontact.view.curves.sheet import number
 from geocontact.view.page.content import Curves, Page, Picture, Table, Words
 from geocontact.view.page.write import page_html
 from tests.cli.gap_cases import diagnosed_elbow
@@ -219,7 +218,7 @@ def test_a_mistake_in_the_data_is_no_part_of_a_gap_nor_is_what_takes_little(
     wrong = replace(damped, candidates=(replace(candidate, somewhere=lambda trials: candidate.link),))
     assert partial(replace(found, contenders=(wrong,))) is None
     shrunk = {"force": SimpleNamespace(reduction=0.05, low=-0.6, high=0.6)}
-    monkeypatch.setattr("geocontact.gap.partial_answer.error_reduction", lambda *_: shrunk)
+    monkeypatch.setattr("geocontact.gap.diagnose.error_reduction", lambda *_: shrunk)
     assert partial(alone) is None
 
 

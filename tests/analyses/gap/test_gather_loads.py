@@ -12,7 +12,7 @@ import pytest
 
 import geocontact as gc
 from geocontact.io.cases.gap_case import read_gap_case
-from geocontact.loads.centre_in_foot import centre_in_foot
+from geocontact.loads.centre_of_pressure import centre_in_foot
 from geocontact.systems.catalogue import system_of
 from tests.cli.calls import written
 

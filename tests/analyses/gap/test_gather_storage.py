@@ -19,7 +19,7 @@ TIME = 0.02 * np.arange(121)
 LATER = TIME[5:-5]
 """Inverse dynamics needs neighbours: its file begins later and ends earlier."""
 SETTINGS = """format = 1
-system = "geocontact.systems.elastic_joint.model:JOINT"
+system = "geocontact.systems.elastic_joint:JOINT"
 calibration = ["t01"]
 evaluation = ["t02"]
 

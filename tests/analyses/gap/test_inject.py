@@ -15,7 +15,7 @@ from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.diagnosis import Diagnosis, Estimate
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.inject import Injected
-from geocontact.systems.elastic_joint.model import JOINT
+from geocontact.systems.elastic_joint import JOINT
 from tests.cli.calls import call, done
 from tests.cli.gap_cases import damped_elbow, known
 from tests.unchecked import unchecked

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.axis_misalignment.deflection import deflect
+from geocontact.axis_misalignment.explicit import deflect
 from tests.analyses.misalignment.trials import quietly
 
 PAPER: dict[str, Any] = {

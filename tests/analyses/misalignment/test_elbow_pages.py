@@ -14,7 +14,7 @@ from geocontact.analyses.misalignment.population import show as population_page
 from geocontact.analyses.misalignment.simulate import show as simulate_page
 from geocontact.analyses.misalignment.simulate.show import surface_figure
 from geocontact.analyses.misalignment.simulate.trials import surfaces
-from geocontact.axis_misalignment.end_stop import BinMeans, RecordedStroke
+from geocontact.axis_misalignment.compensation import BinMeans, RecordedStroke
 from geocontact.axis_misalignment.uncertainty import Direction
 from geocontact.identify.intervals.profile_likelihood import Profile
 from geocontact.view.page.content import Curves, Intervals, Page, Picture

@@ -12,7 +12,7 @@ from scipy import stats
 
 import geocontact as gc
 from benchmarks.elbow_population import drawn
-from geocontact.axis_misalignment.population import Exposure, peak_forces
+from geocontact.axis_misalignment.design import Exposure, peak_forces
 from tests.analyses.misalignment.trials import quietly
 
 ROOT = Path(__file__).resolve().parents[3]

@@ -8,10 +8,9 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from geocontact.below_knee_prosthesis.from_markers.marker_names import FOOT
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
-from geocontact.io.mocap.trc import read_trc
-from geocontact.io.mocap.trc_writer import trc_text
+from geocontact.below_knee_prosthesis.from_markers import FOOT
+from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.io.mocap.trc import read_trc, trc_text
 from tests.cli.calls import MESHES
 
 TRIAL = MESHES / "gait_P1_medium_1"

@@ -16,7 +16,7 @@ from geocontact.analyses.prosthesis.calibrate.result import doubts_of_fit
 from geocontact.analyses.prosthesis.simulate.result import doubt
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.clocks import clock_offset
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
 from meshes.gait_course import course
 from meshes.gait_persons import PARTICIPANTS, true_leg

@@ -13,8 +13,8 @@ from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOption
 from geocontact.analyses.prosthesis.design.trial import intact_side, intact_table, intact_words
 from geocontact.analyses.prosthesis.recorded_files import plate_under_foot, right_markers
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.design.drawn import RecordedTrial
 from geocontact.below_knee_prosthesis.design.intact_step import IntactStep
-from geocontact.below_knee_prosthesis.design.stance_again import RecordedTrial
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_keel
 from geocontact.below_knee_prosthesis.model.leg import Person
 from geocontact.data.errors import InputError

@@ -19,9 +19,9 @@ from geocontact.analyses.prosthesis.simulate.walk import Walk, bushing_of, fitte
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.model.leg import Inertial, Leg, Person
-from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion, driving_inputs
+from geocontact.below_knee_prosthesis.model.leg_tree import LegMotion, driving_inputs
 from geocontact.below_knee_prosthesis.model.stance_model import stance_numbers
 from geocontact.below_knee_prosthesis.simulate import simulate_stance
 from geocontact.contact.bushing import Bushing

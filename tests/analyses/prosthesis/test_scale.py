@@ -12,12 +12,12 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.prosthesis.scale.result import FREE, HELD, ProsthesisScaleResult
-from geocontact.below_knee_prosthesis.from_markers.sides import MIRROR, as_right
-from geocontact.data.multibody.marker_tasks import MarkerTasks
+from geocontact.below_knee_prosthesis.from_markers import MIRROR, as_right
+from geocontact.data.multibody.markers import MarkerTasks
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics
 from geocontact.dynamics.tree import tree_of
 from geocontact.io.mocap.markers import read_markers
-from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.io.mocap.trc import write_trc
 from geocontact.io.opensim.osim_multibody import read_multibody
 from meshes.make_gait import standing_files
 from tests.cli.calls import MESHES

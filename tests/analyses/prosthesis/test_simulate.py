@@ -20,7 +20,7 @@ from geocontact.analyses.prosthesis.simulate.result import (
     summary,
 )
 from geocontact.analyses.run_record import Record
-from geocontact.below_knee_prosthesis.stance_errors import stance_errors
+from geocontact.below_knee_prosthesis.evaluation import stance_errors
 from geocontact.io.opensim.external_loads import read_external_loads
 from tests.below_knee_prosthesis.stances import a_stance
 from tests.below_knee_prosthesis.test_stance_errors import plate_of, walked

@@ -14,10 +14,8 @@ from geocontact.analyses.shoulder.devices import device_named
 from geocontact.analyses.shoulder.recordings import current_at
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
 from geocontact.data.errors import InputError
-from geocontact.shoulder_exoskeleton.device import QUANTITIES
-from geocontact.shoulder_exoskeleton.lucy import lucy
-from geocontact.shoulder_exoskeleton.support.phase_machine import detected
-from geocontact.shoulder_exoskeleton.support.phases import LIFT, LOWER, SCREW
+from geocontact.shoulder_exoskeleton.device import QUANTITIES, lucy
+from geocontact.shoulder_exoskeleton.support.phase_machine import LIFT, LOWER, SCREW, detected
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 from tests.analyses.shoulder.test_simulate import TRIAL, simulated
 

@@ -18,12 +18,10 @@ from geocontact.analyses.shoulder.optimise.profiles import read as read_workers
 from geocontact.analyses.shoulder.study.cases import read as read_study
 from geocontact.analyses.shoulder.study.options import StudyOptions
 from geocontact.io.mocap.markers import read_markers
-from geocontact.io.mocap.trc_writer import write_trc
-from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
-from geocontact.shoulder_exoskeleton.device import Wearer
-from geocontact.shoulder_exoskeleton.lucy import lucy
+from geocontact.io.mocap.trc import write_trc
+from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, smoothed_motion
+from geocontact.shoulder_exoskeleton.device import Wearer, lucy
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
-from geocontact.shoulder_exoskeleton.smoothed_motion import smoothed_motion
 from tests.analyses.shoulder.test_simulate import TRIAL, simulated
 from tests.shoulder_exoskeleton.arms import SHOULDER, raised
 

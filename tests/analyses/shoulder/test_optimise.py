@@ -18,14 +18,13 @@ from geocontact.analyses.shoulder.optimise.profiles import WORST, of_others, rea
 from geocontact.analyses.shoulder.optimise.result import ShoulderOptimiseResult
 from geocontact.data.errors import InputError
 from geocontact.io.text.results import write_table
-from geocontact.shoulder_exoskeleton.lucy import lucy, lucy_new_cylinder
+from geocontact.shoulder_exoskeleton.device import lucy, lucy_new_cylinder
 from geocontact.shoulder_exoskeleton.support.closed_loop_profile import ClosedLoop
 from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport, judged
 from geocontact.shoulder_exoskeleton.support.outcome import Factors
-from geocontact.shoulder_exoskeleton.support.phases import SCREW
+from geocontact.shoulder_exoskeleton.support.phase_machine import SCREW
 from geocontact.shoulder_exoskeleton.support.profile_limits import Limits
-from geocontact.shoulder_exoskeleton.synthetic.design import PARTICIPANTS, TASKS, condition
-from geocontact.shoulder_exoskeleton.synthetic.trial import synthetic_trial
+from geocontact.shoulder_exoskeleton.synthetic import PARTICIPANTS, TASKS, condition, synthetic_trial
 from meshes.overhead_files import trial_files
 from tests.analyses.shoulder.test_simulate import simulated
 

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.shoulder_exoskeleton.synthetic.design import condition, participant, task
-from geocontact.shoulder_exoskeleton.synthetic.trial import synthetic_trial
+from geocontact.shoulder_exoskeleton.synthetic import condition, participant, synthetic_trial, task
 from meshes.overhead_files import trial_files
 from tests.analyses.shoulder.test_simulate import simulated
 

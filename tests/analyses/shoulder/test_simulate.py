@@ -13,7 +13,7 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.shoulder.simulate.exports import write_external_loads
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
-from geocontact.data.sourced_number import Number
+from geocontact.data.parameter import Number
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics import compiled as code
 from geocontact.io.mocap.markers import read_markers

@@ -19,9 +19,9 @@ from geocontact.analyses.sit_to_stand.calibrate.result import read, run
 from geocontact.analyses.sit_to_stand.standing_trials import seat_off
 from geocontact.data.wrench import Wrench
 from geocontact.io.mocap.force_plates import ForcePlate
-from geocontact.io.opensim.moco_trajectory_writer import write_moco_trajectory
-from geocontact.standing_up.feet import FOOT_PARAMETERS
-from geocontact.standing_up.other_minima import Ended
+from geocontact.io.opensim.storage_writer import write_moco_trajectory
+from geocontact.standing_up.calibrated_phase import Ended
+from geocontact.standing_up.chain import FOOT_PARAMETERS
 from tests import opensim_oracle
 from tests.analyses.sit_to_stand.ctrl_c import Interrupting
 from tests.cli.calls import MESHES

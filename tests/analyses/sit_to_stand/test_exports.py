@@ -14,11 +14,10 @@ from geocontact.analyses.sit_to_stand.exports import write_motion, write_solutio
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.io.opensim.external_loads import read_external_loads
 from geocontact.io.text.tables import read_table
-from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.chain import EVERY_PLANTED, Subject
 from geocontact.standing_up.exoskeleton import LEGS, STRAP_PLANTED, WORN_PARAMETERS, strapped, with_exoskeleton
-from geocontact.standing_up.feet import EVERY_PLANTED
-from geocontact.standing_up.judged import JudgedMotion
-from geocontact.standing_up.strap_force import strap_force
+from geocontact.standing_up.phase import JudgedMotion
+from geocontact.standing_up.strap import strap_force
 from geocontact.standing_up.strap_sites import STRAP_SITES
 from geocontact.standing_up.trials import StandingTrial, seen_in, standing_up
 from tests import opensim_oracle

@@ -23,10 +23,10 @@ from geocontact.analyses.sit_to_stand.exports import write_solution
 from geocontact.analyses.sit_to_stand.predict.predictions import MEAN
 from geocontact.analyses.sit_to_stand.predict.result import StandingPredictResult
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
-from geocontact.dynamics.collocation import refinement
+from geocontact.dynamics.collocation import solve as refinement
 from geocontact.dynamics.collocation.motion import CollocatedMotion
 from geocontact.io.text.results import write_table
-from geocontact.standing_up import judged
+from geocontact.standing_up import phase as judged
 from geocontact.standing_up.trials import StandingTrial
 from tests.cli.calls import MESHES
 from tests.standing_up.from_table import Chains, belief, over, read, squares

@@ -13,9 +13,8 @@ import pytest
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_amputee, standing_joints
-from geocontact.below_knee_prosthesis.from_markers.sides import MIRROR
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.from_markers import MIRROR
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.data.body_segments import SEGMENTS
 from geocontact.data.errors import InputError

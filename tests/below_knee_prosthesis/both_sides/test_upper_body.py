@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from geocontact.below_knee_prosthesis.both_sides.amputee import share_of_body, upper_body
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_amputee
-from geocontact.below_knee_prosthesis.both_sides.upper_body import share_of_body, upper_body
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 from meshes.amputee import (
     standing_trials,
     standing_values,

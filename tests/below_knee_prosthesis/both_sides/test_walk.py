@@ -10,7 +10,6 @@ from scipy.integrate import cumulative_trapezoid
 
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
-from geocontact.below_knee_prosthesis.both_sides.equations_of_both import equations_of_both, moving_tree, passive
 from geocontact.below_knee_prosthesis.both_sides.walk import (
     GivenWalk,
     WholeMotion,
@@ -18,14 +17,16 @@ from geocontact.below_knee_prosthesis.both_sides.walk import (
     coordinate_names,
     driven_stepper,
     driving_forces,
+    equations_of_both,
+    moving_tree,
+    passive,
     walk_by_angles,
     walk_by_forces,
 )
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.data.wrench import Wrench
-from geocontact.dynamics.forces_along import forces_along
+from geocontact.dynamics.inverse_dynamics import forces_along
 from geocontact.dynamics.recorded_inputs import recorded_inputs
 from geocontact.dynamics.tree import tree_of
 from geocontact.io.opensim.osim_multibody import read_multibody

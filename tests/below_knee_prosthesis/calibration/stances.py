@@ -10,8 +10,7 @@ import numpy as np
 from benchmarks.keel_stance import WEIGHT, stance
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
 
 FACTORS = np.array([1.2, 1.5, 0.7, 0.6, 1.1, 1.3, 0.7, 1.4, 1.2, 0.8, 0.9, 1.1, 1.2, 0.8, 0.95])
 """Planted numbers over the usual ones."""

@@ -13,7 +13,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
 from geocontact.below_knee_prosthesis.calibration.known_numbers import knowledge
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResiduals
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from tests.below_knee_prosthesis.calibration.stances import planted, recorded
 from tests.cli.calls import MESHES, Call, call, done
 

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geocontact.below_knee_prosthesis.calibration.linear_turn import bounded_fit, linear_rows
+from geocontact.below_knee_prosthesis.calibration.calibrate import bounded_fit, linear_rows
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import NO_BALANCE, SoleResiduals
-from geocontact.below_knee_prosthesis.calibration.whole_residuals import WholeResiduals
+from geocontact.below_knee_prosthesis.calibration.whole_model import WholeResiduals
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from tests.below_knee_prosthesis.calibration.stances import recorded
 
 SD = {"stiffness": np.log(3.0), "damping": np.log(10.0), "friction": np.log(2.0)}

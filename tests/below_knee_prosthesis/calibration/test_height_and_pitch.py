@@ -11,13 +11,12 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.below_knee_prosthesis.calibration.calibrate import calibrate
-from geocontact.below_knee_prosthesis.calibration.recorded_stance import Errors, RecordedStance
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import Errors, RecordedStance, stance_from_markers
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResiduals
-from geocontact.below_knee_prosthesis.calibration.stance_from_markers import stance_from_markers
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
-from geocontact.below_knee_prosthesis.design.stance_again import TrialErrors
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
-from geocontact.below_knee_prosthesis.stance_errors import PlateStance
+from geocontact.below_knee_prosthesis.design.drawn import TrialErrors
+from geocontact.below_knee_prosthesis.evaluation import PlateStance
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
 from tests.below_knee_prosthesis.calibration.stances import planted, recorded
 from tests.below_knee_prosthesis.socket_markers import markers_of, planted_stance
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.below_knee_prosthesis.calibration.linear_turn import bounded_fit, linear_rows
+from geocontact.below_knee_prosthesis.calibration.calibrate import bounded_fit, linear_rows
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
 from tests.below_knee_prosthesis.calibration.stances import FACTORS, planted, recorded
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.below_knee_prosthesis.calibration.slip import slipping, with_slip
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.calibration.sole_residuals import slipping, with_slip
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
 from tests.below_knee_prosthesis.calibration.stances import planted, recorded
 
 

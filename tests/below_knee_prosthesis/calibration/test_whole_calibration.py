@@ -6,13 +6,16 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
-from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedStance
-from geocontact.below_knee_prosthesis.calibration.whole_calibration import WORTH, WholeCalibration, calibrate_whole
-from geocontact.below_knee_prosthesis.calibration.whole_residuals import WholeResiduals
-from geocontact.below_knee_prosthesis.calibration.whole_stance import WholeStance
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance, WalkedStance
+from geocontact.below_knee_prosthesis.calibration.whole_model import (
+    WORTH,
+    WholeCalibration,
+    WholeResiduals,
+    WholeStance,
+    calibrate_whole,
+)
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
 from meshes.gait_course import course
 from meshes.gait_persons import PARTICIPANTS, true_leg
 

@@ -14,12 +14,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.calibration import whole_residuals, whole_stance
-from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
-from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedStance
-from geocontact.below_knee_prosthesis.calibration.whole_residuals import WholeResiduals
-from geocontact.below_knee_prosthesis.calibration.whole_stance import WholeStance
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.calibration import whole_model as whole_residuals
+from geocontact.below_knee_prosthesis.calibration import whole_model as whole_stance
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance, WalkedStance
+from geocontact.below_knee_prosthesis.calibration.whole_model import WholeResiduals, WholeStance
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.identify.optimise.bounded_gauss_newton import least
 from meshes.gait_course import course
 from meshes.gait_persons import PARTICIPANTS, true_leg

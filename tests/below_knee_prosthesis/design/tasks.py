@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.below_knee_prosthesis.design.foot_task import FootTask
-from geocontact.below_knee_prosthesis.design.sagittal_leg import SagittalLeg
+from geocontact.below_knee_prosthesis.design.foot_task import FootTask, SagittalLeg
 
 
 def a_task(frames: int = 12) -> FootTask:

@@ -8,12 +8,19 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.design.carried_load import REACH, with_angles_kept, with_torque_kept
-from geocontact.below_knee_prosthesis.design.foot_map import PLACES, FootMap, foot_map, needed, solved_with_drag
-from geocontact.below_knee_prosthesis.design.outcomes import loading_rate, returned, roll_over_radius
-from geocontact.below_knee_prosthesis.design.roll_over import arc_through
-from geocontact.below_knee_prosthesis.design.terrain import FLAT, LEVEL
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.design.foot_map import (
+    PLACES,
+    REACH,
+    FootMap,
+    foot_map,
+    needed,
+    solved_with_drag,
+    with_angles_kept,
+    with_torque_kept,
+)
+from geocontact.below_knee_prosthesis.design.foot_task import FLAT, LEVEL
+from geocontact.below_knee_prosthesis.design.outcomes import arc_through, loading_rate, returned, roll_over_radius
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from tests.below_knee_prosthesis.design.tasks import a_task
 
 

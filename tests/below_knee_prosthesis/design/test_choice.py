@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from jaxtyping import Float
 
-from geocontact.below_knee_prosthesis.design.choice import away, choose
-from geocontact.below_knee_prosthesis.design.choose_pair import choose_pair
+from geocontact.below_knee_prosthesis.design.choice import away, choose, choose_pair
 
 VALUES = np.linspace(0.066, 0.151, 9)
 

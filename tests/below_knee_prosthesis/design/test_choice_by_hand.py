@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.below_knee_prosthesis.design.choice import choose
-from geocontact.below_knee_prosthesis.design.roll_over import arc_through
+from geocontact.below_knee_prosthesis.design.outcomes import arc_through
 
 VALUES = np.array([0.066, 0.081, 0.099, 0.118, 0.13, 0.151])
 LEVEL, DRAWS = 0.9, 25

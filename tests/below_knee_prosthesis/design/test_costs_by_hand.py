@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
-from geocontact.below_knee_prosthesis.design.choose_pair import choose_pair
+from geocontact.below_knee_prosthesis.design.choice import choose_pair
+from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
 from geocontact.below_knee_prosthesis.design.joint_torques_kept import RETARDATION, STIFFNESS, OtherFeet
 from geocontact.below_knee_prosthesis.design.outcomes import loading_rate, outcomes, returned, roll_over_radius
 from tests.below_knee_prosthesis.design.tasks import a_task

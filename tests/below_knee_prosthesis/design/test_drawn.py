@@ -10,13 +10,12 @@ import pytest
 
 from benchmarks.prosthesis_forward import forward_run
 from geocontact.below_knee_prosthesis.design.choice import choose, interval
-from geocontact.below_knee_prosthesis.design.drawn import draws
+from geocontact.below_knee_prosthesis.design.drawn import MEASURED, NONE, MapError, draws, stiffer
 from geocontact.below_knee_prosthesis.design.foot_map import FootMap
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob
-from geocontact.below_knee_prosthesis.design.map_error import MEASURED, NONE, MapError, stiffer
-from geocontact.below_knee_prosthesis.keel.beam import tip_compliance
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.keel import tip_compliance
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from tests.below_knee_prosthesis.design.tasks import a_task
 
 ENERGY = AIMS.index("energy")

@@ -5,11 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.below_knee_prosthesis.design.feet_on_ground import feet_on_ground
-from geocontact.below_knee_prosthesis.design.foot_map import PLACES, FootMap
-from geocontact.below_knee_prosthesis.design.knob import Knob
-from geocontact.below_knee_prosthesis.design.outcomes import outcomes
-from geocontact.below_knee_prosthesis.design.sagittal_leg import (
+from geocontact.below_knee_prosthesis.design.foot_map import PLACES, FootMap, feet_on_ground
+from geocontact.below_knee_prosthesis.design.foot_task import (
     bias,
     force_along,
     mass_matrix,
@@ -17,7 +14,9 @@ from geocontact.below_knee_prosthesis.design.sagittal_leg import (
     thigh_direction,
     turned,
 )
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.design.knob import Knob
+from geocontact.below_knee_prosthesis.design.outcomes import outcomes
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from tests.below_knee_prosthesis.design.tasks import a_task
 

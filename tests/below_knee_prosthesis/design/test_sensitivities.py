@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
+from geocontact.below_knee_prosthesis.design.foot_task import LEVEL
 from geocontact.below_knee_prosthesis.design.knob import AIMS
 from geocontact.below_knee_prosthesis.design.sensitivities import RECORDED, Unknown, sensitivities
-from geocontact.below_knee_prosthesis.design.terrain import LEVEL
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from tests.below_knee_prosthesis.design.tasks import a_task
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from geocontact.below_knee_prosthesis.design.foot_task import LEVEL, Terrain, words
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob
-from geocontact.below_knee_prosthesis.design.terrain import LEVEL, Terrain, words
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from tests.below_knee_prosthesis.design.tasks import a_task
 
 PRESENT = 0.117

@@ -6,11 +6,16 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.below_knee_prosthesis.evaluation.judged_stance import plate_ankle_moment
-from geocontact.below_knee_prosthesis.evaluation.outliers import oddness
-from geocontact.below_knee_prosthesis.evaluation.trivial_predictors import ANOTHER, MEAN, MeasuredCurve, trivial_curves
+from geocontact.below_knee_prosthesis.evaluation import (
+    ANOTHER,
+    MEAN,
+    MeasuredCurve,
+    PlateStance,
+    oddness,
+    plate_ankle_moment,
+    trivial_curves,
+)
 from geocontact.below_knee_prosthesis.model.leg_tree import recorded_tree
-from geocontact.below_knee_prosthesis.stance_errors import PlateStance
 from tests.below_knee_prosthesis.model.legs import a_leg, a_motion
 
 

@@ -8,15 +8,22 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from geocontact.below_knee_prosthesis.from_markers.marker_names import PELVIS, STANDING, mirrored_name
-from geocontact.below_knee_prosthesis.from_markers.sides import MIRROR, as_right
-from geocontact.below_knee_prosthesis.from_markers.standing import hip_by_regression, standing_leg
-from geocontact.below_knee_prosthesis.from_markers.walking import functional_hip, walked
+from geocontact.below_knee_prosthesis.from_markers import (
+    MIRROR,
+    PELVIS,
+    STANDING,
+    as_right,
+    functional_hip,
+    hip_by_regression,
+    mirrored_name,
+    standing_leg,
+    walked,
+)
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_keel
 from geocontact.below_knee_prosthesis.model.leg import Leg, Person
 from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, recorded_tree
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.functional_joint import FunctionalCentre
 from meshes.gait_persons import PARTICIPANTS, SPINES, marker_places, true_leg
 

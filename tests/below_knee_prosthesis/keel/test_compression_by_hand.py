@@ -8,9 +8,14 @@ from math import log
 import numpy as np
 import pytest
 
-from geocontact.below_knee_prosthesis.keel.compression import Compressed
-from geocontact.below_knee_prosthesis.keel.compression_test import FOREFOOT, TRAVEL, calibrated_on_sole, pressed_sole
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.compression import (
+    FOREFOOT,
+    TRAVEL,
+    Compressed,
+    calibrated_on_sole,
+    pressed_sole,
+)
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 
 
 def test_three_compressions_by_hand() -> None:

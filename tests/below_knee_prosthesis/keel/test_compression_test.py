@@ -5,11 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.below_knee_prosthesis.keel.beam import SUPPORTS, Support
-from geocontact.below_knee_prosthesis.keel.compression import Compressed
-from geocontact.below_knee_prosthesis.keel.compression_test import TRAVEL, calibrated_on_sole, pressed_sole, pressed_tip
-from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, compression, fulcrum_of, vsf_keel
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.compression import (
+    TRAVEL,
+    Compressed,
+    calibrated_on_sole,
+    pressed_sole,
+    pressed_tip,
+)
+from geocontact.below_knee_prosthesis.keel.keel import SUPPORTS, Support
+from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, compression, fulcrum_of, vsf_foot, vsf_keel
 
 RANGE = np.linspace(0.066, 0.151, 12)
 GONE = np.array([TRAVEL])

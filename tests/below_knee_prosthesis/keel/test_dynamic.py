@@ -10,9 +10,9 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.keel.dynamic import dynamic_keel
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.geometry.shapes import HalfSpace
-from geocontact.loads.pose_rate import pose_rate
+from geocontact.loads.resultant import pose_rate
 
 FULCRUM, LASTING = 0.117, 0.12
 
@@ -50,7 +50,7 @@ def test_a_free_keel_swings_at_the_beams_frequency() -> None:
     """First bending frequency of the overhang on its root, by the characteristic equation, at 64 joints."""
     from scipy.optimize import brentq
 
-    from geocontact.below_knee_prosthesis.keel.beam import root_compliance
+    from geocontact.below_knee_prosthesis.keel.keel import root_compliance
     from geocontact.below_knee_prosthesis.keel.on_tree import joint_numbers
 
     keel = vsf_foot(joints=64).keel

@@ -9,9 +9,9 @@ import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.keel.dynamic import dynamic_keel
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
 from geocontact.geometry.shapes import HalfSpace
-from geocontact.loads.pose_rate import pose_rate
+from geocontact.loads.resultant import pose_rate
 
 FULCRUM, SHARE = 0.1, 0.15
 

@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geocontact.below_knee_prosthesis.keel.beam import deflected, root_compliance, tip_compliance
-from geocontact.below_knee_prosthesis.keel.keel import torsional_stiffness
+from geocontact.below_knee_prosthesis.keel.keel import deflected, root_compliance, tip_compliance, torsional_stiffness
 from geocontact.below_knee_prosthesis.keel.sole import law_of, sole_of
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_keel
 

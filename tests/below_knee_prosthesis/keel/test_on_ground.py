@@ -8,11 +8,11 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 from benchmarks.keel_stance import Stance
 from benchmarks.prosthesis_grounds import SLOPE, strip, turned
-from geocontact.below_knee_prosthesis.keel.on_ground import loads_at
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.keel.quasi_static import loads_at
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.ground import Stairs
-from geocontact.loads.pose_rate import pose_rate
+from geocontact.loads.resultant import pose_rate
 
 FAR = Stairs((-5.0,), (-1.0, 0.0))
 """Stairs whose one tread is the floor."""

@@ -11,7 +11,7 @@ import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.keel.balance_kernel import balance
-from geocontact.below_knee_prosthesis.keel.elastica import elastica
+from geocontact.below_knee_prosthesis.keel.keel import elastica
 from geocontact.below_knee_prosthesis.keel.on_tree import (
     along_keel,
     coordinates,
@@ -23,14 +23,13 @@ from geocontact.below_knee_prosthesis.keel.quasi_static import TOLD, QuasiStatic
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole, law_of, sole_of
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_keel
 from geocontact.contact.sphere_foot import normal_force
-from geocontact.data.multibody.joint_kinds import free
+from geocontact.data.multibody.joint import free
 from geocontact.data.multibody.model import GROUND, Body, Multibody
 from geocontact.dynamics.equations import Equations, equations_of_motion
 from geocontact.dynamics.tree import tree_of
 from geocontact.geometry.shapes import HalfSpace
-from geocontact.loads.pose_rate import pose_rate
-from geocontact.loads.sphere_loads import sphere_loads
-from geocontact.loads.sphere_set import SoleLaw, SphereSet
+from geocontact.loads.resultant import pose_rate
+from geocontact.loads.sphere_set import SoleLaw, SphereSet, sphere_loads
 
 FULCRUM, SLOPE = 0.1, HalfSpace((0.0, 0.002, 0.0), (0.05, 1.0, -0.03))
 GRAVITY = np.array([0.3, -9.7, 0.2])

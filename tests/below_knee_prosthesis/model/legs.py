@@ -6,8 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from geocontact.below_knee_prosthesis.model.leg import Leg, Person
-from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
-from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED
+from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, LegMotion
 
 
 def a_leg(mass: float = 77.3) -> Leg:

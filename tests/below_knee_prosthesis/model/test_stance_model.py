@@ -6,9 +6,8 @@ import numpy as np
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.keel.on_tree import along_keel, coordinates, joint_numbers, sole_wrenches
-from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
-from geocontact.below_knee_prosthesis.model.leg_motion import driving_inputs
-from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, SOCKET, whole_tree
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
+from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, SOCKET, driving_inputs, whole_tree
 from geocontact.below_knee_prosthesis.model.stance_model import stance_model, stance_numbers
 from geocontact.contact.bushing import SOCKET as BUSHING
 from geocontact.dynamics.equations import equations_of_motion

@@ -9,14 +9,25 @@ import pytest
 from casadi import SX, Function
 from scipy.linalg import expm
 
-from geocontact.dynamics.collocation.certificate import Certificate, CertificateLimits, certificate, fine_residual
+from geocontact.dynamics.collocation.certificate import (
+    Certificate,
+    CertificateLimits,
+    certificate,
+    fine_residual,
+    residuals,
+    resimulation,
+)
 from geocontact.dynamics.collocation.motion import MotionSamples
 from geocontact.dynamics.collocation.multibody import jerk_controlled
 from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem
-from geocontact.dynamics.collocation.refinement import MOST_HALVINGS, halved, refined
-from geocontact.dynamics.collocation.residual import residuals
-from geocontact.dynamics.collocation.resimulation import resimulation
-from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions, solve
+from geocontact.dynamics.collocation.solve import (
+    MOST_HALVINGS,
+    CollocationResult,
+    SolverOptions,
+    halved,
+    refined,
+    solve,
+)
 from geocontact.dynamics.equations import equations_of_motion
 from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.tree import tree_of

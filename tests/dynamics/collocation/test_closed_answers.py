@@ -12,8 +12,8 @@ from casadi import SX, sin
 
 from geocontact.data.errors import InputError
 from geocontact.dynamics.collocation.blocks import sparse_program
+from geocontact.dynamics.collocation.motion import scheme
 from geocontact.dynamics.collocation.problem import ControlProblem
-from geocontact.dynamics.collocation.scheme import scheme
 from geocontact.dynamics.collocation.solve import SolverOptions, solve
 from geocontact.dynamics.collocation.transcription import Transcription, scales_from
 from tests.dynamics.collocation.closed_problems import (

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from casadi import SX, vertcat
 
-from geocontact.dynamics.collocation.optimality import optimality_system
+from geocontact.dynamics.collocation.optimality import inverse_reduced_hessian, optimality_system
 from geocontact.dynamics.collocation.problem import ControlProblem
-from geocontact.dynamics.collocation.reduced_hessian import inverse_reduced_hessian
 from geocontact.dynamics.collocation.solve import SolverOptions, solve
 from geocontact.dynamics.collocation.transcription import Transcription, scales_from
 from tests.dynamics.collocation.closed_problems import system, trial

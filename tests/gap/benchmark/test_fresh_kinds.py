@@ -11,9 +11,9 @@ import pytest
 
 from geocontact.gap_benchmark.drawing import Lot, drawn
 from geocontact.gap_benchmark.synthetic.catalogue import SCENES
+from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import UNSEEN, sampled_unseen, sampling_gap
 from geocontact.gap_benchmark.synthetic.laboratories.kinds import LABORATORY_KINDS, kinds_of
 from geocontact.gap_benchmark.synthetic.laboratories.movements import FAMILIES, moving
-from geocontact.gap_benchmark.synthetic.laboratories.unseen import UNSEEN, sampled_unseen, sampling_gap
 from geocontact.gap_benchmark.synthetic.noise import PowerLawNoise, Wandering
 from geocontact.gap_benchmark.synthetic.plan import NotFoundError
 from geocontact.gap_benchmark.synthetic.recording import Clock, Recorder, Sampler

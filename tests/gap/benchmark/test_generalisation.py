@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from geocontact.gap_benchmark.confounding import ahead_by, clearly_ahead, one_law
+from geocontact.gap_benchmark.answers import ahead_by, clearly_ahead, one_law
 from geocontact.gap_benchmark.generalisation import Loss, figures_of, log_score, losses
-from geocontact.gap_benchmark.rates import Rate
+from geocontact.gap_benchmark.score import Rate
 
 
 def label(effect: str, left: dict[str, float]) -> dict[str, Any]:

@@ -6,8 +6,7 @@ from typing import Any
 
 import pytest
 
-from geocontact.gap_benchmark.harm import certainty, harmful, worse_channels, worse_in_sum
-from geocontact.gap_benchmark.score import score
+from geocontact.gap_benchmark.score import certainty, harmful, score, worse_channels, worse_in_sum
 
 LABEL = {
     "kind": "none",

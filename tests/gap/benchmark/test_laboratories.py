@@ -12,21 +12,19 @@ from scipy.stats import kurtosis
 
 from geocontact.gap_benchmark.drawing import ABROAD, HOME, Lot, drawn, lots
 from geocontact.gap_benchmark.synthetic import LABORATORIES, cases, synthetic_case
-from geocontact.gap_benchmark.synthetic.base_fit import jacobian
 from geocontact.gap_benchmark.synthetic.catalogue import SCENES
 from geocontact.gap_benchmark.synthetic.hooks import BASE
-from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import sizes
-from geocontact.gap_benchmark.synthetic.laboratories.inputs import harmonics, other_filters, starts
+from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import ANGLE, GAIN, LENGTH, placement_of, sizes
 from geocontact.gap_benchmark.synthetic.laboratories.kinds import kinds_of
 from geocontact.gap_benchmark.synthetic.laboratories.movements import Pace
-from geocontact.gap_benchmark.synthetic.laboratories.placement import ANGLE, GAIN, LENGTH, placement_of
+from geocontact.gap_benchmark.synthetic.laboratories.recorder import harmonics, other_filters, starts
 from geocontact.gap_benchmark.synthetic.laboratory import Placement
 from geocontact.gap_benchmark.synthetic.noise import PowerLawNoise
 from geocontact.gap_benchmark.synthetic.plan import NotFoundError
 from geocontact.gap_benchmark.synthetic.recording import Clock, Quotient, Recorder
 from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
 from geocontact.gap_benchmark.synthetic.trials import as_measured, record, samples, sensed
-from geocontact.gap_benchmark.synthetic.visibility import whitener
+from geocontact.gap_benchmark.synthetic.visibility import jacobian, whitener
 
 AS_BEFORE = {
     "elbow": (751, 30.0, [1.3513326655091888, 7.964386163376955], 0.3494051452490011),

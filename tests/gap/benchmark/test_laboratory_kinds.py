@@ -12,9 +12,8 @@ from geocontact.gap_benchmark import drawing
 from geocontact.gap_benchmark.synthetic import cases
 from geocontact.gap_benchmark.synthetic.cases import prepared
 from geocontact.gap_benchmark.synthetic.catalogue import NUMBERS, SCENES, SECOND, plans
+from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import UNSEEN, placed_as_usual, slightly_wrong
 from geocontact.gap_benchmark.synthetic.laboratories.kinds import LABORATORY_KINDS, SIDES, TRIALS, kinds_of
-from geocontact.gap_benchmark.synthetic.laboratories.placement import placed_as_usual
-from geocontact.gap_benchmark.synthetic.laboratories.unseen import UNSEEN, slightly_wrong
 from geocontact.gap_benchmark.synthetic.laboratory import Placement, WarmUp
 from geocontact.gap_benchmark.synthetic.noise import (
     Coloured,

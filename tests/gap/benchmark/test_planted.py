@@ -12,7 +12,6 @@ from scipy.linalg import solve_triangular
 import geocontact.gap_benchmark.synthetic as planted
 from geocontact.gap_benchmark.drawing import SYSTEMS
 from geocontact.gap_benchmark.synthetic import KINDS, cases, synthetic_case
-from geocontact.gap_benchmark.synthetic.base_fit import jacobian
 from geocontact.gap_benchmark.synthetic.cases import prepared
 from geocontact.gap_benchmark.synthetic.catalogue import NUMBERS, PLANS, SCENES, plans, unknown_effects
 from geocontact.gap_benchmark.synthetic.course import through
@@ -20,7 +19,6 @@ from geocontact.gap_benchmark.synthetic.effects.kernels import crept, seated
 from geocontact.gap_benchmark.synthetic.effects.unknown import UNKNOWN
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks
 from geocontact.gap_benchmark.synthetic.noise import Coloured, NoiseFilter, smooth_covariance, smooth_noise
-from geocontact.gap_benchmark.synthetic.reach import shortest
 from geocontact.gap_benchmark.synthetic.systems.foot import Sole, foot
 from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError, pull
 from geocontact.gap_benchmark.synthetic.systems.knee import area_under, deflection
@@ -36,6 +34,7 @@ from geocontact.gap_benchmark.synthetic.trials import (
     samples,
     truth,
 )
+from geocontact.gap_benchmark.synthetic.visibility import jacobian, shortest
 from geocontact.systems.catalogue import system_of
 
 pytestmark = pytest.mark.slow

@@ -20,7 +20,7 @@ PROGRAM = """
 import json, sys
 import numpy as np
 from geocontact.effects.catalogue import candidates
-from geocontact.gap_benchmark.confounding import confounding
+from geocontact.gap_benchmark.answers import confounding
 from geocontact.gap_benchmark.synthetic import synthetic_case
 from geocontact.gap_benchmark.residual_regression import residual_regression
 from geocontact.gap.case.preparation import problem_of

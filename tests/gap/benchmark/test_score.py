@@ -5,8 +5,7 @@ import pytest
 from scipy.stats import binom
 
 from geocontact.gap_benchmark.answers import constant_answer, oracle_answer, true_distribution
-from geocontact.gap_benchmark.rates import Rate
-from geocontact.gap_benchmark.score import confidently_wrong, figures, score
+from geocontact.gap_benchmark.score import Rate, confidently_wrong, figures, score
 
 
 def a_label(kind, effects=(), nats=100.0, reduction=0.5, **more):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.drape.geodesics import Geodesics
+from geocontact.geometry.drape.spread import Geodesics
 from geocontact.geometry.surface import Surface
 from meshes import simple_shapes
 

@@ -6,9 +6,9 @@ from math import atan2, cos, sin
 
 import numpy as np
 
-from geocontact.geometry.drape.anchor import anchored
+from geocontact.geometry.drape.lay import anchored
 from geocontact.geometry.drape.mat import Marks, Mat
-from geocontact.geometry.drape.rectangle import _lines
+from geocontact.geometry.drape.scan_difference import _lines
 from tests.geometry.drape.sheets import over, plane
 
 ROBUST = 1e-3

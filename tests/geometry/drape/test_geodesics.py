@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from geocontact.geometry.drape.geodesics import Geodesics, SurfacePoints
-from geocontact.geometry.neighbours import neighbours
+from geocontact.geometry.drape.spread import Geodesics, SurfacePoints
 from geocontact.geometry.surface import Surface
+from geocontact.geometry.topology import neighbours
 from tests.geometry.drape.sheets import over, plane, sphere, thigh, tube
 
 

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.geometry.drape.anchor import _aimed, marked
-from geocontact.geometry.drape.lay import between, lay
+from geocontact.geometry.drape.lay import _aimed, between, lay, marked
 from geocontact.geometry.drape.mat import Marks, Mat
 from geocontact.geometry.drape.spread import Anchor, spread
 from tests.geometry.drape.sheets import cone, over, plane, sphere, thigh, tube

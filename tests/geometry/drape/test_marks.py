@@ -5,9 +5,8 @@ import pytest
 
 from geocontact.geometry.drape.lay import lay
 from geocontact.geometry.drape.mat import Marks, Mat
-from geocontact.geometry.drape.motions import motions
-from geocontact.geometry.drape.positions import directions
-from geocontact.geometry.drape.spread import Anchor
+from geocontact.geometry.drape.slip import motions
+from geocontact.geometry.drape.spread import Anchor, directions
 from tests.geometry.drape.sheets import over, plane, sphere, thigh, tube
 
 SIDE = np.sqrt(2e-4)

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from geocontact.geometry.drape.rectangle import rectangle_on
-from geocontact.geometry.drape.scan_difference import scan_difference
-from geocontact.geometry.register.unguided import same_place, unguided
+from geocontact.geometry.drape.scan_difference import rectangle_on, scan_difference
+from geocontact.geometry.register.icp import same_place, unguided
 from geocontact.geometry.surface import Surface
 from tests.geometry.drape.second_scan import ELSEWHERE, bare, corners, with_mat
 from tests.geometry.drape.sheets import over, plane

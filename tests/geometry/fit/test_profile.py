@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from geocontact.geometry.fit.profile import sagittal_profile
-from geocontact.geometry.patch_names import about
 from geocontact.geometry.plane import Plane
-from geocontact.geometry.regions import faces_where
+from geocontact.geometry.regions import about, faces_where
 from geocontact.geometry.sagittal import Sagittal
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.sweep import Axis

@@ -6,9 +6,8 @@ import pytest
 from geocontact.geometry.fit.catalogue import SHAPES
 from geocontact.geometry.fit.circle import CircleModel, fit_circle, fit_cylinder_along
 from geocontact.geometry.fit.cylinder import CylinderModel
-from geocontact.geometry.fit.directions import across
 from geocontact.geometry.fit.plane import PlaneModel
-from geocontact.geometry.fit.solver import biweight
+from geocontact.geometry.fit.solver import across, biweight
 from geocontact.geometry.fit.sphere import SphereModel
 from tests.geometry.fit.clouds import RADIUS, SHIFT, TURN, points, wall
 

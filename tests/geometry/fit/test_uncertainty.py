@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from geocontact.geometry.fit.cylinder import fit_cylinder
-from geocontact.geometry.fit.uncertainty import cells, covariance, half_width
+from geocontact.geometry.fit.found import cells, covariance, half_width
 from tests.geometry.fit.clouds import CLOUDS, RADIUS, wall
 
 RUNS = 60

@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.geometry.boundary import on_boundary
-from geocontact.geometry.register.icp import IcpSearch, icp
-from geocontact.geometry.register.samples import samples
-from geocontact.geometry.surface import Surface
+from geocontact.geometry.register.icp import IcpSearch, icp, samples
+from geocontact.geometry.surface import Surface, on_boundary
 from tests.geometry.drape.sheets import lattice_faces, sphere, tube
 
 

@@ -5,10 +5,9 @@ import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 from scipy.stats import t as student
 
-from geocontact.geometry.register.icp import IcpSearch, icp
+from geocontact.geometry.register.icp import IcpSearch, icp, shape_covariance
 from geocontact.geometry.register.landmarks import fit_landmarks
-from geocontact.geometry.register.shape_covariance import shape_covariance
-from geocontact.geometry.register.uncertainty import PoseCovariance, crossing
+from geocontact.geometry.register.quality import PoseCovariance, crossing
 from geocontact.geometry.surface import Surface
 from tests.geometry.drape.sheets import tube
 from tests.geometry.register.test_icp import bumpy

@@ -11,7 +11,7 @@ import pytest
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.mats.catalogue import read_mat
-from geocontact.io.mats.units import area_unit, length_unit, pressure_unit
+from geocontact.io.mats.layout import area_unit, length_unit, pressure_unit
 from tests.io.mats.samples import GRID, GRID_LAYOUT, TEKSCAN, layout, write
 
 # Ids of the cells of a 2 x 3 mat, as one draws them seen from the pressed side.

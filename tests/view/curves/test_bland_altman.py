@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.view.curves.agreement import limits_of_agreement, proportional_bias
-from geocontact.view.curves.bland_altman import bland_altman
+from geocontact.view.curves.bland_altman import bland_altman, limits_of_agreement, proportional_bias
 from geocontact.view.curves.quantity import AREA, Quantity
 
 # Peak expiratory flow [l/min] of 17 subjects, first readings, Wright and mini Wright meter: Bland and Altman (1986),

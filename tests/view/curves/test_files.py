@@ -21,8 +21,7 @@ from matplotlib.image import imread
 from geocontact.view.curves.over_cycle import mean_over_cycle
 from geocontact.view.curves.path import contact_path
 from geocontact.view.curves.quantity import FORCE
-from geocontact.view.curves.save import save
-from geocontact.view.curves.style import DOUBLE, INCH, SINGLE
+from geocontact.view.curves.style import DOUBLE, INCH, SINGLE, save
 
 Specimen = Callable[[str], Figure]
 HOSTILE = ("$x_$", "a$b", "_hidden", "<b>&amp;", r"\alpha \$", "Ωé–²", "%s {0}", "__init__")

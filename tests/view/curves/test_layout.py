@@ -14,8 +14,8 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
-from geocontact.view.curves.diagnosis.detectability import EffectVisibility, detectability_figure
-from geocontact.view.curves.save import save
+from geocontact.view.curves.diagnosis.answers import EffectVisibility, detectability_figure
+from geocontact.view.curves.style import save
 
 Specimen = Callable[[str], Figure]
 LONG = "a name as long as file names are, with/folders/and_all/of/that.csv"

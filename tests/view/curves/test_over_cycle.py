@@ -9,7 +9,7 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 
-from geocontact.data.ensemble import mean_and_sd
+from geocontact.data.trial import mean_and_sd
 from geocontact.view.curves.over_cycle import mean_over_cycle
 from geocontact.view.curves.quantity import AREA, CYCLE, FORCE
 from geocontact.view.curves.style import panels

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from geocontact.view.curves.normal_band import normal_quantiles
 from geocontact.view.curves.quantity import AREA, FORCE
-from geocontact.view.curves.residuals import residual_figure, residual_histogram, residual_quantiles
+from geocontact.view.curves.residuals import normal_quantiles, residual_figure, residual_histogram, residual_quantiles
 
 SAMPLE = np.random.default_rng(3).normal(4e-6, 20e-6, 150)
 

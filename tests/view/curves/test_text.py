@@ -9,7 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from matplotlib.text import Text
 
-from geocontact.view.curves.text import number, plain
+from geocontact.view.curves.sheet import number, plain
 
 
 @given(st.text())

@@ -10,7 +10,6 @@ import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.view.extremes import FRAMES, thinned_line, with_extremes
-from geocontact.view.page.bounded import SPARE, bounded
 from geocontact.view.page.content import (
     Choices,
     Curve,
@@ -27,7 +26,7 @@ from geocontact.view.page.content import (
     Track,
     Words,
 )
-from geocontact.view.page.write import write_page
+from geocontact.view.page.write import SPARE, bounded, write_page
 
 COUNT = 100_000
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from geocontact.view.page.content import Linkage, Page, Scene
-from geocontact.view.page.linkage import MISSING
 from geocontact.view.page.pack import GRID
 from geocontact.view.page.payload import payload
+from geocontact.view.page.scene import MISSING
 
 
 def pendulum(frames: int = 11) -> Linkage:

@@ -10,8 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from geocontact.view.page.levels import BEYOND, AmountLevels, Levels, across
-from geocontact.view.page.pack import GRID, Grid, face_words, packed, unpacked
+from geocontact.view.page.pack import BEYOND, GRID, AmountLevels, Grid, Levels, across, face_words, packed, unpacked
 
 SHAPES = hnp.array_shapes(min_dims=1, max_dims=2, max_side=40)
 WORDS = st.sampled_from([np.uint8, np.uint16, np.uint32]).flatmap(lambda kind: hnp.arrays(kind, SHAPES))

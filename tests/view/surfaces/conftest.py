@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from geocontact.view.surfaces import probe
+from geocontact.view.surfaces import child as probe
 
 CRASH = "import os, signal; os.kill(os.getpid(), signal.SIGSEGV)"
 

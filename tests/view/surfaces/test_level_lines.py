@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geocontact.view.surfaces.level_lines import level_lines
-from geocontact.view.surfaces.palette import coloured, distance_limits, known_up_to
+from geocontact.view.surfaces.legend import coloured, distance_limits, known_up_to, level_lines
 from tests.view.surfaces.ball import GAP, LIMIT, MM, RADIUS, ball, plate, to_ball
 
 

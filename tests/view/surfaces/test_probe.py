@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from geocontact.view.surfaces import child, probe
-from geocontact.view.surfaces.probe import Probe, off_screen_works
+from geocontact.view.surfaces import child
+from geocontact.view.surfaces import child as probe
+from geocontact.view.surfaces.child import Probe, off_screen_works
 from tests.view.surfaces.conftest import CRASH
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="signals end processes on POSIX only")

@@ -13,11 +13,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from geocontact.view.surfaces import probe, render, still
+from geocontact.view.surfaces import child as probe
+from geocontact.view.surfaces import render, still
 from geocontact.view.surfaces.camera import Shot, View
+from geocontact.view.surfaces.child import Probe
+from geocontact.view.surfaces.legend import known_up_to
 from geocontact.view.surfaces.painter import paint
-from geocontact.view.surfaces.palette import known_up_to
-from geocontact.view.surfaces.probe import Probe
 from geocontact.view.surfaces.scene import ContactScene
 from geocontact.view.surfaces.still import draw_stills
 from tests.view.surfaces.ball import GAP, MM, RADIUS, ball, plate, scene, to_plate

@@ -22,7 +22,7 @@ from geocontact.data.version import VERSION
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.diagnose import Findings, diagnose
-from geocontact.gap_benchmark.confounding import LEFT, confounding
+from geocontact.gap_benchmark.answers import LEFT, confounding
 from geocontact.gap_benchmark.drawing import Lot, SyntheticCase, drawn
 from geocontact.gap_benchmark.residual_regression import residual_regression
 from geocontact.io.cases.gap_case import read_gap_case

@@ -14,9 +14,19 @@ import pandas as pd
 from geocontact.analyses.gap.benchmark.case import Worked
 from geocontact.gap_benchmark.answers import Plain
 from geocontact.gap_benchmark.drawing import KINDS
-from geocontact.gap_benchmark.harm import SURE, certainty, harmful, worse_channels
-from geocontact.gap_benchmark.rates import Rate
-from geocontact.gap_benchmark.score import GAPS, answers, brier, confidently_wrong, reduction_errors, visible
+from geocontact.gap_benchmark.score import (
+    GAPS,
+    SURE,
+    Rate,
+    answers,
+    brier,
+    certainty,
+    confidently_wrong,
+    harmful,
+    reduction_errors,
+    visible,
+    worse_channels,
+)
 from geocontact.gap_benchmark.table import OPPONENTS
 
 SLOW = 10.0

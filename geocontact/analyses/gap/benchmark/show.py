@@ -18,12 +18,12 @@ from geocontact.analyses.gap.benchmark.outcome import SLOW, BenchmarkOutcome, al
 from geocontact.analyses.run_record import Record
 from geocontact.gap import attribute
 from geocontact.gap.selection import verdict
-from geocontact.gap_benchmark import confounding as imitation
-from geocontact.gap_benchmark import harm, residual_regression, score
-from geocontact.gap_benchmark.rates import Rate
-from geocontact.gap_benchmark.score import figures, reliability
+from geocontact.gap_benchmark import answers as imitation
+from geocontact.gap_benchmark import residual_regression, score
+from geocontact.gap_benchmark import score as harm
+from geocontact.gap_benchmark.score import Rate, figures, reliability
 from geocontact.gap_benchmark.table import OPPONENTS, ROWS, error_interval, lead, markdown, scores
-from geocontact.view.curves.diagnosis.reliability import Stated, reliability_figure
+from geocontact.view.curves.diagnosis.answers import Stated, reliability_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -9,7 +9,7 @@ r"""Which effect a model lacks: `geocontact gap diagnose`, `gc.diagnose`.
 ...     torque = 60.0 * angle + 3.0 * np.gradient(angle, time) + noise.normal(0.0, 0.2, 160)
 ...     trial = pd.DataFrame({"time [s]": time, "angle [rad]": angle, "torque [N m]": torque})
 ...     trial.to_csv(f"case/trials/t{k}.csv", index=False)
->>> text = 'format = 1\nsystem = "geocontact.systems.elastic_joint.model:JOINT"\n'
+>>> text = 'format = 1\nsystem = "geocontact.systems.elastic_joint:JOINT"\n'
 >>> text += 'calibration = ["t1", "t2", "t3"]\nevaluation = ["t4", "t5"]\n[noise]\ntorque = 0.2\n'
 >>> text += '[parameters.k]\nstart = 50.0\nlower = 10.0\nupper = 200.0\nunit = "N m/rad"\n'
 >>> _ = Path("case/case.toml").write_text(text)
@@ -40,7 +40,7 @@ from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.version import VERSION
 from geocontact.gap.diagnose import Findings
 from geocontact.gap.diagnose import diagnose as findings_of
-from geocontact.io.text.written_units import CASES
+from geocontact.io.text.results import CASES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

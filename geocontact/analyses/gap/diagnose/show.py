@@ -19,17 +19,19 @@ from geocontact.analyses.gap.diagnose.answer import (
 )
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.diagnosis import Diagnosis
-from geocontact.data.gap.held_out import HeldOut
+from geocontact.data.gap.diagnosis import Diagnosis, HeldOut
 from geocontact.gap.diagnose import Findings
+from geocontact.view.curves.diagnosis.answers import ranking_figure, reductions_figure
 from geocontact.view.curves.diagnosis.before_after import SIDE_BY_SIDE, before_after
-from geocontact.view.curves.diagnosis.gap_map import SIGNIFICANT, gap_map_figure
-from geocontact.view.curves.diagnosis.gap_residuals import PHASE, gap_residuals
-from geocontact.view.curves.diagnosis.gap_surface import gap_surface_figure
-from geocontact.view.curves.diagnosis.ranking import ranking_figure
-from geocontact.view.curves.diagnosis.reductions import reductions_figure
+from geocontact.view.curves.diagnosis.gap_map import (
+    PHASE,
+    SIGNIFICANT,
+    gap_map_figure,
+    gap_residuals,
+    gap_surface_figure,
+)
 from geocontact.view.curves.quantity import Quantity
-from geocontact.view.curves.text import number
+from geocontact.view.curves.sheet import number
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
 
 if TYPE_CHECKING:

@@ -11,15 +11,14 @@ from jaxtyping import Float
 
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.gap.cell_channels import CellChannels, CellTrial
-from geocontact.io.cases.trial_sources import PlateSource
+from geocontact.data.gap.cell import CellChannels, CellTrial
+from geocontact.io.cases.gathering import PlateSource
 from geocontact.io.cases.trial_table import TrialTable
 from geocontact.io.mocap.force_plates import LOADED, ForcePlate
-from geocontact.io.recordings.area_table import AreaTable
-from geocontact.io.recordings.force_curves import ForceCurves
+from geocontact.io.recordings.area_table import AreaTable, ForceCurves
 from geocontact.io.recordings.mat_results import CELLS, MatFolder
 from geocontact.io.text.csv_text import Column
-from geocontact.loads.centre_in_foot import centre_in_foot
+from geocontact.loads.centre_of_pressure import centre_in_foot
 
 ELSEWHERE = 0.01  # m, that a cell may lie away from where it lies on average without a word
 SHARED = 0.5  # of a trial's samples that what is put beside them must have been recorded at

@@ -20,16 +20,12 @@ from geocontact.analyses.gap.gather.options import GatherOptions
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.gap.case import GapCase
-from geocontact.io.cases.case_consistency import parameters_of
+from geocontact.io.cases.case_settings import parameters_of
 from geocontact.io.cases.gap_case import case_of
-from geocontact.io.cases.gathering import Gathering, read_gathering
-from geocontact.io.cases.storage_trial import is_storage, read_storage_trial
-from geocontact.io.cases.trial_set import alike
-from geocontact.io.cases.trial_sources import Source
-from geocontact.io.cases.trial_table import TrialTable, read_trial
+from geocontact.io.cases.gathering import Gathering, Source, is_storage, read_gathering, read_storage_trial
+from geocontact.io.cases.trial_table import TrialTable, alike, read_trial
 from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
-from geocontact.io.recordings.area_table import AreaTable, read_area_table
-from geocontact.io.recordings.force_curves import ForceCurves, read_force_curves
+from geocontact.io.recordings.area_table import AreaTable, ForceCurves, read_area_table, read_force_curves
 from geocontact.io.recordings.mat_results import FRAMES, MatFolder, read_mat_result
 from geocontact.io.text.side_table import read_side_table
 

@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 
 from geocontact.analyses.gap.case import CaseWithModel, names
 from geocontact.analyses.gap.inject.options import InjectOptions
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.data.errors import InputError
 from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.diagnosis import Diagnosis, Estimate

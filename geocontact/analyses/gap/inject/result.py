@@ -9,7 +9,7 @@ r"""Would an effect be found? `geocontact gap inject`, `gc.inject`.
 ...     torque = 60.0 * angle + 3.0 * np.gradient(angle, time) + noise.normal(0.0, 0.2, 160)
 ...     trial = pd.DataFrame({"time [s]": time, "angle [rad]": angle, "torque [N m]": torque})
 ...     trial.to_csv(f"case/trials/t{k}.csv", index=False)
->>> text = 'format = 1\nsystem = "geocontact.systems.elastic_joint.model:JOINT"\n'
+>>> text = 'format = 1\nsystem = "geocontact.systems.elastic_joint:JOINT"\n'
 >>> text += 'calibration = ["t1", "t2", "t3"]\nevaluation = ["t4", "t5"]\n[noise]\ntorque = 0.2\n'
 >>> text += '[parameters.k]\nstart = 50.0\nlower = 10.0\nupper = 200.0\nunit = "N m/rad"\n'
 >>> _ = Path("case/case.toml").write_text(text)
@@ -39,7 +39,7 @@ from geocontact.analyses.json_file import write_json
 from geocontact.analyses.result import Part, Result
 from geocontact.analyses.results_folder import Scratch
 from geocontact.analyses.run_record import Record
-from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Candidate
 from geocontact.data.errors import InputError
 from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.gap.diagnose import diagnose

@@ -20,19 +20,17 @@ from geocontact.analyses.sides import medial_side
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.multibody.knee_angles import angles_of_tibia
-from geocontact.geometry.phong_offset import corner_normals, phong_offset
+from geocontact.geometry.curvature import corner_normals, phong_offset
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.surface_quadrature import surface_quadrature
 from geocontact.geometry.sweep import swept_angles
 from geocontact.io.motion.motion import read_motion
-from geocontact.io.recordings.force_curves import read_force_curves
+from geocontact.io.recordings.area_table import read_force_curves
 from geocontact.io.text.units import ANGLE
-from geocontact.loads.foundation import Layer
-from geocontact.loads.foundation_stiffness import layer_loads
+from geocontact.loads.foundation import Layer, layer_loads
 from geocontact.loads.pressure_load import PressureLoad
-from geocontact.loads.settling.along import Frame
-from geocontact.loads.settling.coordinates import NAMES, poses_of
-from geocontact.loads.settling.potential import Bed
+from geocontact.loads.settling.newton import Frame
+from geocontact.loads.settling.potential import NAMES, Bed, poses_of
 from geocontact.loads.settling.start_pose import lowest_places
 from geocontact.view.surfaces.vtp_series import require_pyvista
 
@@ -235,7 +233,7 @@ class Settled:
 
     @cached_property
     def coordinates(self) -> Float[np.ndarray, "t 6"]:
-        """Coordinates [m, rad], as `loads.settling.coordinates` has them."""
+        """Coordinates [m, rad], as `loads.settling.potential` has them."""
         lost = np.full(6, np.nan)
         return np.array([f.rest.total.values if f.rest and f.converged else lost for f in self.frames])
 

@@ -22,8 +22,7 @@ from geocontact.analyses.options import (
 )
 from geocontact.analyses.sides import Side
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import N, Plausible
-from geocontact.data.ranges import LAYER_RATIO, PIECE, YOUNG
+from geocontact.data.plausible import LAYER_RATIO, PIECE, YOUNG, N, Plausible
 
 MAY_SETTLE = ("adduction", "anterior", "mediolateral", "rotation")
 """Coordinates besides the axial one, which always settles, and flexion, which never does."""

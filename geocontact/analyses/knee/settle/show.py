@@ -10,9 +10,9 @@ from jaxtyping import Float, Int
 from geocontact.analyses.finished_page import Thinned
 from geocontact.analyses.knee.settle.equilibrium import SIDES, Settled
 from geocontact.analyses.page_words import MOST, NOT_A_DEVICE, headline
-from geocontact.loads.settling.coordinates import NAMES
+from geocontact.loads.settling.potential import NAMES
 from geocontact.view.page.content import Curve, Curves, FaceMap, Page, Readout, Row, Scene, SceneBody, Section, Words
-from geocontact.view.surfaces.directions import camera_directions
+from geocontact.view.surfaces.camera import camera_directions
 
 FRAMES = 101  # that the page animates at most
 FEWEST = 6

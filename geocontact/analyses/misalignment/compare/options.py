@@ -11,7 +11,7 @@ from geocontact.analyses.misalignment.shared_options import ColumnOptions, Strok
 from geocontact.analyses.options import Degrees, Requires, Spelled
 from geocontact.analyses.page_words import counted
 from geocontact.data.errors import InputError
-from geocontact.data.ranges import BIN
+from geocontact.data.plausible import BIN
 
 TWO_DEGREES = math.radians(2.0)
 

@@ -23,7 +23,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.plausible import LARGEST_MEANT
 from geocontact.identify.signals.agreement import Agreement, agreement
 from geocontact.identify.signals.angle_bins import angle_bins, edges_over
-from geocontact.identify.signals.even_times import at_times, even_times
+from geocontact.identify.signals.filters import at_times, even_times
 from geocontact.view.curves.quantity import Quantity
 
 QUANTITIES = {"force": CONSTRAINT, "displacement": Quantity("displacement of the joint", "mm", 1e3)}

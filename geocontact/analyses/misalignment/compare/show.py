@@ -14,8 +14,8 @@ from geocontact.analyses.misalignment.page import ANGLE, FRAMES, NOT_IN_THE_NUMB
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.view.curves.quantity import FORCE, Quantity
+from geocontact.view.curves.sheet import plain
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, MARKERS, PALETTE, in_style, legend, panels
-from geocontact.view.curves.text import plain
 from geocontact.view.page.content import (
     Curve,
     Curves,

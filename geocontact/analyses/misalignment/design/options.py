@@ -15,8 +15,7 @@ from geocontact.analyses.misalignment.shared_options import (
     require_stroke,
 )
 from geocontact.analyses.options import Millimetres, Options, Spelled, Typed
-from geocontact.data.plausible import Plausible
-from geocontact.data.ranges import ATTACHMENT, LIMIT, SHIFT
+from geocontact.data.plausible import ATTACHMENT, LIMIT, SHIFT, Plausible
 from geocontact.data.units import mm
 
 Offset = Annotated[

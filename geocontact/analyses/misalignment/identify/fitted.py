@@ -15,8 +15,18 @@ from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
 from geocontact.axis_misalignment.explicit import require_no_pole, require_reach
 from geocontact.axis_misalignment.law import GROWING, LENGTHS, SCALED, offsets_of
-from geocontact.axis_misalignment.least_squares import ElbowFit, estimated, law_at, problem_of, r_squared
-from geocontact.axis_misalignment.residuals import Excess, excess, normality, residual_by_bin, standard_residuals
+from geocontact.axis_misalignment.least_squares import (
+    ElbowFit,
+    Excess,
+    estimated,
+    excess,
+    law_at,
+    normality,
+    problem_of,
+    r_squared,
+    residual_by_bin,
+    standard_residuals,
+)
 from geocontact.axis_misalignment.uncertainty import (
     Direction,
     Separability,

@@ -11,15 +11,16 @@ from geocontact.analyses.misalignment.identify.fitted import require_bins
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
-from geocontact.axis_misalignment.end_stop import (
+from geocontact.axis_misalignment.compensation import (
+    DisplacementScale,
     RecordedStroke,
     Stiffness,
     bin_means,
+    displacement_scale,
     recorded_stroke,
     stiffness_by_displacement,
 )
 from geocontact.axis_misalignment.least_squares import ElbowFit
-from geocontact.axis_misalignment.scale import DisplacementScale, displacement_scale
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.identify.intervals.bin_tests import BinPair, BinTest, between_bins, between_neighbours

@@ -21,11 +21,15 @@ from geocontact.analyses.misalignment.identify import sentences as said_cuts
 from geocontact.analyses.misalignment.identify.fitted import Fitted
 from geocontact.analyses.misalignment.identify.free_joint import Free
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
-from geocontact.axis_misalignment import bins, deflection, end_stop, least_squares, residuals, uncertainty
+from geocontact.axis_misalignment import bins, least_squares, uncertainty
+from geocontact.axis_misalignment import compensation as end_stop
+from geocontact.axis_misalignment import explicit as deflection
+from geocontact.axis_misalignment import least_squares as residuals
 from geocontact.data.parameter import Parameter
 from geocontact.identify.intervals import bin_tests, profile_likelihood
 from geocontact.identify.noise import autoregressive
-from geocontact.identify.optimise import quasi_newton, tolerances
+from geocontact.identify.optimise import bounded_gauss_newton as tolerances
+from geocontact.identify.optimise import quasi_newton
 from geocontact.identify.signals import angle_bins
 
 COLUMNS = ["number", "value", "unit", "source", "note"]

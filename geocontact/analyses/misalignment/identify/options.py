@@ -12,7 +12,7 @@ from geocontact.analyses.misalignment.law_numbers import MEANS, NUMBERS, TOPS, r
 from geocontact.analyses.misalignment.shared_options import ColumnOptions
 from geocontact.analyses.options import Degrees, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
-from geocontact.data.ranges import BIN
+from geocontact.data.plausible import BIN
 
 Numbers = Annotated[
     Mapping[str, float],

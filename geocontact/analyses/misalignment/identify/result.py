@@ -42,11 +42,9 @@ from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import Binned, binned
-from geocontact.axis_misalignment.end_stop import bin_means
-from geocontact.axis_misalignment.fixation import yielded
-from geocontact.axis_misalignment.law import NAMES, offsets_of
+from geocontact.axis_misalignment.compensation import bin_means
+from geocontact.axis_misalignment.law import NAMES, CuffLoads, cuff_loads, offsets_of, yielded
 from geocontact.axis_misalignment.least_squares import ElbowFit, ElbowProblem, Prior, estimated, problem_of
-from geocontact.axis_misalignment.transmission import CuffLoads, cuff_loads
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.identify.signals.angle_bins import bin_numbers
 

@@ -14,7 +14,7 @@ from geocontact.analyses.misalignment.identify.free_joint import Free, stroke_st
 from geocontact.analyses.misalignment.law_numbers import MMHG, with_units
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import Binned
-from geocontact.axis_misalignment.end_stop import EndStop
+from geocontact.axis_misalignment.compensation import EndStop
 from geocontact.axis_misalignment.law import LENGTHS
 from geocontact.axis_misalignment.uncertainty import Direction
 from geocontact.identify.intervals.bin_tests import LEVEL, BinPair, BinTest

@@ -19,7 +19,7 @@ from geocontact.analyses.misalignment.identify.sentences import answer, explaine
 from geocontact.analyses.misalignment.page import ANGLE, CONSTRAINT, NOT_IN_THE_NUMBERS, elbow_page
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
-from geocontact.axis_misalignment.end_stop import BinMeans, RecordedStroke
+from geocontact.axis_misalignment.compensation import BinMeans, RecordedStroke
 from geocontact.axis_misalignment.explicit import displacement
 from geocontact.axis_misalignment.law import offsets_of
 from geocontact.axis_misalignment.uncertainty import Direction

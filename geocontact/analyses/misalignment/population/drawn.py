@@ -18,13 +18,23 @@ from geocontact.analyses.misalignment.planar import STATES, WITHOUT_FORCE, axis_
 from geocontact.analyses.misalignment.population.options import PopulationOptions
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.axis_drift import AxisDrift
+from geocontact.axis_misalignment.design import QUANTITIES, Exposure, peak_forces
 from geocontact.axis_misalignment.planar_joint import SOUND, STEP
-from geocontact.axis_misalignment.population import QUANTITIES, Exposure, peak_forces
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import numbers_in
 from geocontact.identify.intervals.quantile_intervals import IntervalEstimate, probability, quantile
-from geocontact.identify.intervals.sampling import Factor, Normal, People, Sampling, Uniform, root
-from geocontact.identify.intervals.sobol_indices import Indices, RankRegression, rank_regression, variance_shares
+from geocontact.identify.intervals.sampling import (
+    Factor,
+    Indices,
+    Normal,
+    People,
+    RankRegression,
+    Sampling,
+    Uniform,
+    rank_regression,
+    root,
+    variance_shares,
+)
 from geocontact.io.recordings.population import PopulationFile, read_population
 
 ENDS = {"value", "mean", "upper"}

@@ -17,7 +17,7 @@ from geocontact.analyses.misalignment.shared_options import (
     require_within,
 )
 from geocontact.analyses.options import Options
-from geocontact.data.ranges import LIMIT
+from geocontact.data.plausible import LIMIT
 
 SAMPLES = 100, 20_000_000
 """Fewest and most people."""

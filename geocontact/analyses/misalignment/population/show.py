@@ -13,7 +13,7 @@ from geocontact.analyses.misalignment.planar import MODEL, STATES, WITHOUT_FORCE
 from geocontact.analyses.misalignment.population.drawn import Drawn, influence_table, quantile_table
 from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.identify.intervals.quantile_intervals import IntervalEstimate
-from geocontact.identify.intervals.sobol_indices import Indices
+from geocontact.identify.intervals.sampling import Indices
 from geocontact.view.curves.style import BLACK, DOUBLE, PALETTE, in_style, legend, panels
 from geocontact.view.page.content import (
     Curve,

@@ -18,9 +18,8 @@ from geocontact.analyses.misalignment.shared_options import (
 )
 from geocontact.analyses.options import AngleUnit, Excludes, Expression, Millimetres, Options, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
-from geocontact.data.file_names import same_place
-from geocontact.data.plausible import Plausible
-from geocontact.data.ranges import BAND, CUFF, LENGTH_OF_TRIAL, MEMORY, NOISE, RATE, SHIFT
+from geocontact.data.plausible import BAND, CUFF, LENGTH_OF_TRIAL, MEMORY, NOISE, RATE, SHIFT, Plausible
+from geocontact.data.text import same_place
 from geocontact.data.units import deg
 
 ELBOW = Plausible("an angle of an elbow", deg, (-30.0, 180.0))

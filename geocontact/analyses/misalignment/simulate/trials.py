@@ -13,14 +13,13 @@ from geocontact.analyses.misalignment.law_numbers import MMHG
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.explicit import Offsets, displacement
+from geocontact.axis_misalignment.law import CuffLoads, cuff_loads
 from geocontact.axis_misalignment.synthetic import PAPER, Design, SyntheticElbowTrial, at_rest
-from geocontact.axis_misalignment.transmission import CuffLoads, cuff_loads
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.data.gap.case import GapCase
 from geocontact.data.motion import Signals
-from geocontact.data.parameter import Parameter
-from geocontact.data.sourced_number import Source
+from geocontact.data.parameter import Parameter, Source
 from geocontact.data.trial import Trial
 from geocontact.io.recordings.elbow_recording import BETA, PRESSURE, TORQUE, read_elbow_recording
 from geocontact.io.text.columns import parse_map

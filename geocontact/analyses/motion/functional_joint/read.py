@@ -12,8 +12,8 @@ from geocontact.analyses.motion.functional_joint.options import JointOptions
 from geocontact.analyses.motion.markers import markers_given
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
-from geocontact.dynamics.segment_poses import FEWEST, seen_together, segment_poses
+from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.dynamics.functional_joint import FEWEST, seen_together, segment_poses
 from geocontact.io.text.tables import listed
 
 SIGHT = "name markers that one frame shows all of, or give `static`"

@@ -28,10 +28,9 @@ from geocontact.analyses.motion.functional_joint.show import joint_page
 from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
-from geocontact.dynamics.joint_points import JointPoints, apart_in_halves, axis_points, centre_points
-from geocontact.dynamics.segment_poses import segment_poses
-from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.dynamics.functional_joint import JointPoints, apart_in_halves, axis_points, centre_points, segment_poses
+from geocontact.io.mocap.trc import write_trc
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -13,7 +13,7 @@ from geocontact.analyses.motion.functional_joint.read import MovedPair, Segment
 from geocontact.analyses.motion.skeleton import JOINT, MARKER, RAY, scene_over
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.dynamics.joint_points import JointPoints
+from geocontact.dynamics.functional_joint import JointPoints
 from geocontact.view.page.content import Curve, Curves, Linkage, Page, Scene, Section, Words
 
 SKIN = (

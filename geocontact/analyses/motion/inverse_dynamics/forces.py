@@ -13,7 +13,7 @@ from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.printed import printed
 from geocontact.analyses.run_record import Record
 from geocontact.data.multibody.model import GROUND, Multibody
-from geocontact.io.opensim.external_loads_writer import write_external_loads
+from geocontact.io.opensim.external_loads import write_external_loads
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.opensim.tool_setup_writer import write_id_setup
 

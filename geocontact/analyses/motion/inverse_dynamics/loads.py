@@ -16,12 +16,10 @@ from geocontact.analyses.motion.skeleton import upwards
 from geocontact.analyses.quantities import turned_axes
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.model import Multibody
-from geocontact.data.multibody.passive_forces import PassiveForces
+from geocontact.data.multibody.model import Multibody, PassiveForces
 from geocontact.data.wrench import Wrench
-from geocontact.dynamics.forces_along import SMOOTH
-from geocontact.identify.signals.even_times import UNEVEN
-from geocontact.identify.signals.zero_lag import as_opensim
+from geocontact.dynamics.inverse_dynamics import SMOOTH
+from geocontact.identify.signals.filters import UNEVEN, as_opensim
 from geocontact.io.mocap.force_plates import OPENSIM_FRAME, ForcePlate, plate_named, read_force_plates
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.external_loads import ExternalLoad, read_external_loads

@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import AngleUnit, C3dUnit, Excludes, Expression, Options, Texts, TimeSpan
 from geocontact.data.errors import InputError
-from geocontact.data.ranges import CUTOFF, FORCE
+from geocontact.data.plausible import CUTOFF, FORCE
 
 TWICE = Excludes("loads", "with `loads` names the plates twice", "give one of them")
 

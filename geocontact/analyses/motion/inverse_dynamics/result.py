@@ -28,9 +28,9 @@ from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.inverse_dynamics.show import forces_page
 from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
-from geocontact.data.multibody.passive_forces import PassiveForces
+from geocontact.data.multibody.model import PassiveForces
 from geocontact.data.wrench import Wrench
-from geocontact.dynamics.forces_along import forces_along
+from geocontact.dynamics.inverse_dynamics import forces_along
 from geocontact.dynamics.tree import tree_of
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.text.tables import listed

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import C3dUnit, Expression, Options, Requires, Texts, TimeSpan
-from geocontact.data.ranges import GAP
+from geocontact.data.plausible import GAP
 
 
 @dataclass(frozen=True)

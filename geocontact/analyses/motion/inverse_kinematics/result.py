@@ -39,7 +39,7 @@ from geocontact.data.errors import InputError
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics as kinematics_of
 from geocontact.dynamics.tree import tree_of
-from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.io.mocap.trc import write_trc
 from geocontact.io.opensim.osim_scaler import write_scaled_model
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.opensim.tool_setup_writer import write_ik_setup

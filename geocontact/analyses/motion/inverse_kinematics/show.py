@@ -14,7 +14,7 @@ from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Scene, Section, Table, Words

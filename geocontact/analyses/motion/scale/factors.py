@@ -15,8 +15,7 @@ from geocontact.analyses.motion.markers import markers_given, with_marker_set
 from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_tasks import MarkerTasks
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.scaling import Factors, measured_factor
 from geocontact.io.opensim.osim_multibody import read_multibody

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import C3dUnit, Expression, Options, Texts, TimeSpan
-from geocontact.data.ranges import MASS
+from geocontact.data.plausible import MASS
 
 
 @dataclass(frozen=True)

@@ -33,12 +33,12 @@ from geocontact.analyses.motion.scale.show import scaling_page
 from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses, inverse_kinematics
 from geocontact.dynamics.scaling import Factors, scaled
 from geocontact.dynamics.tree import tree_of
-from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.io.mocap.trc import write_trc
 from geocontact.io.opensim.osim_scaler import write_scaled_model
 from geocontact.io.opensim.tool_setup_writer import write_scale_setup
 

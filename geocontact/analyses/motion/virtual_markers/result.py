@@ -24,9 +24,9 @@ from geocontact.analyses.motion.virtual_markers.show import markers_page
 from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
-from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.io.mocap.trc import write_trc
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import TextTable, read_table

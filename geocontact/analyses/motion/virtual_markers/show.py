@@ -9,7 +9,7 @@ from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.motion.skeleton import JOINT, MARKER, scene_of, skeleton, upwards
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, counted
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.view.page.content import Curve, Curves, Linkage, Page, Scene, Section, Words
 

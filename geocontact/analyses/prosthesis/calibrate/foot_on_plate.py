@@ -19,24 +19,24 @@ from geocontact.analyses.prosthesis.recorded_files import (
 )
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
-from geocontact.below_knee_prosthesis.calibration.recorded_stance import Errors, RecordedStance
-from geocontact.below_knee_prosthesis.calibration.stance_from_markers import recorded_heights, stance_from_markers
-from geocontact.below_knee_prosthesis.calibration.walked_stance import WalkedStance
-from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration, calibrate_whole
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import (
+    Errors,
+    RecordedStance,
+    WalkedStance,
+    recorded_heights,
+    stance_from_markers,
+)
+from geocontact.below_knee_prosthesis.calibration.whole_model import WholeCalibration, calibrate_whole
 from geocontact.below_knee_prosthesis.clocks import clock_offset
-from geocontact.below_knee_prosthesis.from_markers.sides import of_side
-from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
-from geocontact.below_knee_prosthesis.from_markers.walking import Walked, walked
+from geocontact.below_knee_prosthesis.from_markers import Walked, of_side, standing_leg, walked
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.limb_in_socket import limb_in_socket
 from geocontact.below_knee_prosthesis.model.leg import Person
-from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, LegMotion
 from geocontact.below_knee_prosthesis.simulate import Push, Stance, simulate_stance
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 
 ANGLES_CUTOFF = 6.0

@@ -20,7 +20,7 @@ from geocontact.analyses.options import (
 )
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON
 from geocontact.data.errors import InputError
-from geocontact.data.ranges import CUTOFF, GAP, NOISE, SHIFT, SPEED, TILT
+from geocontact.data.plausible import CUTOFF, GAP, NOISE, SHIFT, SPEED, TILT
 
 MOST_STARTS, PITCH = 1000, math.radians(0.5)
 

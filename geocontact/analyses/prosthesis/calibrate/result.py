@@ -31,9 +31,9 @@ from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
 from geocontact.below_knee_prosthesis.calibration.known_numbers import KnownNumber
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
-from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
+from geocontact.below_knee_prosthesis.calibration.whole_model import WholeCalibration
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
-from geocontact.below_knee_prosthesis.model.foot_offset import FootOffset
+from geocontact.below_knee_prosthesis.model.leg import FootOffset
 from geocontact.identify.signals.agreement import Agreement, agreement
 
 if TYPE_CHECKING:

@@ -45,8 +45,7 @@ from geocontact.analyses.prosthesis.stance_files import write_coordinates, write
 from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.workers import each
-from geocontact.below_knee_prosthesis.evaluation.judged_stance import JudgedStance
-from geocontact.below_knee_prosthesis.evaluation.outliers import FEWEST, Oddness, oddness, reasons
+from geocontact.below_knee_prosthesis.evaluation import FEWEST, JudgedStance, Oddness, oddness, reasons
 from geocontact.below_knee_prosthesis.model.leg import Side
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.errors import InputError

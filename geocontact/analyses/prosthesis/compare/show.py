@@ -12,8 +12,7 @@ from jaxtyping import Float
 from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.compare.stances import UNITS, by_setting, curves_of, plain_curves
-from geocontact.below_knee_prosthesis.evaluation.judged_stance import JudgedStance
-from geocontact.below_knee_prosthesis.evaluation.trivial_predictors import ANOTHER, MEAN
+from geocontact.below_knee_prosthesis.evaluation import ANOTHER, MEAN, JudgedStance
 from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
 from geocontact.view.page.tables import frame_table

@@ -15,13 +15,22 @@ from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOp
 from geocontact.analyses.prosthesis.simulate.walk import Walk, fitted_walk, simulated
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
 from geocontact.analyses.run_record import Record
-from geocontact.below_knee_prosthesis.evaluation.judged_stance import ANKLE, QUANTITIES, JudgedStance, judged
-from geocontact.below_knee_prosthesis.evaluation.outliers import Oddness, reasons
-from geocontact.below_knee_prosthesis.evaluation.trivial_predictors import ANOTHER, MEAN, MeasuredCurve, trivial_curves
+from geocontact.below_knee_prosthesis.evaluation import (
+    ANKLE,
+    ANOTHER,
+    MEAN,
+    QUANTITIES,
+    JudgedStance,
+    MeasuredCurve,
+    Oddness,
+    PlateStance,
+    judged,
+    reasons,
+    trivial_curves,
+)
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
 from geocontact.below_knee_prosthesis.model.leg import RESIDUAL
 from geocontact.below_knee_prosthesis.simulate import Stance
-from geocontact.below_knee_prosthesis.stance_errors import PlateStance
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import agreement
 from geocontact.io.recordings.gait_study import GaitPerson, GaitStance, read_gait_study

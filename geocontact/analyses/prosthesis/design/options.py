@@ -20,7 +20,7 @@ from geocontact.analyses.options import (
 )
 from geocontact.analyses.prosthesis.ranges import EDGE, FULCRUM, PERSON, SLOPE
 from geocontact.data.errors import InputError
-from geocontact.data.ranges import CUTOFF, GAP, NOISE, SHIFT, TILT
+from geocontact.data.plausible import CUTOFF, GAP, NOISE, SHIFT, TILT
 
 FEWEST, MOST = 6, 600
 """Feet that may be drawn."""

@@ -39,14 +39,13 @@ from geocontact.analyses.prosthesis.design.trial import OF_ONE_STEP, FootAndTria
 from geocontact.analyses.prosthesis.leg_and_foot import leg_numbers, numbers_table, numbers_without_leg, offset_words
 from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
-from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
 from geocontact.below_knee_prosthesis.design.choice import FootChoice, choose
-from geocontact.below_knee_prosthesis.design.foot_task import FootTask
+from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
+from geocontact.below_knee_prosthesis.design.foot_task import LEVEL, FootTask, Terrain, words
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob, Response
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, shank_path
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity
-from geocontact.below_knee_prosthesis.design.terrain import LEVEL, Terrain, words
-from geocontact.data.sourced_number import Number
+from geocontact.data.parameter import Number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

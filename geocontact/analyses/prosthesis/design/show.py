@@ -11,10 +11,10 @@ import pandas as pd
 from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, UNITS, AimAnswer, Sweep
-from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
+from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
+from geocontact.below_knee_prosthesis.design.foot_task import words
 from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES, Knob, Response
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, shank_path
-from geocontact.below_knee_prosthesis.design.terrain import words
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, panels
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
 from geocontact.view.page.tables import frame_table

@@ -12,15 +12,13 @@ from jaxtyping import Float
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.trial import FootAndTrial
 from geocontact.analyses.run_record import Record
-from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
-from geocontact.below_knee_prosthesis.design.choice import FootChoice
-from geocontact.below_knee_prosthesis.design.choose_pair import PairChoice, choose_pair
-from geocontact.below_knee_prosthesis.design.drawn import Draws, draws
+from geocontact.below_knee_prosthesis.design.choice import FootChoice, PairChoice, choose_pair
+from geocontact.below_knee_prosthesis.design.drawn import Draws, TrialErrors, draws, task_again
+from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import AIMS, JUDGED, RESPONSES, Knob, Response, Vary
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, ROLLING, Aim
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity, Unit, Unknown, sensitivities
-from geocontact.below_knee_prosthesis.design.stance_again import TrialErrors, task_again
 from geocontact.data.errors import InputError
 
 SHOWN: dict[Vary, tuple[float, str]] = {

@@ -21,20 +21,19 @@ from geocontact.analyses.prosthesis.recorded_files import (
 )
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_intact_leg
-from geocontact.below_knee_prosthesis.calibration.stance_from_markers import (
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import (
     body_poses,
     recorded_heights,
     stance_from_markers,
 )
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.clocks import clock_offset, lowest_sphere
+from geocontact.below_knee_prosthesis.design.drawn import RecordedTrial
 from geocontact.below_knee_prosthesis.design.intact_step import OF_INTACT, IntactStep, intact_step
 from geocontact.below_knee_prosthesis.design.knob import AIMS
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim
-from geocontact.below_knee_prosthesis.design.stance_again import RecordedTrial
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg import Person
 from geocontact.data.errors import InputError
 

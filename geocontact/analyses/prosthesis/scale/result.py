@@ -45,15 +45,15 @@ from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_amputee
-from geocontact.below_knee_prosthesis.from_markers.sides import as_right, of_side
+from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import Multibody
-from geocontact.data.sourced_number import Number
+from geocontact.data.parameter import Number
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.io.opensim.osim_writer import ContactBall, write_osim
 from geocontact.view.page.content import IntervalRow, Intervals, Page, Section, Words
-from geocontact.view.page.linkage import Linkage
+from geocontact.view.page.scene import Linkage
 from geocontact.view.page.tables import frame_table
 
 TRUNK = (

@@ -12,15 +12,12 @@ from geocontact.analyses.prosthesis.recorded_files import right_markers
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
-from geocontact.below_knee_prosthesis.both_sides.functional import FunctionalJoints
-from geocontact.below_knee_prosthesis.both_sides.standing import NO_JOINTS, standing_joints
-from geocontact.below_knee_prosthesis.from_markers.sides import as_right
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.both_sides.standing import NO_JOINTS, FunctionalJoints, standing_joints
+from geocontact.below_knee_prosthesis.from_markers import as_right
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg import Person
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_tasks import MarkerTasks
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses, inverse_kinematics
 from geocontact.dynamics.tree import tree_of

@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar, Literal
 from geocontact.analyses.options import BodyMass, C3dUnit, Expression, Fraction, Options, PartLength, Spelled, TimeSpan
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, RESIDUAL, TURNS, require_turns
 from geocontact.data.errors import InputError
-from geocontact.data.ranges import CUTOFF, GAP
+from geocontact.data.plausible import CUTOFF, GAP
 
 
 @dataclass(frozen=True)

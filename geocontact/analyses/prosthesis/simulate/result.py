@@ -32,15 +32,15 @@ from geocontact.analyses.prosthesis.simulate.walk import RecordedWalk, Walk, bus
 from geocontact.analyses.prosthesis.stance_files import write_coordinates, write_loads, write_plane, write_spheres
 from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
-from geocontact.below_knee_prosthesis.from_markers.sides import of_side
+from geocontact.below_knee_prosthesis.evaluation import StanceErrors, at_times, longest_stance, stance_errors
+from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.model.leg import Side
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, SOCKET
 from geocontact.below_knee_prosthesis.model.stance_model import FLOOR
 from geocontact.below_knee_prosthesis.simulate import GATE, Stance
-from geocontact.below_knee_prosthesis.stance_errors import StanceErrors, at_times, longest_stance, stance_errors
 from geocontact.contact.bushing import PISTONING
 from geocontact.data.errors import InputError
-from geocontact.data.sourced_number import Number
+from geocontact.data.parameter import Number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -12,14 +12,13 @@ from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
-from geocontact.below_knee_prosthesis.from_markers.sides import of_side
+from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times
+from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Stance
-from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times
 from geocontact.loads.ground import Stairs
 from geocontact.view.page.content import Curve, Curves, Page, Section, Words
-from geocontact.view.page.linkage import Linkage
-from geocontact.view.page.scene import Scene
+from geocontact.view.page.scene import Linkage, Scene
 from geocontact.view.page.tables import frame_table
 
 FRAMES = 300  # that the page shows at most

@@ -16,25 +16,27 @@ from geocontact.analyses.prosthesis.leg_and_foot import foot_with_law, offset_of
 from geocontact.analyses.prosthesis.recorded_files import require_one_clock, require_weight, right_markers
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.run_record import Record
-from geocontact.below_knee_prosthesis.calibration.stance_from_markers import keel_poses
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import keel_poses
 from geocontact.below_knee_prosthesis.clocks import clock_offset, lowest_sphere
-from geocontact.below_knee_prosthesis.from_markers.marker_names import PELVIS
-from geocontact.below_knee_prosthesis.from_markers.sides import of_side
-from geocontact.below_knee_prosthesis.from_markers.standing import pelvis_frame, standing_leg
-from geocontact.below_knee_prosthesis.from_markers.walking import Walked, functional_hip, walked
+from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times, longest_stance
+from geocontact.below_knee_prosthesis.from_markers import (
+    PELVIS,
+    Walked,
+    functional_hip,
+    of_side,
+    pelvis_frame,
+    standing_leg,
+    walked,
+)
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket
-from geocontact.below_knee_prosthesis.model.foot_offset import FootOffset
-from geocontact.below_knee_prosthesis.model.leg import Leg, Person
-from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
+from geocontact.below_knee_prosthesis.model.leg import FootOffset, Leg, Person
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, LegMotion, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import GATE, Push, Stance, simulate_stance
-from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times, longest_stance
 from geocontact.contact.bushing import PRINTED, SOCKET, Bushing
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
 from geocontact.loads.ground import Stairs

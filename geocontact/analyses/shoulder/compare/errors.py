@@ -22,7 +22,7 @@ from geocontact.analyses.shoulder.recordings import (
 )
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import Agreement
-from geocontact.identify.signals.even_times import at_times, even_times
+from geocontact.identify.signals.filters import at_times, even_times
 from geocontact.io.text.side_table import read_side_table
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 

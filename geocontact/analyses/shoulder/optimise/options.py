@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar, Literal
 from geocontact.analyses.options import C3dUnit, Expression, Options, Requires, Spelled
 from geocontact.analyses.shoulder.shared_options import TORQUE_RATE, Share, require_share
 from geocontact.data.errors import InputError
-from geocontact.data.ranges import CUTOFF, GAP, LIMIT
+from geocontact.data.plausible import CUTOFF, GAP, LIMIT
 
 FEWEST_DRAWS = 20
 

@@ -15,29 +15,30 @@ from geocontact.analyses.shoulder.devices import device_named, wearer_of_lengths
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.recordings import tool_current
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
-from geocontact.identify.signals.filled import filled_and_smoothed
+from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.identify.signals.filters import filled_and_smoothed
 from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
 from geocontact.shoulder_exoskeleton.arm_motion import Side
-from geocontact.shoulder_exoskeleton.cylinder import lever
-from geocontact.shoulder_exoskeleton.device import Device, Wearer
+from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
+from geocontact.shoulder_exoskeleton.device import Device, Wearer, lever
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings
-from geocontact.shoulder_exoskeleton.human_arm.arm_weight import arm_moment
-from geocontact.shoulder_exoskeleton.human_arm.hand_load import ToolWork
-from geocontact.shoulder_exoskeleton.in_cuff import OutOfCuffError
-from geocontact.shoulder_exoskeleton.support.arm_scales import scales_of
-from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial, Support
+from geocontact.shoulder_exoskeleton.human_arm import ToolWork, arm_moment
+from geocontact.shoulder_exoskeleton.support.arm_trial import (
+    ArmTrial,
+    Support,
+    ToolUse,
+    Worker,
+    recorded_arms,
+    scales_of,
+)
 from geocontact.shoulder_exoskeleton.support.best_profile import front, scaled, uniform_profile
 from geocontact.shoulder_exoskeleton.support.closed_loop_profile import ClosedLoop, SettledProfile
+from geocontact.shoulder_exoskeleton.support.controlled_arm import simulated_support
 from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport, Maker, held_out
 from geocontact.shoulder_exoskeleton.support.outcome import TABLE_3, Factors, SupportOutcome, outcome
-from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds
-from geocontact.shoulder_exoskeleton.support.profile_limits import Limits
-from geocontact.shoulder_exoskeleton.support.recorded_arms import ToolUse, Worker, recorded_arms
-from geocontact.shoulder_exoskeleton.support.sensing import Sensing
-from geocontact.shoulder_exoskeleton.support.simulated_support import simulated_support
-from geocontact.shoulder_exoskeleton.support.support_case import SupportCase
-from geocontact.shoulder_exoskeleton.synthetic.arm_trials import all_arms
+from geocontact.shoulder_exoskeleton.support.phase_machine import Sensing, Thresholds
+from geocontact.shoulder_exoskeleton.support.profile_limits import Limits, SupportCase
+from geocontact.shoulder_exoskeleton.synthetic import all_arms
 
 T = TypeVar("T")
 GROUP, ONE_FACTOR, PAPER, BY_ARM = "all persons", "one factor", "table 3 of the paper", "by arm weight"

@@ -46,11 +46,10 @@ from geocontact.analyses.shoulder.optimise.show import (
     say_profiles,
     say_simulated,
 )
-from geocontact.shoulder_exoskeleton.support.arm_scales import scales_of
-from geocontact.shoulder_exoskeleton.support.arm_trial import support_case
+from geocontact.shoulder_exoskeleton.support.arm_trial import scales_of, support_case
 from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport
 from geocontact.shoulder_exoskeleton.support.outcome import SupportOutcome
-from geocontact.shoulder_exoskeleton.support.support_case import SupportCase
+from geocontact.shoulder_exoskeleton.support.profile_limits import SupportCase
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -19,9 +19,8 @@ from geocontact.shoulder_exoskeleton.support.best_profile import Aim, measured
 from geocontact.shoulder_exoskeleton.support.closed_loop_profile import SLACK, ClosedLoop, SettledProfile
 from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome
-from geocontact.shoulder_exoskeleton.support.phases import SCREW
-from geocontact.shoulder_exoskeleton.support.profile_limits import Limits
-from geocontact.shoulder_exoskeleton.support.support_case import SupportCase
+from geocontact.shoulder_exoskeleton.support.phase_machine import SCREW
+from geocontact.shoulder_exoskeleton.support.profile_limits import Limits, SupportCase
 from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
 from geocontact.view.page.tables import frame_table

@@ -18,18 +18,17 @@ from geocontact.analyses.shoulder.recordings import current_at, tool_runs
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.simulated_arm import SimulatedArm, out_of_cuff_clause, warn_of
 from geocontact.data.errors import InputError
-from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
+from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side, smoothed_motion
+from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
 from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Wearer
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import SIDES, MarkerSettings, arm_motions
 from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFrame
-from geocontact.shoulder_exoskeleton.in_cuff import OutOfCuffError
 from geocontact.shoulder_exoskeleton.sensitivity import Influence
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
-from geocontact.shoulder_exoskeleton.smoothed_motion import smoothed_motion
 from geocontact.shoulder_exoskeleton.support.controlled_arm import Controller, controlled_arm
 from geocontact.shoulder_exoskeleton.support.outcome import Factors
 from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds
-from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, Hand
+from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey, Hand
 from geocontact.shoulder_exoskeleton.work_phases import PHASES, work_phases
 
 CURRENT = 1.0

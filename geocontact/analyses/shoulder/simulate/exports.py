@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from geocontact.analyses.shoulder.simulated_arm import SimulatedArm
-from geocontact.io.opensim.external_loads_writer import write_external_loads as write_loads_file
+from geocontact.io.opensim.external_loads import write_external_loads as write_loads_file
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.text.results import write_table
 from geocontact.shoulder_exoskeleton.carried_device import weight_and_inertia
@@ -18,7 +18,7 @@ from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFram
 from geocontact.shoulder_exoskeleton.plane import plane_arm
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
-from geocontact.view.surfaces.line_series import LineSeries, write_line_series
+from geocontact.view.surfaces.vtp_series import LineSeries, write_line_series
 
 HUMERUS, TRUNK = {"right": "humerus_r", "left": "humerus_l"}, "torso"
 """Bodies of OpenSim's models that the forces act on."""

@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import C3dUnit, Expression, Needs, Options, Requires, TimeSpan
 from geocontact.analyses.shoulder.shared_options import CURRENT, Level, require_share
-from geocontact.data.ranges import CUTOFF, GAP
+from geocontact.data.plausible import CUTOFF, GAP
 
 
 @dataclass(frozen=True)

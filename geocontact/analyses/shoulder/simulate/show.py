@@ -18,8 +18,7 @@ from geocontact.analyses.shoulder.simulated_arm import SimulatedArm
 from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Words
-from geocontact.view.page.linkage import Linkage, Tone
-from geocontact.view.page.scene import Scene
+from geocontact.view.page.scene import Linkage, Scene, Tone
 from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:

@@ -27,11 +27,11 @@ from geocontact.analyses.shoulder.simulated_arm import SimulatedArm, warn_of
 from geocontact.analyses.shoulder.study.options import StudyOptions
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import Agreement
-from geocontact.identify.signals.even_times import at_times, even_times
+from geocontact.identify.signals.filters import at_times, even_times
 from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
+from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
 from geocontact.shoulder_exoskeleton.device import JOINTS
-from geocontact.shoulder_exoskeleton.in_cuff import OutOfCuffError
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 from geocontact.shoulder_exoskeleton.work_phases import PHASES, work_phases
 

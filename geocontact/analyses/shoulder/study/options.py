@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import C3dUnit, Expression, Options
-from geocontact.data.ranges import CUTOFF, GAP
+from geocontact.data.plausible import CUTOFF, GAP
 
 
 @dataclass(frozen=True)

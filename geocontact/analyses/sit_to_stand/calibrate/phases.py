@@ -13,11 +13,10 @@ from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrate
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
 from geocontact.analyses.sit_to_stand.trial_result import certificate_rows, not_certified, sizes_of
 from geocontact.dynamics.collocation.solve import SolverOptions
-from geocontact.standing_up.calibrated_phase import CalibratedPhase, PhaseSearch, calibrated_phase
+from geocontact.standing_up.calibrated_phase import DOUBTFUL, CalibratedPhase, PhaseSearch, calibrated_phase
+from geocontact.standing_up.chain import FOOT_PARAMETERS, feet_on_ground
 from geocontact.standing_up.contact_numbers import ContactNumber, believed_covariance, held_covariance
-from geocontact.standing_up.cost_shares import MOST_OF_IT
 from geocontact.standing_up.exoskeleton import strapped
-from geocontact.standing_up.feet import FOOT_PARAMETERS, feet_on_ground
 from geocontact.standing_up.numbers_that_ran import (
     Ran,
     belief_numbers,
@@ -26,10 +25,8 @@ from geocontact.standing_up.numbers_that_ran import (
     search_numbers,
     size_numbers,
 )
-from geocontact.standing_up.other_minima import DOUBTFUL
-from geocontact.standing_up.phase import PhaseProblem
-from geocontact.standing_up.phase_a import TRACKS, phase_a
-from geocontact.standing_up.phase_b import phase_b
+from geocontact.standing_up.phase import MOST_OF_IT, PhaseProblem
+from geocontact.standing_up.phases import TRACKS, phase_a, phase_b
 from geocontact.standing_up.trials import StandingTrial
 
 TOLERANCE = 1e-7

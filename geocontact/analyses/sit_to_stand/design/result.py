@@ -41,7 +41,7 @@ from geocontact.analyses.sit_to_stand.exports import write_motion, write_standin
 from geocontact.analyses.sit_to_stand.trial_result import mesh_table, not_certified, ran_table
 from geocontact.dynamics.collocation.solve import stopped_by_ctrl_c
 from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS, AssistedModel
-from geocontact.standing_up.assistance.peaks import MEASURES, UNITS
+from geocontact.standing_up.assistance.movement import MEASURES, UNITS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

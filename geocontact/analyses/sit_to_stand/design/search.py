@@ -16,15 +16,13 @@ from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, s
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.data.errors import InputError
 from geocontact.dynamics.collocation.solve import SolverOptions
-from geocontact.io.recordings.contact_parameters import read_contact_intervals, read_contact_parameters
+from geocontact.io.recordings.spheres import read_contact_intervals, read_contact_parameters
 from geocontact.standing_up.assistance.assisted_model import ASSISTANCE_PARAMETERS, SHARE, assisted_model, seen_assisted
 from geocontact.standing_up.assistance.design import KNEE, HelpDesign, HelpTask, designed
-from geocontact.standing_up.assistance.movement import Movement, Movements, StoppedByHandError
-from geocontact.standing_up.assistance.peaks import MEASURES
-from geocontact.standing_up.contact_parameter import searched, usual
+from geocontact.standing_up.assistance.movement import MEASURES, Movement, Movements, StoppedByHandError
 from geocontact.standing_up.exoskeleton import WORN_PARAMETERS
-from geocontact.standing_up.judged import judged
-from geocontact.standing_up.phase import PhaseProblem
+from geocontact.standing_up.phase import PhaseProblem, judged
+from geocontact.standing_up.strap_sites import searched, usual
 
 LEVEL = 0.95
 """Probability of a calibration's intervals."""

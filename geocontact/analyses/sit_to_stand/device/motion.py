@@ -11,8 +11,7 @@ from jaxtyping import Bool, Float
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.device.options import StandingDeviceOptions
 from geocontact.data.errors import InputError
-from geocontact.identify.signals.even_times import UNEVEN
-from geocontact.identify.signals.zero_lag import zero_lag
+from geocontact.identify.signals.filters import UNEVEN, zero_lag
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of
 from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import JOINTS, Subject

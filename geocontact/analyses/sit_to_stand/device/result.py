@@ -25,7 +25,7 @@ from geocontact.analyses.sit_to_stand.device.motion import MARGIN, DeviceMotion,
 from geocontact.analyses.sit_to_stand.device.options import StandingDeviceOptions
 from geocontact.analyses.sit_to_stand.show import motion_page
 from geocontact.analyses.sit_to_stand.trial_result import ran_table
-from geocontact.identify.signals.zero_lag import ORDER
+from geocontact.identify.signals.filters import ORDER
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.standing_up.chain import JOINTS
 from geocontact.standing_up.exoskeleton import EXO_JOINTS

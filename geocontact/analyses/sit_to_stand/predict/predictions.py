@@ -23,14 +23,11 @@ from geocontact.analyses.sit_to_stand.trial_result import (
 )
 from geocontact.data.errors import InputError
 from geocontact.dynamics.collocation.motion import CollocatedMotion
-from geocontact.dynamics.collocation.refinement import refined
-from geocontact.dynamics.collocation.solve import SolverOptions, solve, stopped_by_ctrl_c
-from geocontact.io.recordings.contact_parameters import read_contact_parameters
+from geocontact.dynamics.collocation.solve import SolverOptions, refined, solve, stopped_by_ctrl_c
+from geocontact.io.recordings.spheres import read_contact_parameters
 from geocontact.standing_up.calibrated_phase import INTERRUPTED
-from geocontact.standing_up.contact_parameter import ContactParameter, searched
+from geocontact.standing_up.chain import FOOT_PARAMETERS
 from geocontact.standing_up.exoskeleton import strapped
-from geocontact.standing_up.feet import FOOT_PARAMETERS
-from geocontact.standing_up.judged import judged
 from geocontact.standing_up.numbers_that_ran import (
     Ran,
     end_numbers,
@@ -39,10 +36,10 @@ from geocontact.standing_up.numbers_that_ran import (
     search_numbers,
     size_numbers,
 )
-from geocontact.standing_up.phase import PhaseProblem
-from geocontact.standing_up.phase_c import TRACKS_C, phase_c
+from geocontact.standing_up.phase import PhaseProblem, judged
+from geocontact.standing_up.phases import TRACKS_C, phase_c
 from geocontact.standing_up.standing_model import StandingModel
-from geocontact.standing_up.strap_sites import StrapSite
+from geocontact.standing_up.strap_sites import ContactParameter, StrapSite, searched
 from geocontact.standing_up.trials import StandingTrial, seen_in
 
 ALL, MEAN = "all given", "mean of the calibration"

@@ -18,18 +18,26 @@ from typing import Literal
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import another_device, sampled, sizes
-from geocontact.gap_benchmark.synthetic.laboratories.inputs import other_filters, quieter
+from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import (
+    FLAG,
+    LENGTH,
+    another_device,
+    noticed,
+    placement_of,
+    sampled,
+    sampled_unseen,
+    sizes,
+)
 from geocontact.gap_benchmark.synthetic.laboratories.movements import moving
-from geocontact.gap_benchmark.synthetic.laboratories.placement import FLAG, LENGTH, noticed, placement_of
 from geocontact.gap_benchmark.synthetic.laboratories.recorder import (
     at_another_rate,
     growth_of,
     hurry_of,
+    other_filters,
     power_law_noise,
+    quieter,
     quotients_of,
 )
-from geocontact.gap_benchmark.synthetic.laboratories.unseen import sampled_unseen
 from geocontact.gap_benchmark.synthetic.laboratory import Forms, Laboratory, Placement, WarmUp
 from geocontact.gap_benchmark.synthetic.noise import (
     FAR_FROM_NYQUIST,

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.view.curves.given import array, positions
-from geocontact.view.curves.quantity import CYCLE, Quantity
+from geocontact.view.curves.quantity import CYCLE, Quantity, array, positions
+from geocontact.view.curves.sheet import number, plain
 from geocontact.view.curves.style import BLACK, DOUBLE, GREY, PALETTE, SMALL, empty, in_style
-from geocontact.view.curves.text import number, plain
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

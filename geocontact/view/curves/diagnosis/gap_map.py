@@ -1,4 +1,4 @@
-"""Where a model misses the measurement: share of each channel's gap over phase, states and frequency."""
+"""Where a model misses the measurement: maps over phase and states, over a mat, and residuals on held-out trials."""
 
 from __future__ import annotations
 
@@ -6,15 +6,18 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from jaxtyping import Float
 
-from geocontact.data.gap.cell import BAND, FAST, FAST_PHASE, Cell
-from geocontact.view.curves.style import DOUBLE, SMALL, empty, in_style
-from geocontact.view.curves.text import plain
+from geocontact.data.gap.cell import BAND, FAST, FAST_PHASE, Cell, SurfaceGap
+from geocontact.view.curves.quantity import Quantity
+from geocontact.view.curves.sheet import plain
+from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, SMALL, empty, in_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from matplotlib.image import AxesImage
+
 
 SIGNIFICANT = 0.05
 """Family-wise: a map without any gap has such a cell once in twenty times."""
@@ -99,3 +102,113 @@ def _edge(value: float, span: float) -> str:
     if np.isinf(value):
         return "∞"
     return f"{0.0 if abs(value) < ROUNDING * span else value:.3g}".replace("-", "−")
+
+
+HEIGHT = 0.070  # [m]
+MM = 1e3
+FAINT = 0.1  # of the largest part, below which a negative one is not drawn as such
+CELL = 110.0  # pt, that all cells of a square mat side by side are drawn as wide
+
+
+@in_style
+def gap_surface_figure(found: SurfaceGap) -> Figure:
+    """Two maps of the cells, seen along the direction in which they spread least; cells that hold most are ringed.
+
+    The first is the part of each cell in the force that the base model expects, the second its part in the gap; either
+    adds up to 1, and a negative part is off the other way.
+    """
+    at = flattened(found.place) * MM
+    figure = empty(DOUBLE, HEIGHT)
+    left, right = figure.subplots(1, 2, sharex=True, sharey=True)
+    size = max((CELL / np.sqrt(len(at))) ** 2, 4.0)  # pt², of a marker
+    _map(left, at, found.load, size, "part of the load [–]")
+    _map(right, at, found.gap, size, f"part of the gap of {found.channel} [–]")
+    most = np.isin(found.ids, found.holding)
+    for panel in (left, right):
+        panel.scatter(at[most, 0], at[most, 1], s=1.6 * size, facecolors="none", edgecolors="black", linewidths=0.8)
+        panel.set_xlabel("along the mat [mm]")
+        panel.set_aspect("equal")
+    left.set_ylabel("across the mat [mm]")
+    share, load = (100.0 * part for part in found.held)
+    note = (
+        f"{plain(found.site, 30)}: ringed cells hold {share:.0f} % of the gap and {load:.0f} % of the load; "
+        f"p = {found.p_value:.2g} that it is spread as the load is"
+    )
+    figure.suptitle(note, fontsize=SMALL, x=0.01, ha="left")
+    return figure
+
+
+def flattened(place: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:
+    """Places along the two directions in which they spread most, the middle at 0."""
+    middle = place - place.mean(axis=0)
+    axes = np.linalg.svd(middle, full_matrices=False)[2]
+    axes = np.vstack([axes, np.zeros((3, 3))])[:2]
+    signs = np.sign(axes[np.arange(2), np.abs(axes).argmax(axis=1)])
+    return np.asarray(middle @ (axes * np.where(signs == 0.0, 1.0, signs)[:, None]).T)
+
+
+def _map(panel: Axes, at: Float[np.ndarray, "n 2"], values: Float[np.ndarray, " n"], size: float, label: str) -> None:
+    most = float(np.abs(values).max()) or 1.0
+    colours = ("RdBu_r", -most) if values.min() < -FAINT * most else ("Blues", 0.0)
+    points = panel.scatter(
+        at[:, 0], at[:, 1], c=values, s=size, cmap=colours[0], vmin=colours[1], vmax=most, marker="s"
+    )
+    bar = panel.figure.colorbar(points, ax=panel, shrink=0.85)
+    bar.set_label(label)
+
+
+PHASE = Quantity("phase of the trial", "%")
+Z95 = 1.959964
+
+
+@in_style
+def gap_residuals(
+    phase: Float[np.ndarray, " t"],
+    channels: Sequence[Quantity],
+    base: Float[np.ndarray, "trials t c"],
+    named: Float[np.ndarray, "trials t c"] | None,
+    floor: Mapping[str, float],
+    windows: Mapping[str, tuple[float, float]],
+    effect: str = "",
+) -> Figure:
+    """Draw residuals of each trial, a panel per channel; the band is what noise alone would make, the grey window the
+    stretch that holds 70 % of the channel's gap.
+
+    Parameters
+    ----------
+    phase
+        Fraction of the trial.
+    channels
+        Name and unit of each, in the order of the columns.
+    base, named
+        Measured minus predicted, SI units, without and with the effects; None where nothing was named.
+    floor
+        Root mean square of what no model can predict, by channel; the band is ± 1.96 of it.
+    windows
+        By channel, fractions of the trial; none where there is no gap.
+    effect
+        What was named, for the legend.
+    """
+    if base.shape[1:] != (len(phase), len(channels)):
+        raise ValueError(f"base: shape {base.shape}, expected (trials, {len(phase)}, {len(channels)})")
+    figure = empty(DOUBLE, 0.012 + 0.032 * len(channels))
+    panels = figure.subplots(len(channels), 1, sharex=True, squeeze=False)[:, 0]
+    handles, labels = [], []
+    for c, (panel, quantity) in enumerate(zip(panels, channels, strict=True)):
+        if quantity.name in windows:
+            low, high = windows[quantity.name]
+            panel.axvspan(100.0 * low, 100.0 * high, color="0.9", lw=0, zorder=0)
+        noise = float(quantity.shown(np.array(Z95 * floor.get(quantity.name, 0.0))))
+        band = panel.axhspan(-noise, noise, color=PALETTE[0], alpha=0.15, lw=0, zorder=1)
+        panel.axhline(0.0, color=GREY, lw=0.6)
+        without = panel.plot(100.0 * phase, quantity.shown(base[:, :, c]).T, color=PALETTE[1], lw=0.8)
+        entries = [(without[0], "base model"), (band, "± 1.96 noise floor")]
+        if named is not None:
+            having = panel.plot(100.0 * phase, quantity.shown(named[:, :, c]).T, color=PALETTE[0], lw=0.8)
+            entries.insert(1, (having[0], f"with {effect}"))
+        panel.set_ylabel(plain(f"{quantity.name}, measured − predicted [{quantity.unit}]", 22), fontsize=SMALL)
+        handles, labels = [e[0] for e in entries], [plain(e[1], 80) for e in entries]
+    panels[0].set_xlim(0.0, 100.0)
+    panels[-1].set_xlabel(PHASE.label)
+    figure.legend(handles, labels, loc="outside upper left", ncols=3)
+    return figure

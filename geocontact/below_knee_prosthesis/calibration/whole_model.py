@@ -1,0 +1,433 @@
+"""The sole's numbers on the whole model: its stances with exact derivatives, their residuals in units of the noise,
+and the search.
+
+The motion is simulated as `simulate` does; its derivatives are those of its variational equations
+(`dynamics.variation`), and what the plate shows is differentiated in symbols.
+
+Those by the numbers of the zones are exact; those by height and pitch of the foot are differences.
+
+Socket, inertia and the pelvis' free place act here, so that the force is what the simulation shows of the stance rather
+than what the recorded poses press. Damped Gauss-Newton steps from the calibration along recorded poses, with the same
+priors; height and pitch of the foot beside its standing trial are sought on, from what that calibration found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.below_knee_prosthesis.calibration.known_numbers import Knowledge, knowledge
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance, WalkedStance
+from geocontact.below_knee_prosthesis.calibration.sole_residuals import FARTHEST, NO_BALANCE, by_channel
+from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
+from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.model.leg import FootOffset
+from geocontact.below_knee_prosthesis.model.stance_model import (
+    FLOOR,
+    StanceModel,
+    sole_places,
+    stance_model,
+    stance_numbers,
+)
+from geocontact.below_knee_prosthesis.simulate import FIRST, GATE, TOLERANCE, recorded_start, told_at
+from geocontact.dynamics.variation import Variation, nodes_of
+from geocontact.identify.optimise.bounded_gauss_newton import least
+from geocontact.identify.optimise.least_squares import divided
+from geocontact.loads.sphere_set import SoleLaw
+
+if TYPE_CHECKING:
+    from casadi import Function
+
+
+@dataclass(frozen=True, eq=False)
+class ShownStance:
+    """A simulated stance at the recording's times.
+
+    Parameters
+    ----------
+    p
+        Of the equations.
+    x
+        States.
+    ends
+        Of the steps [s].
+    wrench
+        Of the ground on the foot and its moment about the ground's origin [N, N m].
+    """
+
+    p: Float[np.ndarray, " p"]
+    x: Float[np.ndarray, "t x"]
+    ends: Float[np.ndarray, " s"]
+    wrench: Float[np.ndarray, "t 6"]
+
+
+class WholeStance:
+    """One stance on the whole model, floor y = 0.
+
+    Parameters
+    ----------
+    stance, foot
+        Whose law gives way to that which is asked for.
+    tolerance
+        Of the steps.
+    """
+
+    def __init__(
+        self,
+        stance: WalkedStance,
+        foot: VariableStiffnessFoot,
+        *,
+        tolerance: float = TOLERANCE,
+        machine_code: bool = True,
+    ) -> None:
+        self.stance, self.foot, self.tolerance, self.machine_code = stance, foot, tolerance, machine_code
+        self.model = stance_model(foot, machine_code=machine_code)
+        self.tools = _tools(self.model, sole_places(foot.keel), machine_code)
+        self.inputs = stance.inputs()
+        self.begin = stance.begin
+
+    def shown(self, foot: VariableStiffnessFoot) -> ShownStance:
+        """ArithmeticError where the motion cannot go on."""
+        recorded = self.stance.recorded
+        p = stance_numbers(self.stance.motion.leg, foot, recorded.fulcrum, self.stance.bushing)
+        x, ends = self._moved(p, recorded.time)
+        wrench = self.tools.wrench.map(len(x))(*self._arguments(x, p)).full().T
+        return ShownStance(p, x, ends, wrench)
+
+    def _moved(
+        self, p: Float[np.ndarray, " p"], time: Float[np.ndarray, " t"]
+    ) -> tuple[Float[np.ndarray, "t x"], Float[np.ndarray, " s"]]:
+        """States at some times, and where steps end [s]; the steps do not depend on the times but for the last."""
+        start = recorded_start(self.model, self.stance.motion, self.begin)
+        wanted = np.concatenate([[self.begin], time])
+        found = self.model.stepper.simulate(
+            start, wanted, inputs=self.inputs, parameters=p, tolerance=self.tolerance, first=FIRST
+        )
+        return np.hstack([found.q, found.u, found.z])[1:], found.ends
+
+    def channels(self, shown: ShownStance) -> Float[np.ndarray, "t 4"]:
+        """Force, and centre of pressure from the heel over the keel's length; NaN where less than `GATE` presses."""
+        force, moment = shown.wrench[:, :3], shown.wrench[:, 3:]
+        forward, origin = self._along()
+        up = np.where(force[:, 1] >= GATE, force[:, 1], np.nan)
+        centre = (forward[:, 0] * moment[:, 2] - forward[:, 2] * moment[:, 0]) / up - origin
+        return np.column_stack([force, centre / self.foot.keel.length])
+
+    def slope(self, shown: ShownStance, chain: Float[np.ndarray, "p k"]) -> Float[np.ndarray, "t 4 k"]:
+        """Derivatives of the channels.
+
+        Parameters
+        ----------
+        chain
+            Of the numbers of the sole (`stance_model.sole_places`) by what is sought.
+        """
+        times = np.unique(np.concatenate([[self.begin], shown.ends, self.stance.recorded.time]))
+        when = nodes_of(times)
+        states, _ = self._moved(shown.p, when)
+        none = np.zeros((shown.x.shape[1], len(chain)))
+        along = self.tools.variation.along(times, states, self.inputs.at(when), shown.p, none)
+        by_numbers = along[np.searchsorted(times, self.stance.recorded.time)]
+        by_x, by_p = (
+            each.full().reshape(6, len(shown.x), -1).swapaxes(0, 1)
+            for each in self.tools.slope.map(len(shown.x))(*self._arguments(shown.x, shown.p))
+        )
+        slope = (by_x @ by_numbers + by_p) @ chain
+        force, moment = shown.wrench[:, :3], shown.wrench[:, 3:]
+        forward, _ = self._along()
+        with np.errstate(divide="ignore", invalid="ignore"):
+            arm = (forward[:, 0] * moment[:, 2] - forward[:, 2] * moment[:, 0]) / force[:, 1]
+            about = forward[:, :1] * slope[:, 5] - forward[:, 2:] * slope[:, 3] - arm[:, None] * slope[:, 1]
+            centre = about / force[:, 1:2] / self.foot.keel.length
+        centre[~(force[:, 1] >= GATE)] = 0.0
+        return np.concatenate([slope[:, :3], centre[:, None]], axis=1)
+
+    def keel_motion(self, shown: ShownStance, foot: VariableStiffnessFoot) -> KeelMotion:
+        """What each sphere does."""
+        told = told_at(self.model, *self._arguments(shown.x, shown.p))
+        n = len(self.model.equations.names)
+        angles, speeds = shown.x[:, n - foot.keel.joints : n], shown.x[:, 2 * n - foot.keel.joints : 2 * n]
+        return foot.at(self.stance.recorded.fulcrum).at(angles, speeds, told.poses, FLOOR, told.rate)
+
+    def _along(self) -> tuple[Float[np.ndarray, "t 3"], Float[np.ndarray, " t"]]:
+        """The recorded keel's direction, and its end along it [m]."""
+        poses = self.stance.recorded.poses
+        forward = poses.rotation.apply([1.0, 0.0, 0.0])
+        return forward, np.einsum("ti,ti->t", forward, poses.translation)
+
+    def _arguments(self, x: Float[np.ndarray, "t x"], p: Float[np.ndarray, " p"]) -> tuple[np.ndarray, ...]:
+        """Of the functions of a state, at the samples."""
+        n = len(self.model.equations.names)
+        w = self.inputs.at(self.stance.recorded.time)
+        return x[:, :n].T, x[:, n : 2 * n].T, x[:, 2 * n :].T, w.T, np.repeat(p[:, None], len(x), axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class _Tools:
+    """Wrench of a state, its derivatives by state and numbers of the sole, and the motion's."""
+
+    wrench: Function
+    slope: Function
+    variation: Variation
+
+
+@lru_cache(maxsize=4)
+def _tools(model: StanceModel, places: range, machine_code: bool) -> _Tools:
+    from casadi import Function, densify, horzcat, jacobian
+
+    e = model.equations
+    by_x = horzcat(*(jacobian(model.on_sole, each) for each in (e.q, e.u, e.z)))
+    by_p = jacobian(model.on_sole, e.p)[:, list(places)]
+    wrench = Function("wrench", e.state, [densify(model.on_sole)])
+    slope = Function("wrench_slope", e.state, [densify(by_x), densify(by_p)])
+    return _Tools(wrench, slope, Variation(e, places, machine_code=machine_code))
+
+
+ASIDE = 0.2
+"""Standard deviations of height and pitch, for differences: a tenth of a degree, far above what steps leave."""
+
+
+class WholeResiduals:
+    """Residuals of all stances as functions of what is sought.
+
+    That is the logarithms of the numbers over the usual ones, then of each stance height and pitch of the foot beside
+    its standing trial in standard deviations (`Errors`); where the latter are left out, the foot is as it stood.
+
+    Parameters
+    ----------
+    stances
+        With the leg as its standing trial has it.
+    foot
+        With the usual law.
+    begun
+        At which the noise is taken: what errors of start and angles make of each sample, by a difference.
+    """
+
+    def __init__(
+        self,
+        stances: Sequence[WalkedStance],
+        foot: VariableStiffnessFoot,
+        begun: Float[np.ndarray, " p"],
+        *,
+        machine_code: bool = True,
+    ) -> None:
+        self.foot, self.zones = foot, ZoneParameters(foot.sole, foot.law)
+        self.wholes = [WholeStance(each, foot, machine_code=machine_code) for each in stances]
+        self.machine_code = machine_code
+        self.noise = [noise_of(self.whole(begun, k), self.at(begun)) for k in range(len(self.wholes))]
+        self.last: tuple[Float[np.ndarray, " p"], list[ShownStance | None]] | None = None
+        self.solved = 0
+
+    @property
+    def sd(self) -> Float[np.ndarray, " p"]:
+        """Of everything that is sought, beforehand."""
+        return np.concatenate([self.zones.sd, np.ones(2 * len(self.wholes))])
+
+    @property
+    def sizes(self) -> Float[np.ndarray, " a"]:
+        """One standard deviation of height [m] and pitch [rad] beforehand, stance by stance."""
+        errors = [each.stance.recorded.errors for each in self.wholes]
+        return np.array([[e.standing, e.pitch] for e in errors]).ravel()
+
+    @property
+    def reach(self) -> Float[np.ndarray, " p"]:
+        """Of everything that is sought, to either bound."""
+        return np.concatenate([self.zones.reach, np.full(2 * len(self.wholes), FARTHEST)])
+
+    def values(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " k"]:
+        """The numbers."""
+        usual = self.zones.values_of(self.zones.usual)
+        return np.asarray(usual * np.exp(z[: len(usual)]))
+
+    def whole(self, z: Float[np.ndarray, " p"], place: int) -> WholeStance:
+        """One stance with the foot beside its standing trial."""
+        one, aside = self.wholes[place], z[len(self.zones.names) :].reshape(-1, 2)
+        if not len(aside) or not aside[place].any():
+            return one
+        height, pitch = aside[place] * self.sizes.reshape(-1, 2)[place]
+        stance = one.stance.with_foot(FootOffset(float(height), float(pitch)))
+        return WholeStance(stance, self.foot, machine_code=self.machine_code)
+
+    def at(self, z: Float[np.ndarray, " p"]) -> VariableStiffnessFoot:
+        """The foot with these numbers."""
+        return VariableStiffnessFoot(self.foot.keel, self.foot.sole, self.zones.law(self.values(z)))
+
+    def shown(self, z: Float[np.ndarray, " p"]) -> list[ShownStance | None]:
+        """Each simulated stance; None where its motion cannot go on."""
+        if self.last is None or not np.array_equal(self.last[0], z):
+            self.last = z.copy(), [self._one(self.whole(z, k), self.at(z)) for k in range(len(self.wholes))]
+        return self.last[1]
+
+    def _one(self, whole: WholeStance, foot: VariableStiffnessFoot) -> ShownStance | None:
+        self.solved += 1
+        try:
+            return whole.shown(foot)
+        except ArithmeticError:
+            return None
+
+    def of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
+        """Predicted less measured over the noise, stance by stance, frame by frame."""
+        parts = []
+        for whole, noise, shown in zip(self.wholes, self.noise, self.shown(z), strict=True):
+            measured = whole.stance.recorded.measured / noise
+            if shown is None:
+                parts.append(np.full(int(np.isfinite(measured).sum()), NO_BALANCE))
+            else:
+                parts.append(divided(whole.channels(shown) / noise, measured, np.ones(noise.shape[1])))
+        return np.concatenate(parts)
+
+    def slope_of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "n p"]:
+        """Derivatives of `of_data` by all that is sought; 0 where it has none."""
+        parts, chain = [], self.chain(z)
+        for place, (noise, shown) in enumerate(zip(self.noise, self.shown(z), strict=True)):
+            whole = self.whole(z, place)
+            there = np.isfinite(whole.stance.recorded.measured)
+            if shown is None:
+                parts.append(np.zeros((int(there.sum()), len(z))))
+            else:
+                slope = np.concatenate([whole.slope(shown, chain), self._aside(z, place, shown)], axis=2)
+                parts.append((slope / noise[..., None])[there])
+        return np.concatenate(parts)
+
+    def _aside(self, z: Float[np.ndarray, " p"], place: int, shown: ShownStance) -> Float[np.ndarray, "t 4 a"]:
+        """Of the channels of one stance by height and pitch of all, by one-sided differences."""
+        count = len(self.zones.names)
+        found = np.zeros((*self.noise[place].shape, len(z) - count))
+        base = self.whole(z, place).channels(shown)
+        for k in (2 * place, 2 * place + 1) if len(z) > count else ():
+            there = z.copy()
+            there[count + k] += ASIDE
+            other = self.whole(there, place)
+            if (moved := self._one(other, self.at(z))) is not None:
+                found[..., k] = np.nan_to_num(other.channels(moved) - base) / ASIDE
+        return found
+
+    def chain(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "n p"]:
+        """Derivatives of stiffness, damping, static and kinetic friction by zone by the logarithms."""
+        values, zones = self.values(z), len(self.zones.zones)
+        static = self.zones.law(values).static
+        own = [np.asarray(static)[np.flatnonzero(of)[0]] for of in self.zones.sole.spheres.zones.values()]
+        chain = np.zeros((4 * zones, 3 * zones))
+        at = np.arange(zones)
+        for row, column, by in ((0, 0, values[:zones]), (1, 1, values[zones : 2 * zones]), (2, 2, np.array(own))):
+            chain[row * zones + at, column * zones + at] = by
+        chain[3 * zones + at, 2 * zones + at] = values[2 * zones :]
+        return chain
+
+    def __call__(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " m"]:
+        """Those of the data, then what everything differs from the usual in standard deviations beforehand."""
+        return np.concatenate([self.of_data(z), z / self.sd[: len(z)]])
+
+    def slope(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "m p"]:
+        """Derivatives of `__call__`."""
+        return np.vstack([self.slope_of_data(z), np.diag(1.0 / self.sd[: len(z)])])
+
+    def channel_by_channel(self) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
+        """Times of the data's residuals in that order [s], a pause after each channel, and the residuals' places."""
+        recorded = [each.stance.recorded for each in self.wholes]
+        return by_channel([each.time for each in recorded], [each.measured for each in recorded])
+
+    def slid(self, z: Float[np.ndarray, " p"]) -> Iterator[tuple[RecordedStance, KeelMotion]]:
+        """Each stance, and the keel along it."""
+        for place, shown in enumerate(self.shown(z)):
+            if shown is not None:
+                whole = self.whole(z, place)
+                yield whole.stance.recorded, whole.keel_motion(shown, self.at(z))
+
+
+def noise_of(whole: WholeStance, foot: VariableStiffnessFoot) -> Float[np.ndarray, "t 4"]:
+    """Standard deviation of measured less predicted: the plate's, and what errors of start and angles make.
+
+    ArithmeticError where the motion cannot go on.
+    """
+    recorded = whole.stance.recorded
+    e, pressing = recorded.errors, np.maximum(recorded.force[:, 1], 1.0)
+    plate = np.full((len(recorded.time), 3), e.force)
+    square = np.column_stack([plate, e.couple / pressing / foot.keel.length]) ** 2
+    base = whole.channels(whole.shown(foot))
+    for moved in whole.stance.moved():
+        there = WholeStance(moved, foot, machine_code=whole.machine_code)
+        square += np.nan_to_num(there.channels(there.shown(foot)) - base) ** 2
+    return np.asarray(np.sqrt(square))
+
+
+ROUNDS = 20
+"""Simulations of the stances in the search, derivatives not counted."""
+WORTH = 0.5
+"""Cost that is not worth another step."""
+
+
+@dataclass(frozen=True, eq=False)
+class WholeCalibration:
+    """What was found.
+
+    Parameters
+    ----------
+    foot
+        With the law that was found.
+    logarithms
+        Of the numbers over the usual ones.
+    at
+        Everything that was sought: the logarithms, then height and pitch in standard deviations.
+    begun, cost
+        Half the sum of squares at the numbers that it began with and at those found, priors included.
+    converged
+        Whether the search ended by itself.
+    """
+
+    residuals: WholeResiduals
+    foot: VariableStiffnessFoot
+    logarithms: Float[np.ndarray, " p"]
+    at: Float[np.ndarray, " q"]
+    begun: float
+    cost: float
+    converged: bool
+    knowledge: Knowledge
+
+    @property
+    def offsets(self) -> tuple[FootOffset, ...]:
+        """Of the foot in each stance, beside its standing trial; none where they were not sought."""
+        return self.knowledge.offsets
+
+    @property
+    def law(self) -> SoleLaw:
+        """With the numbers that were found."""
+        return self.foot.law
+
+
+def calibrate_whole(
+    stances: Sequence[WalkedStance],
+    foot: VariableStiffnessFoot,
+    begun: Float[np.ndarray, " p"],
+    *,
+    level: float = 0.95,
+    machine_code: bool = True,
+) -> WholeCalibration:
+    """Around the law of `foot`, from what a calibration along the recorded poses found about it.
+
+    Parameters
+    ----------
+    begun
+        The logarithms, and height and pitch in standard deviations (`SoleCalibration.at`). Without these the foot stays
+        as its standing trial has it.
+
+    ArithmeticError where the stances cannot be simulated with these.
+    """
+    residuals = WholeResiduals(stances, foot, begun, machine_code=machine_code)
+    reach, off = residuals.reach[: len(begun)], residuals(begun)
+    search = least(residuals, residuals.slope, begun, -reach, reach, ROUNDS, WORTH)
+    return WholeCalibration(
+        residuals,
+        residuals.at(search.x),
+        search.x[: len(residuals.zones.names)],
+        search.x,
+        0.5 * float(off @ off),
+        search.cost,
+        search.finished,
+        knowledge(residuals, search.x, level),
+    )

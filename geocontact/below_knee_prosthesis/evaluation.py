@@ -1,0 +1,349 @@
+"""A simulated stance beside a force plate, as the study judges it (its sec. 2.5): errors, outliers, and predictors
+without a model.
+
+The study calls a trial an outlier where its error exceeds the mean by more than three standard deviations, and could
+not tell the source of the one it found. Of n trials no error can exceed the mean by more than (n − 1)/√n standard
+deviations, so that this rule is silent below eleven trials, and one outlier widens what it is measured by. Beside it
+stands the median with three times the median absolute deviation (times 1.4826, as of a normal distribution).
+
+With the pelvis free upwards the impulse of any simulation is nearly body weight times time, and every stance looks like
+the next: R² alone says little. Both know the length of the plate's stance, which a simulation has to find.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+from scipy.integrate import cumulative_trapezoid
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, LegMotion, recorded_tree
+from geocontact.below_knee_prosthesis.simulate import GATE, Stance, share_of_foot
+from geocontact.identify.signals.agreement import agreement
+from geocontact.identify.signals.cycles import loaded_spans
+from geocontact.identify.signals.filters import zero_lag
+from geocontact.loads.centre_of_pressure import POINTS
+
+CUTOFF = 40.0
+"""Hz; of the plate's forces and of the simulated ones beside them, as the study has it."""
+SLOWEST = 0.4
+"""Of a plate's rate: the cut-off of both where the plate is too slow for `CUTOFF`."""
+SAMPLES = 101
+"""Over the stance that the plate saw."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlateStance:
+    """What a plate saw of the prosthetic foot, in the frame of a right leg.
+
+    Parameters
+    ----------
+    force
+        On the foot [N].
+    centre
+        Of pressure [m]; NaN where the foot is not loaded.
+    """
+
+    time: Float[np.ndarray, " t"]
+    force: Float[np.ndarray, "t 3"]
+    centre: Float[np.ndarray, "t 3"]
+
+
+@dataclass(frozen=True, eq=False)
+class StanceErrors:
+    """Numbers of the comparison.
+
+    Parameters
+    ----------
+    share
+        Of the plate's stance, 0 to 1.
+    curves
+        Simulated and measured by name: forces over body weight, impulse [s], centre of pressure (share of the foot).
+        What was not simulated is NaN.
+    table
+        By quantity: R² and root mean square error in the curve's unit, over what was simulated.
+    stance
+        Length by simulation and by the plate [s]; NaN by simulation where it ended before toe-off.
+    start
+        Touch-down by the plate [s].
+    """
+
+    share: Float[np.ndarray, " s"]
+    curves: Mapping[str, tuple[Float[np.ndarray, " s"], Float[np.ndarray, " s"]]]
+    table: Mapping[str, tuple[float, float]]
+    stance: tuple[float, float]
+    start: float
+
+    @property
+    def simulated(self) -> float:
+        """Share of the plate's stance that was simulated, 0 to 1."""
+        return float(np.isfinite(self.curves["resultant"][0]).mean())
+
+
+def stance_errors(found: Stance, plate: PlateStance) -> StanceErrors:
+    """Over the plate's stance, as far as it was simulated; ValueError where the plate has none.
+
+    Forces of both pass the same zero-lag low-pass, each at its own rate and over all of its recording.
+    """
+    weight = found.motion.leg.person.mass * GRAVITY
+    span = longest_stance(plate.time, plate.force[:, 1])
+    if span is None:
+        raise ValueError(f"the plate never carries {GATE:g} N")
+    share = np.linspace(0.0, 1.0, SAMPLES)
+    time = span[0] + share * (span[1] - span[0])
+    steps = [float(np.median(np.diff(each))) for each in (found.time, plate.time)]
+    cutoff = min(CUTOFF, *(SLOWEST / step for step in steps))
+    own = simulated_at(time, found.time, zero_lag(found.force, steps[0], cutoff)) / weight
+    seen = at_times(time, plate.time, zero_lag(plate.force, steps[1], cutoff)) / weight
+    curves = {"resultant": (np.linalg.norm(own, axis=1), np.linalg.norm(seen, axis=1))}
+    for name, axis in (("vertical", 1), ("fore_aft", 0), ("medio_lateral", 2)):
+        curves[name] = (own[:, axis], seen[:, axis])
+    curves["impulse"] = _impulses(time, *curves["resultant"])
+    poses, length = found.poses, found.foot.keel.length
+    across = np.column_stack([np.interp(found.time, plate.time, column) for column in plate.centre.T])
+    along = [share_of_foot(poses, length, across), *(found.along_foot(point) for point in POINTS)]
+    seen_centre, *centres = simulated_at(time, found.time, np.column_stack(along)).T
+    for point, centre in zip(POINTS, centres, strict=True):
+        curves[f"cop_{point}"] = (centre, seen_centre)
+    table = {}
+    for name, (model, measured) in curves.items():
+        told = agreement(model, measured, float(time[1] - time[0]))
+        table[name] = (told.r2, told.rmsd)
+    own_span = longest_stance(found.time, found.force[:, 1])
+    lasting = np.nan if own_span is None else own_span[1] - own_span[0]
+    return StanceErrors(share, curves, table, (float(lasting), float(span[1] - span[0])), float(span[0]))
+
+
+def _impulses(
+    time: Float[np.ndarray, " s"], own: Float[np.ndarray, " s"], seen: Float[np.ndarray, " s"]
+) -> tuple[Float[np.ndarray, " s"], Float[np.ndarray, " s"]]:
+    """Of forces over time, from the first sample that both have; the simulated one is NaN where it has none."""
+    both = np.isfinite(own)
+    model = np.full_like(own, np.nan)
+    model[both] = cumulative_trapezoid(own[both], time[both], initial=0)
+    measured = np.asarray(cumulative_trapezoid(seen, time, initial=0))
+    return model, measured - measured[int(np.argmax(both))]
+
+
+def longest_stance(time: Float[np.ndarray, " t"], load: Float[np.ndarray, " t"]) -> tuple[float, float] | None:
+    """Start and end of the longest span under load [s]; None where there is none."""
+    spans = loaded_spans(time, load, GATE)
+    if not spans:
+        return None
+    longest = max(spans, key=lambda each: each.end - each.start)
+    return float(longest.start), float(longest.end)
+
+
+def at_times(
+    wanted: Float[np.ndarray, " s"], time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t 3"]
+) -> Float[np.ndarray, "s 3"]:
+    """Columns at other times [s], linear between samples."""
+    return np.column_stack([np.interp(wanted, time, column) for column in values.T])
+
+
+def simulated_at(
+    wanted: Float[np.ndarray, " s"], time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t k"]
+) -> Float[np.ndarray, "s k"]:
+    """The same of what was simulated: NaN before its start and past its end."""
+    return np.column_stack([np.interp(wanted, time, column, np.nan, np.nan) for column in values.T])
+
+
+ANKLE = "ankle_moment"
+QUANTITIES = (
+    "resultant",
+    "vertical",
+    "fore_aft",
+    "medio_lateral",
+    "impulse",
+    "cop_ground",
+    "cop_sphere",
+    ANKLE,
+)
+"""In the order of the tables."""
+
+
+@dataclass(frozen=True, eq=False)
+class JudgedStance:
+    """What is known of one stance of a study.
+
+    Parameters
+    ----------
+    name, person, setting
+        Whose it is, and on which foot: low, medium, high or a fulcrum in words.
+    calibrated
+        Whether the sole was fitted to it: then it is no prediction.
+    errors
+        Beside the plate, with the ankle's moment over body mass [N m/kg].
+    """
+
+    name: str
+    person: str
+    setting: str
+    calibrated: bool
+    stance: Stance
+    plate: PlateStance
+    errors: StanceErrors
+
+    def measured(self, quantity: str) -> Float[np.ndarray, " s"]:
+        """By the plate, over its stance."""
+        return self.errors.curves[quantity][1]
+
+    def simulated(self, quantity: str) -> Float[np.ndarray, " s"]:
+        """By the model, over the plate's stance."""
+        return self.errors.curves[quantity][0]
+
+
+def judged(
+    name: str, person: str, setting: str, stance: Stance, plate: PlateStance, *, calibrated: bool = False
+) -> JudgedStance:
+    """A stance with its errors; ValueError where the plate has none."""
+    errors = stance_errors(stance, plate)
+    moments = _ankle_moments(stance, plate, errors)
+    step = errors.stance[1] / (len(errors.share) - 1)
+    told = agreement(*moments, step)
+    more = replace(
+        errors,
+        curves={**errors.curves, ANKLE: moments},
+        table={**errors.table, ANKLE: (told.r2, told.rmsd)},
+    )
+    return JudgedStance(name, person, setting, calibrated, stance, plate, more)
+
+
+def plate_ankle_moment(plate: PlateStance, motion: LegMotion) -> Float[np.ndarray, " t"]:
+    """Moment of the plate's force about the recorded ankle in the foot's sagittal plane [N m], at the plate's times.
+
+    Positive where it bends the toes up, as `Stance.ankle_moment`. Zero where the foot is not loaded; the plate's couple
+    about its own surface is in the centre of pressure, that about the vertical is left out.
+    """
+    leg = motion.leg
+    shank = recorded_tree(leg).poses(motion.values)["shank"]
+    keel = shank * RigidTransform.from_components(leg.keel, leg.turn)
+    ankle = at_times(plate.time, motion.time, shank.apply(leg.ankle))
+    across = at_times(plate.time, motion.time, keel.rotation.apply([0.0, 0.0, 1.0]))
+    arm = np.where(np.isfinite(plate.centre), plate.centre - ankle, 0.0)
+    return np.asarray(np.einsum("ti,ti->t", np.cross(arm, plate.force), across))
+
+
+def _ankle_moments(
+    stance: Stance, plate: PlateStance, errors: StanceErrors
+) -> tuple[Float[np.ndarray, " s"], Float[np.ndarray, " s"]]:
+    """Simulated, as far as it was, and measured over the plate's stance, over body mass [N m/kg]."""
+    mass, start = stance.motion.leg.person.mass, errors.start
+    time = start + errors.share * errors.stance[1]
+    seen = plate_ankle_moment(plate, stance.motion)
+    return (
+        simulated_at(time, stance.time, stance.ankle_moment[:, None])[:, 0] / mass,
+        np.interp(time, plate.time, seen) / mass,
+    )
+
+
+BEYOND = 3.0
+NORMAL = 1.4826
+"""Standard deviation of a normal distribution over its median absolute deviation."""
+FEWEST = 4
+"""Trials below which nothing stands out."""
+EARLY = 0.25
+"""Share of the stance in which a landing overshoots."""
+OVERSHOT, LATE = 0.3, 0.02
+"""Body weights, and s."""
+INSIDE = (0.04, 0.9)
+"""Share of the plate's stance within which the foot should not leave the floor."""
+
+
+@dataclass(frozen=True)
+class Oddness:
+    """How far one stance's force is from the others', in standard deviations by both rules.
+
+    Parameters
+    ----------
+    by_study
+        Error less the mean over the standard deviation.
+    by_median
+        Error less the median over the scaled median absolute deviation.
+    """
+
+    by_study: float
+    by_median: float
+
+    @property
+    def outlier(self) -> bool:
+        """By either rule."""
+        return self.by_study > BEYOND or self.by_median > BEYOND
+
+
+def oddness(errors: Mapping[str, float]) -> dict[str, Oddness]:
+    """By name; NaN with fewer trials than `FEWEST`."""
+    values = np.array(list(errors.values()))
+    if len(values) < FEWEST:
+        return {name: Oddness(float("nan"), float("nan")) for name in errors}
+    median = float(np.median(values))
+    spread = NORMAL * float(np.median(np.abs(values - median)))
+    mean, sd = float(values.mean()), float(values.std(ddof=1))
+    return {
+        name: Oddness((value - mean) / sd if sd else 0.0, (value - median) / spread if spread else 0.0)
+        for name, value in errors.items()
+    }
+
+
+def reasons(one: JudgedStance) -> Sequence[str]:
+    """What a stance shows that the plate does not: each in words; empty where nothing of it is seen."""
+    s, errors = one.stance, one.errors
+    share = (s.time - errors.start) / errors.stance[1]
+    inside = (share > INSIDE[0]) & (share < INSIDE[1])
+    found = []
+    lost = inside & (s.force[:, 1] < GATE)
+    if lost.any():
+        found.append(
+            f"the foot leaves the floor again at {100.0 * share[lost][0]:.0f} % of the stance for "
+            f"{1e3 * lost.sum() * (s.time[1] - s.time[0]):.0f} ms: it lands harder than it did"
+        )
+    model, measured = one.simulated("resultant"), one.measured("resultant")
+    early = np.where(np.isfinite(model) & (errors.share < EARLY), model - measured, -np.inf)
+    above = float(early.max())
+    if above > OVERSHOT:
+        at = float(errors.share[np.argmax(early)])
+        touching = int((s.loads.pressing[int(np.argmin(np.abs(share - at)))] > 0.0).sum())
+        found.append(f"{above:.1f} BW too much at {100.0 * at:.0f} % of the stance, on {touching} spheres")
+    late = errors.stance[0] - errors.stance[1]
+    if not np.isfinite(late):
+        found.append("its simulation ended before toe-off")
+    elif abs(late) > LATE:
+        found.append(f"the stance lasts {1e3 * late:+.0f} ms")
+    if (s.loads.depth > s.foot.sole.spheres.radius).any():
+        found.append("a sphere sinks beyond its radius")
+    if any(beyond.any() for beyond in s.beyond):
+        found.append("the socket is past its limit")
+    return found
+
+
+MEAN, ANOTHER = "mean of the others", "another setting"
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredCurve:
+    """One quantity over a stance as the plate saw it, and whose it is on which setting of the foot."""
+
+    name: str
+    person: str
+    setting: str
+    values: Float[np.ndarray, " s"]
+
+
+def trivial_curves(measured: Sequence[MeasuredCurve], one: MeasuredCurve) -> dict[str, Float[np.ndarray, " s"]]:
+    """Curves of both predictors for one of the stances; one that there is nothing for is missing.
+
+    Mean of the other trials: of the same person, else of all others. Another setting: the person's first trial on
+    another foot.
+    """
+    others = [each for each in measured if each.name != one.name]
+    own = [each for each in others if each.person == one.person]
+    found = {}
+    if others:
+        found[MEAN] = np.mean([each.values for each in own or others], axis=0)
+    strange = next((each for each in own if each.setting != one.setting), None)
+    if strange is not None:
+        found[ANOTHER] = strange.values
+    return found

@@ -1,1 +1,0 @@
-"""Simulated stances of a study beside their plates, and beside predictors without a model."""

@@ -1,1 +1,0 @@
-"""Mistakes in the data: found, corrected, or hidden by base parameters."""

@@ -1,1 +1,0 @@
-"""Base model of an elastic joint."""

@@ -1,1 +1,0 @@
-"""Base model of an exoskeleton strapped to pelvis, thigh and shank."""
