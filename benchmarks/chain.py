@@ -18,7 +18,7 @@ one_core.pin()
 from benchmarks.machine import machine  # noqa: E402
 from benchmarks.tables import markdown  # noqa: E402
 from geocontact.chain.system import System  # noqa: E402
-from geocontact.data.gap.case import GapCase  # noqa: E402
+from geocontact.data.gap_case import GapCase  # noqa: E402
 from geocontact.data.trial import Trial  # noqa: E402
 from geocontact.effects.catalogue import candidates  # noqa: E402
 from geocontact.io.cases.gap_case import read_gap_case  # noqa: E402

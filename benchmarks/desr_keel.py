@@ -34,7 +34,7 @@ from geocontact.below_knee_prosthesis.keel.keel import SUPPORTS, Support, tip_co
 from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.links import Law, Source, Values
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.diagnosis import Diagnosis
+from geocontact.data.diagnosis import Diagnosis
+from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial

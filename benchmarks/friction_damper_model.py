@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 import geocontact as gc
-from geocontact.systems.external.acting_law import ActingLaw
+from geocontact.systems.acting_law import ActingLaw
 
 REACH = 4.3e-3
 """Stroke over which friction turns round in the base that has it [m]."""

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.signal import butter, filtfilt
 
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.gap.case.problem import Noise, Problem

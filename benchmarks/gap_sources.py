@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.gap.identifiability.signatures import at_nats
 
 NOTHING, CONFOUNDED = "none", "absorbed"

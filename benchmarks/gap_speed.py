@@ -28,7 +28,7 @@ PARTS = (
     ("geocontact.gap.attribute", "surrogate", "surrogate"),
     ("geocontact.gap.case.problem", "most_likely", "search for noise"),
     ("geocontact.chain.system:System", "simulate", "simulations"),
-    ("geocontact.systems.shoulder.model", "swing", "swing of the arm"),
+    ("geocontact.systems.shoulder", "swing", "swing of the arm"),
     ("geocontact.gap.case.whitening:Whitening", "__call__", "whitening"),
     ("geocontact.gap.diagnose", "gap_map", "map"),
     ("geocontact.gap.diagnose", "next_experiment", "next experiment"),

@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of

@@ -99,7 +99,7 @@ def settings(knee: Knee, trials: list[str], calibration: int) -> str:
     """case.toml."""
     lines = [
         "format = 1",
-        'system = "geocontact.systems.knee.full_chain:CELLS"',
+        'system = "geocontact.systems.knee_full_chain:CELLS"',
         f"calibration = {json.dumps(trials[:calibration])}",
         f"evaluation = {json.dumps(trials[calibration:])}",
         "[noise]",

@@ -99,8 +99,8 @@ def speed(faces: int, frames: int) -> dict[str, object]:
     from geocontact.geometry.drape.lay import lay
     from geocontact.geometry.drape.mat import Mat
     from geocontact.geometry.drape.spread import Geodesics
-    from geocontact.loads.mat.load import MatErrors, mat_load, wrench_covariance
-    from geocontact.loads.mat.map import mat_map
+    from geocontact.loads.mat_load import MatErrors, mat_load, wrench_covariance
+    from geocontact.loads.mat_map import mat_map
 
     mat = Mat(ROWS, COLUMNS, (PITCH, PITCH))
     marks, _ = four_marks(ROWS, COLUMNS, thigh, 0.5 * ROWS * PITCH)
@@ -191,8 +191,8 @@ def registration(draws: int) -> dict[str, object]:
     from geocontact.io.mats.layout import read_layout
     from geocontact.io.mesh.meshes import read_mesh
     from geocontact.io.recordings.mat_results import read_mat_landmarks
-    from geocontact.loads.mat.load import mat_load
-    from geocontact.loads.mat.map import mat_map
+    from geocontact.loads.mat_load import mat_load
+    from geocontact.loads.mat_map import mat_map
 
     folder = MESHES / "mat_thigh_16x8"
     (frames,) = read_mat(folder / "frames.csv", read_layout(folder / "layout.toml"))

@@ -17,7 +17,7 @@ import numpy as np
 
 import geocontact as gc
 from benchmarks.machine import write_results
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 

@@ -32,7 +32,7 @@ from geocontact.below_knee_prosthesis.both_sides.walk import (
     walk_by_forces,
 )
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.dynamics.recorded_inputs import recorded_inputs
 from geocontact.dynamics.simulate import rosenbrock_step
 from meshes.amputee import true_amputee

@@ -29,9 +29,9 @@ from geocontact.below_knee_prosthesis.evaluation import PlateStance, StanceError
 from geocontact.below_knee_prosthesis.from_markers import Walked, as_right, of_side, standing_leg, walked
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
+from geocontact.below_knee_prosthesis.leg import Person
+from geocontact.below_knee_prosthesis.leg_tree import LegMotion
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket
-from geocontact.below_knee_prosthesis.model.leg import Person
-from geocontact.below_knee_prosthesis.model.leg_tree import LegMotion
 from geocontact.below_knee_prosthesis.simulate import Push, Stance, simulate_stance
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.identify.signals.agreement import agreement

@@ -46,8 +46,8 @@ from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import STANDING
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg import Leg, Person
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
+from geocontact.below_knee_prosthesis.leg import Leg, Person
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, recorded_tree
 from geocontact.data.multibody.markers import MarkerTrajectories
 from meshes.gait_course import course, reactions
 from meshes.gait_persons import Walker, marker_places, true_leg

@@ -23,7 +23,7 @@ from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob
 from geocontact.below_knee_prosthesis.design.outcomes import radius_of_path
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import GATE, Stance, simulate_stance
 from geocontact.loads.resultant import pose_rate
 from meshes.gait_course import course

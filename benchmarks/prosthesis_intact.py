@@ -25,7 +25,7 @@ from benchmarks import real_foot
 from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import KINETIC, STATIC
 from geocontact.below_knee_prosthesis.foot_in_plane import FootInPlane, row_numbers
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.contact.sphere_foot import normal_force
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.identify.signals.agreement import agreement

@@ -22,10 +22,10 @@ import numpy as np
 from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, VariableStiffnessFoot, fulcrum_of, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg import Leg
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, RECORDED, LegMotion
-from geocontact.below_knee_prosthesis.model.stance_model import FLOOR
+from geocontact.below_knee_prosthesis.leg import Leg
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, RECORDED, LegMotion
 from geocontact.below_knee_prosthesis.simulate import Push, Stance, simulate_stance
+from geocontact.below_knee_prosthesis.stance_model import FLOOR
 from geocontact.geometry.shapes import HalfSpace
 from meshes.gait_course import GaitCourse, course
 from meshes.gait_persons import PARTICIPANTS, STANCE, true_leg

@@ -20,7 +20,7 @@ import numpy as np
 from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
 from meshes.gait_course import GaitCourse, course
 from meshes.gait_persons import PARTICIPANTS, STANCE, true_leg

@@ -58,7 +58,7 @@ def both_arms() -> list[Any]:
 
     from geocontact.identify.signals.filters import filled_and_smoothed
     from geocontact.io.mocap.markers import read_markers
-    from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
+    from geocontact.shoulder_exoskeleton.arms_from_markers import MarkerSettings, arm_motions
 
     found = []
     for arm in arm_motions(read_markers(MARKERS), MarkerSettings(upright=(0.0, 0.5))).arms:

@@ -21,9 +21,9 @@ import pandas as pd
 from benchmarks.shoulder_mat import lifting_force, readings, with_noise, write_mat
 from benchmarks.shoulder_truth import NOTHING, Measured, Truth, Withheld, measure
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
+from geocontact.shoulder_exoskeleton.arms_from_markers import arm_motions
 from geocontact.shoulder_exoskeleton.cuff_contact import mirrored_arm
 from geocontact.shoulder_exoskeleton.device import Wearer, lucy
-from geocontact.shoulder_exoskeleton.from_markers.arm_motions import arm_motions
 from geocontact.shoulder_exoskeleton.support.phase_machine import SCREW
 from geocontact.shoulder_exoskeleton.synthetic import (
     CONDITIONS,

@@ -55,8 +55,8 @@ def gain(options: argparse.Namespace) -> dict[str, Any]:
     import geocontact as gc
     from benchmarks.standing_truth import PLANTED, finer_study, padded_strap
     from geocontact.dynamics.collocation.solve import SolverOptions
-    from geocontact.standing_up.assistance.assisted_model import SHARE, assisted_model
-    from geocontact.standing_up.assistance.movement import Movements
+    from geocontact.standing_up.assisted_model import SHARE, assisted_model
+    from geocontact.standing_up.assisted_movement import Movements
     from geocontact.standing_up.phase import PhaseProblem, judged
     from meshes.standing_files import synthetic_files
 
@@ -133,10 +133,10 @@ def slopes(options: argparse.Namespace) -> dict[str, Any]:
     from geocontact.analyses.run_record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.dynamics.collocation.solve import SolverOptions
-    from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS, SHARE, assisted_model
-    from geocontact.standing_up.assistance.design import KNEE, HelpTask, designed
-    from geocontact.standing_up.assistance.design import NAMES as PARAMETERS
-    from geocontact.standing_up.assistance.movement import Movements
+    from geocontact.standing_up.assistance_design import KNEE, HelpTask, designed
+    from geocontact.standing_up.assistance_design import NAMES as PARAMETERS
+    from geocontact.standing_up.assisted_model import ASSISTED_PARAMETERS, SHARE, assisted_model
+    from geocontact.standing_up.assisted_movement import Movements
     from geocontact.standing_up.chain import EVERY_PLANTED
     from geocontact.standing_up.exoskeleton import STRAP_PLANTED
 

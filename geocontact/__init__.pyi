@@ -40,7 +40,7 @@ from geocontact.io.motion.motion import read_motion
 from geocontact.study.result import cohort
 from geocontact.systems.base import Base, require_numbers
 from geocontact.systems.catalogue import system_of
-from geocontact.systems.external.simulator import simulator_base
+from geocontact.systems.simulator import simulator_base
 
 __version__: str
 

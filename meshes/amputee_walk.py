@@ -6,7 +6,7 @@ import numpy as np
 
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.walk import FREE, GivenWalk, moving_tree, walk_by_angles
-from geocontact.below_knee_prosthesis.model.leg_tree import PELVIS, RECORDED
+from geocontact.below_knee_prosthesis.leg_tree import PELVIS, RECORDED
 from meshes.gait_course import course
 from meshes.intact_walk import ANGLES, intact_walk
 

@@ -18,8 +18,8 @@ from scipy.optimize import fsolve
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
-from geocontact.below_knee_prosthesis.model.leg import Leg
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, LegMotion, recorded_tree
+from geocontact.below_knee_prosthesis.leg import Leg
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, LegMotion, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Push
 from geocontact.dynamics.symbols import constant
 from geocontact.dynamics.tree import tree_of

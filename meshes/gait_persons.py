@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
-from geocontact.below_knee_prosthesis.model.leg import Leg, Person, Side
+from geocontact.below_knee_prosthesis.leg import Leg, Person, Side
 from geocontact.data.body_segments import Sex
 
 STANCE = {"low": 0.68, "medium": 0.72, "high": 0.71}

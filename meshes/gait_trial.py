@@ -18,8 +18,8 @@ from scipy.ndimage import gaussian_filter1d
 from geocontact.below_knee_prosthesis.from_markers import STANDING, mirrored_name, of_side
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg import Leg, Side
-from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, recorded_tree
+from geocontact.below_knee_prosthesis.leg import Leg, Side
+from geocontact.below_knee_prosthesis.leg_tree import RECORDED, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
 from geocontact.data.multibody.markers import MarkerTrajectories
 from meshes.gait_course import GaitCourse, course

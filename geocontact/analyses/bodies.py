@@ -13,10 +13,10 @@ from geocontact.analyses.quantities import named_file
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.mesh import AXES, Mesh
-from geocontact.geometry.pieces.union import UnitedSurface, closed_pieces, united
 from geocontact.geometry.placement import placed
 from geocontact.geometry.regions import Values, faces_where
 from geocontact.geometry.surface import Surface
+from geocontact.geometry.union import UnitedSurface, closed_pieces, united
 from geocontact.io.mesh.faces import read_face_indices
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.io.motion.poses import read_pose

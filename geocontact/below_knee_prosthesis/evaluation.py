@@ -20,7 +20,7 @@ from jaxtyping import Float
 from scipy.integrate import cumulative_trapezoid
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, LegMotion, recorded_tree
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, LegMotion, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import GATE, Stance, share_of_foot
 from geocontact.identify.signals.agreement import agreement
 from geocontact.identify.signals.cycles import loaded_spans

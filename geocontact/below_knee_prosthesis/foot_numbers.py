@@ -10,7 +10,7 @@ from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.sole import ROWS as SOLE_ROWS
 from geocontact.below_knee_prosthesis.keel.vsf import ROWS as KEEL_ROWS
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg_tree import SOCKET
+from geocontact.below_knee_prosthesis.leg_tree import SOCKET
 from geocontact.contact.bushing import PRINTED, Bushing
 from geocontact.contact.bushing import SOCKET as AS_MEANT
 from geocontact.data.parameter import Number, Source

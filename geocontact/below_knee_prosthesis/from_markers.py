@@ -17,8 +17,8 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.keel.keel import Keel
-from geocontact.below_knee_prosthesis.model.leg import Leg, Person, Side
-from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, LegMotion, recorded_tree
+from geocontact.below_knee_prosthesis.leg import Leg, Person, Side
+from geocontact.below_knee_prosthesis.leg_tree import RECORDED, LegMotion, recorded_tree
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Marker

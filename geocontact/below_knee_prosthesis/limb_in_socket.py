@@ -20,9 +20,9 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.from_markers import BODIES, Walked, walked
-from geocontact.below_knee_prosthesis.model.leg import Leg
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, LegMotion
-from geocontact.below_knee_prosthesis.model.leg_tree import TURNS as CARDAN
+from geocontact.below_knee_prosthesis.leg import Leg
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, LegMotion
+from geocontact.below_knee_prosthesis.leg_tree import TURNS as CARDAN
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.functional_joint import segment_poses

@@ -19,9 +19,7 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from geocontact.chain.links import LawParameters
-from geocontact.chain.terms.asymmetry import direction_factor
-from geocontact.chain.terms.relaxation import branch_force
-from geocontact.chain.terms.stiffening import stiffening_factor
+from geocontact.chain.terms import branch_force, direction_factor, stiffening_factor
 from geocontact.contact import sphere_foot
 from geocontact.geometry.kernels.compile import kernel
 

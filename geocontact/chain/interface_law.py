@@ -25,16 +25,19 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from geocontact.chain.links import LawParameters
-from geocontact.chain.terms.asymmetry import direction_factor
-from geocontact.chain.terms.contact_loss import transmitted
-from geocontact.chain.terms.damping import power_damping
-from geocontact.chain.terms.dead_zone import beyond_play
-from geocontact.chain.terms.dry_friction import friction_at_rate, friction_state
-from geocontact.chain.terms.end_stop import stop_force
-from geocontact.chain.terms.preload import strap_tension
-from geocontact.chain.terms.relaxation import branch_force
-from geocontact.chain.terms.slip import slipped
-from geocontact.chain.terms.stiffening import stiffening_factor
+from geocontact.chain.terms import (
+    beyond_play,
+    branch_force,
+    direction_factor,
+    friction_at_rate,
+    friction_state,
+    power_damping,
+    slipped,
+    stiffening_factor,
+    stop_force,
+    strap_tension,
+    transmitted,
+)
 from geocontact.geometry.kernels.compile import kernel
 
 INTERFACE_LAW = LawParameters(

@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.chain.interface_law import BRANCH, DEFLECTION, ELASTIC, FRICTION, INTERFACE_LAW, SLIP
-from geocontact.chain.terms.dead_zone import beyond_play
+from geocontact.chain.terms import beyond_play
 from geocontact.geometry.kernels.compile import kernel
 
 UNKNOWN = [place for place, name in enumerate(INTERFACE_LAW.neutral) if name.startswith("slip.")]

@@ -9,7 +9,7 @@ from functools import partial
 
 from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.gap.case.noise_sources import with_rounding
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import Problem

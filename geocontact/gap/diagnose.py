@@ -11,9 +11,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.cell import Cell, SurfaceGap
-from geocontact.data.gap.diagnosis import (
+from geocontact.data.diagnosis import (
     CellsHeld,
     ChannelGap,
     DataErrorFound,
@@ -24,6 +22,8 @@ from geocontact.data.gap.diagnosis import (
     Ranked,
     Where,
 )
+from geocontact.data.gap_case import GapCase
+from geocontact.data.gap_cells import Cell, SurfaceGap
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
 from geocontact.gap.case.admission import admitted

@@ -18,7 +18,7 @@ from jaxtyping import Float
 
 from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.gap.case.plain_fit import Plain
 from geocontact.gap.case.problem import Problem

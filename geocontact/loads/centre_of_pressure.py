@@ -68,7 +68,7 @@ def centre_in_foot(
 
     The foot's frame lies at (x, y) in the ground's frame and is turned by pitch, positive where the toe is up; a point
     (centre, 0) of level ground has (centre - x) cos(pitch) - y sin(pitch) there. It is what the foot on spheres
-    predicts as px - radius sin(pitch) of a sphere that touches the ground (`systems.foot.spheres`).
+    predicts as px - radius sin(pitch) of a sphere that touches the ground (`systems.foot_spheres`).
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.identify.signals.filters import zero_lag
 from geocontact.shoulder_exoskeleton.arm_motion import Side
-from geocontact.shoulder_exoskeleton.from_markers.device_frame import (
+from geocontact.shoulder_exoskeleton.device_frame import (
     ELBOW,
     FINGER,
     MAP,

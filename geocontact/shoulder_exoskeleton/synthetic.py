@@ -22,9 +22,9 @@ from scipy.spatial.transform import Rotation
 from geocontact.data.body_segments import Sex
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.shoulder_exoskeleton.arm_motion import Side
+from geocontact.shoulder_exoskeleton.arms_from_markers import MarkerSettings
 from geocontact.shoulder_exoskeleton.device import Wearer
-from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings
-from geocontact.shoulder_exoskeleton.from_markers.device_frame import (
+from geocontact.shoulder_exoskeleton.device_frame import (
     ELBOW,
     FINGER,
     LEFT_OF_MIDDLE,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.parameter import Parameter
 
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from geocontact.chain.system import System
-from geocontact.data.gap.case import COMMAND, GapCase
+from geocontact.data.gap_case import COMMAND, GapCase
 from geocontact.systems.base import Base
 from geocontact.systems.elbow import ELBOW
-from geocontact.systems.external.python_model import python_system
-from geocontact.systems.external.simulator import program_system
-from geocontact.systems.foot.model import FOOT
-from geocontact.systems.knee.model import KNEE
-from geocontact.systems.shoulder.model import SHOULDER
+from geocontact.systems.foot import FOOT
+from geocontact.systems.knee import KNEE
+from geocontact.systems.python_model import python_system
+from geocontact.systems.shoulder import SHOULDER
+from geocontact.systems.simulator import program_system
 from geocontact.systems.sit_to_stand import SIT_TO_STAND
 from geocontact.systems.validate import refusal, validated
 

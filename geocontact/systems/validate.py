@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 
 LONGEST = 300

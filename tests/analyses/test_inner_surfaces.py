@@ -13,9 +13,9 @@ from geocontact.analyses.cop.foot import ground_of
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputWarning
-from geocontact.data.gap.case import CaseMesh
+from geocontact.data.gap_case import CaseMesh
 from geocontact.io.mesh.meshes import read_mesh
-from geocontact.systems.knee.full_chain import geometry_of
+from geocontact.systems.knee_full_chain import geometry_of
 from tests.cli.calls import stl, written
 from tests.geometry.bodies import cube, joined
 

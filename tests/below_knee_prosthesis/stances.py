@@ -7,7 +7,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
-from geocontact.below_knee_prosthesis.model.leg_tree import LegMotion
+from geocontact.below_knee_prosthesis.leg_tree import LegMotion
 from geocontact.below_knee_prosthesis.simulate import Push, Stance
 from geocontact.contact.bushing import SOCKET
 from geocontact.dynamics.simulate import SimulatedMotion

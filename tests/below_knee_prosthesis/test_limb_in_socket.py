@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from geocontact.below_knee_prosthesis.from_markers import BODIES, Walked, walked
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, LegMotion
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket, without_socket
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, LegMotion
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
 from geocontact.data.multibody.markers import MarkerTrajectories
 from tests.below_knee_prosthesis.socket_markers import body_places, markers_of, planted_stance

@@ -11,7 +11,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 from benchmarks.prosthesis_soles import static_share
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, whole_tree
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, whole_tree
 from geocontact.below_knee_prosthesis.simulate import Stance, share_of_foot, simulate_stance
 from geocontact.dynamics.recorded_inputs import recorded_inputs
 from geocontact.geometry.shapes import HalfSpace

@@ -9,7 +9,7 @@ import pytest
 from scipy.signal import butter, sosfiltfilt
 
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, judged, reasons, stance_errors
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from tests.below_knee_prosthesis.stances import a_stance
 
 WEIGHT = 77.3 * GRAVITY

@@ -18,7 +18,7 @@ from benchmarks.knee_truth import Bodies, Course, Withheld
 from geocontact.analyses.run_record import Record
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
-from geocontact.systems.knee.posed import PosedKnee
+from geocontact.systems.knee_posed import PosedKnee
 from tests.systems.posed_knees import chain, poses
 
 KNEE = knee_chain.sample_knee()

@@ -9,8 +9,8 @@ import pytest
 
 from benchmarks.shoulder_truth import Truth, Withheld, measure
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
+from geocontact.shoulder_exoskeleton.arms_from_markers import arm_motions
 from geocontact.shoulder_exoskeleton.device import Wearer, lucy
-from geocontact.shoulder_exoskeleton.from_markers.arm_motions import arm_motions
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 from geocontact.shoulder_exoskeleton.synthetic import condition, participant, synthetic_trial, task
 

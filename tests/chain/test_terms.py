@@ -12,16 +12,18 @@ from scipy.integrate import solve_ivp
 
 from geocontact.chain.contact_law import CONTACT_LAW, contact_force
 from geocontact.chain.interface_law import INTERFACE_LAW, MEMORY, interface_force
-from geocontact.chain.terms.asymmetry import direction_factor
-from geocontact.chain.terms.contact_loss import transmitted
-from geocontact.chain.terms.damping import power_damping
-from geocontact.chain.terms.dead_zone import beyond_play
-from geocontact.chain.terms.dry_friction import friction_state
-from geocontact.chain.terms.end_stop import stop_force
-from geocontact.chain.terms.preload import strap_tension
-from geocontact.chain.terms.relaxation import branch_force
-from geocontact.chain.terms.slip import slipped
-from geocontact.chain.terms.stiffening import stiffening_factor
+from geocontact.chain.terms import (
+    beyond_play,
+    branch_force,
+    direction_factor,
+    friction_state,
+    power_damping,
+    slipped,
+    stiffening_factor,
+    stop_force,
+    strap_tension,
+    transmitted,
+)
 
 
 def along(time: np.ndarray, u: np.ndarray, **numbers: float) -> np.ndarray:

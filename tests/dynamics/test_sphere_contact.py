@@ -19,7 +19,7 @@ from geocontact.dynamics.tree import tree_of
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.ground import Stairs
 from geocontact.loads.sphere_set import SoleLaw, SphereLoads, SphereSet, sphere_loads
-from geocontact.systems.foot.spheres import approach, rub, stand
+from geocontact.systems.foot_spheres import approach, rub, stand
 from tests.loads.scenes import law, scattered, twist
 from tests.systems.examples import foot
 from tests.systems.examples import spheres as spheres_of_foot

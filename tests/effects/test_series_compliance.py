@@ -12,7 +12,7 @@ from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.system import FAR, NotConverged
 from geocontact.effects.mechanical.damping import DAMPING
 from geocontact.effects.mechanical.series_compliance import SERIES_COMPLIANCE
-from geocontact.systems.foot.spheres import INPUTS
+from geocontact.systems.foot_spheres import INPUTS
 from tests.systems.examples import elbow, elbow_trial, example, foot, foot_trial, recording, spheres
 from tests.systems.test_elbow import restated
 from tests.systems.test_foot import restated as restated_foot

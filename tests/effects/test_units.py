@@ -14,7 +14,7 @@ from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.systems.shoulder.model import ShoulderArm
+from geocontact.systems.shoulder import ShoulderArm
 from tests.effects.runs import EXAMPLES, FITTED, label, outputs, truth
 from tests.systems.examples import recording
 

@@ -11,9 +11,9 @@ from scipy.signal import butter, filtfilt
 
 from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.cell import Cell
-from geocontact.data.gap.diagnosis import Diagnosis
+from geocontact.data.diagnosis import Diagnosis
+from geocontact.data.gap_case import GapCase
+from geocontact.data.gap_cells import Cell
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial

@@ -10,8 +10,8 @@ import numpy as np
 from scipy.stats import ncx2
 
 from geocontact.chain.effect import Candidate
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.diagnosis import NextExperiment
+from geocontact.data.diagnosis import NextExperiment
+from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial

@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 from geocontact.analyses.gap.case import proposal_words
 from geocontact.analyses.gap.diagnose.answer import verdict_sentences
 from geocontact.chain.system import System
-from geocontact.data.gap.diagnosis import Diagnosis
+from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.parameter import Parameter
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.preparation import problem_of

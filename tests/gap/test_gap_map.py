@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geocontact.data.gap.cell import Cell
+from geocontact.data.gap_cells import Cell
 from geocontact.gap.localise.gap_map import (
     BLOCKS,
     PHASES,

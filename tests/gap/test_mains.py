@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.data.gap.diagnosis import Diagnosis
+from geocontact.data.diagnosis import Diagnosis
 from geocontact.gap.case.noise_sources import HUM, MAINS, hum, wave_count
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.diagnose import diagnose

@@ -9,7 +9,7 @@ import pytest
 
 import geocontact as gc
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.gap.case.noise_sources import coarse_rates, error_of_rates

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.cell import CellChannels, CellTrial, SurfaceGap
+from geocontact.data.gap_case import GapCase
+from geocontact.data.gap_cells import CellChannels, CellTrial, SurfaceGap
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.diagnose import diagnose

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import pytest
 
-from geocontact.data.gap.diagnosis import Diagnosis
+from geocontact.data.diagnosis import Diagnosis
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap_benchmark.drawing import Lot, drawn
 from geocontact.gap_benchmark.synthetic.label import Label

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.diagnosis import Diagnosis
+from geocontact.data.diagnosis import Diagnosis
+from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.diagnose import diagnose

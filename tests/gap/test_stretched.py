@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from benchmarks.gap_stretched import SAME, Stretch, apart
-from geocontact.data.gap.diagnosis import Diagnosis
+from geocontact.data.diagnosis import Diagnosis
 from geocontact.gap.diagnose import diagnose
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from geocontact.geometry.pieces.union import closed_pieces, united
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.topology import signed_volume
+from geocontact.geometry.union import closed_pieces, united
 from meshes import simple_shapes
 from tests.geometry.bodies import MM2, cube, joined, moved, surface
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.io.cases.gap_case import gap_case_folders, read_gap_case

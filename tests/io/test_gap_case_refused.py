@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.io.cases import trial_table
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.text import csv_text, side_table

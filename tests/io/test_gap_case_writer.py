@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputWarning
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.cell import CellChannels, CellTrial
+from geocontact.data.gap_case import GapCase
+from geocontact.data.gap_cells import CellChannels, CellTrial
 from geocontact.data.trial import Trial
 from geocontact.gap_benchmark.synthetic import synthetic_case
 from geocontact.io.cases.gap_case import read_gap_case

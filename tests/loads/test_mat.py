@@ -8,8 +8,8 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.geometry.register.quality import PoseCovariance
 from geocontact.geometry.surface import Surface
-from geocontact.loads.mat.load import MatErrors, mat_load, segment_loads, unloaded, wrench_covariance
-from geocontact.loads.mat.map import MatMap, mat_map
+from geocontact.loads.mat_load import MatErrors, mat_load, segment_loads, unloaded, wrench_covariance
+from geocontact.loads.mat_map import MatMap, mat_map
 
 HALF = 0.6  # rad, of the cylinder and the cap that the mat spans
 RADIUS, LENGTH = 0.08, 0.2

@@ -12,9 +12,9 @@ from scipy.ndimage import binary_erosion
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.catalogue import read_mat
 from geocontact.io.mats.layout import read_layout
-from geocontact.loads.mat.dead_cells import UNKNOWN, dead_cells, filled, filling_covariance, holes
-from geocontact.loads.mat.load import mat_load
-from geocontact.loads.mat.map import MatMap
+from geocontact.loads.dead_cells import UNKNOWN, dead_cells, filled, filling_covariance, holes
+from geocontact.loads.mat_load import mat_load
+from geocontact.loads.mat_map import MatMap
 from tests.loads.test_mat import cylinder_map
 
 MESHES = Path(__file__).parents[2] / "meshes"

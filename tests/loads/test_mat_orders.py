@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from geocontact.data.wrench import Wrench
-from geocontact.loads.mat.load import mat_load
-from geocontact.loads.mat.map import mat_map
+from geocontact.loads.mat_load import mat_load
+from geocontact.loads.mat_map import mat_map
 from tests.loads.test_mat import cap, cylinder, hertz, on_cylinder, sheet
 
 R, TUBE = 0.1, 0.08  # m, of the sphere and of the cylinder in test_mat

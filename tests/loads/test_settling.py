@@ -15,11 +15,11 @@ from geocontact.geometry.curvature import corner_normals, phong_offset
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.surface_quadrature import surface_quadrature, thickness_below
 from geocontact.io.mesh.meshes import read_mesh
+from geocontact.loads import settling as energy_balance_room
 from geocontact.loads.foundation import LAWS, Layer, layer_loads
-from geocontact.loads.settling import newton as energy_balance_room
-from geocontact.loads.settling.newton import energy_balance, equilibrium, not_held, settle_along
-from geocontact.loads.settling.potential import NAMES, AxialLoad, Bed, coordinates_of, poses_of, total_at
-from geocontact.loads.settling.start_pose import lowest_places, pressing
+from geocontact.loads.settling import energy_balance, equilibrium, not_held, settle_along
+from geocontact.loads.settling_potential import NAMES, AxialLoad, Bed, coordinates_of, poses_of, total_at
+from geocontact.loads.start_pose import lowest_places, pressing
 from tests.cli.calls import FEMUR, INSERT
 from tests.contact.sphere_on_layer import linear_force, logarithmic_force
 from tests.geometry.bodies import cube, joined, surface

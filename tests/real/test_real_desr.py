@@ -15,7 +15,7 @@ from scipy.io import loadmat
 
 from benchmarks import desr
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
 from geocontact.identify.optimise.least_squares import fit

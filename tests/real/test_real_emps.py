@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks import emps
-from geocontact.data.gap.diagnosis import Diagnosis
+from geocontact.data.diagnosis import Diagnosis
 from tests.elsewhere import Elsewhere
 
 

@@ -10,7 +10,7 @@ import pytest
 from benchmarks import knee_chain, knee_truth
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
-from geocontact.systems.knee.posed import PosedKnee
+from geocontact.systems.knee_posed import PosedKnee
 
 
 @pytest.fixture(scope="module")

@@ -19,7 +19,7 @@ from geocontact.io.mocap.markers import read_markers
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import read_table
-from geocontact.shoulder_exoskeleton.from_markers.arm_motions import ArmMotions, arm_motions
+from geocontact.shoulder_exoskeleton.arms_from_markers import ArmMotions, arm_motions
 
 NAMES = {f"{side}.{theirs}": f"{side}{own}" for side in "RL" for theirs, own in (("Shoulder", "SHO"), ("Elbow", "ELB"))}
 PELVIS = {"R.ASIS": "RASI", "L.ASIS": "LASI", "R.PSIS": "RPSI", "L.PSIS": "LPSI"}

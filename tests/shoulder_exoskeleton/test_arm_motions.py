@@ -13,13 +13,13 @@ from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.markers import read_markers
 from geocontact.io.mocap.trc import write_trc
-from geocontact.shoulder_exoskeleton.from_markers.arm_motions import (
+from geocontact.shoulder_exoskeleton.arms_from_markers import (
     ArmMotions,
     MarkerSettings,
     arm_motions,
     longest_gap,
 )
-from geocontact.shoulder_exoskeleton.from_markers.device_frame import Attachment, virtual_reference
+from geocontact.shoulder_exoskeleton.device_frame import Attachment, virtual_reference
 from geocontact.shoulder_exoskeleton.synthetic import OverheadTrial, condition, participant, synthetic_trial, task
 
 SETTINGS = MarkerSettings(upright=(0.0, 0.25))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from geocontact.shoulder_exoskeleton.from_markers.device_frame import (
+from geocontact.shoulder_exoskeleton.device_frame import (
     about_x,
     aligned_with_x,
     device_frame,

@@ -15,7 +15,7 @@ from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import GROUND, Body, Marker, Multibody
 from geocontact.dynamics.inverse_dynamics import generalised_forces
 from geocontact.dynamics.tree import tree_of
-from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
+from geocontact.shoulder_exoskeleton.arms_from_markers import MarkerSettings, arm_motions
 from geocontact.shoulder_exoskeleton.human_arm import (
     ArmTrack,
     HandLoad,

@@ -11,7 +11,7 @@ from geocontact.dynamics.recorded_inputs import recorded_inputs, stepped_inputs
 from geocontact.shoulder_exoskeleton.arm_model import arm_model, output_slices
 from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers, slices
 from geocontact.shoulder_exoskeleton.device import Wearer, lever, lucy
-from geocontact.systems.shoulder import model as base_shoulder
+from geocontact.systems import shoulder as base_shoulder
 from tests.shoulder_exoskeleton.arms import GRAVITY, raised
 from tests.systems.examples import recording
 

@@ -12,9 +12,9 @@ from casadi import Function
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.dynamics.collocation.solve import SolverOptions
-from geocontact.standing_up.assistance.assisted_model import SHARE, assisted_model
-from geocontact.standing_up.assistance.design import KNEE, NAMES, STRAP, HelpTask, designed
-from geocontact.standing_up.assistance.movement import Movement, Movements
+from geocontact.standing_up.assistance_design import KNEE, NAMES, STRAP, HelpTask, designed
+from geocontact.standing_up.assisted_model import SHARE, assisted_model
+from geocontact.standing_up.assisted_movement import Movement, Movements
 from geocontact.standing_up.chain import EVERY_PLANTED
 from geocontact.standing_up.exoskeleton import STRAP_PLANTED
 from tests.cli.calls import MESHES

@@ -13,7 +13,7 @@ import geocontact.standing_up.trials as trials_module
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, standing_trials
 from geocontact.dynamics.collocation.problem import ControlledSystem, ControlProblem
-from geocontact.standing_up.assistance.assisted_model import assisted_model, habit
+from geocontact.standing_up.assisted_model import assisted_model, habit
 from geocontact.standing_up.chain import EVERY_PLANTED, SOUGHT
 from geocontact.standing_up.exoskeleton import STRAP_PLANTED, with_exoskeleton
 from geocontact.standing_up.first_fit import first_fit

@@ -7,7 +7,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-import geocontact.standing_up.assistance.design as design
+import geocontact.standing_up.assistance_design as design
 
 RNG = np.random.default_rng(8)
 

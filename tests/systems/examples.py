@@ -11,9 +11,9 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.systems import elastic_joint, sit_to_stand
 from geocontact.systems import elbow as elbow_exoskeleton
-from geocontact.systems.foot import model as prosthetic_foot
-from geocontact.systems.knee import model as knee_implant
-from geocontact.systems.shoulder import model as shoulder_exoskeleton
+from geocontact.systems import foot as prosthetic_foot
+from geocontact.systems import knee as knee_implant
+from geocontact.systems import shoulder as shoulder_exoskeleton
 
 FOOT_CONSTANTS = {"n": 1.2, "delta_full": 0.002, "mu_s": 0.9, "mu_k": 0.7, "v_th": 0.25}
 ELBOW_CONSTANTS = {"l": 0.185, "z": 0.09}

@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from geocontact.chain.system import System
-from geocontact.data.gap.case import CaseMesh
+from geocontact.data.gap_case import CaseMesh
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.io.motion.poses import motion_from_csv
-from geocontact.systems.knee import full_chain as knee_chain
-from geocontact.systems.knee.posed import POSE
+from geocontact.systems import knee_full_chain as knee_chain
+from geocontact.systems.knee_posed import POSE
 
 MESHES = Path(__file__).resolve().parents[2] / "meshes"
 CONSTANTS = {"R": 0.037, "threshold": 4e-3, "side": 1.0, "cell_posterior": -0.015, "cell_anterior": 0.015}

@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from geocontact.chain.system import FAR
 from geocontact.data.errors import InputError
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.simulator import SimulatorError

@@ -8,8 +8,8 @@ import pytest
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.data.parameter import Parameter
-from geocontact.systems.foot import model as prosthetic_foot
-from geocontact.systems.foot.spheres import INPUTS
+from geocontact.systems import foot as prosthetic_foot
+from geocontact.systems.foot_spheres import INPUTS
 from tests.systems.examples import FOOT_CONSTANTS, foot, foot_trial, recording, spheres
 
 

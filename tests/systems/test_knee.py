@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.effects.catalogue import candidates
-from geocontact.systems.knee import model as knee_implant
+from geocontact.systems import knee as knee_implant
 from tests.systems.examples import KNEE_CONSTANTS, example, knee
 
 SYSTEM, TRIALS = example("knee")

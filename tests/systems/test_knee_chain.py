@@ -10,15 +10,15 @@ import pytest
 
 from geocontact.chain.system import tangents
 from geocontact.data.errors import InputError
-from geocontact.data.gap.case import CaseMesh, GapCase
+from geocontact.data.gap_case import CaseMesh, GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.geometry.contact_area.evolution import ContactPair, Settings
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 from geocontact.io.motion.poses import motion_from_csv
 from geocontact.loads.loadcells import compartment_forces
+from geocontact.systems import knee_full_chain as knee_chain
 from geocontact.systems.catalogue import system_of
-from geocontact.systems.knee import full_chain as knee_chain
 from tests.effects.test_every_effect import VOCABULARY
 from tests.systems.posed_knees import CONSTANTS, E_STAR, MESHES, bodies, chain, poses, trial
 
@@ -118,7 +118,7 @@ def test_weights_of_another_tray() -> None:
 
 
 def case(constants: dict[str, float], meshes: dict[str, CaseMesh], system: str = "CELLS") -> GapCase:
-    name = f"geocontact.systems.knee.full_chain:{system}"
+    name = f"geocontact.systems.knee_full_chain:{system}"
     return GapCase("knee", name, (TRIAL,), (replace(TRIAL, name="u"),), (E_STAR,), constants, meshes=meshes)
 
 

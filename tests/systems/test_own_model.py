@@ -15,7 +15,7 @@ from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
-from geocontact.data.gap.case import LISTED_SYSTEMS, GapCase
+from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.simulator import SimulatorError
@@ -23,12 +23,12 @@ from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import EFFECTS, candidates
 from geocontact.io.cases.gap_case import program, read_gap_case
 from geocontact.systems import elastic_joint
+from geocontact.systems import knee_full_chain as full_chain
+from geocontact.systems.acting_law import ActingLaw
 from geocontact.systems.base import Base
 from geocontact.systems.catalogue import SYSTEMS, system_of
-from geocontact.systems.external.acting_law import ActingLaw
-from geocontact.systems.external.python_model import python_base
-from geocontact.systems.external.simulator import PythonSimulator, Run, simulator_base
-from geocontact.systems.knee import full_chain
+from geocontact.systems.python_model import python_base
+from geocontact.systems.simulator import PythonSimulator, Run, simulator_base
 from tests.systems.examples import elbow, foot, joint
 from tests.systems.test_command import Spring
 

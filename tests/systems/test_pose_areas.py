@@ -9,8 +9,8 @@ import pytest
 
 from geocontact.data.errors import InputWarning
 from geocontact.geometry.contact_area.area import AS_GIVEN
-from geocontact.systems.knee import posed as pose_areas
-from geocontact.systems.knee.posed import PosedKnee
+from geocontact.systems import knee_posed as pose_areas
+from geocontact.systems.knee_posed import PosedKnee
 from tests.systems.posed_knees import chain, poses
 
 TIME, POSES = poses(24)

@@ -16,8 +16,8 @@ from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.systems.shoulder import model as shoulder_exoskeleton
-from geocontact.systems.shoulder.equation_of_motion import GRAVITY
+from geocontact.systems import shoulder as shoulder_exoskeleton
+from geocontact.systems.shoulder_motion import GRAVITY
 from tests.systems.examples import SHOULDER_CONSTANTS, recording, shoulder, shoulder_trial, support
 
 NOISE = np.array([0.002, 0.4])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from geocontact.systems.external.simulator import simulator_base
+from geocontact.systems.simulator import simulator_base
 
 
 @pytest.mark.parametrize("dynamic", [False, True])

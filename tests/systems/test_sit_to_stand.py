@@ -10,7 +10,7 @@ import pytest
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates

@@ -17,7 +17,7 @@ import geocontact
 from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.chain.traits import Mass, Migration, Traits, Way
-from geocontact.data.gap.case import LISTED_SYSTEMS
+from geocontact.data.gap_case import LISTED_SYSTEMS
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
@@ -26,7 +26,7 @@ from tests.systems import sixth_system
 from tests.systems.examples import foot, recording, sites
 
 PACKAGE = Path(geocontact.__file__).parent
-LISTS = "data/gap/case.py", "systems/catalogue.py"
+LISTS = "data/gap_case.py", "systems/catalogue.py"
 """All that is edited so that case.toml may name a further system."""
 BEHAVIOUR = ("chain", "effects", "gap", "identify")
 """Rooms of the diagnosis, none of which may name one."""

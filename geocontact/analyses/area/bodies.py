@@ -26,10 +26,10 @@ from geocontact.geometry.contact_area.area import Refinement
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.pose_error import PoseError
 from geocontact.geometry.fit.cylinder import fit_cylinder
-from geocontact.geometry.pieces.union import UnitedSurface
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.sweep import sweep
+from geocontact.geometry.union import UnitedSurface
 from geocontact.io.motion.motion import read_motion
 from geocontact.io.text.results import read_frame
 from geocontact.io.text.units import LENGTH

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from geocontact.analyses.run_record import Record
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.diagnosis import NextExperiment
+from geocontact.data.diagnosis import NextExperiment
+from geocontact.data.gap_case import GapCase
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.trial_table import cells_file
 from geocontact.systems.catalogue import system_of

@@ -21,7 +21,7 @@ from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.tables import TextTable, read_table
 from geocontact.io.text.units import si_unit
 from geocontact.io.text.wrench_head import WrenchHead, read_wrench_head
-from geocontact.loads.mat.load import MatLoad
+from geocontact.loads.mat_load import MatLoad
 
 MM, MM2 = 1e3, 1e6
 AXES = "xyz"

@@ -22,9 +22,9 @@ from geocontact.geometry.drape.slip import slip_covariance
 from geocontact.geometry.register.quality import PoseCovariance, Registration
 from geocontact.geometry.surface import Surface
 from geocontact.io.recordings.mat_results import MatLandmarks
-from geocontact.loads.mat.dead_cells import filling_covariance
-from geocontact.loads.mat.load import MatErrors, MatLoad, mat_load, segment_loads, wrench_covariance
-from geocontact.loads.mat.map import MatMap
+from geocontact.loads.dead_cells import filling_covariance
+from geocontact.loads.mat_load import MatErrors, MatLoad, mat_load, segment_loads, wrench_covariance
+from geocontact.loads.mat_map import MatMap
 
 
 def stated_errors(

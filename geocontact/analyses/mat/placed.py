@@ -39,8 +39,8 @@ from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.surface import Surface
 from geocontact.io.recordings.mat_results import MatLandmarks, read_mat_landmarks
 from geocontact.io.text.units import LENGTH
-from geocontact.loads.mat.load import MatLoad, mat_load
-from geocontact.loads.mat.map import MatMap, mat_map
+from geocontact.loads.mat_load import MatLoad, mat_load
+from geocontact.loads.mat_map import MatMap, mat_map
 
 Parts = Mapping[str, str | Bool[np.ndarray, " f"]]
 

@@ -22,8 +22,8 @@ from geocontact.geometry.register.landmarks import poses_at
 from geocontact.identify.signals.filters import zero_lag
 from geocontact.io.mats.catalogue import read_mat
 from geocontact.io.mats.layout import read_layout
-from geocontact.loads.mat.dead_cells import Hole, dead_cells, filled, holes
-from geocontact.loads.mat.load import MatLoad, Unloaded, covariance_in, load_in, unloaded
+from geocontact.loads.dead_cells import Hole, dead_cells, filled, holes
+from geocontact.loads.mat_load import MatLoad, Unloaded, covariance_in, load_in, unloaded
 
 NAMED = 8  # cells in a warning; run.json has them all
 MM2 = 1e6

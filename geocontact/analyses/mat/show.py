@@ -14,8 +14,8 @@ from geocontact.analyses.mat.placed import ClosestPoint
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.geometry.drape.cells import Drape
-from geocontact.loads.mat.load import MatLoad
-from geocontact.loads.mat.map import MatMap
+from geocontact.loads.mat_load import MatLoad
+from geocontact.loads.mat_map import MatMap
 from geocontact.view.curves.sheet import sheet
 from geocontact.view.extremes import thinned_line
 from geocontact.view.page.content import (

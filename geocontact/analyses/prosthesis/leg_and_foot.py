@@ -13,9 +13,9 @@ from geocontact.analyses.run_record import Record
 from geocontact.analyses.stale_results import digest
 from geocontact.below_knee_prosthesis.foot_numbers import foot_numbers, socket_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.leg import AS_STOOD, FootOffset, Leg
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
-from geocontact.below_knee_prosthesis.model.leg import AS_STOOD, FootOffset, Leg
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.contact.bushing import Bushing
 from geocontact.data.errors import InputError

@@ -11,8 +11,8 @@ from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
-from geocontact.below_knee_prosthesis.model.leg import Side
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.leg import Side
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import GATE
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories

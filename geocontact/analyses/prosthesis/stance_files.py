@@ -13,8 +13,8 @@ from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times, l
 from geocontact.below_knee_prosthesis.foot_in_plane import FootInPlane, RowNumbers, in_plane, row_numbers, rows_of
 from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.keel.on_tree import coordinates
-from geocontact.below_knee_prosthesis.model.leg import Side
-from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, SOCKET
+from geocontact.below_knee_prosthesis.leg import Side
+from geocontact.below_knee_prosthesis.leg_tree import RECORDED, SOCKET
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.io.opensim.external_loads import write_external_loads
 from geocontact.io.opensim.storage_writer import write_storage

@@ -18,8 +18,8 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.from_markers import MIRROR, mirrored_name
 from geocontact.below_knee_prosthesis.keel.on_tree import keel_bodies, posterior_part
-from geocontact.below_knee_prosthesis.model.leg import Side
-from geocontact.below_knee_prosthesis.model.leg_tree import FORWARD, GRAVITY, HIP, PELVIS, RIGHT, SOCKET, UP
+from geocontact.below_knee_prosthesis.leg import Side
+from geocontact.below_knee_prosthesis.leg_tree import FORWARD, GRAVITY, HIP, PELVIS, RIGHT, SOCKET, UP
 from geocontact.data.multibody.joint import Coordinate, JointModel, TransformAxis, cardan, revolute, weld
 from geocontact.data.multibody.model import GROUND, Body, Marker, Multibody
 

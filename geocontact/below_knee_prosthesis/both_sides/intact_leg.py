@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
-from geocontact.below_knee_prosthesis.model.leg import Frustum, Inertial, Person, taper
+from geocontact.below_knee_prosthesis.leg import Frustum, Inertial, Person, taper
 from geocontact.data.body_segments import SEGMENTS
 from geocontact.data.multibody.model import Marker
 from geocontact.data.parameter import Number

@@ -42,7 +42,7 @@ from geocontact.below_knee_prosthesis.from_markers import (
     standing_leg,
 )
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
-from geocontact.below_knee_prosthesis.model.leg import Person
+from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Marker

@@ -26,7 +26,7 @@ from geocontact.below_knee_prosthesis.calibration.recorded_stance import Recorde
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResiduals
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
-from geocontact.below_knee_prosthesis.model.leg import FootOffset
+from geocontact.below_knee_prosthesis.leg import FootOffset
 from geocontact.below_knee_prosthesis.simulate import share_of_foot
 from geocontact.contact.sphere_foot import normal_force
 from geocontact.identify.optimise.bounded_gauss_newton import least

@@ -22,7 +22,7 @@ from geocontact.below_knee_prosthesis.calibration.recorded_stance import Recorde
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import PAUSE
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion
-from geocontact.below_knee_prosthesis.model.leg import FootOffset
+from geocontact.below_knee_prosthesis.leg import FootOffset
 from geocontact.identify.identifiability import Identifiability, identifiability
 from geocontact.identify.noise.autocorrelation import Autocorrelation, autocorrelation_of, sandwich, spread
 

@@ -14,8 +14,8 @@ from geocontact.below_knee_prosthesis.clocks import lowest_sphere
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times, longest_stance
 from geocontact.below_knee_prosthesis.from_markers import MAP
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
-from geocontact.below_knee_prosthesis.model.leg import MIDDLE, FootOffset, Leg
-from geocontact.below_knee_prosthesis.model.leg_tree import (
+from geocontact.below_knee_prosthesis.leg import MIDDLE, FootOffset, Leg
+from geocontact.below_knee_prosthesis.leg_tree import (
     GRAVITY,
     HIP,
     KNEE,

@@ -27,15 +27,15 @@ from geocontact.below_knee_prosthesis.calibration.sole_residuals import FARTHEST
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
-from geocontact.below_knee_prosthesis.model.leg import FootOffset
-from geocontact.below_knee_prosthesis.model.stance_model import (
+from geocontact.below_knee_prosthesis.leg import FootOffset
+from geocontact.below_knee_prosthesis.simulate import FIRST, GATE, TOLERANCE, recorded_start, told_at
+from geocontact.below_knee_prosthesis.stance_model import (
     FLOOR,
     StanceModel,
     sole_places,
     stance_model,
     stance_numbers,
 )
-from geocontact.below_knee_prosthesis.simulate import FIRST, GATE, TOLERANCE, recorded_start, told_at
 from geocontact.dynamics.variation import Variation, nodes_of
 from geocontact.identify.optimise.bounded_gauss_newton import least
 from geocontact.identify.optimise.least_squares import divided

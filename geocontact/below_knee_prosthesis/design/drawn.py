@@ -38,7 +38,7 @@ from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import standing_leg
 from geocontact.below_knee_prosthesis.keel.keel import Keel, tip_compliance
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg import AS_STOOD, MIDDLE, FootOffset, Leg, Person
+from geocontact.below_knee_prosthesis.leg import AS_STOOD, MIDDLE, FootOffset, Leg, Person
 from geocontact.data.multibody.markers import MarkerTrajectories
 
 SLOW = 0.1

@@ -23,8 +23,8 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.keel.keel import Keel
-from geocontact.below_knee_prosthesis.model.leg import Leg, combined
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.leg import Leg, combined
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.ground import Ground, Stairs
 

@@ -17,7 +17,7 @@ from geocontact.below_knee_prosthesis.calibration.recorded_stance import RATE, b
 from geocontact.below_knee_prosthesis.design.foot_task import EVERY, LOADED
 from geocontact.below_knee_prosthesis.design.outcomes import LANDING, Aim, radius_of_path
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times, longest_stance
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 

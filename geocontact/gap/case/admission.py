@@ -8,7 +8,7 @@ import numpy as np
 
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.gap.levels import FEWEST
 

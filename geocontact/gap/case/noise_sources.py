@@ -30,7 +30,7 @@ from scipy.ndimage import uniform_filter1d
 
 from geocontact.chain.differentiated_inputs import DEGREE
 from geocontact.chain.system import FAR, System
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.inputs.spectrum import resolution

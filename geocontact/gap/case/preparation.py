@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.gap.case.change_amplitude import amplitude
 from geocontact.gap.case.noise_sources import (

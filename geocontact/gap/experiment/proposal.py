@@ -24,7 +24,7 @@ from jaxtyping import Float
 
 from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
-from geocontact.data.gap.diagnosis import NextExperiment
+from geocontact.data.diagnosis import NextExperiment
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.case.noise_sources import noise_spread, signal_size
 from geocontact.gap.case.placement import placement

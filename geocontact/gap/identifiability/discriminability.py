@@ -9,8 +9,8 @@ from threadpoolctl import threadpool_limits
 
 from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.diagnosis import NextExperiment
+from geocontact.data.diagnosis import NextExperiment
+from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, attribute
 from geocontact.gap.case.admission import admitted

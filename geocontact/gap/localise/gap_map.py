@@ -27,7 +27,7 @@ from scipy.fft import dct, idct
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.system import System
-from geocontact.data.gap.cell import BAND, FAST, FAST_PHASE, Cell, shares
+from geocontact.data.gap_cells import BAND, FAST, FAST_PHASE, Cell, shares
 from geocontact.gap.case.change_amplitude import BLOCKS
 from geocontact.gap.case.problem import Problem, noise_variance
 from geocontact.gap.data_errors import DataError, put_back

@@ -23,7 +23,7 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.gap.cell import CellChannels, SurfaceGap
+from geocontact.data.gap_cells import CellChannels, SurfaceGap
 from geocontact.data.trial import Trial
 from geocontact.gap.case.change_amplitude import BLOCKS
 from geocontact.gap.case.problem import Problem

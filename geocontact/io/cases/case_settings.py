@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, FiniteFloat, PlainValidator, ValidationError
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.gap.case import COMMAND, LISTED_SYSTEMS
+from geocontact.data.gap_case import COMMAND, LISTED_SYSTEMS
 from geocontact.data.parameter import Parameter
 from geocontact.data.text import cannot_be_named, same_place
 from geocontact.io.text.csv_text import LONGEST_NAME

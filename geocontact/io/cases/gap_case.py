@@ -25,7 +25,7 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.gap.case import CaseMesh, GapCase
+from geocontact.data.gap_case import CaseMesh, GapCase
 from geocontact.data.parameter import Parameter
 from geocontact.data.simulator import SimulatorError
 from geocontact.data.trial import Trial

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.cell import CellChannels
+from geocontact.data.gap_case import GapCase
+from geocontact.data.gap_cells import CellChannels
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.io.cases.case_settings import SETTINGS, TRIALS

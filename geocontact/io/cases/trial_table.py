@@ -13,7 +13,7 @@ import pandas as pd
 from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.gap.cell import CellChannels, CellTrial
+from geocontact.data.gap_cells import CellChannels, CellTrial
 from geocontact.data.motion import Signals
 from geocontact.io.cases.case_settings import SETTINGS, TRIALS, CaseSettings, inside
 from geocontact.io.text.column_names import ColumnNames

@@ -11,8 +11,8 @@ from jaxtyping import Bool, Float
 from geocontact.data.body_segments import Sex
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side, smoothed_motion
+from geocontact.shoulder_exoskeleton.arms_from_markers import MarkerSettings, arm_motions
 from geocontact.shoulder_exoskeleton.device import Wearer
-from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
 from geocontact.shoulder_exoskeleton.human_arm import (
     CUTOFF,
     ElevationTorque,

@@ -18,9 +18,9 @@ from geocontact.analyses.gap.diagnose.answer import axis_units, facts_of, states
 from geocontact.analyses.gap.diagnose.show import gap_figures, gap_page
 from geocontact.analyses.run_record import Record
 from geocontact.chain.system import System
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.cell import Cell
-from geocontact.data.gap.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Partial, Where
+from geocontact.data.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Partial, Where
+from geocontact.data.gap_case import GapCase
+from geocontact.data.gap_cells import Cell
 from geocontact.gap.diagnose import Findings, behind, partial
 from geocontact.view.curves.sheet import number
 from geocontact.view.page.content import Curves, Page, Picture, Table, Words

@@ -11,8 +11,8 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.gap.inject.injection import imitated, judged, sentences
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.diagnosis import Diagnosis, Estimate
+from geocontact.data.diagnosis import Diagnosis, Estimate
+from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.inject import Injected
 from geocontact.systems.elastic_joint import JOINT

@@ -16,7 +16,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from geocontact.analyses.motion.markers import markers_given
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import IntactLeg
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_intact_leg
-from geocontact.below_knee_prosthesis.model.leg import Person
+from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.trc import write_trc
 from tests.cli.calls import MESHES

@@ -22,7 +22,7 @@ from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOp
 from geocontact.analyses.prosthesis.simulate.walk import fitted_walk
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
 from geocontact.analyses.run_record import Record
-from geocontact.below_knee_prosthesis.model.leg import AS_STOOD, FootOffset
+from geocontact.below_knee_prosthesis.leg import AS_STOOD, FootOffset
 from geocontact.io.recordings.spheres import SphereTable
 from tests.analyses.prosthesis import test_compare
 from tests.analyses.prosthesis.spoilt_trial import out_of_flat

@@ -16,7 +16,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.design.drawn import RecordedTrial
 from geocontact.below_knee_prosthesis.design.intact_step import IntactStep
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_keel
-from geocontact.below_knee_prosthesis.model.leg import Person
+from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.errors import InputError
 from tests.analyses.prosthesis.intact_trial import LENGTH, MASS, RADIUS, STANDING, known_step
 from tests.analyses.prosthesis.spoilt_trial import TRIAL

@@ -20,10 +20,10 @@ from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
-from geocontact.below_knee_prosthesis.model.leg import Inertial, Leg, Person
-from geocontact.below_knee_prosthesis.model.leg_tree import LegMotion, driving_inputs
-from geocontact.below_knee_prosthesis.model.stance_model import stance_numbers
+from geocontact.below_knee_prosthesis.leg import Inertial, Leg, Person
+from geocontact.below_knee_prosthesis.leg_tree import LegMotion, driving_inputs
 from geocontact.below_knee_prosthesis.simulate import simulate_stance
+from geocontact.below_knee_prosthesis.stance_model import stance_numbers
 from geocontact.contact.bushing import Bushing
 from geocontact.io.text.results import write_table
 from geocontact.loads.sphere_set import SoleLaw, SphereSet

@@ -11,8 +11,8 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 import geocontact as gc
 from geocontact.analyses.prosthesis.stance_files import write_coordinates
-from geocontact.below_knee_prosthesis.model.leg import Leg
-from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, SOCKET, LegMotion
+from geocontact.below_knee_prosthesis.leg import Leg
+from geocontact.below_knee_prosthesis.leg_tree import RECORDED, SOCKET, LegMotion
 from geocontact.below_knee_prosthesis.simulate import Stance
 from tests.analyses.prosthesis.test_simulate import GIVEN, TRIAL
 from tests.below_knee_prosthesis.model.legs import a_leg

@@ -15,7 +15,7 @@ from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tre
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_amputee, standing_joints
 from geocontact.below_knee_prosthesis.from_markers import MIRROR
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.data.body_segments import SEGMENTS
 from geocontact.data.errors import InputError
 from geocontact.dynamics.inverse_dynamics import generalised_forces

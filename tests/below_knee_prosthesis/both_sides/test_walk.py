@@ -24,7 +24,7 @@ from geocontact.below_knee_prosthesis.both_sides.walk import (
     walk_by_forces,
 )
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.inverse_dynamics import forces_along
 from geocontact.dynamics.recorded_inputs import recorded_inputs

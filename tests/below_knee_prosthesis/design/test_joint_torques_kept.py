@@ -17,7 +17,7 @@ from geocontact.below_knee_prosthesis.design.foot_task import (
 from geocontact.below_knee_prosthesis.design.knob import Knob
 from geocontact.below_knee_prosthesis.design.outcomes import outcomes
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from tests.below_knee_prosthesis.design.tasks import a_task
 
 PRESENT = 0.117

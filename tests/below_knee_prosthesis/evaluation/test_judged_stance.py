@@ -15,7 +15,7 @@ from geocontact.below_knee_prosthesis.evaluation import (
     plate_ankle_moment,
     trivial_curves,
 )
-from geocontact.below_knee_prosthesis.model.leg_tree import recorded_tree
+from geocontact.below_knee_prosthesis.leg_tree import recorded_tree
 from tests.below_knee_prosthesis.model.legs import a_leg, a_motion
 
 

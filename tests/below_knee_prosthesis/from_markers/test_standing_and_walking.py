@@ -20,8 +20,8 @@ from geocontact.below_knee_prosthesis.from_markers import (
     walked,
 )
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_keel
-from geocontact.below_knee_prosthesis.model.leg import Leg, Person
-from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, recorded_tree
+from geocontact.below_knee_prosthesis.leg import Leg, Person
+from geocontact.below_knee_prosthesis.leg_tree import RECORDED, recorded_tree
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.functional_joint import FunctionalCentre

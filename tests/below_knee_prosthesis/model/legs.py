@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from geocontact.below_knee_prosthesis.model.leg import Leg, Person
-from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, LegMotion
+from geocontact.below_knee_prosthesis.leg import Leg, Person
+from geocontact.below_knee_prosthesis.leg_tree import RECORDED, LegMotion
 
 
 def a_leg(mass: float = 77.3) -> Leg:

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
-from geocontact.below_knee_prosthesis.model.leg import AS_STOOD, FootOffset
+from geocontact.below_knee_prosthesis.leg import AS_STOOD, FootOffset
 from tests.below_knee_prosthesis.model.legs import a_leg
 from tests.below_knee_prosthesis.socket_markers import shift, turn
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.below_knee_prosthesis.model.leg import Frustum, combined
+from geocontact.below_knee_prosthesis.leg import Frustum, combined
 
 
 def test_cylinder() -> None:

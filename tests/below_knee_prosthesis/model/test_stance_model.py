@@ -7,8 +7,8 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.keel.on_tree import along_keel, coordinates, joint_numbers, sole_wrenches
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
-from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, SOCKET, driving_inputs, whole_tree
-from geocontact.below_knee_prosthesis.model.stance_model import stance_model, stance_numbers
+from geocontact.below_knee_prosthesis.leg_tree import RECORDED, SOCKET, driving_inputs, whole_tree
+from geocontact.below_knee_prosthesis.stance_model import stance_model, stance_numbers
 from geocontact.contact.bushing import SOCKET as BUSHING
 from geocontact.dynamics.equations import equations_of_motion
 from geocontact.dynamics.recorded_inputs import recorded_inputs

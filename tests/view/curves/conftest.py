@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from geocontact.data.gap.cell import Cell
+from geocontact.data.gap_cells import Cell
+from geocontact.view.curves.before_after import before_after
 from geocontact.view.curves.bland_altman import bland_altman
-from geocontact.view.curves.diagnosis.answers import Ranked, ranking_figure
-from geocontact.view.curves.diagnosis.before_after import before_after
-from geocontact.view.curves.diagnosis.gap_map import gap_map_figure, gap_residuals
+from geocontact.view.curves.diagnosis_answers import Ranked, ranking_figure
+from geocontact.view.curves.gap_map import gap_map_figure, gap_residuals
 from geocontact.view.curves.over_cycle import mean_over_cycle
 from geocontact.view.curves.path import contact_path
 from geocontact.view.curves.quantity import AREA, CYCLE, FORCE, LENGTH

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
-from geocontact.view.curves.diagnosis.before_after import SHADE, before_after
+from geocontact.view.curves.before_after import SHADE, before_after
 from geocontact.view.curves.quantity import AREA, FORCE
 
 PERCENT = np.linspace(0.0, 100.0, 11)

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
-from geocontact.view.curves.diagnosis.answers import EffectVisibility, detectability_figure
+from geocontact.view.curves.diagnosis_answers import EffectVisibility, detectability_figure
 from geocontact.view.curves.style import save
 
 Specimen = Callable[[str], Figure]

@@ -16,7 +16,7 @@ from threadpoolctl import threadpool_limits
 from geocontact.analyses.json_file import plain
 from geocontact.analyses.source_digest import digest
 from geocontact.data.errors import InputError
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.data.version import VERSION
 from geocontact.effects.catalogue import candidates

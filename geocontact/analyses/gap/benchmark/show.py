@@ -23,7 +23,7 @@ from geocontact.gap_benchmark import residual_regression, score
 from geocontact.gap_benchmark import score as harm
 from geocontact.gap_benchmark.score import Rate, figures, reliability
 from geocontact.gap_benchmark.table import OPPONENTS, ROWS, error_interval, lead, markdown, scores
-from geocontact.view.curves.diagnosis.answers import Stated, reliability_figure
+from geocontact.view.curves.diagnosis_answers import Stated, reliability_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -8,8 +8,8 @@ import pandas as pd
 
 from geocontact.analyses.gap.case import names, percent, proposal_words
 from geocontact.chain.system import System
-from geocontact.data.gap.cell import BAND, FAST_PHASE, Cell
-from geocontact.data.gap.diagnosis import CellsHeld, ChannelGap, Diagnosis, Partial, Where
+from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, Partial, Where
+from geocontact.data.gap_cells import BAND, FAST_PHASE, Cell
 from geocontact.gap.diagnose import Findings
 from geocontact.gap.localise.gap_map import load_outputs
 

@@ -35,8 +35,8 @@ from geocontact.analyses.job import Job
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.result import PARTS, REPORT, Part, Result
 from geocontact.analyses.run_record import Record
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.diagnosis import Diagnosis
+from geocontact.data.diagnosis import Diagnosis
+from geocontact.data.gap_case import GapCase
 from geocontact.data.version import VERSION
 from geocontact.gap.diagnose import Findings
 from geocontact.gap.diagnose import diagnose as findings_of

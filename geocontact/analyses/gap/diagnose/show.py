@@ -18,12 +18,12 @@ from geocontact.analyses.gap.diagnose.answer import (
     verdict_sentences,
 )
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.diagnosis import Diagnosis, HeldOut
+from geocontact.data.diagnosis import Diagnosis, HeldOut
+from geocontact.data.gap_case import GapCase
 from geocontact.gap.diagnose import Findings
-from geocontact.view.curves.diagnosis.answers import ranking_figure, reductions_figure
-from geocontact.view.curves.diagnosis.before_after import SIDE_BY_SIDE, before_after
-from geocontact.view.curves.diagnosis.gap_map import (
+from geocontact.view.curves.before_after import SIDE_BY_SIDE, before_after
+from geocontact.view.curves.diagnosis_answers import ranking_figure, reductions_figure
+from geocontact.view.curves.gap_map import (
     PHASE,
     SIGNIFICANT,
     gap_map_figure,

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from geocontact.analyses.gap.case import names, percent, proposal_words
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.version import VERSION
 from geocontact.gap.identifiability.detectability import POWER, Detectability
 from geocontact.gap.identifiability.discriminability import Discriminability

@@ -43,7 +43,7 @@ from geocontact.analyses.result import PARTS, REPORT, Part, Result
 from geocontact.analyses.run_record import Record
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.gap.identifiability.discriminability import Discriminability, known, offered
 from geocontact.gap.identifiability.discriminability import discriminability as compared
 from geocontact.io.text.results import CASES

@@ -14,7 +14,7 @@ from geocontact.gap.identifiability.detectability import Detectability
 from geocontact.gap.identifiability.discriminability import Discriminability
 from geocontact.gap.identifiability.separability import table
 from geocontact.gap.identifiability.signatures import reach_of, rest_of
-from geocontact.view.curves.diagnosis.answers import EffectVisibility, detectability_figure, separability_figure
+from geocontact.view.curves.diagnosis_answers import EffectVisibility, detectability_figure, separability_figure
 from geocontact.view.curves.sheet import number
 from geocontact.view.page.content import Page, Picture, Section, Table, Words
 

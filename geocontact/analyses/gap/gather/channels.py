@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.gap.cell import CellChannels, CellTrial
+from geocontact.data.gap_cells import CellChannels, CellTrial
 from geocontact.io.cases.gathering import PlateSource
 from geocontact.io.cases.trial_table import TrialTable
 from geocontact.io.mocap.force_plates import LOADED, ForcePlate

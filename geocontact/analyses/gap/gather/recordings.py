@@ -19,7 +19,7 @@ from geocontact.analyses.gap.gather.channels import (
 from geocontact.analyses.gap.gather.options import GatherOptions
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.io.cases.case_settings import parameters_of
 from geocontact.io.cases.gap_case import case_of
 from geocontact.io.cases.gathering import Gathering, Source, is_storage, read_gathering, read_storage_trial

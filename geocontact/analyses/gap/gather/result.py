@@ -33,7 +33,7 @@ from geocontact.analyses.job import Job
 from geocontact.analyses.result import REPORT, Part, Result
 from geocontact.analyses.results_folder import Scratch
 from geocontact.analyses.run_record import Record
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.gap_case_writer import trial_table, write_gap_case
 

@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.finished_page import INPUTS, OPTIONS
 from geocontact.analyses.page_words import NOT_A_DEVICE, counted
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.view.page.content import Curve, Curves, Page, Section, Table, Words
 

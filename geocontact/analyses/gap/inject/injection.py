@@ -13,9 +13,9 @@ from threadpoolctl import threadpool_limits
 from geocontact.analyses.gap.case import CaseWithModel, names
 from geocontact.analyses.gap.inject.options import InjectOptions
 from geocontact.chain.effect import Candidate
+from geocontact.data.diagnosis import Diagnosis, Estimate
 from geocontact.data.errors import InputError
-from geocontact.data.gap.case import GapCase
-from geocontact.data.gap.diagnosis import Diagnosis, Estimate
+from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.preparation import problem_of

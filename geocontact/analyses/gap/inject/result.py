@@ -40,8 +40,8 @@ from geocontact.analyses.result import Part, Result
 from geocontact.analyses.results_folder import Scratch
 from geocontact.analyses.run_record import Record
 from geocontact.chain.effect import Candidate
+from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.errors import InputError
-from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.inject import Injected
 from geocontact.io.cases.gap_case_writer import write_trials

@@ -29,9 +29,9 @@ from geocontact.io.recordings.area_table import read_force_curves
 from geocontact.io.text.units import ANGLE
 from geocontact.loads.foundation import Layer, layer_loads
 from geocontact.loads.pressure_load import PressureLoad
-from geocontact.loads.settling.newton import Frame
-from geocontact.loads.settling.potential import NAMES, Bed, poses_of
-from geocontact.loads.settling.start_pose import lowest_places
+from geocontact.loads.settling import Frame
+from geocontact.loads.settling_potential import NAMES, Bed, poses_of
+from geocontact.loads.start_pose import lowest_places
 from geocontact.view.surfaces.vtp_series import require_pyvista
 
 EXAMPLE = "anterior=30,rotation=0.36 (N/mm, N m/deg)"
@@ -233,7 +233,7 @@ class Settled:
 
     @cached_property
     def coordinates(self) -> Float[np.ndarray, "t 6"]:
-        """Coordinates [m, rad], as `loads.settling.potential` has them."""
+        """Coordinates [m, rad], as `loads.settling_potential` has them."""
         lost = np.full(6, np.nan)
         return np.array([f.rest.total.values if f.rest and f.converged else lost for f in self.frames])
 

@@ -34,8 +34,8 @@ from geocontact.analyses.run_record import Record
 from geocontact.analyses.sides import medial_side
 from geocontact.data.errors import InputError
 from geocontact.io.opensim.storage_writer import write_storage
-from geocontact.loads.settling.newton import EnergyBalance, Frame, energy_balance, not_held, settle_along
-from geocontact.loads.settling.potential import NAMES, coordinates_of
+from geocontact.loads.settling import EnergyBalance, Frame, energy_balance, not_held, settle_along
+from geocontact.loads.settling_potential import NAMES, coordinates_of
 from geocontact.view.surfaces.vtp_series import PressureSeries, write_pressure_series
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from geocontact.axis_misalignment.law import CuffLoads, cuff_loads
 from geocontact.axis_misalignment.synthetic import PAPER, Design, SyntheticElbowTrial, at_rest
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
-from geocontact.data.gap.case import GapCase
+from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter, Source
 from geocontact.data.trial import Trial

@@ -33,7 +33,7 @@ from geocontact.below_knee_prosthesis.calibration.known_numbers import KnownNumb
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.whole_model import WholeCalibration
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
-from geocontact.below_knee_prosthesis.model.leg import FootOffset
+from geocontact.below_knee_prosthesis.leg import FootOffset
 from geocontact.identify.signals.agreement import Agreement, agreement
 
 if TYPE_CHECKING:

@@ -46,7 +46,7 @@ from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.workers import each
 from geocontact.below_knee_prosthesis.evaluation import FEWEST, JudgedStance, Oddness, oddness, reasons
-from geocontact.below_knee_prosthesis.model.leg import Side
+from geocontact.below_knee_prosthesis.leg import Side
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.errors import InputError
 from geocontact.io.text.results import write_table

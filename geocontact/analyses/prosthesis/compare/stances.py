@@ -28,8 +28,8 @@ from geocontact.below_knee_prosthesis.evaluation import (
     reasons,
     trivial_curves,
 )
+from geocontact.below_knee_prosthesis.leg import RESIDUAL
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
-from geocontact.below_knee_prosthesis.model.leg import RESIDUAL
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import agreement

@@ -34,7 +34,7 @@ from geocontact.below_knee_prosthesis.design.knob import AIMS
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg import Person
+from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.errors import InputError
 
 INTERVAL = 0.95

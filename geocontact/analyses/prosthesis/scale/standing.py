@@ -15,7 +15,7 @@ from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.standing import NO_JOINTS, FunctionalJoints, standing_joints
 from geocontact.below_knee_prosthesis.from_markers import as_right
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
-from geocontact.below_knee_prosthesis.model.leg import Person
+from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Multibody

@@ -34,10 +34,10 @@ from geocontact.analyses.result import REPORT, Result
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.evaluation import StanceErrors, at_times, longest_stance, stance_errors
 from geocontact.below_knee_prosthesis.from_markers import of_side
-from geocontact.below_knee_prosthesis.model.leg import Side
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, SOCKET
-from geocontact.below_knee_prosthesis.model.stance_model import FLOOR
+from geocontact.below_knee_prosthesis.leg import Side
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, SOCKET
 from geocontact.below_knee_prosthesis.simulate import GATE, Stance
+from geocontact.below_knee_prosthesis.stance_model import FLOOR
 from geocontact.contact.bushing import PISTONING
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Number

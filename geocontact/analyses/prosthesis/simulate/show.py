@@ -14,7 +14,7 @@ from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times
 from geocontact.below_knee_prosthesis.from_markers import of_side
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.loads.ground import Stairs
 from geocontact.view.page.content import Curve, Curves, Page, Section, Words

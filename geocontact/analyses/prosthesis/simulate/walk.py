@@ -30,9 +30,9 @@ from geocontact.below_knee_prosthesis.from_markers import (
 )
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
+from geocontact.below_knee_prosthesis.leg import FootOffset, Leg, Person
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, LegMotion, recorded_tree
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket
-from geocontact.below_knee_prosthesis.model.leg import FootOffset, Leg, Person
-from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, LegMotion, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import GATE, Push, Stance, simulate_stance
 from geocontact.contact.bushing import PRINTED, SOCKET, Bushing
 from geocontact.data.errors import InputError

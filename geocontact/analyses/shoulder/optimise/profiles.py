@@ -19,9 +19,9 @@ from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.identify.signals.filters import filled_and_smoothed
 from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
 from geocontact.shoulder_exoskeleton.arm_motion import Side
+from geocontact.shoulder_exoskeleton.arms_from_markers import MarkerSettings
 from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
 from geocontact.shoulder_exoskeleton.device import Device, Wearer, lever
-from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings
 from geocontact.shoulder_exoskeleton.human_arm import ToolWork, arm_moment
 from geocontact.shoulder_exoskeleton.support.arm_trial import (
     ArmTrial,

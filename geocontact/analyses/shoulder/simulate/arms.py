@@ -19,10 +19,10 @@ from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOption
 from geocontact.analyses.shoulder.simulated_arm import SimulatedArm, out_of_cuff_clause, warn_of
 from geocontact.data.errors import InputError
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side, smoothed_motion
+from geocontact.shoulder_exoskeleton.arms_from_markers import SIDES, MarkerSettings, arm_motions
 from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
 from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Wearer
-from geocontact.shoulder_exoskeleton.from_markers.arm_motions import SIDES, MarkerSettings, arm_motions
-from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFrame
+from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.sensitivity import Influence
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 from geocontact.shoulder_exoskeleton.support.controlled_arm import Controller, controlled_arm

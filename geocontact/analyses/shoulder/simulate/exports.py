@@ -14,7 +14,7 @@ from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.text.results import write_table
 from geocontact.shoulder_exoskeleton.carried_device import weight_and_inertia
 from geocontact.shoulder_exoskeleton.device import JOINTS
-from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFrame
+from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.plane import plane_arm
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
 from geocontact.shoulder_exoskeleton.work_phases import PHASES

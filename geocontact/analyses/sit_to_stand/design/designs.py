@@ -10,10 +10,10 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.sit_to_stand.trial_result import FROM_FILE, TrialResult, certificate_rows
-from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS, AssistedModel, HabitSizes
-from geocontact.standing_up.assistance.design import KNEE, NAMES, HelpDesign
-from geocontact.standing_up.assistance.movement import MEASURES, UNITS, Movement
-from geocontact.standing_up.assistance.room import ROOM
+from geocontact.standing_up.assistance_design import KNEE, NAMES, HelpDesign
+from geocontact.standing_up.assistance_room import ROOM
+from geocontact.standing_up.assisted_model import ASSISTED_PARAMETERS, AssistedModel, HabitSizes
+from geocontact.standing_up.assisted_movement import MEASURES, UNITS, Movement
 from geocontact.standing_up.numbers_that_ran import Ran, model_numbers, parameter_numbers, search_numbers
 from geocontact.standing_up.trials import StandingTrial
 

@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar, Literal
 from geocontact.analyses.options import Expression, Fraction, Spelled
 from geocontact.analyses.sit_to_stand.search_options import NODES, StandingSearchOptions, within
 from geocontact.data.errors import InputError
-from geocontact.standing_up.assistance.room import ROOM
+from geocontact.standing_up.assistance_room import ROOM
 
 MOST_DRAWS, MOST_POINTS = 200, 50
 

@@ -40,8 +40,8 @@ from geocontact.analyses.sit_to_stand.design.show import choice_page, design_fig
 from geocontact.analyses.sit_to_stand.exports import write_motion, write_standing_model
 from geocontact.analyses.sit_to_stand.trial_result import mesh_table, not_certified, ran_table
 from geocontact.dynamics.collocation.solve import stopped_by_ctrl_c
-from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS, AssistedModel
-from geocontact.standing_up.assistance.movement import MEASURES, UNITS
+from geocontact.standing_up.assisted_model import ASSISTED_PARAMETERS, AssistedModel
+from geocontact.standing_up.assisted_movement import MEASURES, UNITS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -17,9 +17,9 @@ from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.data.errors import InputError
 from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.io.recordings.spheres import read_contact_intervals, read_contact_parameters
-from geocontact.standing_up.assistance.assisted_model import ASSISTANCE_PARAMETERS, SHARE, assisted_model, seen_assisted
-from geocontact.standing_up.assistance.design import KNEE, HelpDesign, HelpTask, designed
-from geocontact.standing_up.assistance.movement import MEASURES, Movement, Movements, StoppedByHandError
+from geocontact.standing_up.assistance_design import KNEE, HelpDesign, HelpTask, designed
+from geocontact.standing_up.assisted_model import ASSISTANCE_PARAMETERS, SHARE, assisted_model, seen_assisted
+from geocontact.standing_up.assisted_movement import MEASURES, Movement, Movements, StoppedByHandError
 from geocontact.standing_up.exoskeleton import WORN_PARAMETERS
 from geocontact.standing_up.phase import PhaseProblem, judged
 from geocontact.standing_up.strap_sites import searched, usual

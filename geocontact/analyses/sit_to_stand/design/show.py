@@ -10,8 +10,8 @@ import pandas as pd
 
 from geocontact.analyses.sit_to_stand.design.designs import CertifiedDesign
 from geocontact.analyses.sit_to_stand.show import at_parts, motion_page, standing_scene
-from geocontact.standing_up.assistance.assisted_model import KNEE
-from geocontact.standing_up.assistance.movement import MEASURES, UNITS
+from geocontact.standing_up.assisted_model import KNEE
+from geocontact.standing_up.assisted_movement import MEASURES, UNITS
 from geocontact.standing_up.chain import Subject
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, panels
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section

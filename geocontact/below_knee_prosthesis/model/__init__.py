@@ -1,1 +1,0 @@
-"""The prosthetic leg: segments, bodies and joints, equations of one stance."""

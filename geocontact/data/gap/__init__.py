@@ -1,1 +1,0 @@
-"""Gap cases, and what a diagnosis says of them."""

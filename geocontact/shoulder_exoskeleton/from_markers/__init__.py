@@ -1,1 +1,0 @@
-"""Upper arms in the device's frame, from markers."""

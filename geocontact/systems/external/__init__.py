@@ -1,1 +1,0 @@
-"""Models of the user: in Python, or any program."""

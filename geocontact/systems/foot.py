@@ -1,0 +1,88 @@
+"""Prosthetic foot on level ground: spheres in zones, in the sagittal plane (variable-stiffness foot).
+
+Inputs `x [m]`, `y [m]`, `pitch [rad]`; outputs `force_x [N]`, `force_y [N]`, `cop_x [m]` in the foot's frame, empty
+where force_y < 20 N. Parameters k_<zone>, b_<zone>; constants n, delta_full, mu_s, mu_k, v_th; table `spheres`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float
+
+from geocontact.chain.contact_law import CONTACT_LAW
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.links import RECORDING, Balance, Channels, Law, Loads, Modifier, Motion, Sensor, Values
+from geocontact.chain.magnitudes import Magnitudes
+from geocontact.chain.system import System
+from geocontact.chain.traits import Mass, Traits, Way
+from geocontact.data.parameter import Parameter
+from geocontact.systems.base import Base, require_numbers
+from geocontact.systems.foot_spheres import INPUTS, FootSpheres
+
+OUTPUTS = ("force_x", "force_y", "cop_x")
+UNITS = {"x": "m", "y": "m", "pitch": "rad", "force_x": "N", "force_y": "N", "cop_x": "m"}
+CONSTANTS = ("n", "delta_full", "mu_s", "mu_k", "v_th")
+COLUMNS = ("px [m]", "py [m]", "radius [m]", "zone")
+LEAST_FORCE = 20.0
+"""Vertical force [N] below which a plate gives no centre of pressure."""
+TRAITS = Traits(
+    roles={"x": "travel"},
+    pushes_only=True,
+    plausible={"y": 0.16, "pitch": 0.15},
+    way=Way(3.0, "deflection", load="force_y"),
+    masses=(Mass(moved=INPUTS),),
+)
+"""Only the rate of x enters; pylon and liner give way by three deflections of the sole at the most."""
+
+
+def resultant(loads: Loads) -> Float[np.ndarray, "t c"]:
+    """Sums of the forces and their centre Σ F_n x / Σ F_n; NaN off the ground."""
+    vertical = loads.normal.sum(axis=1)
+    moment = np.einsum("ij,ij->i", loads.normal, loads.arm)
+    centre = np.full_like(vertical, np.nan)
+    np.divide(moment, vertical, out=centre, where=vertical > 0.0)
+    return np.column_stack((loads.tangential.sum(axis=1), vertical, centre))
+
+
+def without_centre(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
+    """No centre of pressure where the measured vertical force is too small for one."""
+    out = outputs.copy()
+    out[np.abs(out[:, 1]) < LEAST_FORCE, 2] = np.nan
+    return out
+
+
+def build(
+    parameters: tuple[Parameter, ...], constants: Mapping[str, float], tables: Mapping[str, pd.DataFrame]
+) -> System:
+    """The base model; ValueError when a table, column or number that it needs is missing."""
+    if "spheres" not in tables:
+        raise ValueError('foot: the table of spheres is missing; name it in case.toml, spheres = "spheres.csv"')
+    table = tables["spheres"]
+    for column in COLUMNS:
+        if column not in table.columns:
+            raise ValueError(f"foot: the spheres have no column {column!r}; they have {', '.join(map(str, table))}")
+    zones = tuple(str(zone) for zone in table["zone"])
+    needed = [f"{letter}_{zone}" for letter in "kb" for zone in dict.fromkeys(zones)]
+    require_numbers("foot", (*needed, *CONSTANTS), parameters, constants)
+    place = [np.ascontiguousarray(table[column], float) for column in COLUMNS[:3]]
+    return System(
+        name="foot",
+        motion=Motion(INPUTS),
+        geometry=FootSpheres(place[0], place[1], place[2], zones),
+        law=Law(CONTACT_LAW).having({name: name for name in CONSTANTS}),
+        balance=Balance(OUTPUTS, resultant),
+        sensor=Sensor(OUTPUTS, (Modifier("least_force", RECORDING, without_centre),)),
+        parameters=parameters,
+        constants=dict(constants),
+        scale=Magnitudes(),
+        units=UNITS,
+        extent=float(np.ptp(place[0])),
+        quotients={"cop_x": "force_y"},
+        traits=TRAITS,
+    )
+
+
+FOOT = Base("foot", INPUTS, OUTPUTS, build)

@@ -1,1 +1,0 @@
-"""Base model of a prosthetic foot on spheres."""

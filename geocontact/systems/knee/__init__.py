@@ -1,1 +1,0 @@
-"""Base models of a knee implant: lumped, posed, and from pose over meshes to load cells."""

@@ -1,1 +1,0 @@
-"""Base model of a shoulder exoskeleton that a recorded arm moves."""

@@ -1,1 +1,0 @@
-"""Curves and maps of a diagnosis."""

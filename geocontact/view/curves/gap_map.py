@@ -1,0 +1,214 @@
+"""Where a model misses the measurement: maps over phase and states, over a mat, and residuals on held-out trials."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.gap_cells import BAND, FAST, FAST_PHASE, Cell, SurfaceGap
+from geocontact.view.curves.quantity import Quantity
+from geocontact.view.curves.sheet import plain
+from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, SMALL, empty, in_style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from matplotlib.image import AxesImage
+
+
+SIGNIFICANT = 0.05
+"""Family-wise: a map without any gap has such a cell once in twenty times."""
+BESIDE = 4  # axes of states in one row
+ROW = 0.0055  # height of a channel's row [m]
+WIDE = ("phase", FAST_PHASE)  # axes with a row of their own
+ENERGIES = (BAND, FAST_PHASE)  # axes of what has no sign
+MARKS = {1: "+", -1: "−", 0: "•"}  # measured above, below the prediction; no sign
+SLENDER = 14  # times as long as it is wide the colour scale is, for each row of strips
+ROUNDING = 1e-9  # of the span of an axis that is rounding
+LIGHT = 0.55  # of the colour scale, from which marks are white
+
+
+@in_style
+def gap_map_figure(cells: Sequence[Cell], units: Mapping[str, str]) -> Figure:
+    """Draw the map as strips, a row per channel, a strip per axis; significant cells carry the sign of the gap.
+
+    The colour is the share of the channel's squared gap along the axis of the strip, noise taken off: the cells of one
+    row of one strip sum to 1, or to 0 where there is no gap. States are cut at their quantiles, bands at 1 and 5 Hz.
+    What is faster than 5 Hz has a strip of its own over the phase.
+
+    Parameters
+    ----------
+    cells
+        The map.
+    units
+        Of each axis by its name, as printed.
+    """
+    if not cells:
+        raise ValueError("cells: no map to draw")
+    channels = list(dict.fromkeys(cell.channel for cell in cells))
+    axes = list(dict.fromkeys(cell.axis for cell in cells))
+    wide = [axis for axis in WIDE if axis in axes]
+    others = [axis for axis in axes if axis not in WIDE]
+    rows = len(wide) + -(-len(others) // BESIDE)
+    figure = empty(DOUBLE, rows * (0.022 + ROW * len(channels)))
+    grid = figure.add_gridspec(rows, BESIDE)
+    places = [grid[k, :] for k in range(len(wide))]
+    places += [grid[len(wide) + k // BESIDE, k % BESIDE] for k in range(len(others))]
+    strips: list[Axes] = []
+    pictures = []
+    for k, axis in enumerate([*wide, *others]):
+        panel = figure.add_subplot(places[k])
+        strips.append(panel)
+        pictures.append(_strip(panel, [c for c in cells if c.axis == axis], channels))
+        label = f"phase, faster than {FAST:g} Hz" if axis == FAST_PHASE else axis
+        panel.set_xlabel(plain(f"{label} [{units[axis]}]" if axis in units else label, 30))
+        first = k < len(wide) or (k - len(wide)) % BESIDE == 0
+        panel.set_yticks(range(len(channels)), [plain(name, 24) if first else "" for name in channels])
+    strips[0].set_ylabel("channel")
+    bar = figure.colorbar(pictures[0], ax=strips, shrink=0.8, pad=0.01, aspect=SLENDER * rows)
+    bar.set_label("share of the channel's gap [–]")
+    note = (
+        f"+ / −: measured above / below the prediction, p ≤ {SIGNIFICANT:g} for the whole map; •: an energy, p likewise"
+    )
+    figure.suptitle(note, fontsize=SMALL, x=0.01, ha="left")
+    return figure
+
+
+def _strip(panel: Axes, cells: Sequence[Cell], channels: Sequence[str]) -> AxesImage:
+    lows = sorted({cell.low for cell in cells})
+    table = np.full((len(channels), len(lows)), np.nan)
+    for cell in cells:
+        row, column = channels.index(cell.channel), lows.index(cell.low)
+        table[row, column] = cell.share
+        if cell.p_value <= SIGNIFICANT:
+            sign = 0 if cell.axis in ENERGIES else int(np.sign(cell.gap))
+            colour = "white" if cell.share > LIGHT else "black"
+            panel.text(column, row, MARKS[sign], ha="center", va="center", fontsize=8.0, color=colour)
+    picture = panel.imshow(table, "Blues", vmin=0.0, vmax=1.0, aspect="auto", interpolation="nearest")
+    panel.set_facecolor("0.85")
+    last = max((cell.high for cell in cells), default=0.0)
+    edges = [*lows, last]
+    shown = range(0, len(edges), max(1, (len(edges) - 1) // (5 if len(edges) > 10 else 3)))
+    span = float(np.ptp([edge for edge in edges if np.isfinite(edge)]))
+    panel.set_xticks([k - 0.5 for k in shown], [_edge(edges[k], span) for k in shown])
+    return picture
+
+
+def _edge(value: float, span: float) -> str:
+    """What is nothing beside the span of all edges is printed as 0."""
+    if np.isinf(value):
+        return "∞"
+    return f"{0.0 if abs(value) < ROUNDING * span else value:.3g}".replace("-", "−")
+
+
+HEIGHT = 0.070  # [m]
+MM = 1e3
+FAINT = 0.1  # of the largest part, below which a negative one is not drawn as such
+CELL = 110.0  # pt, that all cells of a square mat side by side are drawn as wide
+
+
+@in_style
+def gap_surface_figure(found: SurfaceGap) -> Figure:
+    """Two maps of the cells, seen along the direction in which they spread least; cells that hold most are ringed.
+
+    The first is the part of each cell in the force that the base model expects, the second its part in the gap; either
+    adds up to 1, and a negative part is off the other way.
+    """
+    at = flattened(found.place) * MM
+    figure = empty(DOUBLE, HEIGHT)
+    left, right = figure.subplots(1, 2, sharex=True, sharey=True)
+    size = max((CELL / np.sqrt(len(at))) ** 2, 4.0)  # pt², of a marker
+    _map(left, at, found.load, size, "part of the load [–]")
+    _map(right, at, found.gap, size, f"part of the gap of {found.channel} [–]")
+    most = np.isin(found.ids, found.holding)
+    for panel in (left, right):
+        panel.scatter(at[most, 0], at[most, 1], s=1.6 * size, facecolors="none", edgecolors="black", linewidths=0.8)
+        panel.set_xlabel("along the mat [mm]")
+        panel.set_aspect("equal")
+    left.set_ylabel("across the mat [mm]")
+    share, load = (100.0 * part for part in found.held)
+    note = (
+        f"{plain(found.site, 30)}: ringed cells hold {share:.0f} % of the gap and {load:.0f} % of the load; "
+        f"p = {found.p_value:.2g} that it is spread as the load is"
+    )
+    figure.suptitle(note, fontsize=SMALL, x=0.01, ha="left")
+    return figure
+
+
+def flattened(place: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:
+    """Places along the two directions in which they spread most, the middle at 0."""
+    middle = place - place.mean(axis=0)
+    axes = np.linalg.svd(middle, full_matrices=False)[2]
+    axes = np.vstack([axes, np.zeros((3, 3))])[:2]
+    signs = np.sign(axes[np.arange(2), np.abs(axes).argmax(axis=1)])
+    return np.asarray(middle @ (axes * np.where(signs == 0.0, 1.0, signs)[:, None]).T)
+
+
+def _map(panel: Axes, at: Float[np.ndarray, "n 2"], values: Float[np.ndarray, " n"], size: float, label: str) -> None:
+    most = float(np.abs(values).max()) or 1.0
+    colours = ("RdBu_r", -most) if values.min() < -FAINT * most else ("Blues", 0.0)
+    points = panel.scatter(
+        at[:, 0], at[:, 1], c=values, s=size, cmap=colours[0], vmin=colours[1], vmax=most, marker="s"
+    )
+    bar = panel.figure.colorbar(points, ax=panel, shrink=0.85)
+    bar.set_label(label)
+
+
+PHASE = Quantity("phase of the trial", "%")
+Z95 = 1.959964
+
+
+@in_style
+def gap_residuals(
+    phase: Float[np.ndarray, " t"],
+    channels: Sequence[Quantity],
+    base: Float[np.ndarray, "trials t c"],
+    named: Float[np.ndarray, "trials t c"] | None,
+    floor: Mapping[str, float],
+    windows: Mapping[str, tuple[float, float]],
+    effect: str = "",
+) -> Figure:
+    """Draw residuals of each trial, a panel per channel; the band is what noise alone would make, the grey window the
+    stretch that holds 70 % of the channel's gap.
+
+    Parameters
+    ----------
+    phase
+        Fraction of the trial.
+    channels
+        Name and unit of each, in the order of the columns.
+    base, named
+        Measured minus predicted, SI units, without and with the effects; None where nothing was named.
+    floor
+        Root mean square of what no model can predict, by channel; the band is ± 1.96 of it.
+    windows
+        By channel, fractions of the trial; none where there is no gap.
+    effect
+        What was named, for the legend.
+    """
+    if base.shape[1:] != (len(phase), len(channels)):
+        raise ValueError(f"base: shape {base.shape}, expected (trials, {len(phase)}, {len(channels)})")
+    figure = empty(DOUBLE, 0.012 + 0.032 * len(channels))
+    panels = figure.subplots(len(channels), 1, sharex=True, squeeze=False)[:, 0]
+    handles, labels = [], []
+    for c, (panel, quantity) in enumerate(zip(panels, channels, strict=True)):
+        if quantity.name in windows:
+            low, high = windows[quantity.name]
+            panel.axvspan(100.0 * low, 100.0 * high, color="0.9", lw=0, zorder=0)
+        noise = float(quantity.shown(np.array(Z95 * floor.get(quantity.name, 0.0))))
+        band = panel.axhspan(-noise, noise, color=PALETTE[0], alpha=0.15, lw=0, zorder=1)
+        panel.axhline(0.0, color=GREY, lw=0.6)
+        without = panel.plot(100.0 * phase, quantity.shown(base[:, :, c]).T, color=PALETTE[1], lw=0.8)
+        entries = [(without[0], "base model"), (band, "± 1.96 noise floor")]
+        if named is not None:
+            having = panel.plot(100.0 * phase, quantity.shown(named[:, :, c]).T, color=PALETTE[0], lw=0.8)
+            entries.insert(1, (having[0], f"with {effect}"))
+        panel.set_ylabel(plain(f"{quantity.name}, measured − predicted [{quantity.unit}]", 22), fontsize=SMALL)
+        handles, labels = [e[0] for e in entries], [plain(e[1], 80) for e in entries]
+    panels[0].set_xlim(0.0, 100.0)
+    panels[-1].set_xlabel(PHASE.label)
+    figure.legend(handles, labels, loc="outside upper left", ncols=3)
+    return figure
