@@ -152,9 +152,9 @@ def a_trial() -> dict[str, float]:
     """CPU seconds, bytes and files of the shipped knee over its cycle, as a worker of a study evaluates it."""
     from geocontact.analyses.area.options import AreaOptions
     from geocontact.analyses.area.result import area
-    from geocontact.analyses.job import Call, execute
-    from geocontact.analyses.listener import Listener
-    from geocontact.analyses.table_forms import TableForms
+    from geocontact.analyses.frame.job import Call, execute
+    from geocontact.analyses.frame.record import Listener
+    from geocontact.analyses.frame.table_forms import TableForms
 
     meshes, cpu = ROOT / "meshes", []
     options = AreaOptions(
@@ -185,8 +185,8 @@ def of_the_study() -> dict[str, float]:
 
     `first`: planned, given out, kept, put into tables and page; `again`: the same when all of it is there.
     """
-    from geocontact.analyses.job import Call, execute
-    from geocontact.analyses.listener import Listener
+    from geocontact.analyses.frame.job import Call, execute
+    from geocontact.analyses.frame.record import Listener
     from geocontact.study.options import CohortOptions
     from geocontact.study.result import cohort
     from tests.study.quick import study

@@ -22,10 +22,10 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.machine import as_json, stamp
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.knee.settle import result as settle_run
 from geocontact.analyses.knee.settle.equilibrium import read
 from geocontact.analyses.knee.settle.options import SettleOptions
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 
 HERE = Path(__file__).resolve().parent

@@ -125,8 +125,8 @@ def beside(row: dict[str, Any], first: Mapping[str, tuple[str, float]]) -> dict[
 def main() -> None:
     """Draw, refit, write the JSON after every case, print the shares."""
     from benchmarks.machine import machine
-    from geocontact.analyses.source_digest import digest
-    from geocontact.analyses.workers import each
+    from geocontact.analyses.frame.source_digest import digest
+    from geocontact.analyses.frame.workers import each
 
     options, rows = arguments(), []
     first = said(options.cases)

@@ -147,7 +147,7 @@ def main() -> None:
     from benchmarks.gap_rows import begin
     from benchmarks.gap_sources import name_of
     from benchmarks.machine import machine
-    from geocontact.analyses.workers import each
+    from geocontact.analyses.frame.workers import each
 
     options = arguments()
     said = {k: v for k, v in vars(options).items() if k not in ("out", "seed")}

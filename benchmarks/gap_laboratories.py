@@ -100,8 +100,8 @@ def diagnosed(work: tuple[Lot, float]) -> Worked | None:
 
 def answered(lot: Lot, folder: Path) -> Worked:
     """As a user would hand it in."""
+    from geocontact.analyses.frame.json_file import plain
     from geocontact.analyses.gap.benchmark.case import failed, from_folder
-    from geocontact.analyses.json_file import plain
     from geocontact.gap_benchmark.drawing import drawn
     from geocontact.gap_benchmark.synthetic.cases import NotFoundError
     from geocontact.io.cases.gap_case_writer import write_gap_case
@@ -224,7 +224,7 @@ def _cell(figures: LaboratoryFigures, name: str) -> str:
 
 def main() -> int:
     """Draw, diagnose, score, write."""
-    from geocontact.analyses.workers import each
+    from geocontact.analyses.frame.workers import each
 
     o = arguments()
     if o.table:

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from geocontact.analyses.source_digest import digest
+from geocontact.analyses.frame.source_digest import digest
 
 
 def begin(path: Path, seed: int, about: Mapping[str, Any]) -> None:

@@ -60,7 +60,7 @@ def attributed(lot: Lot) -> dict[str, Any]:
 
 def written(lot: Lot, scratch: Path) -> tuple[Path, dict[str, Any]]:
     """The folder of a case, drawn and written below `scratch`, and its truth."""
-    from geocontact.analyses.json_file import plain
+    from geocontact.analyses.frame.json_file import plain
     from geocontact.gap_benchmark.drawing import drawn
     from geocontact.io.cases.gap_case_writer import write_gap_case
 
@@ -74,7 +74,7 @@ def answer_of(folder: Path) -> dict[str, Any]:
     """The case in a folder, read and attributed on one thread."""
     from threadpoolctl import threadpool_limits
 
-    from geocontact.analyses.json_file import plain
+    from geocontact.analyses.frame.json_file import plain
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.attribute import attribute
     from geocontact.gap.case.admission import admitted

@@ -41,7 +41,7 @@ def write_results(name: str, asked: dict[str, Any], figures: Any, packages: Abst
 
 def as_json(value: Any, indent: int = 1) -> str:
     """Text of a file of results; null stands for what is not finite, as JSON has no word for it."""
-    from geocontact.analyses.json_file import plain  # late: cores are chosen before anything is imported
+    from geocontact.analyses.frame.json_file import plain  # late: cores are chosen before anything is imported
 
     return json.dumps(plain(value), indent=indent, allow_nan=False) + "\n"
 

@@ -38,7 +38,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from geocontact.analyses.options import MeshUnit, Options
+from geocontact.analyses.frame.options import MeshUnit, Options
 
 
 @dataclass(frozen=True)
@@ -100,9 +100,9 @@ from jaxtyping import Float
 
 from geocontact.analyses.edges.options import EdgeOptions
 from geocontact.analyses.edges.show import edges_figure
-from geocontact.analyses.job import Job
-from geocontact.analyses.result import Result
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.result import Result
+from geocontact.analyses.frame.record import Record
 from geocontact.data.mesh import Mesh
 from geocontact.io.mesh.meshes import read_mesh
 

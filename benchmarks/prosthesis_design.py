@@ -20,7 +20,7 @@ import numpy as np
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from benchmarks.machine import write_results
-from geocontact.analyses.workers import each
+from geocontact.analyses.frame.workers import each
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.design.choice import FootChoice, choose
 from geocontact.below_knee_prosthesis.design.drawn import (

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from benchmarks.machine import write_results
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.trial import read
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.design.foot_task import Terrain, words
 from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES, Knob
 

@@ -130,7 +130,7 @@ def slopes(options: argparse.Namespace) -> dict[str, Any]:
     """On the shipped trial that was not used: every parameter of a movement, and the least force of the strap."""
     import numpy as np
 
-    from geocontact.analyses.run_record import Record
+    from geocontact.analyses.frame.record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.dynamics.collocation.solve import SolverOptions
     from geocontact.standing_up.assistance_design import KNEE, HelpTask, designed

@@ -267,7 +267,7 @@ def predict(out: Path, nodes: float, factor: float, keep: Callable[[dict[str, An
     """
     import numpy as np
 
-    from geocontact.analyses.run_record import Record
+    from geocontact.analyses.frame.record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.dynamics.collocation.solve import SolverOptions, refined, solve
     from geocontact.io.recordings.spheres import read_contact_parameters

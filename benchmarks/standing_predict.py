@@ -31,7 +31,7 @@ def measured() -> list[dict[str, Any]]:
     """A row for each predictor, cold, and from the first one's answer."""
     import numpy as np
 
-    from geocontact.analyses.run_record import Record
+    from geocontact.analyses.frame.record import Record
     from geocontact.analyses.sit_to_stand.predict.predictions import GIVEN, TOLERANCE
     from geocontact.analyses.sit_to_stand.search_options import StandingSearchOptions
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials

@@ -169,7 +169,7 @@ def predicted(out: Path, nodes: float) -> dict[str, Any]:
     """C1 and C2 of both trials, as `geocontact sit-to-stand predict` does it with everything given."""
     import numpy as np
 
-    from geocontact.analyses.run_record import Record
+    from geocontact.analyses.frame.record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.analyses.sit_to_stand.trial_result import TrialResult, errors_table
     from geocontact.dynamics.collocation.solve import SolverOptions, refined, solve
@@ -222,7 +222,7 @@ def spread(out: Path, nodes: float) -> dict[str, Any]:
     import numpy as np
     from scipy.stats import t as student
 
-    from geocontact.analyses.run_record import Record
+    from geocontact.analyses.frame.record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 
     study = standing_trials(out / "all.toml", "study", Record("calibrate", {}))

@@ -189,7 +189,7 @@ def strap_profiles(options: argparse.Namespace) -> dict[str, Any]:
     """The same of the strap in phase B, feet held at what was planted, on the shipped study with an exoskeleton."""
     import numpy as np
 
-    from geocontact.analyses.run_record import Record
+    from geocontact.analyses.frame.record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.dynamics.collocation.solve import SolverOptions
     from geocontact.standing_up.calibrated_phase import PhaseSearch, calibrated_phase
@@ -219,7 +219,7 @@ def freed(options: argparse.Namespace) -> dict[str, Any]:
     """
     import numpy as np
 
-    from geocontact.analyses.run_record import Record
+    from geocontact.analyses.frame.record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.standing_up.chain import EVERY_PLANTED, SOUGHT, SOUGHT_WORN
     from geocontact.standing_up.exoskeleton import STRAP, STRAP_PLANTED, strapped

@@ -62,8 +62,8 @@ sys.exit(code)
 AREA = (
     ("geocontact.analyses.area.bodies", "read_body_and_outer", "reading"),
     ("geocontact.analyses.area.result", "area_evolution", "frames"),
-    ("geocontact.analyses.figure_files", "save_both", "figures"),
-    ("geocontact.analyses.finished_page", "write_finished", "page"),
+    ("geocontact.analyses.frame.pages", "save_both", "figures"),
+    ("geocontact.analyses.frame.pages", "write_finished", "page"),
 )
 """What is timed of `area`: module, or module:class; function; what it is called."""
 

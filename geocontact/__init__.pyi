@@ -3,8 +3,9 @@
 from geocontact import chain
 from geocontact.analyses import knee, misalignment, prosthesis, shoulder, sit_to_stand
 from geocontact.analyses.area.result import area, pressure
-from geocontact.analyses.bodies import read_surface
 from geocontact.analyses.cop.result import centre_of_pressure
+from geocontact.analyses.frame.bodies import read_surface
+from geocontact.analyses.frame.result import Result
 from geocontact.analyses.gap.diagnose.result import diagnose
 from geocontact.analyses.gap.discriminability.result import discriminability
 from geocontact.analyses.gap.gather.result import gather
@@ -17,7 +18,6 @@ from geocontact.analyses.motion.inverse_dynamics.result import inverse_dynamics
 from geocontact.analyses.motion.inverse_kinematics.result import inverse_kinematics
 from geocontact.analyses.motion.scale.result import scale
 from geocontact.analyses.motion.virtual_markers.result import virtual_markers
-from geocontact.analyses.result import Result
 from geocontact.analyses.shape.result import fit_shape
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.evolution import AreaEvolution

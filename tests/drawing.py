@@ -34,7 +34,7 @@ def blank(figure: Figure, path: str | Path) -> None:
 @contextmanager
 def undrawn() -> Iterator[None]:
     """Figures of commands are empty pictures."""
-    with mock.patch("geocontact.analyses.figure_files.save", blank):
+    with mock.patch("geocontact.analyses.frame.pages.save", blank):
         yield
 
 
@@ -42,7 +42,7 @@ def undrawn() -> Iterator[None]:
 def unwritten() -> Iterator[None]:
     """Commands write neither figures nor pages, nor make the pages; figures are made, as long as nobody prevents it."""
     with (
-        mock.patch("geocontact.analyses.figure_files.save_both", return_value=b""),
-        mock.patch("geocontact.analyses.result.Result._pages", return_value={}),
+        mock.patch("geocontact.analyses.frame.pages.save_both", return_value=b""),
+        mock.patch("geocontact.analyses.frame.result.Result._pages", return_value={}),
     ):
         yield

@@ -116,14 +116,14 @@ def _elbow_json(path: Path) -> Any:
 
 
 def _run(path: Path) -> Any:
-    from geocontact.analyses.run_again import read_run
+    from geocontact.analyses.frame.rerun import read_run
 
     run = read_run(path)  # its options are read again as they were typed
     return run.command, run.folder
 
 
 def _axis(path: Path) -> Any:
-    from geocontact.analyses.quantities import axis
+    from geocontact.analyses.frame.quantities import axis
 
     return axis(str(path), "mm")
 

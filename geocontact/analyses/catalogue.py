@@ -14,8 +14,8 @@ from importlib import import_module
 from types import ModuleType
 from typing import Any
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.options import Options
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
 
 HOME = "geocontact.analyses"
@@ -220,7 +220,7 @@ def _own(name: str) -> Job[Any, Any]:
         what = f"no analysis at {name!r} ({type(error).__name__}: {error})"
         raise InputError("", "", what, "put its folder into PYTHONPATH, on the workers too") from error
     if not isinstance(found, Job):
-        raise InputError("", "", f"{name!r} is a {type(found).__name__}", "name a geocontact.analyses.job.Job")
+        raise InputError("", "", f"{name!r} is a {type(found).__name__}", "name a geocontact.analyses.frame.job.Job")
     return found
 
 

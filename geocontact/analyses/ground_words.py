@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from geocontact.analyses.quantities import number
+from geocontact.analyses.frame.quantities import number
 from geocontact.data.errors import InputError
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.ground import Stairs

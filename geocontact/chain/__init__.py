@@ -9,12 +9,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from geocontact.chain.effect import Candidate
     from geocontact.chain.contact_law import CONTACT_LAW
-    from geocontact.chain.effect import Effect
+    from geocontact.chain.effect import Candidate, Effect
     from geocontact.chain.interface_law import INTERFACE_LAW
-    from geocontact.chain.links import LawParameters
-    from geocontact.chain.links import Balance, ContactSites, Geometry, Law, Modifier, Motion, Sensor
+    from geocontact.chain.links import Balance, ContactSites, Geometry, Law, LawParameters, Modifier, Motion, Sensor
     from geocontact.chain.magnitudes import Magnitudes
     from geocontact.chain.single_deflection import SingleDeflection
     from geocontact.chain.system import System

@@ -12,11 +12,11 @@ from typing import Annotated, Any
 from cyclopts import Group, Parameter
 
 from geocontact.analyses.catalogue import Entry, entry_of
-from geocontact.analyses.job import Call, Job, execute
-from geocontact.analyses.options import Declared, Options, declared
-from geocontact.analyses.result import Result
-from geocontact.analyses.table_forms import AS_ALWAYS, TableForms
-from geocontact.analyses.typed_values import key, read
+from geocontact.analyses.frame.calls import key, read
+from geocontact.analyses.frame.job import Call, Job, execute
+from geocontact.analyses.frame.options import Declared, Options, declared
+from geocontact.analyses.frame.result import Result
+from geocontact.analyses.frame.table_forms import AS_ALWAYS, TableForms
 from geocontact.cli.opensim_setup import COMMANDS, HELP
 from geocontact.cli.show import Terminal
 from geocontact.data.errors import InputError

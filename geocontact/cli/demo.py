@@ -6,8 +6,8 @@ from importlib.resources import files
 from pathlib import Path
 
 from geocontact.analyses.area.options import AreaOptions
-from geocontact.analyses.job import Call, execute
-from geocontact.analyses.options import declared
+from geocontact.analyses.frame.job import Call, execute
+from geocontact.analyses.frame.options import declared
 from geocontact.cli.command import speller, tell
 from geocontact.cli.show import Terminal
 from geocontact.data.errors import InputError

@@ -13,7 +13,7 @@ from io import TextIOWrapper
 from cyclopts import App, CycloptsError, MissingArgumentError
 
 from geocontact.analyses.catalogue import ENTRIES, GROUPS
-from geocontact.analyses.results_folder import discard_drafts, what_stays
+from geocontact.analyses.frame.folder import discard_drafts, what_stays
 from geocontact.cli.command import place_of
 from geocontact.cli.opensim_setup import with_setup
 from geocontact.cli.suggestions import help_of, mistyped, remedy_for

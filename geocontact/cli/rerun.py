@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from geocontact.analyses.run_again import EarlierRun, differing, read_run, results_of
-from geocontact.analyses.table_forms import TableForms
+from geocontact.analyses.frame.rerun import EarlierRun, differing, read_run, results_of
+from geocontact.analyses.frame.table_forms import TableForms
 from geocontact.cli.command import Command
 from geocontact.cli.main import app
 from geocontact.cli.suggestions import commands

@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from geocontact.analyses.listener import Listener
+from geocontact.analyses.frame.record import Listener
 
 SILENCE = 2.5  # s; loading compiled kernels from the cache takes less
 

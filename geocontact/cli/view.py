@@ -9,7 +9,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from geocontact.analyses.area.options import AreaOptions
-from geocontact.analyses.options import declared
+from geocontact.analyses.frame.options import declared
 from geocontact.cli.command import respelled, speller
 from geocontact.data.errors import InputError
 

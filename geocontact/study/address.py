@@ -16,11 +16,11 @@ from glob import glob, has_magic
 from pathlib import Path
 from typing import Any
 
-from geocontact.analyses import source_digest
-from geocontact.analyses.options import Options, declared
-from geocontact.analyses.run_record import library_versions
-from geocontact.analyses.stale_results import digest
-from geocontact.analyses.typed_values import key, read
+from geocontact.analyses.frame import source_digest
+from geocontact.analyses.frame.calls import key, read
+from geocontact.analyses.frame.folder import digest
+from geocontact.analyses.frame.options import Options, declared
+from geocontact.analyses.frame.record import library_versions
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
 

@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from geocontact.analyses.options import Options
+from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
 
 LOCAL = "local"

@@ -25,13 +25,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses import source_digest
 from geocontact.analyses.catalogue import job_named
-from geocontact.analyses.job import Job
-from geocontact.analyses.page_words import counted
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.results_folder import Scratch, is_kept
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame import source_digest
+from geocontact.analyses.frame.folder import Scratch, is_kept
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.frame.words import counted
 from geocontact.data.errors import InputError
 from geocontact.io.text.units import split_header
 from geocontact.study.address import Digests, address_of, options_of

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.page_words import headline
-from geocontact.analyses.result import REPORT
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT
+from geocontact.analyses.frame.words import headline
 from geocontact.data.trial import mean_and_sd
 from geocontact.io.text.units import split_header
 from geocontact.study.curves import STEPS, StudyCurves

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from geocontact.analyses.stale_results import RUN
+from geocontact.analyses.frame.folder import RUN
 from geocontact.data.errors import InputError
 from geocontact.study.address import Digests
 

@@ -16,11 +16,11 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from geocontact.analyses import source_digest
 from geocontact.analyses.catalogue import job_named
-from geocontact.analyses.job import Call, execute
-from geocontact.analyses.listener import Listener
-from geocontact.analyses.table_forms import TableForms
+from geocontact.analyses.frame import source_digest
+from geocontact.analyses.frame.job import Call, execute
+from geocontact.analyses.frame.record import Listener
+from geocontact.analyses.frame.table_forms import TableForms
 from geocontact.data.errors import InputError
 from geocontact.study.address import options_of
 from geocontact.study.store import MOST_ENDED, TOLD, WORK, Store

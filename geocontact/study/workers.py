@@ -11,7 +11,7 @@ from itertools import islice
 from multiprocessing import current_process
 from typing import Any
 
-from geocontact.analyses.workers import cores
+from geocontact.analyses.frame.workers import cores
 from geocontact.data.errors import InputError
 from geocontact.study.options import CohortOptions
 from geocontact.study.store import MOST_ENDED

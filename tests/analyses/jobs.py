@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from geocontact.analyses.catalogue import ENTRIES
-from geocontact.analyses.job import Job
+from geocontact.analyses.frame.job import Job
 
 JOBS: tuple[Job, ...] = tuple(entry.load_job() for entry in ENTRIES)

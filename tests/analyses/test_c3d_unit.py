@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from geocontact import analyses
+from geocontact.analyses.frame.options import declared
 from geocontact.analyses.motion.markers import markers_given, unit_of_c3d
-from geocontact.analyses.options import declared
 from geocontact.data.errors import InputError
 from tests.io.plate_files import channels, plate_file, stance
 

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.job import Job
-from geocontact.analyses.options import Missing, declared
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.options import Missing, declared
 from geocontact.data.plausible import numbers_in
 from tests.analyses.jobs import JOBS
 

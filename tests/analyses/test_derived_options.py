@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.options import Options, declared
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.options import Options, declared
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.inverse_dynamics.loads import warn_of_other_feet
-from geocontact.analyses.run_record import Record
 from geocontact.data.wrench import Wrench
 from geocontact.io.opensim.osim_multibody import read_multibody
 from tests.cli.calls import MESHES

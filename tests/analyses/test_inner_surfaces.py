@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.analyses.bodies import read_body, read_input_surface
 from geocontact.analyses.cop.foot import ground_of
 from geocontact.analyses.cop.options import CopOptions
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.bodies import read_body, read_input_surface
+from geocontact.analyses.frame.record import Record
 from geocontact.data.errors import InputWarning
 from geocontact.data.gap_case import CaseMesh
 from geocontact.io.mesh.meshes import read_mesh

@@ -13,11 +13,10 @@ import pytest
 from matplotlib.figure import Figure
 
 import geocontact as gc
-from geocontact.analyses.job import Call, Job, execute
-from geocontact.analyses.listener import Listener
-from geocontact.analyses.options import Length, Options, Spelled
-from geocontact.analyses.result import Result
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.job import Call, Job, execute
+from geocontact.analyses.frame.options import Length, Options, Spelled
+from geocontact.analyses.frame.record import Listener, Record
+from geocontact.analyses.frame.result import Result
 from geocontact.cli.command import Command
 from geocontact.data.errors import InputError, InputWarning
 

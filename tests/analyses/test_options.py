@@ -11,8 +11,9 @@ from typing import Annotated, Literal
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.job import Job
-from geocontact.analyses.options import (
+from geocontact.analyses.frame.calls import read
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.options import (
     Declared,
     Excludes,
     Length,
@@ -26,7 +27,6 @@ from geocontact.analyses.options import (
     Typed,
     declared,
 )
-from geocontact.analyses.typed_values import read
 from geocontact.cli.command import option, speller
 from geocontact.data.errors import InputError
 from tests.analyses.jobs import JOBS

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from geocontact.analyses.job import Call, execute
-from geocontact.analyses.listener import Listener
+from geocontact.analyses.frame.job import Call, execute
+from geocontact.analyses.frame.record import Listener
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.result import mat
 from geocontact.analyses.shape.options import ShapeOptions

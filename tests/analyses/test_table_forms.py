@@ -9,9 +9,9 @@ import pandas as pd
 import pytest
 from scipy.io import netcdf_file
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.options import declared
-from geocontact.analyses.table_forms import TableForms
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.options import declared
+from geocontact.analyses.frame.table_forms import TableForms
 from geocontact.data.errors import InputError
 from geocontact.io.results import coordinates_of, write_netcdf
 from tests.analyses.jobs import JOBS

@@ -13,9 +13,9 @@ import pandas as pd
 import pytest
 from matplotlib.figure import Figure
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS, Thinned, finished
-from geocontact.analyses.result import Part, Result
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS, Thinned, finished
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import Part, Result
 from geocontact.io.text.results import CASES
 from geocontact.view.page.content import Page, Picture, Table, Words
 from geocontact.view.page.write import page_html
@@ -150,7 +150,7 @@ def test_a_page_alone_draws_only_what_it_shows(tmp_path: Path) -> None:
             return {"report.html": page("One", *both)}
 
     with mock.patch(
-        "geocontact.analyses.figure_files.save", side_effect=lambda _, path: path.write_text("<svg/>")
+        "geocontact.analyses.frame.pages.save", side_effect=lambda _, path: path.write_text("<svg/>")
     ) as saved:
         One(record=record(tmp_path)).page(tmp_path / "page.html")
     assert saved.call_count == 1, "and that once"
@@ -196,6 +196,6 @@ def test_a_long_page_shows_fewer_frames_until_its_file_is_small(tmp_path: Path) 
     walks = Long(record=record(tmp_path))
     walks.page(tmp_path / "small.html")
     assert shown == [100]
-    with mock.patch("geocontact.analyses.finished_page.LARGEST_FILE", 1000):
+    with mock.patch("geocontact.analyses.frame.pages.LARGEST_FILE", 1000):
         walks.page(tmp_path / "page.html")
     assert shown[1:] == [100, 50, 25], "below twenty it is thinned no further"

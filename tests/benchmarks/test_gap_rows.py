@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks import gap_detectability, gap_next_experiment, gap_rows
-from geocontact.analyses import source_digest as sources
+from geocontact.analyses.frame import source_digest as sources
 
 
 def run(path: Path, seed: int, *rows: dict[str, object]) -> None:

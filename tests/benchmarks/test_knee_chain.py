@@ -15,7 +15,7 @@ import pytest
 import geocontact as gc
 from benchmarks import knee_alike, knee_chain, knee_truth
 from benchmarks.knee_truth import Bodies, Course, Withheld
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
 from geocontact.systems.knee_posed import PosedKnee

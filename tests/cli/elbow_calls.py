@@ -24,7 +24,7 @@ def unpictured() -> Iterator[None]:
     def save(_: Any, file: Path) -> None:
         file.write_bytes(b"<svg/>")
 
-    with mock.patch("geocontact.analyses.figure_files.save", save):
+    with mock.patch("geocontact.analyses.frame.pages.save", save):
         yield
 
 

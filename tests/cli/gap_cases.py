@@ -12,11 +12,10 @@ from unittest import mock
 
 import numpy as np
 
+from geocontact.analyses.frame.record import Listener, Record
 from geocontact.analyses.gap.diagnose.options import DiagnoseOptions
 from geocontact.analyses.gap.diagnose.result import DiagnoseResult, read, run
 from geocontact.analyses.gap.discriminability.result import DiscriminabilityResult, discriminability
-from geocontact.analyses.listener import Listener
-from geocontact.analyses.run_record import Record
 from tests.systems.examples import (
     ELBOW_CONSTANTS,
     ELBOW_VALUES,

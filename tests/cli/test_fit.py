@@ -191,6 +191,6 @@ def test_a_failing_run_leaves_the_old_results_alone(tmp_path: Path, monkeypatch:
     def full(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device", "report.html")
 
-    monkeypatch.setattr("geocontact.analyses.finished_page.write_page", full)
+    monkeypatch.setattr("geocontact.analyses.frame.pages.write_page", full)
     assert fit(tmp_path / "o", CUP, "sphere").code == 1
     assert inventory(tmp_path) == before

@@ -16,10 +16,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.frame.rerun import read_run
 from geocontact.analyses.gap.diagnose.many import kept
 from geocontact.analyses.gap.diagnose.options import ManyOptions
-from geocontact.analyses.json_file import plain
-from geocontact.analyses.run_again import read_run
 from tests.cli.calls import Call, call, done, inventory, process
 from tests.cli.gap_cases import damped_elbow, in_degrees_and_kilonewtons, known, reordered, spoilt
 from tests.systems.examples import ELBOW_VALUES

@@ -13,8 +13,8 @@ import pytest
 
 from geocontact import __version__
 from geocontact.analyses.catalogue import ENTRIES, GROUPS
-from geocontact.analyses.job import Job
-from geocontact.analyses.options import declared
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.options import declared
 from geocontact.cli.main import OWN, app
 from geocontact.cli.suggestions import commands
 from tests.analyses.jobs import JOBS

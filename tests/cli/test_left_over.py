@@ -11,7 +11,7 @@ from unittest import mock
 
 import pytest
 
-from geocontact.analyses.stale_results import digest
+from geocontact.analyses.frame.folder import digest
 from tests.cli.calls import PLATE, SPHERE, Call, area, done, inventory, poses, written
 from tests.contract import FILES
 

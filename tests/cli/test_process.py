@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from geocontact.analyses import results_folder
 from geocontact.analyses.area import result as area_analysis
 from geocontact.analyses.area.distance_file import DistanceMaps
+from geocontact.analyses.frame import folder as results_folder
 from geocontact.cli import main, show
 from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, ROOT, SPHERE, area, done, gait, inventory, poses, process
 from tests.contract import FILES

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.run_again import differing
-from geocontact.analyses.stale_results import digest
+from geocontact.analyses.frame.folder import digest
+from geocontact.analyses.frame.rerun import differing
 from tests.cli.calls import PLATE, SPHERE, Call, area, call, done, inventory, poses, written
 
 

@@ -6,7 +6,7 @@ import os
 
 import pytest
 
-from geocontact.analyses.workers import each
+from geocontact.analyses.frame.workers import each
 
 
 def squared(value: int) -> int:

@@ -71,7 +71,7 @@ BREAKS = [
     ("newroom/newroom.py", "", ROOMS),
     ("view/curves/style.py", "import geocontact.geometry.plane", VIEW),
     ("analyses/cop/foot.py", "import geocontact.analyses.area.result", APART),
-    ("analyses/bodies.py", "import geocontact.analyses.shape.result", APART),
+    ("analyses/frame/bodies.py", "import geocontact.analyses.shape.result", APART),
     ("analyses/motion/scale/result.py", "import geocontact.analyses.motion.inverse_dynamics.result", GROUP),
     ("analyses/area/options.py", "import geocontact.analyses.area.result", CIRCLES),
     ("chain/effect.py", "import geocontact.chain.effect", CIRCLES),

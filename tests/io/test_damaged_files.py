@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from geocontact.analyses.frame.quantities import axis
+from geocontact.analyses.frame.rerun import read_run
 from geocontact.analyses.misalignment.compare.pairs import _law
-from geocontact.analyses.quantities import axis
-from geocontact.analyses.run_again import read_run
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import LARGEST_MEANT, too_large
 from geocontact.io.mesh.particles import read_particles

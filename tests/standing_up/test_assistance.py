@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from casadi import Function
 
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.standing_up.assistance_design import KNEE, NAMES, STRAP, HelpTask, designed

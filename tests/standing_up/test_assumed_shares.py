@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from benchmarks.standing_other_world import World, own_trials
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions, solve
 from geocontact.standing_up.assumed_shares import JERK_KNOWN, AssumedShares, assumed_shares

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import geocontact.standing_up.trials as trials_module
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, standing_trials
 from geocontact.dynamics.collocation.problem import ControlledSystem, ControlProblem
 from geocontact.standing_up.assisted_model import assisted_model, habit

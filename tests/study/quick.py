@@ -15,10 +15,10 @@ from typing import Any, ClassVar
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.options import Options
-from geocontact.analyses.result import Result
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.options import Options
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import Result
 from geocontact.data.errors import InputError
 from geocontact.io.text.results import write_table
 

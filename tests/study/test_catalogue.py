@@ -10,7 +10,7 @@ from cyclopts import App
 
 import geocontact
 from geocontact.analyses.catalogue import ENTRIES, GROUPS, HOME, Entry, entry_of, job_named, names_of_room
-from geocontact.analyses.job import Job
+from geocontact.analyses.frame.job import Job
 from geocontact.cli.command import Command
 from geocontact.cli.main import OWN, app
 from geocontact.cli.suggestions import commands
@@ -85,7 +85,7 @@ def test_a_study_can_be_of_an_analysis_of_ones_own(tmp_path: Path, monkeypatch: 
     (tmp_path / "own_analysis.py").write_text(text, encoding="utf-8")
     monkeypatch.syspath_prepend(str(tmp_path))
     assert job_named("own_analysis:own") is job_named("cop")
-    with pytest.raises(InputError, match=r"'own_analysis:none' is a int; name a geocontact.analyses.job.Job"):
+    with pytest.raises(InputError, match=r"'own_analysis:none' is a int; name a geocontact.analyses.frame.job.Job"):
         job_named("own_analysis:none")
 
 

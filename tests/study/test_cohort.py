@@ -14,7 +14,7 @@ import pandas as pd
 import pytest
 from scipy.io import netcdf_file
 
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.study.curves import StudyCurves
 from geocontact.study.show import study_figure, study_page
 from geocontact.study.store import LOCK, sole_writer

@@ -14,7 +14,7 @@ from typing import Any
 import geocontact
 from geocontact import chain
 from geocontact.analyses.catalogue import Room
-from geocontact.analyses.job import Job
+from geocontact.analyses.frame.job import Job
 from geocontact.chain.links import LawParameters
 from geocontact.data.units import Unit
 

@@ -9,8 +9,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.options import Declared, declared
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.options import Declared, declared
 from geocontact.chain.links import LawParameters
 from geocontact.data.units import Unit
 from website.api.docstring import cell, entry_list, markdown, parts

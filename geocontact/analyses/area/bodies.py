@@ -12,12 +12,12 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Bool
 
-from geocontact.analyses import quantities
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.pose_error import pose_error_of
-from geocontact.analyses.bodies import chosen_faces, read_body_and_outer, refuse_two_spaces
-from geocontact.analyses.run_record import Record
-from geocontact.analyses.sides import MedialSide, medial_side, refuse_other_axes
+from geocontact.analyses.frame import quantities
+from geocontact.analyses.frame.bodies import chosen_faces, read_body_and_outer, refuse_two_spaces
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.shared_options import MedialSide, medial_side, refuse_other_axes
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import MM2
 from geocontact.data.motion import Motion

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.area.bodies import Bodies
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.congruence import CongruencePair

@@ -15,7 +15,7 @@ from geocontact.analyses.area.congruence import CongruenceEvolution
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.pose_error import AreaUncertainty, uncertainty_table
 from geocontact.analyses.area.pressure import PressureEvolution
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import MM2, AreaEvolution
 from geocontact.data.motion import Motion

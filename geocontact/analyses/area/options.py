@@ -8,9 +8,7 @@ from glob import has_magic
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.layer_options import BodyPair, Thickness
-from geocontact.analyses.motion_options import Sweep
-from geocontact.analyses.options import (
+from geocontact.analyses.frame.options import (
     AngleUnit,
     Excludes,
     Expression,
@@ -26,7 +24,7 @@ from geocontact.analyses.options import (
     Spelled,
     Typed,
 )
-from geocontact.analyses.sides import Medial, Side, medial_side
+from geocontact.analyses.frame.shared_options import BodyPair, Medial, Side, Sweep, Thickness, medial_side
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import (
     DIFFERENCE,

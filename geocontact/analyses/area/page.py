@@ -23,8 +23,8 @@ from geocontact.analyses.area.page_sections import (
 )
 from geocontact.analyses.area.pose_error import AreaUncertainty
 from geocontact.analyses.area.pressure_page import Pressures, pressure_sections, pressure_words
-from geocontact.analyses.finished_page import INPUTS, OPTIONS, Thinned
-from geocontact.analyses.page_words import NOT_A_DEVICE, counted, rounded
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS, Thinned
+from geocontact.analyses.frame.words import NOT_A_DEVICE, counted, rounded
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import CLIP, REFINED

@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses import quantities
 from geocontact.analyses.area.options import AreaOptions
+from geocontact.analyses.frame import quantities
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Motion

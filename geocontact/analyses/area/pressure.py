@@ -12,8 +12,8 @@ from jaxtyping import Bool, Float
 
 from geocontact.analyses.area.bodies import Bodies
 from geocontact.analyses.area.options import FLAT, AreaOptions
-from geocontact.analyses.layer_thickness import confined_modulus, measured_thickness
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.bodies import confined_modulus, measured_thickness
+from geocontact.analyses.frame.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.evolution import Settings

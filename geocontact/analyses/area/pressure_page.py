@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.analyses.area.pressure import PressureEvolution
-from geocontact.analyses.page_words import rounded
+from geocontact.analyses.frame.words import rounded
 from geocontact.data.motion import Course
 from geocontact.geometry.sagittal import silhouette
 from geocontact.geometry.surface import Surface

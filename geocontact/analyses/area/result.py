@@ -48,12 +48,11 @@ from geocontact.analyses.area.page import FRAMES, thinned_page
 from geocontact.analyses.area.pose_error import ENDS, AreaUncertainty, area_uncertainty
 from geocontact.analyses.area.pressure import PressureEvolution, pressure_evolution
 from geocontact.analyses.area.pressure_page import shown_pressures
-from geocontact.analyses.contact_loads import write_contact_loads
-from geocontact.analyses.finished_page import Thinned
-from geocontact.analyses.job import Job
-from geocontact.analyses.pressure_figure import PressureMap, pressure_figure
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.contact_pressures import PressureMap, pressure_figure, write_contact_loads
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.pages import Thinned
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.data.evolution import MM2, AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import REFINED

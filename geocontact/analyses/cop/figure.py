@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.cop.loads import NAMES, SHARE, FootLoads, loads_table, stance_table, stances
-from geocontact.analyses.figure_files import drawing
+from geocontact.analyses.frame.pages import drawing
 from geocontact.view.curves.sheet import sheet
 from geocontact.view.page.content import Picture
 

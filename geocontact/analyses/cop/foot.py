@@ -10,11 +10,10 @@ import pandas as pd
 from jaxtyping import Float, Int
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.analyses.bodies import warn_of_inner_surfaces
-from geocontact.analyses.body_motion import read_body_motion
 from geocontact.analyses.cop.options import LAW, CopOptions
+from geocontact.analyses.frame.bodies import read_body_motion, warn_of_inner_surfaces
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.plausible import numbers_in

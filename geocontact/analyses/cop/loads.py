@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.cop.foot import Foot, PlateCurves
 from geocontact.analyses.cop.options import CopOptions
-from geocontact.analyses.result import Result
+from geocontact.analyses.frame.result import Result
 from geocontact.identify.signals.cycles import STEPS, Span, loaded_spans, normalised
 from geocontact.loads.centre_of_pressure import CentreOfPressure, FootAxis
 from geocontact.loads.sphere_set import SphereLoads

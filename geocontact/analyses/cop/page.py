@@ -9,8 +9,8 @@ from scipy.spatial import ConvexHull
 from geocontact.analyses.cop.figure import PERCENT, stance_pictures
 from geocontact.analyses.cop.foot import root_mean_squares
 from geocontact.analyses.cop.loads import SHARE, FootLoads, along_foot
-from geocontact.analyses.page_frames import thinned
-from geocontact.analyses.page_words import NOT_A_DEVICE, counted, rounded
+from geocontact.analyses.frame.pages import thinned
+from geocontact.analyses.frame.words import NOT_A_DEVICE, counted, rounded
 from geocontact.data.text import seconds
 from geocontact.view.page.content import (
     Curve,

@@ -29,9 +29,9 @@ from geocontact.analyses.cop.foot import Foot, comparison_table, low_passed, pla
 from geocontact.analyses.cop.loads import NAMES, SHARE, FootLoads, along_foot, loads_table, stance_table, stances
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.cop.page import cop_page
-from geocontact.analyses.job import Job
-from geocontact.analyses.result import REPORT
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT
 from geocontact.data.errors import InputError
 from geocontact.loads.centre_of_pressure import POINTS, FootAxis, axis_of_sole
 from geocontact.loads.centre_of_pressure import centre_of_pressure as centre_of

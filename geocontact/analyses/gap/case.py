@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import NextExperiment
 from geocontact.data.gap_case import GapCase

@@ -10,10 +10,10 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses import quantities
+from geocontact.analyses.frame import quantities
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.words import counted
 from geocontact.analyses.loadcells.options import FOUND, STANCE, STRIDE, LoadcellOptions
-from geocontact.analyses.page_words import counted
-from geocontact.analyses.run_record import Record
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.errors import InputError
 from geocontact.data.text import seconds

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.options import Expression, ForceUnit, Fraction, Options, Requires
+from geocontact.analyses.frame.options import Expression, ForceUnit, Fraction, Options, Requires
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import MASS, SHARE, N, Plausible
 from geocontact.data.text import cannot_be_named, same_place

@@ -18,8 +18,10 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing
-from geocontact.analyses.job import Job
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.pages import drawing
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import Result
 from geocontact.analyses.loadcells.forces import (
     SIDES,
     Cut,
@@ -46,8 +48,6 @@ from geocontact.analyses.loadcells.show import (
     loadcell_figure,
     loadcell_page,
 )
-from geocontact.analyses.result import Result
-from geocontact.analyses.run_record import Record
 from geocontact.data.cell_regression import CellRegression
 from geocontact.view.curves.quantity import SERIES
 from geocontact.view.page.tables import frame_table

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.analyses.frame.pages import thinned
+from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
 from geocontact.analyses.loadcells.forces import SIDES, Cut, RecordedCells, stacked
-from geocontact.analyses.page_frames import thinned
-from geocontact.analyses.page_words import NOT_A_DEVICE, counted
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.text import seconds
 from geocontact.data.trial import mean_and_sd

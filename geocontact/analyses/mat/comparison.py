@@ -11,8 +11,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.mat.options import MatOptions
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.wrench import Wrench
 from geocontact.identify.signals.agreement import FEWEST, Agreement, agreement, over_stretches, per_phase

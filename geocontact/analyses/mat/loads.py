@@ -10,12 +10,12 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Bool, Float
 
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import Result
 from geocontact.analyses.mat.comparison import AXES, load_table
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placed import ClosestPoint, MatInputs, PlacedMat, cells_of, mat_and_marks
 from geocontact.analyses.mat.recording import PreparedFrames, Travel
-from geocontact.analyses.result import Result
-from geocontact.analyses.run_record import Record
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.cells import Drape
 from geocontact.geometry.drape.slip import slip_covariance

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import (
+from geocontact.analyses.frame.options import (
     AngleUnit,
     Excludes,
     Expression,

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.analyses.bodies import chosen_faces, read_input_surface
+from geocontact.analyses.frame.bodies import chosen_faces, read_input_surface
+from geocontact.analyses.frame.quantities import centre, named_file
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.mat.comparison import ModelForces, Phase, read_model, read_phases
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placement import (
@@ -24,8 +26,6 @@ from geocontact.analyses.mat.placement import (
     say_which_side,
 )
 from geocontact.analyses.mat.recording import read_recording, read_segment_motion
-from geocontact.analyses.quantities import centre, named_file
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.bodies import read_input_surface
+from geocontact.analyses.frame.bodies import read_input_surface
+from geocontact.analyses.frame.quantities import centre
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.mat.options import MatOptions
-from geocontact.analyses.quantities import centre
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.belt import NotAroundError

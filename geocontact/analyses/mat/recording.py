@@ -12,9 +12,9 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.analyses.body_motion import read_body_motion
+from geocontact.analyses.frame.bodies import read_body_motion
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.mat.options import MatOptions
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames

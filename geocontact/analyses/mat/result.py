@@ -18,16 +18,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.finished_page import Thinned
-from geocontact.analyses.job import Job
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.pages import Thinned
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT
 from geocontact.analyses.mat.comparison import compared
 from geocontact.analyses.mat.loads import MatFindings, loads, mat_tables
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placed import MatInputs, closest_point, placed, read
 from geocontact.analyses.mat.recording import followed, made_ready
 from geocontact.analyses.mat.show import FRAMES, mat_figure, mat_page, shown_frames
-from geocontact.analyses.result import REPORT
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
 from geocontact.io.text.results import CASES

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.mat.loads import MatFindings
 from geocontact.analyses.mat.placed import ClosestPoint
-from geocontact.analyses.page_frames import thinned
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.geometry.drape.cells import Drape
 from geocontact.loads.mat_load import MatLoad
 from geocontact.loads.mat_map import MatMap

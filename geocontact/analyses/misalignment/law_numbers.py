@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from geocontact.analyses import quantities
+from geocontact.analyses.frame import quantities
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import ATTACHMENT, DAMPING, ByName, ByPlace, Plausible
 from geocontact.data.units import Unit, mm

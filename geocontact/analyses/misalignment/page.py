@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.page.content import Page, Section, Words
 

@@ -9,8 +9,8 @@ from typing import Any
 
 import pandas as pd
 
-from geocontact.analyses import quantities
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame import quantities
+from geocontact.analyses.frame.record import Record
 from geocontact.axis_misalignment.axis_drift import STILL, AxisDrift, from_instant_centre, polynomial, table
 from geocontact.axis_misalignment.planar_joint import FOLD, LOST, POLE, SOUND
 from geocontact.data.errors import InputError

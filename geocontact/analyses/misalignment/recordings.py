@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.filters import at_times, even_times, zero_lag

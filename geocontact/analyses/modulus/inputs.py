@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.modulus.options import ModulusOptions
-from geocontact.analyses.run_record import Record
 from geocontact.contact.area_hertz import READINGS, Reading
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.json_file import finite, plain
+from geocontact.analyses.frame.json_file import finite, plain
 from geocontact.analyses.modulus.identified import Identified, confounded
 from geocontact.analyses.modulus.inputs import BOTH
 from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, MODULUS, SLOPE, THRESHOLD

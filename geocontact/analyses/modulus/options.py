@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.checks import bootstrap_rule, refuse
-from geocontact.analyses.options import (
+from geocontact.analyses.frame.options import (
     AngleUnit,
     Excludes,
     Expression,
@@ -162,7 +162,7 @@ class ModulusOptions(Options):
         )
 
     def _refuse_free(self) -> None:
-        from geocontact.analyses.quantities import FREE_UNITS  # numpy and friends: not for --help
+        from geocontact.analyses.frame.quantities import FREE_UNITS  # numpy and friends: not for --help
 
         for name, bounds in (self.free or {}).items():
             if name not in FREE_UNITS:

@@ -21,8 +21,10 @@ from typing import TYPE_CHECKING, ClassVar
 
 import pandas as pd
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.job import Job
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.modulus.identified import Identified, constant, predictions, sensitivity
 from geocontact.analyses.modulus.inputs import ModulusInputs, model_of, read, threshold_given, unknowns
 from geocontact.analyses.modulus.numbers import (
@@ -34,8 +36,6 @@ from geocontact.analyses.modulus.numbers import (
 )
 from geocontact.analyses.modulus.options import ModulusOptions
 from geocontact.analyses.modulus.show import moduli, modulus_figure, modulus_page, told_apart
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
 from geocontact.data.text import seconds

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geocontact.analyses.frame.words import NOT_A_DEVICE, rounded
 from geocontact.analyses.modulus.identified import ForcePair, Identified, constant
 from geocontact.analyses.modulus.numbers import PER_SI, UNITS
-from geocontact.analyses.page_words import NOT_A_DEVICE, rounded
 from geocontact.elastic_modulus.area_force import MODULUS
 from geocontact.elastic_modulus.identify import Identification, agreement
 from geocontact.identify.identifiability import Identifiability

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geocontact.analyses.figure_files import drawing
+from geocontact.analyses.frame.pages import drawing
 from geocontact.analyses.motion.gait_cycles import GaitCycles, cycles_figure
 from geocontact.view.page.content import Picture, Section
 

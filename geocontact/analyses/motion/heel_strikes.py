@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.frame.quantities import number
 from geocontact.analyses.motion.sides import LEFT, RIGHT, stem_and_side
-from geocontact.analyses.quantities import number
 from geocontact.data.errors import InputError
 from geocontact.data.wrench import Wrench
 from geocontact.identify.signals.cycles import strides

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.dynamics.inverse_kinematics import Poses
 
 FAR = 0.05

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from geocontact.analyses.frame.quantities import number
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.marker_names import map_hint, names_told
-from geocontact.analyses.quantities import number
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import Followed, MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Multibody

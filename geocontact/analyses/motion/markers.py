@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from geocontact.analyses.options import LengthUnit
-from geocontact.analyses.quantities import named_file, turned_axes
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.options import LengthUnit
+from geocontact.analyses.frame.quantities import named_file, turned_axes
+from geocontact.analyses.frame.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody

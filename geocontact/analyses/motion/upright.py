@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.quantities import turned_axes
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.quantities import turned_axes
+from geocontact.analyses.frame.record import Record
 from geocontact.data.multibody.joint import JointModel
 from geocontact.data.multibody.model import GROUND, Multibody
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.run_record import Record
-from geocontact.analyses.stale_results import digest
+from geocontact.analyses.frame.folder import digest
+from geocontact.analyses.frame.record import Record
 from geocontact.below_knee_prosthesis.foot_numbers import foot_numbers, socket_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import AS_STOOD, FootOffset, Leg

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
 from geocontact.below_knee_prosthesis.leg import Side

@@ -10,12 +10,12 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Bool, Float
 
-from geocontact.analyses import quantities
-from geocontact.analyses.bodies import chosen_faces, read_input_surface
-from geocontact.analyses.json_file import finite
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame import quantities
+from geocontact.analyses.frame.bodies import chosen_faces, read_input_surface
+from geocontact.analyses.frame.json_file import finite
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.shared_options import medial_side, refuse_other_axes
 from geocontact.analyses.shape.options import NEEDS, ShapeOptions
-from geocontact.analyses.sides import medial_side, refuse_other_axes
 from geocontact.data.errors import InputError
 from geocontact.geometry.fit.found import ShapeFit
 from geocontact.geometry.fit.profile import SagittalProfile

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.checks import refuse
-from geocontact.analyses.options import Degrees, Excludes, Expression, MeshUnit, Options, Requires, Spelled, Typed
-from geocontact.analyses.sides import Medial, Side, medial_side
+from geocontact.analyses.frame.options import Degrees, Excludes, Expression, MeshUnit, Options, Requires, Spelled, Typed
+from geocontact.analyses.frame.shared_options import Medial, Side, medial_side
 from geocontact.data.plausible import JOINT_ANGLE, Plausible
 from geocontact.data.units import deg
 
@@ -170,7 +170,7 @@ class ShapeOptions(Options):
 
     def names_in_region(self) -> set[str]:
         """Those of `NEEDS` that the region speaks of; a file of face numbers speaks of none."""
-        from geocontact.analyses.quantities import named_file  # numpy and friends: not for --help
+        from geocontact.analyses.frame.quantities import named_file  # numpy and friends: not for --help
 
         if self.region is None or named_file(self.region) is not None:
             return set()

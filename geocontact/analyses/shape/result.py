@@ -21,9 +21,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.shape.fitting import (
     Fitting,
     Patch,

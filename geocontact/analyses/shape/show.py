@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.shape.fitting import Fitting
 from geocontact.geometry.fit.found import OUTLYING, ShapeFit
 from geocontact.geometry.fit.profile import SagittalProfile

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import SOURCES, Number, Source
 from geocontact.io.recordings.shoulder_device import read_device_file, read_person_file

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.analyses.options import AngleUnit, ForceUnit
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.options import AngleUnit, ForceUnit
+from geocontact.analyses.frame.record import Record
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import Agreement, agreement, over_stretches
 from geocontact.io.recordings.load_cells import column_in_newtons

@@ -10,8 +10,8 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.standing_up.chain import COORDINATES, FOOT, TRUNK, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import HEIGHT, STRAP_PARAMETERS, two_chains

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import Multibody
 from geocontact.identify.signals.filters import UNEVEN, zero_lag

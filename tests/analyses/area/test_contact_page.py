@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geocontact.analyses import finished_page
 from geocontact.analyses.area import page as contact_page
 from geocontact.analyses.area.page import thinned_page
-from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame import pages as finished_page
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.geometry.contact_area.area import AS_GIVEN, Refinement
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps

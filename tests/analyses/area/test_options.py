@@ -10,8 +10,8 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.area.options import AreaOptions, PressureOptions
-from geocontact.analyses.options import declared
-from geocontact.analyses.typed_values import read
+from geocontact.analyses.frame.calls import read
+from geocontact.analyses.frame.options import declared
 from geocontact.cli.command import option
 from geocontact.data.errors import InputError
 

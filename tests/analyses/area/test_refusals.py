@@ -9,7 +9,7 @@ import pytest
 
 from geocontact.analyses.area import bodies
 from geocontact.analyses.area.result import area as analysis
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.data.errors import InputError
 from tests.analyses.area.calls import area
 from tests.cli.calls import FEMUR, INSERT, PLATE, SPHERE, corners, gait, poses, stl, written

@@ -12,12 +12,12 @@ import pytest
 import geocontact as gc
 import geocontact.gap
 from benchmarks.constants_of import numbers_in
+from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.gap.benchmark import result as gap_benchmark_result
 from geocontact.analyses.gap.benchmark.case import ANSWERERS, Task, Worked, alike, failed, renamed, worked
 from geocontact.analyses.gap.benchmark.outcome import BenchmarkOutcome, alarms
 from geocontact.analyses.gap.benchmark.result import benchmark, mixed
 from geocontact.analyses.gap.benchmark.show import constants_of_all, page_lines
-from geocontact.analyses.json_file import plain
 from geocontact.gap_benchmark.drawing import ABROAD, KINDS, SHARES, Lot, drawn, lots, shares
 from tests.house.test_gap_theory import ROWS
 

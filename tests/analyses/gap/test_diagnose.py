@@ -12,11 +12,11 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.frame.job import Call, execute
+from geocontact.analyses.frame.record import Listener
 from geocontact.analyses.gap.diagnose.many import diagnose_many
 from geocontact.analyses.gap.diagnose.options import ManyOptions
 from geocontact.analyses.gap.diagnose.result import DiagnoseResult
-from geocontact.analyses.job import Call, execute
-from geocontact.analyses.listener import Listener
 from tests.cli.calls import call, done
 from tests.cli.gap_cases import DAMPING, TOLD, damped_elbow, diagnosed_elbow, known, spoilt
 from tests.unchecked import unchecked

@@ -11,12 +11,11 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.figure_files import Drawings
-from geocontact.analyses.finished_page import finished
+from geocontact.analyses.frame.pages import Drawings, finished
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.gap.case import percent
 from geocontact.analyses.gap.diagnose.answer import axis_units, facts_of, states, untried_law, verdict_sentences
 from geocontact.analyses.gap.diagnose.show import gap_figures, gap_page
-from geocontact.analyses.run_record import Record
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Partial, Where
 from geocontact.data.gap_case import GapCase

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.gap.discriminability.answer import answer
 from geocontact.analyses.gap.discriminability.result import DiscriminabilityResult
-from geocontact.analyses.json_file import plain
 from tests.cli.calls import call, done
 from tests.cli.gap_cases import EFFECTS, confused_elbow, damped_elbow
 

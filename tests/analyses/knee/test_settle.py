@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.job import Job
+from geocontact.analyses.frame.job import Job
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.motion.motion import read_motion
 from tests.cli.calls import FEMUR, INSERT, KNEE, MESHES, PLATE, SPHERE, call, done, gait, poses

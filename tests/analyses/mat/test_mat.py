@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from geocontact.analyses.frame.options import declared
 from geocontact.analyses.mat.options import MatOptions
-from geocontact.analyses.options import declared
 from tests.analyses.mat.samples import (
     CENTRE,
     COLS,

@@ -12,9 +12,9 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.misalignment.identify.fitted import Fitted
 from geocontact.analyses.misalignment.identify.sentences import fixation_words, reserve
-from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.least_squares import Prior
 from geocontact.axis_misalignment.uncertainty import Separability
 from tests.analyses.misalignment.test_compare import law

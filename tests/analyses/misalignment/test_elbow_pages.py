@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.figure_files import Drawings
+from geocontact.analyses.frame.pages import Drawings
 from geocontact.analyses.misalignment.identify.show import Boxes, arm_drawing, conditions_figure, told_figure
 from geocontact.analyses.misalignment.population import show as population_page
 from geocontact.analyses.misalignment.simulate import show as simulate_page

@@ -7,7 +7,7 @@ from importlib import import_module
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.job import Job
+from geocontact.analyses.frame.job import Job
 
 NAMES = {
     "simulate": "simulate",

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.calibrate.result import doubts_of_fit
 from geocontact.analyses.prosthesis.simulate.result import doubt
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.clocks import clock_offset
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance

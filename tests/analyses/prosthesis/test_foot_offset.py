@@ -13,6 +13,7 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.cop.foot import sole_law
 from geocontact.analyses.cop.options import CopOptions
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.compare.stances import read as read_study
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
@@ -21,7 +22,6 @@ from geocontact.analyses.prosthesis.leg_and_foot import offset_of_law
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.walk import fitted_walk
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.leg import AS_STOOD, FootOffset
 from geocontact.io.recordings.spheres import SphereTable
 from tests.analyses.prosthesis import test_compare

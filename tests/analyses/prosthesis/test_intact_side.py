@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.trial import intact_side, intact_table, intact_words
 from geocontact.analyses.prosthesis.recorded_files import plate_under_foot, right_markers
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.design.drawn import RecordedTrial
 from geocontact.below_knee_prosthesis.design.intact_step import IntactStep
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_keel

@@ -13,10 +13,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import geocontact as gc
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.leg_and_foot import all_numbers, numbers_table
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.walk import Walk, bushing_of, fitted_walk, read
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot

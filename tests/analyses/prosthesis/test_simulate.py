@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.json_file import plain
+from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.simulate.result import (
     beside_words,
     curves_table,
@@ -19,7 +20,6 @@ from geocontact.analyses.prosthesis.simulate.result import (
     found_words,
     summary,
 )
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.evaluation import stance_errors
 from geocontact.io.opensim.external_loads import read_external_loads
 from tests.below_knee_prosthesis.stances import a_stance

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.shoulder.devices import device_named
 from geocontact.analyses.shoulder.recordings import current_at
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.optimise.profiles import read as read_workers
 from geocontact.analyses.shoulder.study.cases import read as read_study

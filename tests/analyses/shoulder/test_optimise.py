@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.shoulder.devices import read_profiles
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.optimise.profiles import WORST, of_others, read, support_of

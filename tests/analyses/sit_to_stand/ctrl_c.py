@@ -6,7 +6,7 @@ import os
 import signal
 from contextlib import contextmanager
 
-from geocontact.analyses.listener import Listener
+from geocontact.analyses.frame.record import Listener
 
 
 class Interrupting(Listener):

@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
 from geocontact.analyses.sit_to_stand.calibrate.phases import doubt_phase
 from geocontact.analyses.sit_to_stand.calibrate.result import read, run

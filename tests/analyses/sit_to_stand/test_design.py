@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
 from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult, doubt, run
 from geocontact.analyses.sit_to_stand.design.search import read

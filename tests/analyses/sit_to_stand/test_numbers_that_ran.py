@@ -15,7 +15,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import geocontact as gc
-from geocontact.analyses.result import Result
+from geocontact.analyses.frame.result import Result
 from geocontact.analyses.sit_to_stand.calibrate.result import StandingCalibrateResult
 from geocontact.analyses.sit_to_stand.compare.result import StandingCompareResult
 from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult

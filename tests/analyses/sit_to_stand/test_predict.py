@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.predict import predictions
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.predict.predictions import ALL, read

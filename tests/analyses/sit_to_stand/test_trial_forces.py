@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.standing_trials import chair_load, standing_trials, strap_force
 from geocontact.data.wrench import Wrench
 from geocontact.io.mocap.force_plates import ForcePlate

@@ -10,12 +10,12 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 import geocontact as gc
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
 from geocontact.analyses.prosthesis.scale.standing import read as read_stood
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.walk import fitted_walk
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_amputee
 from tests.analyses.prosthesis.test_simulate import GIVEN, TRIAL

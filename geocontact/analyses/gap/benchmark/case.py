@@ -13,8 +13,8 @@ from typing import Any
 
 from threadpoolctl import threadpool_limits
 
-from geocontact.analyses.json_file import plain
-from geocontact.analyses.source_digest import digest
+from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.frame.source_digest import digest
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial

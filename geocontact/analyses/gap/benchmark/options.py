@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import Excludes, Missing, Needs, Options
+from geocontact.analyses.frame.options import Excludes, Missing, Needs, Options
 from geocontact.data.errors import InputError
 
 

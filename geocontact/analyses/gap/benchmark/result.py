@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.frame.folder import Scratch
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import write_json
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import Part, Result
+from geocontact.analyses.frame.workers import each
 from geocontact.analyses.gap.benchmark.case import Journal, Task, Worked, lost, worked
 from geocontact.analyses.gap.benchmark.options import BenchmarkOptions
 from geocontact.analyses.gap.benchmark.outcome import BenchmarkOutcome, cases_table
 from geocontact.analyses.gap.benchmark.show import content, page_lines, stated_figure
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import write_json
-from geocontact.analyses.result import Part, Result
-from geocontact.analyses.results_folder import Scratch
-from geocontact.analyses.run_record import Record
-from geocontact.analyses.workers import each
 from geocontact.data.errors import InputError
 from geocontact.gap_benchmark.drawing import ABROAD, KINDS, SYSTEMS, Lot, lots
 

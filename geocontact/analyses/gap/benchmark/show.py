@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import geocontact.gap
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.gap.benchmark.outcome import SLOW, BenchmarkOutcome, alarm_lines, alarms, mean
-from geocontact.analyses.run_record import Record
 from geocontact.gap import attribute
 from geocontact.gap.selection import verdict
 from geocontact.gap_benchmark import answers as imitation

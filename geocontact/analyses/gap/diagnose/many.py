@@ -18,18 +18,17 @@ from typing import Any
 
 import pandas as pd
 
+from geocontact.analyses.frame.folder import RUN, Scratch, digest, written_whole
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.rerun import read_run, results_of
+from geocontact.analyses.frame.result import Part, Result
+from geocontact.analyses.frame.source_digest import digest as sources_digest
+from geocontact.analyses.frame.table_forms import TableForms
+from geocontact.analyses.frame.words import counted
+from geocontact.analyses.frame.workers import each
 from geocontact.analyses.gap.diagnose.options import ManyOptions
 from geocontact.analyses.gap.diagnose.result import read, run
-from geocontact.analyses.job import Job
-from geocontact.analyses.page_words import counted
-from geocontact.analyses.result import Part, Result
-from geocontact.analyses.results_folder import Scratch, written_whole
-from geocontact.analyses.run_again import read_run, results_of
-from geocontact.analyses.run_record import Record
-from geocontact.analyses.source_digest import digest as sources_digest
-from geocontact.analyses.stale_results import RUN, digest
-from geocontact.analyses.table_forms import TableForms
-from geocontact.analyses.workers import each
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
 from geocontact.io.cases.gap_case import gap_case_folders

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import KW_ONLY, dataclass
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.options import CaseFolder, Options, Requires
+from geocontact.analyses.frame.options import CaseFolder, Options, Requires
 from geocontact.data.errors import InputError
 
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.gap.case import names, percent
 from geocontact.analyses.gap.diagnose.answer import (
     axis_units,
@@ -17,7 +18,6 @@ from geocontact.analyses.gap.diagnose.answer import (
     in_question,
     verdict_sentences,
 )
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.data.diagnosis import Diagnosis, HeldOut
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.diagnose import Findings

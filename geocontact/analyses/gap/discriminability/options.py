@@ -6,7 +6,7 @@ import math
 from dataclasses import KW_ONLY, dataclass
 from typing import ClassVar
 
-from geocontact.analyses.options import CaseFolder, Options
+from geocontact.analyses.frame.options import CaseFolder, Options
 from geocontact.data.errors import InputError
 
 

@@ -27,6 +27,10 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import write_json
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import PARTS, REPORT, Part, Result
 from geocontact.analyses.gap.case import CaseWithModel, read_case
 from geocontact.analyses.gap.discriminability.answer import (
     answer,
@@ -37,10 +41,6 @@ from geocontact.analyses.gap.discriminability.answer import (
 )
 from geocontact.analyses.gap.discriminability.options import DiscriminabilityOptions
 from geocontact.analyses.gap.discriminability.show import confusion_figures, confusion_page
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import write_json
-from geocontact.analyses.result import PARTS, REPORT, Part, Result
-from geocontact.analyses.run_record import Record
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.gap.discriminability.answer import confusion_sentences, size_words
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.gap.identifiability.detectability import Detectability
 from geocontact.gap.identifiability.discriminability import Discriminability
 from geocontact.gap.identifiability.separability import table

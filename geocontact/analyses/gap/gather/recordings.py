@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.gap.gather.channels import (
     alike_mats,
     cell_channels,
@@ -17,7 +18,6 @@ from geocontact.analyses.gap.gather.channels import (
     with_sides,
 )
 from geocontact.analyses.gap.gather.options import GatherOptions
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
 from geocontact.io.cases.case_settings import parameters_of

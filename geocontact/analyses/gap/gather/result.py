@@ -26,13 +26,13 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.frame.folder import Scratch
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Part, Result
 from geocontact.analyses.gap.gather.options import GatherOptions
 from geocontact.analyses.gap.gather.recordings import Recordings, gathered, read
 from geocontact.analyses.gap.gather.show import gather_page
-from geocontact.analyses.job import Job
-from geocontact.analyses.result import REPORT, Part, Result
-from geocontact.analyses.results_folder import Scratch
-from geocontact.analyses.run_record import Record
 from geocontact.data.gap_case import GapCase
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.gap_case_writer import trial_table, write_gap_case

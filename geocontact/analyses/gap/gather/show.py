@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.page_words import NOT_A_DEVICE, counted
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.view.page.content import Curve, Curves, Page, Section, Table, Words

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.options import CaseFolder, Options, Spelled, Typed
+from geocontact.analyses.frame.options import CaseFolder, Options, Spelled, Typed
 from geocontact.data.errors import InputError
 
 NamedNumbers = Annotated[

@@ -27,6 +27,11 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.frame.folder import Scratch
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import write_json
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import Part, Result
 from geocontact.analyses.gap.case import CaseWithModel, read_case
 from geocontact.analyses.gap.diagnose.options import DiagnoseOptions
 from geocontact.analyses.gap.diagnose.result import DiagnoseResult
@@ -34,11 +39,6 @@ from geocontact.analyses.gap.diagnose.result import read as read_diagnosis
 from geocontact.analyses.gap.diagnose.result import run as run_diagnosis
 from geocontact.analyses.gap.inject.injection import Judgement, answer, judged, parameter_rows, planted, sentences
 from geocontact.analyses.gap.inject.options import InjectOptions
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import write_json
-from geocontact.analyses.result import Part, Result
-from geocontact.analyses.results_folder import Scratch
-from geocontact.analyses.run_record import Record
 from geocontact.chain.effect import Candidate
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.errors import InputError

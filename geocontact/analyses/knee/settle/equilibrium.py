@@ -11,12 +11,17 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.analyses import quantities
-from geocontact.analyses.bodies import chosen_faces, read_body, refuse_two_spaces
+from geocontact.analyses.frame import quantities
+from geocontact.analyses.frame.bodies import (
+    chosen_faces,
+    confined_modulus,
+    measured_thickness,
+    read_body,
+    refuse_two_spaces,
+)
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.shared_options import medial_side
 from geocontact.analyses.knee.settle.options import SettleOptions
-from geocontact.analyses.layer_thickness import confined_modulus, measured_thickness
-from geocontact.analyses.run_record import Record
-from geocontact.analyses.sides import medial_side
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.multibody.knee_angles import angles_of_tibia

@@ -7,9 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.layer_options import BodyPair, Thickness
-from geocontact.analyses.motion_options import Sweep
-from geocontact.analyses.options import (
+from geocontact.analyses.frame.options import (
     AngleUnit,
     Excludes,
     Expression,
@@ -20,7 +18,7 @@ from geocontact.analyses.options import (
     Spelled,
     Typed,
 )
-from geocontact.analyses.sides import Side
+from geocontact.analyses.frame.shared_options import BodyPair, Side, Sweep, Thickness
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import LAYER_RATIO, PIECE, YOUNG, N, Plausible
 

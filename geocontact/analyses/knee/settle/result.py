@@ -22,16 +22,15 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.contact_loads import write_contact_loads
-from geocontact.analyses.finished_page import Thinned
-from geocontact.analyses.job import Job
+from geocontact.analyses.frame.contact_pressures import PressureMap, pressure_figure, write_contact_loads
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.pages import Thinned
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.frame.shared_options import medial_side
 from geocontact.analyses.knee.settle.equilibrium import SIDES, Settled, SettleInputs, read
 from geocontact.analyses.knee.settle.options import SettleOptions
 from geocontact.analyses.knee.settle.show import thinned_page
-from geocontact.analyses.pressure_figure import PressureMap, pressure_figure
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
-from geocontact.analyses.sides import medial_side
 from geocontact.data.errors import InputError
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.loads.settling import EnergyBalance, Frame, energy_balance, not_held, settle_along

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.analyses.finished_page import Thinned
+from geocontact.analyses.frame.pages import Thinned
+from geocontact.analyses.frame.words import MOST, NOT_A_DEVICE, headline
 from geocontact.analyses.knee.settle.equilibrium import SIDES, Settled
-from geocontact.analyses.page_words import MOST, NOT_A_DEVICE, headline
 from geocontact.loads.settling_potential import NAMES
 from geocontact.view.page.content import Curve, Curves, FaceMap, Page, Readout, Row, Scene, SceneBody, Section, Words
 from geocontact.view.surfaces.camera import camera_directions

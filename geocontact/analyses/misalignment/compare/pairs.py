@@ -11,11 +11,11 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.misalignment.compare.options import CompareOptions
 from geocontact.analyses.misalignment.law_numbers import MMHG, PER_SI, key_of
 from geocontact.analyses.misalignment.page import CONSTRAINT
 from geocontact.analyses.misalignment.recordings import recordings
-from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.law import NAMES
 from geocontact.axis_misalignment.synthetic import ideal
 from geocontact.data.elbow_recording import ElbowRecording

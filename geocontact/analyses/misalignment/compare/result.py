@@ -17,7 +17,9 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.job import Job
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.misalignment.compare.options import CompareOptions
 from geocontact.analyses.misalignment.compare.pairs import (
     QUANTITIES,
@@ -28,8 +30,6 @@ from geocontact.analyses.misalignment.compare.pairs import (
     read,
 )
 from geocontact.analyses.misalignment.compare.show import comparison_figure, comparison_page
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
 from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.words import counted
 from geocontact.analyses.misalignment.compare.pairs import QUANTITIES, Pair
 from geocontact.analyses.misalignment.page import ANGLE, FRAMES, NOT_IN_THE_NUMBERS, elbow_page
-from geocontact.analyses.page_words import counted
-from geocontact.analyses.run_record import Record
 from geocontact.view.curves.quantity import FORCE, Quantity
 from geocontact.view.curves.sheet import plain
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, MARKERS, PALETTE, in_style, legend, panels

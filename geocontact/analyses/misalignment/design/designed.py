@@ -10,9 +10,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.misalignment.design.options import DesignOptions
 from geocontact.analyses.misalignment.planar import STATES, WITHOUT_FORCE, axis_drift, rounded
-from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.axis_drift import AxisDrift
 from geocontact.axis_misalignment.compensation import Compensation, needed_ends
 from geocontact.axis_misalignment.design import (

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import KW_ONLY, dataclass
 from typing import Annotated, ClassVar
 
+from geocontact.analyses.frame.options import Millimetres, Options, Spelled, Typed
 from geocontact.analyses.misalignment.law_numbers import ACROSS, LINK, OFFSET
 from geocontact.analyses.misalignment.shared_options import (
     Angles,
@@ -14,7 +15,6 @@ from geocontact.analyses.misalignment.shared_options import (
     require_span,
     require_stroke,
 )
-from geocontact.analyses.options import Millimetres, Options, Spelled, Typed
 from geocontact.data.plausible import ATTACHMENT, LIMIT, SHIFT, Plausible
 from geocontact.data.units import mm
 

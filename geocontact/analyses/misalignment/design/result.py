@@ -20,9 +20,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.figure_files import drawing
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import write_json
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import write_json
+from geocontact.analyses.frame.pages import drawing
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.misalignment.design.designed import (
     Designed,
     boundary_table,
@@ -36,8 +38,6 @@ from geocontact.analyses.misalignment.design.designed import (
 )
 from geocontact.analyses.misalignment.design.options import DesignOptions
 from geocontact.analyses.misalignment.design.show import design_figure, design_page, map_figure
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.axis_drift import AxisDrift
 from geocontact.axis_misalignment.planar_joint import FATES
 

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.analyses.misalignment.design.designed import Designed, sensitivity_table, stroke_words
 from geocontact.analyses.misalignment.planar import MODEL, page_table
-from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.view.curves.style import BLACK, DOUBLE, GREY, PALETTE, in_style, legend, panels
 from geocontact.view.page.content import Curve, Curves, Limit, Page, Picture, Readout, Row, Section, Table, Words
 

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
-from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
 from geocontact.axis_misalignment.explicit import require_no_pole, require_reach
 from geocontact.axis_misalignment.law import GROWING, LENGTHS, SCALED, offsets_of

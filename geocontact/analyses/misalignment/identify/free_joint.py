@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.misalignment.identify.fitted import require_bins
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
-from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
 from geocontact.axis_misalignment.compensation import (
     DisplacementScale,

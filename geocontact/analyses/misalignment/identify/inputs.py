@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.law_numbers import MMHG, PER_SI, WRITTEN
 from geocontact.analyses.misalignment.recordings import recordings
-from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.law import ABSENT, NAMES, UNITS
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError

@@ -21,8 +21,10 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import write_json
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import write_json
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.misalignment.identify.fitted import Fitted, ShownInterval, fitted, require_bins
 from geocontact.analyses.misalignment.identify.free_joint import Free, free_joint
 from geocontact.analyses.misalignment.identify.inputs import IdentifyInputs, read
@@ -39,8 +41,6 @@ from geocontact.analyses.misalignment.identify.show import (
     told_figure,
 )
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import Binned, binned
 from geocontact.axis_misalignment.compensation import bin_means
 from geocontact.axis_misalignment.law import NAMES, CuffLoads, cuff_loads, offsets_of, yielded

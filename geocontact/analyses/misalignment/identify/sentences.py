@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from geocontact.analyses.json_file import finite
+from geocontact.analyses.frame.json_file import finite
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.misalignment.identify.fitted import Fitted, ShownInterval
 from geocontact.analyses.misalignment.identify.free_joint import Free, stroke_stiffness
 from geocontact.analyses.misalignment.law_numbers import MMHG, with_units
-from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.compensation import EndStop
 from geocontact.axis_misalignment.law import LENGTHS

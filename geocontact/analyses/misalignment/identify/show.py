@@ -12,13 +12,13 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.words import counted
 from geocontact.analyses.misalignment.identify.fitted import Fitted
 from geocontact.analyses.misalignment.identify.free_joint import Free
 from geocontact.analyses.misalignment.identify.sentences import answer, explained
 from geocontact.analyses.misalignment.page import ANGLE, CONSTRAINT, NOT_IN_THE_NUMBERS, elbow_page
-from geocontact.analyses.page_words import counted
-from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.compensation import BinMeans, RecordedStroke
 from geocontact.axis_misalignment.explicit import displacement
 from geocontact.axis_misalignment.law import offsets_of

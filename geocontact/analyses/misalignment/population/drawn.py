@@ -13,10 +13,10 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float, Int
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.misalignment.law_numbers import NUMBERS
 from geocontact.analyses.misalignment.planar import STATES, WITHOUT_FORCE, axis_drift, rounded
 from geocontact.analyses.misalignment.population.options import PopulationOptions
-from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.axis_drift import AxisDrift
 from geocontact.axis_misalignment.design import QUANTITIES, Exposure, peak_forces
 from geocontact.axis_misalignment.planar_joint import SOUND, STEP

@@ -6,6 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
+from geocontact.analyses.frame.options import Options
 from geocontact.analyses.misalignment.shared_options import (
     Angles,
     Drift,
@@ -16,7 +17,6 @@ from geocontact.analyses.misalignment.shared_options import (
     require_stroke,
     require_within,
 )
-from geocontact.analyses.options import Options
 from geocontact.data.plausible import LIMIT
 
 SAMPLES = 100, 20_000_000

@@ -21,8 +21,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import write_json
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import write_json
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.misalignment.population.drawn import (
     SHOWN,
     Drawn,
@@ -37,8 +39,6 @@ from geocontact.analyses.misalignment.population.drawn import (
 )
 from geocontact.analyses.misalignment.population.options import PopulationOptions
 from geocontact.analyses.misalignment.population.show import population_figure, population_page
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.planar_joint import FATES
 from geocontact.identify.intervals.quantile_intervals import IntervalEstimate
 

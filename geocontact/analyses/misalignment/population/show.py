@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.analyses.misalignment.planar import MODEL, STATES, WITHOUT_FORCE, page_table
 from geocontact.analyses.misalignment.population.drawn import Drawn, influence_table, quantile_table
-from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.identify.intervals.quantile_intervals import IntervalEstimate
 from geocontact.identify.intervals.sampling import Indices
 from geocontact.view.curves.style import BLACK, DOUBLE, PALETTE, in_style, legend, panels

@@ -7,6 +7,16 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
+from geocontact.analyses.frame.options import (
+    AngleUnit,
+    Excludes,
+    Expression,
+    Millimetres,
+    Options,
+    Requires,
+    Spelled,
+    Typed,
+)
 from geocontact.analyses.misalignment.law_numbers import NUMBERS, TORQUE, TURNING, require_names
 from geocontact.analyses.misalignment.shared_options import (
     Stroke,
@@ -16,7 +26,6 @@ from geocontact.analyses.misalignment.shared_options import (
     require_stroke,
     require_within,
 )
-from geocontact.analyses.options import AngleUnit, Excludes, Expression, Millimetres, Options, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import BAND, CUFF, LENGTH_OF_TRIAL, MEMORY, NOISE, RATE, SHIFT, Plausible
 from geocontact.data.text import same_place

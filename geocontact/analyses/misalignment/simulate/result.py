@@ -17,8 +17,10 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import write_json
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import write_json
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.misalignment.law_numbers import with_units
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
 from geocontact.analyses.misalignment.simulate.show import simulation_page, surface_figure
@@ -33,8 +35,6 @@ from geocontact.analyses.misalignment.simulate.trials import (
     read,
     surfaces,
 )
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.explicit import Offsets, require_no_pole, require_reach
 from geocontact.axis_misalignment.synthetic import PAPER, Design, SyntheticElbowTrial, ideal, synthetic
 from geocontact.data.elbow_recording import ElbowRecording

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.words import counted
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.analyses.misalignment.page import ANGLE, FRAMES, NOT_IN_THE_NUMBERS, elbow_page
 from geocontact.analyses.misalignment.simulate.trials import LoadedTrial, Surfaces
-from geocontact.analyses.page_words import counted
-from geocontact.analyses.run_record import Record
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.view.curves.style import BLACK, DOUBLE, empty, in_style
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words

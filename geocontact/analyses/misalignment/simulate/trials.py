@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.misalignment.law_numbers import MMHG
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
-from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.explicit import Offsets, displacement
 from geocontact.axis_misalignment.law import CuffLoads, cuff_loads
 from geocontact.axis_misalignment.synthetic import PAPER, Design, SyntheticElbowTrial, at_rest

@@ -8,9 +8,9 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.functional_joint.options import JointOptions
 from geocontact.analyses.motion.markers import markers_given
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.functional_joint import FEWEST, seen_together, segment_poses

@@ -19,14 +19,14 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import finite, plain, write_json
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import finite, plain, write_json
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.functional_joint.options import JointOptions
 from geocontact.analyses.motion.functional_joint.read import MovedPair, Segment, marker_list, read
 from geocontact.analyses.motion.functional_joint.show import joint_page
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.functional_joint import JointPoints, apart_in_halves, axis_points, centre_points, segment_poses

@@ -8,11 +8,10 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
+from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.analyses.motion.functional_joint.read import MovedPair, Segment
 from geocontact.analyses.motion.skeleton import JOINT, MARKER, RAY, scene_over
-from geocontact.analyses.page_frames import thinned
-from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.dynamics.functional_joint import JointPoints
 from geocontact.view.page.content import Curve, Curves, Linkage, Page, Scene, Section, Words
 

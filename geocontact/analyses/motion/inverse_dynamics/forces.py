@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.inverse_dynamics.loads import Loaded
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.printed import printed
-from geocontact.analyses.run_record import Record
 from geocontact.data.multibody.model import GROUND, Multibody
 from geocontact.io.opensim.external_loads import write_external_loads
 from geocontact.io.opensim.storage_writer import write_storage

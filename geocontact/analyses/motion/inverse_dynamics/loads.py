@@ -10,11 +10,11 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.analyses.frame.quantities import turned_axes
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.heel_strikes import Strikes, strikes_on_plates, strikes_typed
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.skeleton import upwards
-from geocontact.analyses.quantities import turned_axes
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import Multibody, PassiveForces
 from geocontact.data.wrench import Wrench

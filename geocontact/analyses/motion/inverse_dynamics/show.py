@@ -7,14 +7,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.cycles_picture import cycles_pictured
 from geocontact.analyses.motion.gait_cycles import GaitCycles
 from geocontact.analyses.motion.inverse_dynamics.forces import Forces, force_left, moment_left, verdict
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import forces_on, scene_of, skeleton
-from geocontact.analyses.page_frames import thinned
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.data.wrench import Wrench
 from geocontact.view.page.content import Curve, Curves, Page, Scale, Section, Table, Words
 

@@ -21,8 +21,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import plain, write_json
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import plain, write_json
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.exchanged_markers import exchanged_markers
 from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
@@ -33,8 +35,6 @@ from geocontact.analyses.motion.inverse_kinematics.show import kinematics_page
 from geocontact.analyses.motion.marker_errors import MOVING, MarkerErrors
 from geocontact.analyses.motion.printed import printed
 from geocontact.analyses.motion.upright import warn_of_tilt
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics as kinematics_of

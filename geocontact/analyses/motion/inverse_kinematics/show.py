@@ -7,13 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.cycles_picture import cycles_pictured
 from geocontact.analyses.motion.gait_cycles import GaitCycles
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
-from geocontact.analyses.page_frames import thinned
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses

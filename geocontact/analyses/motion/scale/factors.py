@@ -9,11 +9,11 @@ from math import isfinite
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.marker_names import names_told, renamed
 from geocontact.analyses.motion.marker_tasks import marker_tasks
 from geocontact.analyses.motion.markers import markers_given, with_marker_set
 from geocontact.analyses.motion.scale.options import ScaleOptions
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Multibody

@@ -23,15 +23,15 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import plain, write_json
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import plain, write_json
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.marker_errors import STANDING, MarkerErrors
 from geocontact.analyses.motion.printed import printed
 from geocontact.analyses.motion.scale.factors import Standing, labelled, read
 from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.analyses.motion.scale.show import scaling_page
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody

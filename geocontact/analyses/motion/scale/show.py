@@ -7,10 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.analyses.motion.marker_errors import STANDING, MarkerErrors
 from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
-from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.view.page.content import IntervalRow, Intervals, Page, Section, Words

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from geocontact.analyses.options import AngleUnit, Options
+from geocontact.analyses.frame.options import AngleUnit, Options
 
 
 @dataclass(frozen=True)

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
+from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
 from geocontact.analyses.motion.skeleton import JOINT, MARKER, scene_of, skeleton, upwards
-from geocontact.analyses.page_frames import thinned
-from geocontact.analyses.page_words import NOT_A_DEVICE, counted
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.view.page.content import Curve, Curves, Linkage, Page, Scene, Section, Words

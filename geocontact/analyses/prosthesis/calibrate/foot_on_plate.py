@@ -7,6 +7,7 @@ from typing import TypedDict
 
 import numpy as np
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.leg_and_foot import counted_twice, foot_with_law
 from geocontact.analyses.prosthesis.ranges import TURNS
@@ -17,7 +18,6 @@ from geocontact.analyses.prosthesis.recorded_files import (
     require_weight,
     right_markers,
 )
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import (
     Errors,

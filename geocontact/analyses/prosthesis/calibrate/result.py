@@ -22,12 +22,12 @@ import pandas as pd
 from jaxtyping import Float
 from numpy import ndarray
 
-from geocontact.analyses.job import Job
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.prosthesis.calibrate.foot_on_plate import FootOnPlate, along_poses, on_whole_model, read
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.calibrate.show import calibration_page, stance_figure
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
 from geocontact.below_knee_prosthesis.calibration.known_numbers import KnownNumber
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance

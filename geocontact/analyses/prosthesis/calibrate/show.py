@@ -9,8 +9,8 @@ import pandas as pd
 from jaxtyping import Float
 from numpy import ndarray
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.page_words import headline
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.words import headline
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import C3dUnit, Expression, Options
+from geocontact.analyses.frame.options import C3dUnit, Expression, Options
 from geocontact.analyses.prosthesis.ranges import TURNS, require_turns
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP

@@ -25,8 +25,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import plain
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.frame.workers import each
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.compare.show import comparison_page, ensemble_figure
 from geocontact.analyses.prosthesis.compare.stances import (
@@ -42,9 +45,6 @@ from geocontact.analyses.prosthesis.compare.stances import (
 )
 from geocontact.analyses.prosthesis.leg_and_foot import counted_twice, numbers_of, numbers_table
 from geocontact.analyses.prosthesis.stance_files import write_coordinates, write_loads, write_spheres
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
-from geocontact.analyses.workers import each
 from geocontact.below_knee_prosthesis.evaluation import FEWEST, JudgedStance, Oddness, oddness, reasons
 from geocontact.below_knee_prosthesis.leg import Side
 from geocontact.below_knee_prosthesis.simulate import Stance

@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.compare.stances import UNITS, by_setting, curves_of, plain_curves
 from geocontact.below_knee_prosthesis.evaluation import ANOTHER, MEAN, JudgedStance
 from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels

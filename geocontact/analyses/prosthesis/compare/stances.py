@@ -9,12 +9,12 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.walk import Walk, fitted_walk, simulated
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.evaluation import (
     ANKLE,
     ANOTHER,

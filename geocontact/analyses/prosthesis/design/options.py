@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import (
+from geocontact.analyses.frame.options import (
     BodyMass,
     C3dUnit,
     Degrees,

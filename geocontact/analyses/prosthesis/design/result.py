@@ -16,8 +16,10 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import plain
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.show import design_figure, design_page, stance_share
 from geocontact.analyses.prosthesis.design.sweep import (
@@ -37,8 +39,6 @@ from geocontact.analyses.prosthesis.design.sweep import (
 )
 from geocontact.analyses.prosthesis.design.trial import OF_ONE_STEP, FootAndTrial, intact_table, intact_words, read
 from geocontact.analyses.prosthesis.leg_and_foot import leg_numbers, numbers_table, numbers_without_leg, offset_words
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.design.choice import FootChoice, choose
 from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import LEVEL, FootTask, Terrain, words

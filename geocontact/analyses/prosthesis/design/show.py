@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, UNITS, AimAnswer, Sweep
 from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import words

@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.trial import FootAndTrial
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.design.choice import FootChoice, PairChoice, choose_pair
 from geocontact.below_knee_prosthesis.design.drawn import Draws, TrialErrors, draws, task_again
 from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad

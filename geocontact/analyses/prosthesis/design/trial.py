@@ -11,6 +11,7 @@ import pandas as pd
 from jaxtyping import Float
 from scipy.stats import norm
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.leg_and_foot import foot_with_law, offset_of_law
 from geocontact.analyses.prosthesis.recorded_files import (
@@ -19,7 +20,6 @@ from geocontact.analyses.prosthesis.recorded_files import (
     require_under_foot,
     right_markers,
 )
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_intact_leg
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import (
     body_poses,

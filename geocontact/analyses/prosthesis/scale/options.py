@@ -6,7 +6,16 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import BodyMass, C3dUnit, Expression, Fraction, Options, PartLength, PartMass, Spelled
+from geocontact.analyses.frame.options import (
+    BodyMass,
+    C3dUnit,
+    Expression,
+    Fraction,
+    Options,
+    PartLength,
+    PartMass,
+    Spelled,
+)
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, PROSTHESIS, RESIDUAL, STATURE
 from geocontact.data.errors import InputError
 

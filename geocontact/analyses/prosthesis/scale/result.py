@@ -22,12 +22,14 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import plain
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.marker_errors import MOVING, MarkerErrors
 from geocontact.analyses.motion.skeleton import MARKER, scene_of, skeleton
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.leg_and_foot import numbers_table
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
 from geocontact.analyses.prosthesis.scale.standing import (
@@ -40,8 +42,6 @@ from geocontact.analyses.prosthesis.scale.standing import (
     standing_pose,
     warn_of_legs,
 )
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_amputee

@@ -8,9 +8,9 @@ from typing import cast
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.recorded_files import right_markers
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.standing import NO_JOINTS, FunctionalJoints, standing_joints
 from geocontact.below_knee_prosthesis.from_markers import as_right

@@ -6,7 +6,16 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import BodyMass, C3dUnit, Expression, Fraction, Options, PartLength, Spelled, TimeSpan
+from geocontact.analyses.frame.options import (
+    BodyMass,
+    C3dUnit,
+    Expression,
+    Fraction,
+    Options,
+    PartLength,
+    Spelled,
+    TimeSpan,
+)
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, RESIDUAL, TURNS, require_turns
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP

@@ -22,16 +22,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import plain
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.prosthesis.leg_and_foot import all_numbers, counted_twice, numbers_table, offset_words
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.show import stance_page
 from geocontact.analyses.prosthesis.simulate.walk import RecordedWalk, Walk, bushing_of, fitted_walk, read, simulated
 from geocontact.analyses.prosthesis.stance_files import write_coordinates, write_loads, write_plane, write_spheres
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.evaluation import StanceErrors, at_times, longest_stance, stance_errors
 from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.leg import Side

@@ -8,9 +8,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float, Int
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.page_frames import thinned
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times
 from geocontact.below_knee_prosthesis.from_markers import of_side

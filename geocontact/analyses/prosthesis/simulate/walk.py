@@ -10,12 +10,12 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_errors import FAR, MOVING
 from geocontact.analyses.prosthesis.leg_and_foot import foot_with_law, offset_of_law
 from geocontact.analyses.prosthesis.recorded_files import require_one_clock, require_weight, right_markers
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
-from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import keel_poses
 from geocontact.below_knee_prosthesis.clocks import clock_offset, lowest_sphere
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times, longest_stance

@@ -21,14 +21,13 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import plain
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.figure import curves_figure
-from geocontact.analyses.page_frames import thinned
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.compare.errors import (
     ArmAndRecording,
     ComparedChannel,

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import C3dUnit, Expression, Options, Requires, Spelled
+from geocontact.analyses.frame.options import C3dUnit, Expression, Options, Requires, Spelled
 from geocontact.analyses.shoulder.shared_options import TORQUE_RATE, Share, require_share
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP, LIMIT

@@ -9,8 +9,8 @@ from typing import TypeVar
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told
-from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.devices import device_named, wearer_of_lengths
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.recordings import tool_current

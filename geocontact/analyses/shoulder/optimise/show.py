@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.shoulder.optimise.profiles import GROUP, MadeProfiles
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial

@@ -11,8 +11,8 @@ import pandas as pd
 from jaxtyping import Bool, Float
 from scipy.spatial.transform import Rotation, Slerp
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told
-from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.devices import device_named, read_profiles, wearer_named
 from geocontact.analyses.shoulder.recordings import current_at, tool_runs
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions

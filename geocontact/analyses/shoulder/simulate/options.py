@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import C3dUnit, Expression, Needs, Options, Requires, TimeSpan
+from geocontact.analyses.frame.options import C3dUnit, Expression, Needs, Options, Requires, TimeSpan
 from geocontact.analyses.shoulder.shared_options import CURRENT, Level, require_share
 from geocontact.data.plausible import CUTOFF, GAP
 

@@ -21,10 +21,10 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import plain
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.shoulder.simulate.arms import (
     Worn,
     arm_table,

@@ -9,10 +9,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float, Int
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.figure import curves_figure
-from geocontact.analyses.page_frames import thinned
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.simulated_arm import SimulatedArm
 from geocontact.shoulder_exoskeleton.device import JOINTS

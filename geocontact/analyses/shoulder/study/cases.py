@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Bool, Float
 
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import unit_of_c3d
-from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.devices import wearer_of_lengths
 from geocontact.analyses.shoulder.recordings import (
     ELEVATION,

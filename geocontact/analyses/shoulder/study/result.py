@@ -22,12 +22,12 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.finished_page import INPUTS, OPTIONS
-from geocontact.analyses.job import Job
-from geocontact.analyses.json_file import plain
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.shoulder.recordings import ELEVATION, FORCE
 from geocontact.analyses.shoulder.simulated_arm import SimulatedArm, out_of_cuff_clause
 from geocontact.analyses.shoulder.study.cases import (

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
 from geocontact.analyses.sit_to_stand.trial_result import certificate_rows, not_certified, sizes_of

@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.page_words import counted
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.design.designs import (
     ROBUST,
     CertifiedDesign,

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.stats import norm
 
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.design.designs import ALONE, BEST, ROBUST, WORN, CertifiedDesign, DrawnGain
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, standing_trials

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.device.options import StandingDeviceOptions
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.filters import UNEVEN, zero_lag

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.options import Fraction, Options, Requires, Spelled
+from geocontact.analyses.frame.options import Fraction, Options, Requires, Spelled
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import HZ, Plausible
 from geocontact.data.units import m

@@ -18,9 +18,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.sit_to_stand.device.motion import MARGIN, DeviceMotion, DeviceRecordings, read
 from geocontact.analyses.sit_to_stand.device.options import StandingDeviceOptions
 from geocontact.analyses.sit_to_stand.show import motion_page

@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.job import Job
-from geocontact.analyses.page_words import counted
-from geocontact.analyses.result import REPORT, Result
-from geocontact.analyses.results_folder import written_whole
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.folder import written_whole
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.exports import write_motion
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.predict.predictions import (

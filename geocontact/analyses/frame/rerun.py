@@ -10,7 +10,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from geocontact.analyses.stale_results import RUN, digest
+from geocontact.analyses.frame.folder import RUN, digest
 from geocontact.data.errors import InputError
 
 REMEDY = f"name the {RUN} that a command or `Result.write` left beside its results"

@@ -9,14 +9,12 @@ from inspect import Parameter, Signature
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from geocontact.analyses.arguments import require_arguments
-from geocontact.analyses.listener import Listener
-from geocontact.analyses.options import Declared, Options, declared
-from geocontact.analyses.python_help import python_help
-from geocontact.analyses.result import Result
-from geocontact.analyses.results_folder import written_whole
-from geocontact.analyses.run_record import Record, as_python
-from geocontact.analyses.table_forms import AS_ALWAYS, TableForms
+from geocontact.analyses.frame.calls import python_help, require_arguments
+from geocontact.analyses.frame.folder import written_whole
+from geocontact.analyses.frame.options import Declared, Options, declared
+from geocontact.analyses.frame.record import Listener, Record, as_python
+from geocontact.analyses.frame.result import Result
+from geocontact.analyses.frame.table_forms import AS_ALWAYS, TableForms
 from geocontact.data.errors import InputWarning
 
 I = TypeVar("I")

@@ -1,4 +1,4 @@
-"""What makes a result reproducible: inputs with hashes, versions, options, warnings, time taken."""
+"""Record of a run: inputs with their hashes, options, reservations and sentences, and who hears of the work."""
 
 from __future__ import annotations
 
@@ -7,17 +7,39 @@ import platform
 import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from importlib.metadata import PackageNotFoundError, version
 from os import PathLike, fspath
 from pathlib import Path
 
-from geocontact.analyses.listener import Listener
-from geocontact.analyses.stale_results import RUN, digest, written
-from geocontact.analyses.table_forms import AS_ALWAYS, TableForms
+from geocontact.analyses.frame.folder import RUN, digest, written
+from geocontact.analyses.frame.table_forms import AS_ALWAYS, TableForms
 from geocontact.data.errors import InputWarning
 from geocontact.data.version import VERSION
+
+
+class Listener:
+    """Hears nothing; whoever shows something overrides what it hears."""
+
+    def warn(self, line: str) -> None:
+        """A reservation, as soon as it is known."""
+
+    def fail(self, line: str) -> None:
+        """A part of the work that could not be done, in one line; the rest goes on."""
+
+    def preparing(self) -> AbstractContextManager[None]:
+        """Kernels may be compiled in this block, which takes a while once on a machine."""
+        return nullcontext()
+
+    def progress(self, label: str, total: int) -> AbstractContextManager[Callable[[], None]]:
+        """A block that calls what it is given after each of `total` steps."""
+        return nullcontext(lambda: None)
+
+    def stages(self, label: str) -> AbstractContextManager[Callable[[str], None]]:
+        """A block that names the stages of its work as they begin."""
+        return nullcontext(lambda _: None)
+
 
 LIBRARIES = ("numpy", "scipy", "numba", "libigl", "python-fcl", "pandas", "matplotlib")
 
@@ -109,7 +131,7 @@ class Record:
 
     def write(self, *folders: Path) -> None:
         """Write `run.json` into each folder of results; they differ only in what lists the files beside it."""
-        from geocontact.analyses.json_file import plain  # late: --help needs no numpy
+        from geocontact.analyses.frame.json_file import plain  # late: --help needs no numpy
 
         content = {
             "geocontact": VERSION,

@@ -1,12 +1,31 @@
-"""Which side of a splitting plane is medial. Light to import."""
+"""Options that several analyses share: sweeps, layers, medial sides. Light to import."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import Spelled
+from geocontact.analyses.frame.options import Spelled, Typed
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import JOINT_ANGLE, LAYER
+
+Sweep = Annotated[
+    tuple[str, float, float, float],
+    Typed("rad", "sweep_range", '("flexion", *gc.deg(0, 90, 1))'),
+    Spelled(dashed=True),
+    JOINT_ANGLE,
+]
+"""Name, start, stop and step."""
+
+
+BodyPair = Annotated[tuple[str, str], Typed("-", "body_pair", '("femur_r", "tibia_r")')]
+"""Names in an OpenSim model of MOVING's body and FIXED's."""
+
+RAYS = "rays"
+"""Said of a thickness that is measured along the normal."""
+
+Thickness = Annotated[float | Literal["rays"], Typed("m", "thickness", "gc.mm(8)"), LAYER]
+
 
 Side = Literal["right", "left"]
 Medial = Annotated[Literal["-", "+"], Spelled(dashed=True)]

@@ -1,27 +1,120 @@
-"""Surfaces of mesh files: the bodies of an analysis, read, placed in their frames, checked for what can be signed."""
+"""Surfaces of mesh files and their motion: the bodies of an analysis, read, placed in their frames, checked for what
+can be signed.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
+from typing import Literal, Protocol, runtime_checkable
 
 import numpy as np
-from jaxtyping import Bool
+from jaxtyping import Bool, Float
 
-from geocontact.analyses.quantities import named_file
-from geocontact.analyses.run_record import Record
+from geocontact.analyses.frame.quantities import named_file
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.shared_options import RAYS
+from geocontact.contact.elasticity import layer_modulus
 from geocontact.data.errors import InputError
 from geocontact.data.mesh import AXES, Mesh
+from geocontact.data.motion import Motion
 from geocontact.geometry.placement import placed
 from geocontact.geometry.regions import Values, faces_where
 from geocontact.geometry.surface import Surface
+from geocontact.geometry.surface_quadrature import thickness_below
 from geocontact.geometry.union import UnitedSurface, closed_pieces, united
 from geocontact.io.mesh.faces import read_face_indices
 from geocontact.io.mesh.meshes import read_mesh
+from geocontact.io.motion.motion import read_motion
 from geocontact.io.motion.poses import read_pose
 from geocontact.io.opensim.osim_meshes import mesh_placement
 from geocontact.io.text.units import LENGTH
+
+
+def confined_modulus(young: float | None, poisson: float | None) -> float:
+    """Confined modulus [Pa]."""
+    if young is None or poisson is None:
+        raise ValueError("an elastic layer needs Young's modulus and Poisson's ratio")
+    return float(layer_modulus(young, poisson))
+
+
+def measured_thickness(
+    record: Record,
+    body: Surface,
+    points: Float[np.ndarray, "n 3"],
+    normals: Float[np.ndarray, "n 3"],
+    given: float | str | None,
+    option: str,
+) -> Float[np.ndarray, " n"]:
+    """Thickness of a body's layer under points on it [m]: as given, or along rays."""
+    if given is not None and given != RAYS:
+        return np.full(len(points), float(given))
+    if not body.closed:
+        what = f"{body.name} is open ({body.topology.why_open}): it has no thickness to measure"
+        raise InputError("", option, what, "give a length, for example 8mm")
+    found = thickness_below(body, points, normals)
+    lost = ~(np.isfinite(found) & (found > 0.0))
+    if lost.any():
+        usable = found[~lost]
+        if len(usable) == 0:
+            raise InputError("", option, f"no ray comes out of {body.name} again", "give a length")
+        found = np.where(lost, usable.min(), found)
+        record.warn(f"{int(lost.sum())} of {len(found)} rays do not come out of {body.name}: the thinnest is taken")
+    return found
+
+
+@runtime_checkable
+class MotionOptions(Protocol):
+    """Options that say where poses come from; see `read_motion`."""
+
+    @property
+    def osim(self) -> Path | None:
+        """Model whose joint turns coordinates into poses."""
+
+    @property
+    def joint(self) -> str | None:
+        """Name of that joint."""
+
+    @property
+    def moving_body(self) -> Literal["child", "parent"] | None:
+        """Which of its bodies moves."""
+
+    @property
+    def map(self) -> str | None:
+        """Columns instead of a model."""
+
+    @property
+    def order(self) -> str | None:
+        """Order of intrinsic rotations."""
+
+    @property
+    def angles(self) -> Literal["deg", "rad"] | None:
+        """Unit of angles where the file does not say."""
+
+
+def read_body_motion(record: Record, file: Path, o: MotionOptions) -> Motion:
+    """Poses over seconds; InputError where `order` or `angles` has no effect, or time is in per cent of a cycle."""
+    motion = read_motion(
+        file,
+        osim=o.osim,
+        joint=o.joint,
+        moving=o.moving_body or "child",
+        mapping=o.map,
+        order=o.order,
+        angles=o.angles,
+    )
+    for option, value in (("order", o.order), ("angles", o.angles)):
+        if value is not None and option not in motion.heeded:
+            what = f"has no effect here: {file} is read without it"
+            raise InputError("", f"`{option}`", what, "leave it out")
+    if motion.time_unit != "s":
+        raise InputError(file, "", "time is in per cent of a cycle", "write its time in s: rates and loads need it")
+    record.add_input("motion", file, frames=len(motion), source=motion.source)
+    if o.osim is not None:
+        record.add_input("model", o.osim, joint=o.joint)
+    return motion
+
 
 NOTHING: Mapping[str, Values] = MappingProxyType({})
 

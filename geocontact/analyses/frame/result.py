@@ -11,16 +11,16 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Literal
 
-from geocontact.analyses.results_folder import written_whole
-from geocontact.analyses.run_record import Record
-from geocontact.analyses.table_forms import TableForms
+from geocontact.analyses.frame.folder import written_whole
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.table_forms import TableForms
 from geocontact.view.curves.sheet import png_of
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from geocontact.analyses.finished_page import Thinned
+    from geocontact.analyses.frame.pages import Thinned
     from geocontact.view.page.content import Page
 
 REPORT = "report.html"
@@ -144,8 +144,10 @@ class Result(ABC):
 
         Pages come last: they show reservations that writing brought up.
         """
-        from geocontact.analyses.figure_files import save_both  # late, like all that draws: --help needs no numpy
-        from geocontact.analyses.finished_page import write_finished
+        from geocontact.analyses.frame.pages import (
+            save_both,  # late, like all that draws: --help needs no numpy
+            write_finished,
+        )
         from geocontact.io.text.results import write_table
 
         parts = self.parts
@@ -168,8 +170,7 @@ class Result(ABC):
 
     def write_page(self, file: Path) -> None:
         """Write the page of the whole, one file that needs no network; of several parts, their figure and tables."""
-        from geocontact.analyses.figure_files import Drawings
-        from geocontact.analyses.finished_page import write_finished
+        from geocontact.analyses.frame.pages import Drawings, write_finished
 
         pages = self._pages(Drawings(self.figures))
         if REPORT in pages:
@@ -181,7 +182,7 @@ class Result(ABC):
         return self.pages(drawings) or {REPORT: self._plain_page()}
 
     def _plain_page(self) -> Page:
-        from geocontact.analyses.finished_page import plain_page
+        from geocontact.analyses.frame.pages import plain_page
 
         return plain_page(self.title, self.record, self.figure(), self.tables())
 

@@ -17,7 +17,7 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin, get_type_hints
 
-from geocontact.analyses.documented import Documented, documented
+from geocontact.analyses.frame.docstrings import Documented, documented
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import ByName, ByPlace, Plausible, Range, numbers_in
 
@@ -33,7 +33,7 @@ class Typed:
     python
         A value as Python writes it, for the help of the call.
     read
-        Function of `analyses.quantities` that takes the text and the option's name and gives the value in SI; as
+        Function of `analyses.frame.quantities` that takes the text and the option's name and gives the value in SI; as
         "misalignment.law_numbers:numbers" of another module of the analyses.
     hint
         What the help of the command line says of units.

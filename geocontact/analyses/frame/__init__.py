@@ -1,0 +1,1 @@
+"""The frame of all analyses: options, job, record, result, and what writes results."""
