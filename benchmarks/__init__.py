@@ -1,1 +1,2 @@
-"""Measured speed, memory and accuracy, rerunnable: `python -m benchmarks.peers`, `python -m benchmarks.accuracy`."""
+"""Measured speed, memory and accuracy, rerunnable: `python -m benchmarks.area.peers`, `python -m
+benchmarks.area.accuracy`."""

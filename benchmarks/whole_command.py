@@ -1,6 +1,6 @@
 """Whole commands: what a user waits for, in a process of its own, warm and on one core.
 
-The `area` command on a pair is here; `benchmarks.gap_speed` has the diagnosis of gaps.
+The `area` command on a pair is here; `benchmarks.gap.speed` has the diagnosis of gaps.
 
 Interpreter, imports, reading, both bodies' maps, refined areas with bounds, areas at 13 further thresholds, exact least
 distance and depth of every frame, table, figures and page.

@@ -1,6 +1,6 @@
 """Constants of the diagnosis and what they move: docs/reference/gap_constants.md, from two benchmarks.
 
-`benchmarks.gap_constants` has those that a verdict comes from, `benchmarks.gap_told_constants` all others.
+`benchmarks.gap.constants` has those that a verdict comes from, `benchmarks.gap.later_constants` all others.
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from benchmarks.constants_of import Value, numbers_in
-from benchmarks.gap_constants import DRAWN, ROOMS, choices
+from benchmarks.gap.constants import DRAWN, ROOMS, choices
+from benchmarks.gap.constants_of import Value, numbers_in
 from benchmarks.machine import as_json
 from website.stage import ROOT
 
@@ -96,7 +96,7 @@ def head(runs: Sequence[Run], numbers: int, tables: int) -> list[str]:
     what = (
         f"{numbers} numbers with a name and {tables} tables of several values stand in the rooms that a verdict comes "
         "from. Each was halved, and doubled (of a table all values; a count to one at the least), and the same "
-        f"synthetic cases were diagnosed again (`python -m benchmarks.gap_constants`): {cases} cases drawn at home, "
+        f"synthetic cases were diagnosed again (`python -m benchmarks.gap.constants`): {cases} cases drawn at home, "
         f"{nothing} of them without an effect. What each is and where it comes from: "
         "[theory](../theory/gap_diagnosis.md#constants)."
     )
@@ -171,7 +171,7 @@ def beside(told: Run, labels: dict[str, Value]) -> list[str]:
         "These rooms work on a verdict that is there: where a gap lies, how far it shrinks, what these trials would "
         f"not show, what to record next. {told['answers']} cases (`--seed {told['seed']}`, {told['commit']}) were "
         "attributed once, and what follows was worked out with each constant halved and doubled "
-        "(`python -m benchmarks.gap_told_constants`). A verdict, its effects or their probabilities changed in "
+        "(`python -m benchmarks.gap.later_constants`). A verdict, its effects or their probabilities changed in "
         f"{judged} of {len(trials)} trials: where it is 0, no false alarm and no right name changed. In how many "
         "cases another part changes, which, and its largest change of a number (100 %: other words, or another sign). "
         f"Of {told['inside'][1]} true reductions where an effect is named {told['inside'][0]} lie inside their "

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from benchmarks.clip import clipped_area
+from benchmarks.engines.clip import clipped_area
 from benchmarks.pairs import THRESHOLD, Pair
 
 Query = Callable[[Float[np.ndarray, "n 3"]], Float[np.ndarray, " n"]]

@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import cumulative_trapezoid
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from benchmarks.prosthesis_soles import static_share
+from benchmarks.prosthesis.soles import static_share
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, whole_tree
 from geocontact.below_knee_prosthesis.simulate import Stance, share_of_foot, simulate_stance
@@ -49,7 +49,7 @@ def test_momentum_is_what_the_forces_leave(landing: Stance) -> None:
 
 @pytest.mark.slow
 def test_force_is_within_a_hundredth_of_body_weight_of_a_finer_tolerance(landing: Stance) -> None:
-    """Short form of `benchmarks/prosthesis_stance.py`, at touch-down, where steps are hardest."""
+    """Short form of `benchmarks/prosthesis/stance.py`, at touch-down, where steps are hardest."""
     s = landing
     fine = simulate_stance(
         s.motion, s.foot, s.fulcrum, s.push, (s.time[0], s.time[-1]), tolerance=1e-6, machine_code=False
@@ -72,7 +72,7 @@ def test_friction_in_the_keel_takes_its_share_of_what_is_stored(landing: Stance)
 
 
 def test_a_person_who_stands_is_carried() -> None:
-    """Short form of `benchmarks/prosthesis_soles.py`: 6 s from rest, half of the weight on the other foot."""
+    """Short form of `benchmarks/prosthesis/soles.py`: 6 s from rest, half of the weight on the other foot."""
     off, slid, _ = static_share(1, "low", lasting=6.0, machine_code=False)
     assert abs(off) < 1e-3  # the study's, of body weight
     assert slid < 2e-3

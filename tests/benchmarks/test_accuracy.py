@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks.accuracy import Case, cases, centres, errors, order, root_mean_square, threshold_of
+from benchmarks.area.accuracy import Case, cases, centres, errors, order, root_mean_square, threshold_of
 from geocontact.geometry.contact_area.area import CLIP, REFINED
 
 SPHERES = {case.name: case for case in cases()}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks.cohort_plan import RETURNS, Cluster, simulated
+from benchmarks.study.plan import RETURNS, Cluster, simulated
 
 NONE = np.zeros(2000, bool)
 

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks import gap_laboratories, opensim_tables
+from benchmarks.dynamics import opensim_tables
+from benchmarks.gap import laboratories as gap_laboratories
 
 ROOT = Path(__file__).resolve().parents[2]
 MINUS = "\N{MINUS SIGN}"

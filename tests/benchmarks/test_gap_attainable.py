@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.gap_attainable import ASKED, asked, beside, margin, said, summary
+from benchmarks.gap.attainable import ASKED, asked, beside, margin, said, summary
 from geocontact.gap_benchmark.drawing import Lot
 from tests.elsewhere import Elsewhere
 

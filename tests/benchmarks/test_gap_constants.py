@@ -12,10 +12,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks import gap_constants, gap_told_constants
-from benchmarks.constants_of import _numbers, bare, constants, in_use, put, tables, with_others
-from benchmarks.gap_constants import ROOMS, choices, figures, searched
-from benchmarks.gap_told_constants import attributed, changes, inside, row, told
+from benchmarks.gap import constants as gap_constants
+from benchmarks.gap import later_constants as gap_told_constants
+from benchmarks.gap.constants import ROOMS, choices, figures, searched
+from benchmarks.gap.constants_of import _numbers, bare, constants, in_use, put, tables, with_others
+from benchmarks.gap.later_constants import attributed, changes, inside, row, told
 from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
 from geocontact.effects.catalogue import candidates

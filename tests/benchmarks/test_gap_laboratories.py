@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import gap_laboratories
+from benchmarks.gap import laboratories as gap_laboratories
 from geocontact.analyses.gap.benchmark.case import Worked
 from geocontact.gap_benchmark.drawing import Lot
 from geocontact.gap_benchmark.synthetic.laboratories.kinds import kinds_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks.gap_next_experiment import NOTHING, TIMES, in_question, separated
+from benchmarks.gap.next_experiment import NOTHING, TIMES, in_question, separated
 from geocontact.gap.experiment.proposal import proposed
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere

@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import gap_detectability, gap_next_experiment, gap_rows
+from benchmarks.gap import detectability as gap_detectability
+from benchmarks.gap import next_experiment as gap_next_experiment
+from benchmarks.gap import rows as gap_rows
 from geocontact.analyses.frame import source_digest as sources
 
 

@@ -7,7 +7,7 @@ from argparse import Namespace
 from dataclasses import asdict
 from pathlib import Path
 
-from benchmarks.gap_verdicts import TOLD, done, report
+from benchmarks.gap.verdicts import TOLD, done, report
 from geocontact.gap_benchmark.answers import oracle_answer
 from geocontact.gap_benchmark.drawing import Lot
 

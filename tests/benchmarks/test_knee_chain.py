@@ -13,8 +13,10 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from benchmarks import knee_alike, knee_chain, knee_truth
-from benchmarks.knee_truth import Bodies, Course, Withheld
+from benchmarks.knee import alike as knee_alike
+from benchmarks.knee import chain as knee_chain
+from benchmarks.knee import truth as knee_truth
+from benchmarks.knee.truth import Bodies, Course, Withheld
 from geocontact.analyses.frame.record import Record
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.clip import clipped_area
+from benchmarks.engines.clip import clipped_area
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -31,7 +31,7 @@ def test_clip_of_one_triangle_in_every_way_of_cutting_it() -> None:
 @pytest.mark.long
 def test_small_run_agrees_with_libigl(tmp_path: Path) -> None:
     options = ["--faces", "3000", "--frames", "5", "--rounds", "1", "--no-memory", "--only", "libigl", "--out"]
-    command = [sys.executable, "-m", "benchmarks.peers", *options, str(tmp_path)]
+    command = [sys.executable, "-m", "benchmarks.area.peers", *options, str(tmp_path)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     rows = {row["engine"]: row for row in json.loads((tmp_path / "peers-knee.json").read_text())["rows"]}

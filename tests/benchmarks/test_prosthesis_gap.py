@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.prosthesis_gap import gathered, off_of
-from benchmarks.prosthesis_refit import fulcrum
-from benchmarks.prosthesis_truth import FootPath, Truth, Withheld, measure
+from benchmarks.prosthesis.gap import gathered, off_of
+from benchmarks.prosthesis.refit import fulcrum
+from benchmarks.prosthesis.truth import FootPath, Truth, Withheld, measure
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 
 

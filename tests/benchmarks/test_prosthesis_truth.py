@@ -8,8 +8,8 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from benchmarks.prosthesis_refit import FullModel, foot_without, fulcrum, predicted
-from benchmarks.prosthesis_truth import EVERY, FootPath, Measured, Truth, Withheld, given_way, measure
+from benchmarks.prosthesis.refit import FullModel, foot_without, fulcrum, predicted
+from benchmarks.prosthesis.truth import EVERY, FootPath, Measured, Truth, Withheld, given_way, measure
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from benchmarks import real_foot
-from benchmarks.real_foot import Standing, Step
+from benchmarks.prosthesis.real_foot import Standing, Step
 
 TIME = np.linspace(0.0, 0.8, 81)
 HEIGHT, RISE, LENGTH = 0.05, 0.1, 0.25

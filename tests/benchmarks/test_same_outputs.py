@@ -18,7 +18,7 @@ from geocontact.analyses.catalogue import ENTRIES
 from geocontact.cli.main import OWN
 
 WITHOUT_RUN = ["shoulder study"]
-"""Making the trials of a study takes minutes: `python -m benchmarks.shoulder_study` runs it."""
+"""Making the trials of a study takes minutes: `python -m benchmarks.shoulder.study` runs it."""
 RUN = {
     "geocontact": "0.1.0",
     "options": {"unit": "mm", "threshold": "4"},

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from benchmarks.shoulder_mat import lifting_force, readings, with_noise, write_mat
-from benchmarks.shoulder_truth import ALONG
+from benchmarks.shoulder.mat import lifting_force, readings, with_noise, write_mat
+from benchmarks.shoulder.truth import ALONG
 from geocontact.shoulder_exoskeleton.device import lucy
 from meshes.mat_placement import UPPER_ARM_MAT
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks.shoulder_truth import Truth, Withheld, measure
+from benchmarks.shoulder.truth import Truth, Withheld, measure
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.arms_from_markers import arm_motions
 from geocontact.shoulder_exoskeleton.device import Wearer, lucy

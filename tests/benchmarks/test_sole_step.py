@@ -1,8 +1,8 @@
-"""The step of a foot on 24 spheres keeps its size; `benchmarks.sole_step` measures it in seconds."""
+"""The step of a foot on 24 spheres keeps its size; `benchmarks.contact.sole_step` measures it in seconds."""
 
 from __future__ import annotations
 
-from benchmarks.sole_step import side
+from benchmarks.contact.sole_step import side
 from geocontact.dynamics.equations import equations_of_motion
 from geocontact.dynamics.simulate import rosenbrock_step
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.standing_gap import ENCODERS, NONE, PLANTED_EFFECTS, VALUES, gathered, off_of
-from benchmarks.standing_refit import FURTHER, NAMED, StrapWith
-from benchmarks.standing_truth import PADS, PLANTED, PaddedStrap
+from benchmarks.standing.gap import ENCODERS, NONE, PLANTED_EFFECTS, VALUES, gathered, off_of
+from benchmarks.standing.refit import FURTHER, NAMED, StrapWith
+from benchmarks.standing.truth import PADS, PLANTED, PaddedStrap
 from geocontact.contact.bushing import bushing_force
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton import DAMPING, StrapLaw, with_exoskeleton

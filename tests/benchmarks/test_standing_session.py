@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from benchmarks.standing_nine_truth import PLANTED, chain_with_toes, finer_model
-from benchmarks.standing_session import (
+from benchmarks.standing.nine_truth import PLANTED, chain_with_toes, finer_model
+from benchmarks.standing.session import (
     FURTHER_MATS,
     MARKERS,
     MATS,

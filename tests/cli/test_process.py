@@ -132,7 +132,7 @@ def test_an_interrupted_run_tells_what_it_had_finished(
 
 @pytest.mark.skipif(os.name != "posix", reason="the size of files is limited on Unix")
 def test_a_full_disk_is_one_line_and_leaves_nothing(tmp_path: Path) -> None:
-    """A limit on the size of files in place of a full disk, which benchmarks/faults.py mounts."""
+    """A limit on the size of files in place of a full disk, which benchmarks/robustness/faults.py mounts."""
     file = tmp_path / "frames.csv"
     file.write_text("time [s],AL,PM,AM,PL\n" + "".join(f"{k / 100},100,200,300,400\n" for k in range(400)))
     program = (

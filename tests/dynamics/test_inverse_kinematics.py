@@ -9,7 +9,7 @@ import casadi
 import numpy as np
 import pytest
 
-from benchmarks.full_body import write_full_body
+from benchmarks.dynamics.full_body import write_full_body
 from geocontact.data.multibody.joint import Coordinate
 from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Marker, Multibody

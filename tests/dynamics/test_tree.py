@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform
 
-from benchmarks import opensim_variants as variants
+from benchmarks.dynamics import opensim_variants as variants
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_dynamics import generalised_forces
 from geocontact.dynamics.symbols import constant

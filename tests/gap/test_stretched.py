@@ -1,6 +1,6 @@
 """Another second, newton or metre changes no answer: a drift over a stretched clock, with stretched forces and lengths.
 
-The case is synthetic; `benchmarks.gap_stretched` does the same to whole folders of cases.
+The case is synthetic; `benchmarks.gap.stretched` does the same to whole folders of cases.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks.gap_stretched import SAME, Stretch, apart
+from benchmarks.gap.stretched import SAME, Stretch, apart
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.gap.diagnose import diagnose
 from geocontact.systems.catalogue import system_of

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.constants_of import bare, numbers_in
+from benchmarks.gap.constants_of import bare, numbers_in
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "theory" / "gap_diagnosis.md"
 TEXT = PAGE.read_text(encoding="utf-8")

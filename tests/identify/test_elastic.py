@@ -66,7 +66,7 @@ def test_a_late_force_has_a_positive_lag() -> None:
 
 @pytest.mark.slow
 def test_intervals_cover_in_short_steps(elsewhere: Elsewhere) -> None:
-    """Small version of `benchmarks.modulus`: 60 runs at 41 frames, noise of 100 N that remembers 50 ms.
+    """Small version of `benchmarks.knee.modulus`: 60 runs at 41 frames, noise of 100 N that remembers 50 ms.
 
     With a true coverage of 0.95 fewer than 51 of 60 would happen in one seed of a thousand.
     """

@@ -1,4 +1,5 @@
-"""Damaged files are refused in one line or read as they should be; 10,000 of them: benchmarks/mutated_files.py."""
+"""Damaged files are refused in one line or read as they should be; 10,000 of them:
+benchmarks/robustness/mutated_files.py."""
 
 from __future__ import annotations
 
@@ -170,7 +171,7 @@ def test_numbers_are_too_large_beyond_64_bits() -> None:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is bounded by way of /proc")
 def test_two_hundred_damaged_files_over_every_reader() -> None:
-    from benchmarks.mutated_files import run
+    from benchmarks.robustness.mutated_files import run
 
     found = run(int(os.environ.get("GEOCONTACT_DAMAGED", "200")), seed=3, only="", c3d=False)
     assert found["bad"] == 0, found["examples"]

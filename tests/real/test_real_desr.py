@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from scipy.io import loadmat
 
-from benchmarks import desr
+from benchmarks.devices import desr
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial

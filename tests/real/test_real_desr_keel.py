@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from benchmarks import desr
-from benchmarks.desr_keel import compared
+from benchmarks.devices.desr_keel import compared
 
 BETWEEN, BEYOND = ("x10", "x25", "x35"), "x45"
 SLOPE, WORK = "stiffness over that of the setting alone, less 1", "work measured, simulated [J]"

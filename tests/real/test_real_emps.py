@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import emps
+from benchmarks.devices import emps
 from geocontact.data.diagnosis import Diagnosis
 from tests.elsewhere import Elsewhere
 

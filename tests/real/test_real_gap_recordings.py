@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks import real_gaps
+from benchmarks.gap import real_gaps
 from geocontact.gap.diagnose import diagnose
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import real_foot
-from benchmarks.prosthesis_intact import LAB, judged, lab_steps, opensim_steps
+from benchmarks.prosthesis import real_foot
+from benchmarks.prosthesis.intact import LAB, judged, lab_steps, opensim_steps
 from geocontact.data.errors import InputWarning
 
 Errors = dict[str, dict[str, float]]

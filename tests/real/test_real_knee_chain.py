@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks import knee_chain, knee_truth
+from benchmarks.knee import chain as knee_chain
+from benchmarks.knee import truth as knee_truth
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
 from geocontact.systems.knee_posed import PosedKnee

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks import paper_004
+from benchmarks.knee import paper_004
 from geocontact.data.errors import InputWarning
 from geocontact.io.mesh.meshes import read_mesh
 

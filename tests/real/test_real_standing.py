@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.standing_real import steps
+from benchmarks.standing.real import steps
 
 
 @pytest.mark.slow

@@ -36,7 +36,8 @@ def test_error_of_the_usual_tolerance(level: float) -> None:
 
 @pytest.mark.skipif(compiler() is None, reason="as fast as that with a compiler only")
 def test_an_arm_is_simulated_much_faster_than_it_moves(lift: ArmSimulation) -> None:
-    """The short form of `benchmarks.shoulder`, where it is 287 times: the best of five is more than half of the aim."""
+    """The short form of `benchmarks.shoulder.shipped_trial`, where it is 287 times: the best of five is more than half
+    of the aim."""
     seconds = []
     for _ in range(5):
         started = clock.process_time()

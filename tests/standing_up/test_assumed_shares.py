@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.standing_other_world import World, own_trials
+from benchmarks.standing.other_world import World, own_trials
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions, solve

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from benchmarks.standing_other_world import World, own_trials
+from benchmarks.standing.other_world import World, own_trials
 from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.standing_up.calibrated_phase import (
     DOUBTFUL,

@@ -1,4 +1,4 @@
-"""A study that is killed, or loses a worker, comes to the same tables; long: benchmarks/cohort_kills.py."""
+"""A study that is killed, or loses a worker, comes to the same tables; long: benchmarks/study/kills.py."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from benchmarks.cohort_kills import ROOT, disturb, prepare, start
+from benchmarks.study.kills import ROOT, disturb, prepare, start
 from geocontact.study.worker_setup import dask_setup
 from tests.study.quick import study
 

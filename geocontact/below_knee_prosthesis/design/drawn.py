@@ -14,7 +14,7 @@ The map is quasi-static and bears the recorded load. Along the same turns of pel
 inertia and dampers: that is the map's own error, on the present foot, and every draw has it. On another foot than the
 present one the load differs as well, since the pelvis is free: that grows with the logarithm of the keel's stiffness
 over that of the present one. Bands of outcomes have both. What is best is sought with the recorded load, as the
-responses of a person say, and has the first. Both were measured (`benchmarks/prosthesis_forward.py`); of the rate of
+responses of a person say, and has the first. Both were measured (`benchmarks/prosthesis/forward.py`); of the rate of
 loading and of another alignment they were not.
 """
 

@@ -5,8 +5,8 @@ Over one gait cycle tau is poorly known, and intervals that take its best value 
 tau of a grid keeps a weight, its restricted likelihood (Patterson and Thompson 1971, Biometrika 58, 545) times a
 reference prior, and intervals are taken over all of them. The prior is the root of Fisher's information on log tau, as
 of Berger, De Oliveira and Sanso (2001), JASA 96, 1361, without the regressors. One that is flat in log tau favours
-times so long that no recording tells them, and intervals come out too wide (`benchmarks.modulus`). Plain least squares
-gives the estimates; their variance under such noise is the sandwich s^2 (J'J)^-1 J'KJ (J'J)^-1.
+times so long that no recording tells them, and intervals come out too wide (`benchmarks.knee.modulus`). Plain least
+squares gives the estimates; their variance under such noise is the sandwich s^2 (J'J)^-1 J'KJ (J'J)^-1.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ import pytest
 
 import geocontact as gc
 import geocontact.gap
-from benchmarks.constants_of import numbers_in
+from benchmarks.gap.constants_of import numbers_in
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.gap.benchmark import result as gap_benchmark_result
 from geocontact.analyses.gap.benchmark.case import ANSWERERS, Task, Worked, alike, failed, renamed, worked

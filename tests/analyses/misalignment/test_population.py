@@ -11,7 +11,7 @@ import pytest
 from scipy import stats
 
 import geocontact as gc
-from benchmarks.elbow_population import drawn
+from benchmarks.elbow.population import drawn
 from geocontact.axis_misalignment.design import Exposure, peak_forces
 from tests.analyses.misalignment.trials import quietly
 

@@ -131,7 +131,7 @@ def test_the_written_file_tells_the_same_torques(
 
 @pytest.mark.slow
 def test_its_own_torques_make_the_motion_again(truth: Amputee, given: GivenWalk, landing: WholeMotion) -> None:
-    """Short form of `benchmarks/prosthesis_both_sides.py`: errors there grow by 15/s in single support."""
+    """Short form of `benchmarks/prosthesis/both_sides.py`: errors there grow by 15/s in single support."""
     ground = recorded_inputs(given.time, given.ground).at(landing.time)
     forces = driving_forces(truth, landing, accelerations_by_angles(truth, given, landing), ground)
     undriven = [landing.names.index(name) for name in (*passive(landing.names), "pelvis_tx", "pelvis_ty")]

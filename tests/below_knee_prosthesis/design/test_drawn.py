@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks.prosthesis_forward import forward_run
+from benchmarks.prosthesis.forward import forward_run
 from geocontact.below_knee_prosthesis.design.choice import choose, interval
 from geocontact.below_knee_prosthesis.design.drawn import MEASURED, NONE, MapError, draws, stiffer
 from geocontact.below_knee_prosthesis.design.foot_map import FootMap

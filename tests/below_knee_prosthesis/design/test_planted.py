@@ -1,10 +1,10 @@
-"""Short form of `benchmarks/prosthesis_design.py`."""
+"""Short form of `benchmarks/prosthesis/design.py`."""
 
 from __future__ import annotations
 
 import pytest
 
-from benchmarks.prosthesis_design import planted
+from benchmarks.prosthesis.design import planted
 
 
 @pytest.mark.slow

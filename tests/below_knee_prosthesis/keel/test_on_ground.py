@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from benchmarks.keel_stance import Stance
-from benchmarks.prosthesis_grounds import SLOPE, strip, turned
+from benchmarks.prosthesis.grounds import SLOPE, strip, turned
+from benchmarks.prosthesis.keel_stance import Stance
 from geocontact.below_knee_prosthesis.keel.quasi_static import loads_at
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.geometry.shapes import HalfSpace
@@ -62,7 +62,7 @@ def test_what_is_behind_the_edge_of_a_step_hangs_in_the_air(edge: float) -> None
 
 
 def test_a_ramp_is_a_turned_floor_and_a_mesh_is_its_formula() -> None:
-    """Short form of `benchmarks/prosthesis_grounds.py`: damping and friction along a known motion."""
+    """Short form of `benchmarks/prosthesis/grounds.py`: damping and friction along a known motion."""
     keel = vsf_foot().at(0.1)
     time, poses = moving(12)
     level = Stance(time, poses, pose_rate(time, poses))

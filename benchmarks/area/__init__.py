@@ -1,0 +1,1 @@
+"""Areas, distances and fits beside closed forms and other libraries."""

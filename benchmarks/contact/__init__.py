@@ -1,0 +1,1 @@
+"""Contact laws, pressure mats, and the foot on spheres."""

@@ -1,0 +1,1 @@
+"""Public recordings of other devices, with models of their own."""

@@ -1,0 +1,1 @@
+"""Bodies on joints and collocation, beside OpenSim and other peers."""

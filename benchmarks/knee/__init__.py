@@ -1,0 +1,1 @@
+"""The knee implant: areas, modulus, equilibrium, and its chain in the diagnosis."""

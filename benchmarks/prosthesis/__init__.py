@@ -1,0 +1,1 @@
+"""The below-knee prosthesis."""

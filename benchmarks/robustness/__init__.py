@@ -1,0 +1,1 @@
+"""Damaged files, machines where something is wrong, and the first result."""

@@ -1,0 +1,1 @@
+"""Standing up with a leg exoskeleton."""

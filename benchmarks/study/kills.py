@@ -1,0 +1,174 @@
+"""Kills of a study at random moments; the tables that come out in the end are those of a run that nobody disturbed.
+
+`python -m benchmarks.study.kills --kills 50` writes results/cohort_kills.json
+after every run, and ends after `--minutes` at the latest. A study of 12 short trials is started
+again and again on the same folder, and killed: its own process (SIGKILL or SIGTERM) or one of its workers (SIGKILL).
+When a run comes to its end the tables are compared, and the next one starts from nothing.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import psutil
+
+from benchmarks.machine import write_results
+from tests.study.quick import study, tables
+
+ROOT = Path(__file__).resolve().parents[2]
+TRIALS = 12
+GONE = 15.0  # s; in which workers of a killed study are to end
+GIVEN = 2.0  # s of a core that one may take first where other work keeps the cores: until it can end it takes 0.6
+MOST = 180.0  # s; then it counts as left, however little it was given
+PACKAGES = {"dask", "distributed", "pyarrow"}
+WAYS = ("study, SIGKILL", "study, SIGTERM", "worker, SIGKILL")
+
+
+@dataclass
+class Killed:
+    """What came of it: kills by way, runs that came to their end, how many of them had other tables."""
+
+    kills: Counter[str] = field(default_factory=Counter)
+    ended: int = 0
+    different: int = 0
+    left_running: int = 0
+    codes: Counter[int] = field(default_factory=Counter)
+
+
+def prepare(folder: Path, trials: int = TRIALS) -> Path:
+    """A study of trials that take 0.3 s each."""
+    return study(folder, {f"S{k:03d}": f"{k} slow" for k in range(trials)})
+
+
+def command(file: Path, out: Path) -> list[str]:
+    return [sys.executable, "cli.py", "cohort", str(file), "--out", str(out), "--workers", "2"]
+
+
+def start(file: Path, out: Path) -> subprocess.Popen[bytes]:
+    return subprocess.Popen(command(file, out), cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def reference(file: Path, out: Path) -> tuple[dict[str, bytes], float]:
+    """Tables of a run that nobody disturbs, and how long it takes [s]."""
+    started = time.perf_counter()
+    if start(file, out).wait() != 0:
+        raise RuntimeError("the study fails without a kill")
+    return tables(out), time.perf_counter() - started
+
+
+def disturb(
+    file: Path, folder: Path, kills: int, seed: int, told: Callable[[Killed], None] = lambda _: None, most: float = 1e9
+) -> Killed:
+    """Kill at random moments until it has been done so often, or for `most` seconds; `told` hears after every run."""
+    rng, found = np.random.default_rng(seed), Killed()
+    expected, seconds = reference(file, folder / "undisturbed")
+    out, began = folder / "out", time.perf_counter()
+    while sum(found.kills.values()) < kills and time.perf_counter() - began < most:
+        told(found)
+        process = start(file, out)
+        children = _kill(process, WAYS[rng.integers(len(WAYS))], rng.uniform(0.0, seconds), found)
+        code = process.wait()
+        found.left_running += _left(children)
+        if code == 0:
+            found.ended += 1
+            found.different += tables(out) != expected
+            shutil.rmtree(out)
+        else:
+            found.codes[code] += 1
+    process = start(file, out)  # the last one is left to its end
+    found.codes[process.wait()] += 0
+    found.ended += 1
+    found.different += tables(out) != expected
+    return found
+
+
+def _left(children: list[psutil.Process]) -> int:
+    """How many do not end though they had the time to."""
+    began = time.perf_counter()
+    taken = {each: _seconds(each) for each in children}
+    alive = psutil.wait_procs(children, GONE)[1]
+    while alive and time.perf_counter() - began < MOST and any(_seconds(each) - taken[each] < GIVEN for each in alive):
+        alive = psutil.wait_procs(alive, 1.0)[1]
+    return len(alive)
+
+
+def _seconds(process: psutil.Process) -> float:
+    """Of a core, taken so far; infinite for one that has ended."""
+    try:
+        return sum(process.cpu_times()[:2])
+    except psutil.Error:
+        return np.inf
+
+
+def _kill(process: subprocess.Popen[bytes], way: str, after: float, found: Killed) -> list[psutil.Process]:
+    """Kill in that way after so many seconds, unless it has ended; its children at that moment."""
+    try:
+        process.wait(after)
+        return []
+    except subprocess.TimeoutExpired:
+        pass
+    try:
+        children = psutil.Process(process.pid).children(recursive=True)
+    except psutil.NoSuchProcess:
+        return []
+    if way.startswith("study"):
+        process.send_signal(signal.SIGTERM if "TERM" in way else signal.SIGKILL)
+    else:
+        workers = [each for each in children if "spawn_main" in " ".join(_words(each))]
+        if not workers:
+            return []
+        workers[0].kill()
+    found.kills[way] += 1
+    return children if way.startswith("study") else []
+
+
+def _words(process: psutil.Process) -> list[str]:
+    try:
+        return process.cmdline()
+    except psutil.Error:
+        return []
+
+
+def main() -> None:
+    """So many kills, and what came of them."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--kills", type=int, default=50)
+    parser.add_argument("--seed", type=int, default=7)
+    parser.add_argument("--minutes", type=float, default=60.0)
+    asked = parser.parse_args()
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        started = time.perf_counter()
+
+        def tell(found: Killed) -> None:
+            write_results("cohort_kills", vars(asked), figures(found, started), PACKAGES)
+
+        tell(disturb(prepare(folder), folder, asked.kills, asked.seed, tell, 60.0 * asked.minutes))
+
+
+def figures(found: Killed, started: float) -> dict[str, object]:
+    """What the file of results holds."""
+    return {
+        "kills": dict(found.kills),
+        "runs_to_the_end": found.ended,
+        "with_other_tables": found.different,
+        "processes_left_running": found.left_running,
+        "exit_codes_of_killed": {str(code): count for code, count in found.codes.items()},
+        "trials": TRIALS,
+        "seconds": round(time.perf_counter() - started),
+    }
+
+
+if __name__ == "__main__":
+    main()
