@@ -13,7 +13,9 @@ LEVEL = "plane:0,1,0,0"
 
 
 def plane_or_stairs(text: str) -> HalfSpace | Stairs | None:
-    """Of plane:nx,ny,nz,offset or stairs:h0,x1:h1 [m]; None for anything else, InputError for what is neither."""
+    """The ground of plane:nx,ny,nz,offset or stairs:h0,x1:h1 [m]; None for anything else, InputError for what is
+    neither.
+    """
     kind, colon, rest = text.partition(":")
     if not colon or kind not in ("plane", "stairs"):
         return None

@@ -115,7 +115,7 @@ def _noise(
     channels: Sequence[Float[np.ndarray, "_ 5"]],
     edges: Float[np.ndarray, " edges"],
 ) -> AutoregressiveNoise:
-    """Of the force about the curve through all trials' bin means, which no model has a part in."""
+    """Noise of the force about the curve through all trials' bin means, which no model has a part in."""
     found = angle_bins(times, channels, edges, np.inf)
     if not len(found.count):
         held = f"no bin of {np.degrees(edges[1] - edges[0]):g} degrees is held for {LEAST_SECONDS:g} s in any recording"

@@ -274,7 +274,7 @@ class DisplacementScale:
         return np.asarray(found)
 
     def drawn(self, rng: np.random.Generator) -> DisplacementScale:
-        """As it could have been measured."""
+        """The bin means as they could have been measured."""
         return replace(self, slope=float(rng.normal(self.slope, self.error)))
 
     def _at_rest(self, theta: Float[np.ndarray, " 8"]) -> Float[np.ndarray, " 8"]:

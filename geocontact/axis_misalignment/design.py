@@ -64,17 +64,17 @@ WALK = 200
 """Steps in which a ray is walked until the limit is exceeded."""
 
 HALVINGS = 40
-"""Of the last step, until where the limit is exceeded is known."""
+"""Halvings of the last step, until where the limit is exceeded is known."""
 
 FINE = np.radians(0.1)
 """rad; step of the mean square of the force."""
 
 CHANGE = 1e-4
-"""Of its own size, or of the link's length where a number is near 0: by what a number is changed for its slope."""
+"""Relative change of a number for its slope: of its own size, or of the link's length where the number is near 0."""
 
 
 NOTHING = 1e-12
-"""Of the link's length: a deflection of less is rounding."""
+"""Share of the link's length: a deflection of less is rounding."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -45,7 +45,7 @@ NEAR_POLE = 1e-6
 
 
 POLE_SHARE = 1e-3
-"""Of the link: where the denominator of tan γ is so small or smaller, tan γ is refused."""
+"""Share of the link: where the denominator of tan γ is so small or smaller, tan γ is refused."""
 
 
 @kernel
@@ -117,7 +117,7 @@ class Offsets:
 
     @property
     def numbers(self) -> Float[np.ndarray, " slots"]:
-        """As the kernels take them."""
+        """The numbers in the order in which the kernels take them."""
         n = NEUTRAL.copy()
         n[:4] = self.l, self.z, self.x, self.y
         return n

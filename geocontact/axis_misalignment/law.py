@@ -35,7 +35,7 @@ from geocontact.geometry.kernels.compile import kernel
 ROUNDS = 200
 """Most rounds of the search for where the axis comes to rest."""
 SETTLED = 1e-14
-"""Of the link: the axis is at rest when a round moves it by less."""
+"""Share of the link: the axis is at rest when a round moves it by less."""
 
 
 @kernel

@@ -230,12 +230,12 @@ class PlanarJoint:
 
     @property
     def words(self) -> str:
-        """Its numbers in words."""
+        """The numbers in words."""
         return f"l = {self.length * 1e3:g} mm, x = {self.x * 1e3:g} mm, y = {self.y * 1e3:g} mm"
 
     @property
     def numbers(self) -> Float[np.ndarray, "1 4"]:
-        """As the kernels take them."""
+        """The numbers in the order in which the kernels take them."""
         return np.array([[self.length, self.distance, self.x, self.y]])
 
     def deflection(self, beta: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:

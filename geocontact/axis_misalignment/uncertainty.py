@@ -27,7 +27,7 @@ FLAT = 1e-6  # of the largest singular value: below, the data say nothing in thi
 
 @dataclass(frozen=True, eq=False)
 class Covariance:
-    """Of the free numbers, by stretches.
+    """Covariance of the free numbers, by stretches.
 
     Parameters
     ----------
@@ -204,7 +204,7 @@ class Separability:
 
 
 def separability(e: ElbowFit) -> Separability:
-    """Of the compliance c, at the numbers found, weighted as in the fit; without priors.
+    """Separability of the compliance c, at the numbers found, weighted as in the fit; without priors.
 
     Where the attachment is on the limb's line (z = 0) c and 1/k are in series exactly, F = d_tot/(1/k + c). Beside it
     the force across the limb, which z brings about, turns the limb and makes the rest.

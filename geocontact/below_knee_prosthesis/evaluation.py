@@ -30,7 +30,7 @@ from geocontact.loads.centre_of_pressure import POINTS
 CUTOFF = 40.0
 """Hz; of the plate's forces and of the simulated ones beside them, as the study has it."""
 SLOWEST = 0.4
-"""Of a plate's rate: the cut-off of both where the plate is too slow for `CUTOFF`."""
+"""Share of a plate's rate: the cut-off of both where the plate is too slow for `CUTOFF`."""
 SAMPLES = 101
 """Over the stance that the plate saw."""
 
@@ -120,7 +120,9 @@ def stance_errors(found: Stance, plate: PlateStance) -> StanceErrors:
 def _impulses(
     time: Float[np.ndarray, " s"], own: Float[np.ndarray, " s"], seen: Float[np.ndarray, " s"]
 ) -> tuple[Float[np.ndarray, " s"], Float[np.ndarray, " s"]]:
-    """Of forces over time, from the first sample that both have; the simulated one is NaN where it has none."""
+    """Impulses of forces over time, from the first sample that both have; the simulated one is NaN where it has
+    none.
+    """
     both = np.isfinite(own)
     model = np.full_like(own, np.nan)
     model[both] = cumulative_trapezoid(own[both], time[both], initial=0)

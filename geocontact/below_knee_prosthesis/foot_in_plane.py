@@ -48,7 +48,7 @@ class FootInPlane:
 
 
 def in_plane(time: Float[np.ndarray, " t"], poses: RigidTransform) -> FootInPlane:
-    """Of the keel's frame at some times [s], y up."""
+    """Motion of the keel's frame at some times [s], y up."""
     axis = poses.rotation.apply([1.0, 0.0, 0.0])
     forward = axis.mean(axis=0) * np.array([1.0, 0.0, 1.0])
     forward /= np.linalg.norm(forward)

@@ -24,7 +24,9 @@ SHARED = ("exponent", "full_depth", "threshold_speed")
 
 
 def foot_numbers(foot: VariableStiffnessFoot, fulcrum: float) -> dict[str, Number]:
-    """Of keel and sole by name, in SI: what `simulate_stance` takes of this foot, whatever it was built from."""
+    """Numbers of keel and sole by name, in SI: what `simulate_stance` takes of this foot, whatever it was built
+    from.
+    """
     own = {"fulcrum": Number(fulcrum, "derived", "chosen")}
     own |= {f"keel {name}": number for name, number in _keel(foot.keel, fulcrum)}
     return own | {f"sole {name}": number for name, number in _sole(foot)}

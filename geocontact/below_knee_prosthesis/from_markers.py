@@ -71,7 +71,7 @@ def mirrored_name(name: str) -> str:
 
 
 MIRROR = np.array([1.0, 1.0, -1.0])
-"""Of vectors at the plane z = 0; moments change sign besides."""
+"""Mirror of vectors at the plane z = 0; moments change sign besides."""
 
 
 def as_right(markers: MarkerTrajectories, side: Side) -> MarkerTrajectories:
@@ -150,7 +150,7 @@ def require_forward(seen: MarkerTrajectories, at: Mapping[str, Vector], foot: tu
 
 
 def require_lengths(seen: MarkerTrajectories, thigh: float, shank: float, knee: float) -> None:
-    """Of a leg [m]; `knee` is the distance of the epicondyles."""
+    """Plausible lengths of a leg [m], else an error; `knee` is the distance of the epicondyles."""
     for name, value, believed in (("thigh", thigh, THIGHS), ("shank", shank, SHANKS), ("knee", knee, KNEES)):
         require_length(seen, name, value, believed)
 

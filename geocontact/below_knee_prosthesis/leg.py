@@ -97,7 +97,7 @@ MIDDLE = np.array([0.11, 0.0, 0.0])
 
 @dataclass(frozen=True)
 class FootOffset:
-    """Of the foot on the socket, beside its standing trial; none unless it was found.
+    """Offset of the foot on the socket, beside its standing trial; none unless it was found.
 
     Parameters
     ----------
@@ -243,14 +243,14 @@ class Leg:
         return np.asarray(self.turn.inv().apply(self.keel - self.bushing))
 
     def thigh_body(self) -> Inertial:
-        """Of the thigh in its frame, by de Leva's shares of mass and length."""
+        """Body of the thigh in its frame, by de Leva's shares of mass and length."""
         of = SEGMENTS[self.person.sex]["thigh"]
         mass = of.mass * self.person.mass
         sagittal, transverse, long = of.moments(mass, self.thigh)
         return mass, np.array([0.0, -of.centre * self.thigh, 0.0]), np.diag([sagittal, long, transverse])
 
     def residual_body(self) -> Inertial:
-        """Of the residual limb in the shank's frame: a frustum cut off, of the density of the whole shank.
+        """Body of the residual limb in the shank's frame: a frustum cut off, of the density of the whole shank.
 
         Whole it has de Leva's mass, and his mass centre tells its taper: the limb weighs the same whatever else is
         known of the person.
@@ -261,7 +261,7 @@ class Leg:
         return whole.cut(self.person.residual * self.shank).body(density)
 
     def prosthesis_body(self) -> Inertial:
-        """Of socket, pylon and foot shell together in the bushing's frame B; the keel is not in it."""
+        """Body of socket, pylon and foot shell together in the bushing's frame B; the keel is not in it."""
         long, own = self.person.residual * self.shank, self.person.parts
         socket = _tube(own[0], long, 0.0)
         pylon = _tube(own[1], self.shank - long, -long, radius=0.015)
@@ -274,7 +274,9 @@ class Leg:
         return mass, self.turn.inv().apply(centre - self.bushing), back @ inertia @ back.T
 
     def pelvis_mass(self, keel: float) -> float:
-        """Of all that is neither thigh, residual limb, prosthesis nor keel: trunk, head, arms, the other leg [kg]."""
+        """Mass of all that is neither thigh, residual limb, prosthesis nor keel: trunk, head, arms, the other leg
+        [kg].
+        """
         parts = (self.thigh_body(), self.residual_body(), self.prosthesis_body())
         return self.person.mass - keel - sum(part[0] for part in parts)
 
@@ -319,7 +321,7 @@ def _places(name: str, values: Vector, note: str) -> dict[str, Number]:
 
 
 def _offset(of: FootOffset) -> dict[str, Number]:
-    """Of the foot beside its standing trial."""
+    """Offset of the foot beside its standing trial."""
     whose = "as the law's file has it; in leg keel and leg turn already" if of.given else "none: as it stood"
     words = {
         "height": f"of the foot's middle, raised beside its standing trial, {whose}",
@@ -331,7 +333,7 @@ def _offset(of: FootOffset) -> dict[str, Number]:
 
 
 def _prosthesis(mass: float, centre: Vector, inertia: Float[np.ndarray, "3 3"]) -> dict[str, Number]:
-    """Of socket, pylon and foot shell together."""
+    """Body of socket, pylon and foot shell together."""
     found = {"prosthesis_mass": Number(mass, "derived", "of these three, without keel")}
     found |= _places("prosthesis_centre", centre, "of their mass, in the bushing's frame")
     for a, b in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)):

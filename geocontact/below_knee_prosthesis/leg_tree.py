@@ -76,7 +76,7 @@ def _upper_joints(leg: Leg) -> tuple[JointModel, ...]:
 
 
 TURNS: Final = "XYZ"
-"""Of the bushing's frame in the ground, as `joint_kinds.free` turns."""
+"""Turns of the bushing's frame in the ground, as `joint_kinds.free` turns."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,5 +142,5 @@ def driving_inputs(motion: LegMotion, pushing: Float[np.ndarray, "t 3"]) -> Reco
 
 
 def carried_mass(leg: Leg, keel: float) -> float:
-    """Of all above the socket [kg]; `keel` is the keel's own mass."""
+    """Mass of all above the socket [kg]; `keel` is the keel's own mass."""
     return leg.pelvis_mass(keel) + leg.thigh_body()[0] + leg.residual_body()[0]

@@ -67,7 +67,7 @@ def limb_in_socket(
     gap_limit: float,
     turns: int,
 ) -> LimbInSocket:
-    """Of a right leg, from the fit in which the socket does not give.
+    """Motion of a right limb, from the fit in which the socket does not give.
 
     Parameters
     ----------

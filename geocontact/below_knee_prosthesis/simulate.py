@@ -86,7 +86,7 @@ class Stance:
 
     @property
     def force(self) -> Float[np.ndarray, "t 3"]:
-        """Of the ground on the foot [N]."""
+        """Force of the ground on the foot [N]."""
         return np.asarray(self.loads.force.sum(axis=1))
 
     def centre(self, point: str) -> Float[np.ndarray, "t 3"]:
@@ -104,7 +104,7 @@ class Stance:
 
     @property
     def keel_angles(self) -> Float[np.ndarray, "t n"]:
-        """Of the keel's joints [rad]."""
+        """Angles of the keel's joints [rad]."""
         return self.found.q[:, 8:]
 
     @property
@@ -214,7 +214,7 @@ def recorded_start(
 
 
 def recorded_speed(motion: LegMotion) -> Float[np.ndarray, "t 3"]:
-    """Of the pelvis [m/s]."""
+    """Speed of the pelvis [m/s]."""
     return np.asarray(make_interp_spline(motion.time, motion.values[:, 3:6], k=SMOOTH)(motion.time, 1))
 
 
@@ -235,7 +235,7 @@ def told_at(
     w: Float[np.ndarray, "w t"],
     p: Float[np.ndarray, "p t"],
 ) -> ToldStates:
-    """Of states, inputs and parameters, each in a column."""
+    """Values of states, inputs and parameters, each in a column."""
     values = np.array(model.outputs.map(q.shape[1])(q, u, z, w, p)).T
     ends = np.cumsum([0, *OUTPUTS.values()])
     told = {name: values[:, ends[k] : ends[k + 1]] for k, name in enumerate(OUTPUTS)}

@@ -55,7 +55,7 @@ COLUMN = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 BEARING = tuple(f"bearing_{kind}{axis}" for kind in "rt" for axis in "xyz")
 """Coordinates of the bushing's frame that are given."""
 PLACE = ("pelvis_x", "pelvis_y")
-"""Of the pelvis, fore and aft and vertical: free."""
+"""Place of the pelvis, fore and aft and vertical: free."""
 OUTPUTS = {"rotation": 9, "place": 3, "spin": 3, "speed": 3, "socket": 6}
 """Pose of the keel's frame (rotation by rows), its angular velocity and velocity, in the ground's frame; load of the
 residual limb on the socket along the bushing's directions [N m, N]."""

@@ -221,7 +221,7 @@ class Geometry(Protocol):
 
     @property
     def slots(self) -> LawParameters:
-        """Its numbers."""
+        """Places of the numbers that the kernel reads."""
 
     @property
     def yields(self) -> str:

@@ -133,11 +133,11 @@ SERIES = LawParameters(
     }
 )
 KNOTS = 2001
-"""Of the table of the deflection that a spring in series is solved on."""
+"""Knots of the table of the deflection that a spring in series is solved on."""
 STEP = 1e-5
-"""Of differences, over the range of the input."""
+"""Step of differences, over the range of the input."""
 LEAST_RANGE = 1e-6
-"""Of an input that hardly moves, in its unit or over its magnitude."""
+"""Range of an input that hardly moves, in its unit or over its magnitude."""
 
 Deflect = Callable[[Float[np.ndarray, " t"], Values], Float[np.ndarray, " t"]]
 """(input, numbers) → deflection, element by element: numbers are parameters, constants and the trial's covariates."""

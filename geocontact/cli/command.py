@@ -168,7 +168,7 @@ def tell(result: Result, folder: Path, files: list[str]) -> None:
 
 
 def option(one: Declared) -> str:
-    """Its name on the command line, without the dashes."""
+    """The option's name on the command line, without the dashes."""
     return one.spelled.name or one.name.replace("_", "-")
 
 

@@ -52,7 +52,7 @@ class Bushing:
         return [-bushing_force(q[i], u[i], self.stiffness[i], self.damping[i]) for i in range(6)]
 
     def energy(self, q: Float[np.ndarray, "six t"]) -> Float[np.ndarray, " t"]:
-        """Of the springs over time [J]."""
+        """Energy of the springs over time [J]."""
         return np.asarray(0.5 * np.array(self.stiffness) @ q**2)
 
 
@@ -86,4 +86,4 @@ PRINTED = Bushing((10e-3 / DEGREE,) * 3 + (TRANSLATION,) * 3, (5e-3 / DEGREE,) *
 SOCKET = Bushing((10.0 / DEGREE,) * 3 + (TRANSLATION,) * 3, (5.0 / DEGREE,) * 3 + (CREEP,) * 3)
 """The same with N m in place of N mm for the rotations."""
 PISTONING = BushingLimits(travel=35e-3, speed=100e-3)
-"""Of the residual limb along the socket, from the study."""
+"""Pistoning of the residual limb along the socket, from the study."""

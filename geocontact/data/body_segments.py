@@ -45,7 +45,7 @@ class BodySegment:
 
 
 STATURE: dict[Sex, float] = {"female": 1.735, "male": 1.741}
-"""Of the mean person [m]."""
+"""Stature of the mean person [m]."""
 _ENDS = {
     "head": ("vertex", "middle of the gonia"),
     "trunk": ("suprasternale", "middle of the hip joints"),

@@ -181,7 +181,7 @@ class Partial:
     removed: Mapping[str, tuple[float, tuple[float, float]]]
 
     def as_dict(self) -> dict[str, Any]:
-        """As in diagnosis.json."""
+        """The content of diagnosis.json."""
         removed = {name: {"reduction": part, "ci95": list(ci95)} for name, (part, ci95) in self.removed.items()}
         return {"effects": list(self.effects), "gain_nats": self.gain_nats, "removed": removed}
 
@@ -205,7 +205,7 @@ class NextExperiment:
     gain_nats: float
 
     def as_dict(self) -> dict[str, Any]:
-        """As in diagnosis.json."""
+        """The content of diagnosis.json."""
         return {"separates": list(self.separates), "change": self.change, "gain_nats": self.gain_nats}
 
 

@@ -34,7 +34,7 @@ KNOWN = (*UNITS, N, HZ, S, KG, RAD, PA, M_PER_S, N_PER_M, N_PER_MM, N_S_PER_M, N
 """Units that a number may have been meant in."""
 
 ROUNDING = 1e-9
-"""Of an end of a range; 45 deg is not exactly pi / 4."""
+"""Rounding of an end of a range; 45 deg is not exactly pi / 4."""
 
 LEAST_NUMBER = 0.1
 """Smallest value in SI that may be a number of another unit: 4 m that was to be 4 mm, but not 0.04 m for 0.04 mm."""

@@ -55,12 +55,12 @@ class PressureFrames:
 
     @property
     def rows(self) -> int:
-        """Of the grid."""
+        """Number of rows of the grid."""
         return int(self.pressure.shape[1])
 
     @property
     def columns(self) -> int:
-        """Of the grid."""
+        """Number of columns of the grid."""
         return int(self.pressure.shape[2])
 
     @cached_property

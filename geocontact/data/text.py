@@ -34,7 +34,7 @@ def same_place(names: Iterable[str]) -> str | None:
 
 
 DECIMALS = 6
-"""Of a second, at least: clocks that count from 1970 leave none of nine digits and two of twelve."""
+"""Decimals of a second, at least: clocks that count from 1970 leave none of nine digits and two of twelve."""
 
 
 def is_late(value: float, digits: int) -> bool:

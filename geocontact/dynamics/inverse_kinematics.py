@@ -127,7 +127,7 @@ def undetermined(normal: Square, free: Bool[np.ndarray, " n"]) -> Bool[np.ndarra
 
 
 def to_hold(slopes: Float[np.ndarray, "k n"], free: Bool[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:
-    """As few coordinates as there are directions along which markers hardly move; without them the others are told.
+    """Coordinates to hold: as few as there are directions along which markers hardly move.
 
     Of each direction that which turns or shifts most along it (Golub & Van Loan, Matrix Computations, sec. 5.5: columns
     exchanged by their length): of an arm with markers at shoulder, elbow and wrist the pronation, not the elbow, which

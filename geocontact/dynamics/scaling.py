@@ -14,7 +14,7 @@ from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import GROUND, Body, Multibody, coupler_stretch
 
 Factors = Mapping[str, Float[np.ndarray, " 3"]]
-"""Of bodies by name, along the axes of the body's frame; a body without any keeps its size."""
+"""Factors of bodies by name, along the axes of the body's frame; a body without any keeps its size."""
 
 
 def measured_factor(

@@ -168,9 +168,9 @@ Inputs = Callable[[float], tuple[Vector, Vector]]
 """Time [s] to the equations' inputs and their derivatives."""
 
 SAFE, SHRINK, GROW = 0.9, 0.2, 5.0
-"""Of the step that the error allows; least and most that a step changes by."""
+"""Share of the step that the error allows; least and most that a step changes by."""
 SMALLEST = 1e-12
-"""Of the span; a step below it means that the motion cannot go on."""
+"""Share of the span; a step below it means that the motion cannot go on."""
 
 
 @dataclass(frozen=True)

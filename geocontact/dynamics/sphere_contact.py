@@ -211,7 +211,7 @@ class SmoothedSphereLaw:
     still = STILL
 
     def pressing(self, depth: SX, closing: SX) -> SX:
-        """As the paper's appendix has it, corrected [N]."""
+        """Normal force as the paper's appendix has it, corrected [N]."""
         force = smoothed_sphere_force(
             depth, closing, self.modulus, self.radius, self.c, self.rounding, self.b_d, self.b_v, self.b_n
         )
@@ -246,7 +246,7 @@ class OpenSimSphereLaw:
         return float(self.constant**0.5)
 
     def pressing(self, depth: SX, closing: SX) -> SX:
-        """As `SmoothSphereHalfSpaceForce` has it [N]."""
+        """Normal force as `SmoothSphereHalfSpaceForce` has it [N]."""
         force = half_space_force(depth, closing, self.modulus, self.radius, self.c, self.b_d, self.b_v, self.constant)
         return cast("SX", force)
 

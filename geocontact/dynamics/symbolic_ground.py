@@ -40,7 +40,7 @@ class SymbolicPlane:
     numbers: SX
 
     def near(self, place: SX) -> tuple[SX, SX]:
-        """As `HalfSpace.proximity`."""
+        """The answer of `HalfSpace.proximity`, in symbols."""
         from casadi import dot
 
         return dot(place, self.numbers[:3, :]) - self.numbers[3], self.numbers[:3, :]
@@ -59,7 +59,7 @@ class SymbolicStairs:
     numbers: SX
 
     def near(self, place: SX) -> tuple[SX, SX]:
-        """As `Stairs.proximity`."""
+        """The answer of `Stairs.proximity`, in symbols."""
         from casadi import fmax, fmin, if_else, sqrt, vertcat
 
         count = (self.numbers.shape[0] - 1) // 2
@@ -83,13 +83,13 @@ class SymbolicStairs:
 
 
 def plane_numbers(ground: HalfSpace) -> list[float]:
-    """Of `SymbolicPlane`."""
+    """Numbers of `SymbolicPlane`."""
     normal = np.asarray(ground.normal, float) / np.linalg.norm(ground.normal)
     return [*map(float, normal), float(normal @ np.asarray(ground.point, float))]
 
 
 def stairs_numbers(ground: Stairs) -> list[float]:
-    """Of `SymbolicStairs`. ValueError for stairs that do not rise along x with y up."""
+    """Numbers of `SymbolicStairs`. ValueError for stairs that do not rise along x with y up."""
     if not np.allclose([ground.along, ground.up], [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)], rtol=0.0, atol=1e-12):
         raise ValueError("stairs go along x, with y up")
     return [*ground.edges, *ground.heights]

@@ -170,7 +170,7 @@ class Tree:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the coordinates."""
+        """Names of the coordinates."""
         return tuple(c.name for c in self.model.coordinates)
 
     def columns(self) -> list[slice]:

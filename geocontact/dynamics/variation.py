@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from casadi import SX, Function
 
 NODES = (1.0 / 3.0, 1.0)
-"""Of an interval, where J and f_p are asked for."""
+"""Nodes of an interval, where J and f_p are asked for."""
 WEIGHTS = ((5.0 / 12.0, -1.0 / 12.0), (0.75, 0.25))
-"""Of both nodes in the integral up to each."""
+"""Weights of both nodes in the integral up to each."""
 CHUNK = 128
 """Intervals whose linear systems are solved at once."""
 

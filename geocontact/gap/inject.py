@@ -27,9 +27,9 @@ from geocontact.gap.data_errors import mistaken
 from geocontact.gap.identifiability.signatures import reach_of, rest_of
 
 DOUBLINGS = 10
-"""Of the amplitude, from the faintest that is tried to the largest."""
+"""Doublings of the amplitude, from the faintest that is tried to the largest."""
 HALVINGS = 20
-"""Of the interval in which the amplitude is looked for."""
+"""Halvings of the interval in which the amplitude is looked for."""
 
 
 @dataclass(frozen=True)

@@ -95,7 +95,7 @@ def constant_answer(labels: Iterable[Plain]) -> dict[str, Any]:
 
 
 LEFT = 0.1
-"""Of the visible energy."""
+"""Share of the visible energy."""
 ROUNDS = 15
 
 

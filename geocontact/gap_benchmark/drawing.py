@@ -63,5 +63,5 @@ def drawn(lot: Lot) -> SyntheticCase:
 
 
 def _key(laboratory: str) -> int:
-    """Of a laboratory's seeds: its place among the first three, else of its name: another kind changes no case."""
+    """Key of a laboratory's seeds: its place among the first three, else of its name: another kind changes no case."""
     return ABROAD.index(laboratory) + 1 if laboratory in ABROAD else zlib.crc32(laboratory.encode())

@@ -42,7 +42,7 @@ NUMBERS = ("reduction_error", "reduction_error_median", "log_score", "class_size
 
 @dataclass(frozen=True)
 class LaboratoryFigures:
-    """Of some cases: shares and numbers by name, and how many cases there are."""
+    """Figures of some cases: shares and numbers by name, and how many cases there are."""
 
     cases: int
     shares: Mapping[str, Rate]
@@ -65,7 +65,7 @@ class Loss:
 
 
 def figures_of(pairs: Sequence[tuple[Plain, Plain]]) -> LaboratoryFigures:
-    """Of labels (`Label.as_dict`, with `left`) and diagnoses."""
+    """Figures of labels (`Label.as_dict`, with `left`) and diagnoses."""
     names = [str(place) for place in range(len(pairs))]
     every = score(
         {name: label for name, (label, _) in zip(names, pairs, strict=True)},
@@ -119,11 +119,13 @@ def log_score(pairs: Sequence[tuple[Plain, Plain]]) -> float:
 
 
 def log_probability(label: Plain, said: Plain) -> float:
-    """Of the truth as it is stated [nats], `LEAST` at the least; of two effects the mean."""
+    """Logarithm of the probability of the truth as it is stated [nats], `LEAST` at the least; of two effects the
+    mean.
+    """
     stated = said["probabilities"]
     return sum(p * math.log(max(float(stated.get(name, 0.0)), LEAST)) for name, p in true_distribution(label).items())
 
 
 def losses(home: LaboratoryFigures, abroad: LaboratoryFigures) -> dict[str, Loss]:
-    """Of every share that both have; an earlier run has fewer."""
+    """Losses of every share that both have; an earlier run has fewer."""
     return {name: Loss.of(rate, abroad.shares[name]) for name, rate in home.shares.items() if name in abroad.shares}

@@ -35,11 +35,11 @@ MOST = 4
 FIRSTS = 5
 """Effects that a second one is tried on."""
 WORTH = 0.1
-"""Of what the first explains, that a second must explain more."""
+"""Share of what the first explains, that a second must explain more."""
 DEGREES = {1: 4, 2: 3, 3: 2}
-"""Of the monomials, by number of inputs; 2 for more."""
+"""Degrees of the monomials, by number of inputs; 2 for more."""
 ROUNDS = 20
-"""Of the search for two coefficients within their bounds, one after the other."""
+"""Rounds of the search for two coefficients within their bounds, one after the other."""
 DRAWS, BLOCKS = 200, 10
 NONE, UNKNOWN = "none", "unknown"
 
@@ -111,7 +111,7 @@ def signatures(
     base: Sequence[np.ndarray],
     held_out: Sequence[np.ndarray],
 ) -> list[Signature]:
-    """Of every candidate at every start; of mistakes in the data as they are."""
+    """Signatures of every candidate at every start; of mistakes in the data as they are."""
     found = []
     for one in candidates:
         system = one.apply(problem.system)

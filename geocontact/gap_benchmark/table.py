@@ -16,7 +16,7 @@ ANSWERERS = ("diagnosis", "regression", "regression_aware", "constant", "oracle"
 """Who is scored; "regression" knows nothing of trial-to-trial variation, "regression_aware" does."""
 OPPONENTS = ("regression", "regression_aware")
 AHEAD = 0.15
-"""Of first-ranked right, before the better opponent."""
+"""Share of first-ranked right, before the better opponent."""
 DRAWS = 2000
 
 
@@ -89,7 +89,7 @@ def answered(labels: Mapping[str, Plain], given: Mapping[str, Mapping[str, Plain
 
 
 def scores(labels: Mapping[str, Plain], given: Mapping[str, Mapping[str, Plain]]) -> dict[str, Score]:
-    """Of every answerer on the same cases."""
+    """Scores of every answerer on the same cases."""
     return {who: score(labels, diagnoses) for who, diagnoses in answered(labels, given).items()}
 
 

@@ -42,7 +42,7 @@ class Identifiability:
 
 
 def identifiability(names: Sequence[str], jacobian: Float[np.ndarray, "n p"]) -> Identifiability:
-    """Of the numbers whose derivatives are the columns of `jacobian`; their units do not matter."""
+    """Identifiability of the numbers whose derivatives are the columns of `jacobian`; their units do not matter."""
     size = np.linalg.norm(jacobian, axis=0)
     columns = jacobian / np.where(size > 0.0, size, 1.0)
     _, values, rows = np.linalg.svd(columns, full_matrices=False)

@@ -17,9 +17,9 @@ from geocontact.loads.settling_potential import AXIAL, NAMES, AxialLoad, Bed, To
 from geocontact.loads.start_pose import pressing
 
 HELD = 0.05
-"""Of load over 20 mm: the least stiffness that counts as holding a coordinate. A load that rests in a valley with a
-radius of 0.4 m has this much. Pieces of half a millimetre make up to 0.016 where there is none; those of one millimetre
-make up to 0.08, so that what nothing holds may pass there."""
+"""Share of load over 20 mm: the least stiffness that counts as holding a coordinate. A load that rests in a valley
+with a radius of 0.4 m has this much. Pieces of half a millimetre make up to 0.016 where there is none; those of one
+millimetre make up to 0.08, so that what nothing holds may pass there."""
 
 SHARE = 0.3
 """Least part of a coordinate in a direction that is not held for it to be named."""
@@ -53,17 +53,17 @@ LONGEST = 1e-3
 """m; no step moves further."""
 
 EXACT = 1e-6
-"""Of the load: what the forces may leave over."""
+"""Share of the load that the forces may be off by."""
 
 FACETED = 1e-3
-"""Of the load: what they may leave over where no step lowers the energy any more. Slopes of the smooth surface over the
-facets do not quite meet where the closest face changes."""
+"""Share of the load that they may be off by where no step lowers the energy any more. Slopes of the smooth surface
+over the facets do not quite meet where the closest face changes."""
 
 STEPS = 60
 HALVINGS = 25
 PROMISED = 1e-4
 LEAST = 1e-9
-"""Of the largest curvature: smaller ones are taken for this."""
+"""Share of the largest curvature: smaller ones are taken for this."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,7 +153,7 @@ class EnergyBalance:
 
     @property
     def difference(self) -> float:
-        """Of the work, in shares of it."""
+        """Difference of the work, in shares of it."""
         return abs(self.work - self.stored) / self.work
 
 

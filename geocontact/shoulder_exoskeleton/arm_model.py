@@ -178,7 +178,7 @@ def _tree(axes: tuple[tuple[float, ...], ...], of: dict[str, SX], gravity: SX) -
 
 
 def _energy(tree: Tree, of: dict[str, SX]) -> SX:
-    """Of motion and weight [J]."""
+    """Energy of motion and weight [J]."""
     from casadi import SX, cross, dot, sumsqr
 
     total, gravity = SX(0), SX(3, 1) if tree.gravity is None else tree.gravity

@@ -53,7 +53,7 @@ def slices() -> dict[str, slice]:
 
 
 def adjusted_numbers(device: Device, wearer: Wearer, level: float) -> Float[np.ndarray, " p"]:
-    """Of a right arm, in SI.
+    """Numbers of a right arm, in SI.
 
     Parameters
     ----------

@@ -61,7 +61,7 @@ def _carried(turning: Rows, spin: Rows, arm: Rows) -> Rows:
 
 
 def _accelerations(s: ArmSimulation, p: Float[np.ndarray, " p"]) -> Rows:
-    """Of the joints [rad/s²], as the equations of motion have them at the simulated states."""
+    """Accelerations of the joints [rad/s²], as the equations of motion have them at the simulated states."""
     run = arm_model(s.device, cuff=s.cuff).equations.accelerations().map(len(s.angles))
     states = (s.angles.T, s.rates.T, s.cylinder[None], s.recorded.T)
     return np.array(run(*states, np.repeat(p[:, None], len(s.angles), axis=1))).T

@@ -152,8 +152,8 @@ def _components(vector: SX) -> tuple[SX, SX, SX]:
 
 
 BEYOND = 0.5
-"""Of the cuff's radius: a sphere farther than that beyond an end is lost. One that is less far out is told, but not
-refused: without support the device hangs on the arm and slides to 20 mm beyond its end on the shipped trial."""
+"""Share of the cuff's radius: a sphere farther than that beyond an end is lost. One that is less far out is told, but
+not refused: without support the device hangs on the arm and slides to 20 mm beyond its end on the shipped trial."""
 MOST_LOST = 0.25
 """Share of the time for which the sphere may be lost; beyond, nothing that is found is a result. Our choice: a cuff set
 for an arm 8 cm too short loses it for 27 % of the shipped trial, one set 5 cm too short or 3 cm too long never."""

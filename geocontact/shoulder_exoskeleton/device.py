@@ -32,7 +32,7 @@ X = TypeVar("X", bound=Any)
 
 
 def piston_area(bore: X) -> X:
-    """Of the full bore [m²]: the cylinder pushes."""
+    """Area of the full bore [m²]: the cylinder pushes."""
     area: X = bore * bore * (0.25 * pi)
     return area
 
@@ -211,7 +211,7 @@ class Device:
 
     @property
     def peak_force(self) -> float:
-        """Of the cylinder at supply pressure [N]."""
+        """Force of the cylinder at supply pressure [N]."""
         return piston_area(self["bore"]) * self["supply"]
 
     @property

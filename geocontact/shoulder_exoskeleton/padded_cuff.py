@@ -169,7 +169,7 @@ class _Wall:
 
 @dataclass(frozen=True)
 class _Place:
-    """Of a place of the wall: the arm's line beside it, direction of its pressure, depth, its rate, pressures."""
+    """A place of the wall: the arm's line beside it, direction of its pressure, depth, its rate, pressures."""
 
     core: SX
     facing: SX

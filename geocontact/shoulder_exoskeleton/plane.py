@@ -70,7 +70,7 @@ def plane_arm(s: ArmSimulation) -> PlaneArm:
 
 
 PLACES = 180
-"""Of springs around the cuff."""
+"""Places of springs around the cuff."""
 
 
 def armrest_force(s: ArmSimulation, pressed: Float[np.ndarray, " t"] | None = None) -> Float[np.ndarray, " t"]:

@@ -16,7 +16,7 @@ from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, W
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
 
 SHARE, TURN, SHIFT = 0.1, np.radians(5.0), 0.01
-"""Of a number; of an angle [rad] and of a length that may be 0 [m]."""
+"""Changes of a number (a share), of an angle [rad] and of a length that may be 0 [m]."""
 ADDED = ("strap", "seal_friction", "seal_speed")
 """What a device has only where its file says so."""
 IDLE: dict[Cuff, tuple[str, ...]] = {

@@ -42,7 +42,8 @@ FIRST = 1e-4
 SIDEWAYS = 1e-6
 """Least horizontal part of an arm's length that tells the plane in which it is raised."""
 OUTWARDS = np.array([-0.5, -np.sqrt(0.75), 0.0])
-"""Of a right arm that points straight up: the plane of the shoulder blade, 30 degrees outwards of the front."""
+"""Direction of a right arm that points straight up: the plane of the shoulder blade, 30 degrees outwards of the
+front."""
 
 State = tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"], Float[np.ndarray, " k"]]
 
@@ -85,7 +86,7 @@ def start_state(
 
 
 def elevation_of(motion: ArmMotion) -> float:
-    """Of the upper arm at the first frame from the frame's -z [rad]."""
+    """Elevation of the upper arm at the first frame from the frame's -z [rad]."""
     x, y, z = motion.interface[0] - motion.shoulder[0]
     return float(np.arctan2(np.hypot(x, y), -z))
 
@@ -194,7 +195,7 @@ class ArmSimulation:
 
     @property
     def elevation(self) -> Float[np.ndarray, " t"]:
-        """Of the active joint [rad]."""
+        """Elevation of the active joint [rad]."""
         return self.angles[:, JOINTS.index("elevation")]
 
     @property
@@ -306,7 +307,7 @@ class MovedArm:
 
     @property
     def elevation(self) -> Float[np.ndarray, " t"]:
-        """Of the active joint [rad]."""
+        """Elevation of the active joint [rad]."""
         return self.found.q[:, JOINTS.index("elevation")]
 
     def simulation(self, most_lost: float = MOST_LOST) -> ArmSimulation:

@@ -147,17 +147,17 @@ CURRENT = (0.3, 4.0, 0.25)
 
 
 def participant(name: str) -> Participant:
-    """Of that name; KeyError where there is none."""
+    """Participant of that name; KeyError where there is none."""
     return {each.name: each for each in PARTICIPANTS}[name]
 
 
 def task(name: str) -> OverheadTask:
-    """Of that name; KeyError where there is none."""
+    """Task of that name; KeyError where there is none."""
     return {each.name: each for each in TASKS}[name]
 
 
 def condition(name: str) -> Condition:
-    """Of that name; KeyError where there is none."""
+    """Condition of that name; KeyError where there is none."""
     return {each.name: each for each in CONDITIONS}[name]
 
 
@@ -238,12 +238,12 @@ Places = Float[np.ndarray, "t 3"]
 R_G0 = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]])
 """An upright device in OpenSim's axes (x forward, y up, z to the right): columns are left, back, up."""
 BAR_HEIGHT = 0.80
-"""Of Lucy_MC over the stature; this and what follows is invented [m]."""
+"""Height of Lucy_MC over the stature; this and what follows is invented [m]."""
 IN_FRONT, BELOW_BAR = 0.13, 0.03
-"""Of the shoulder joints relative to Lucy_MC."""
+"""Place of the shoulder joints relative to Lucy_MC."""
 HALF_BAR, T10_BELOW, T10_BEHIND = 0.10, 0.26, -0.02
 CUFF = 0.6
-"""Of the way from shoulder to elbow."""
+"""Share of the way from shoulder to elbow."""
 GIRDLE = (0.015, 0.04)
 """How far raising an arm takes its shoulder joint inward and up: the shoulder girdle moves."""
 STEP = 0.02

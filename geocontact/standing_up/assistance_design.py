@@ -29,14 +29,14 @@ NAMES = tuple(each.name for each in ASSISTED_PARAMETERS)
 STRAP, KNEE = MEASURES.index("strap"), MEASURES.index("knee")
 TOLERANCE = 1e-7
 FIRST = 0.15
-"""Of the room: the longest first step."""
+"""Share of the room: the longest first step."""
 NEAR = 1e-3
-"""Of the room: a number that near to an end of it is on that end."""
+"""Share of the room: a number that near to an end of it is on that end."""
 STOPPED = "interrupted; the last iterate is kept"
 MET = 1e-4
-"""Of the limit: so much more is let pass."""
+"""Share of the limit: so much more is let pass."""
 AT_PEAK = 1e-6
-"""Of a set's true peak: places that near to it are at it."""
+"""Share of a set's true peak: places that near to it are at it."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class HelpTask:
 
     @property
     def index(self) -> list[int]:
-        """Of the parameters."""
+        """Index of the parameters."""
         return [NAMES.index(ROOM[name][0]) for name in self.vary]
 
     @property
@@ -106,7 +106,7 @@ class HelpDesign:
 
     @property
     def value(self) -> float:
-        """Of the aim, the worst of the sets."""
+        """Value of the aim, the worst of the sets."""
         return max(float(each.asked.sizes[MEASURES.index(self.task.aim)]) for each in self.movements)
 
 
@@ -203,7 +203,7 @@ def _prices(of_aim: Vector, of_knees: Float[np.ndarray, "k d"], on_limit: Bool[n
 
 
 def _on_limit(movements: Sequence[Movement], limit: float) -> Bool[np.ndarray, " k"]:
-    """Of every place of every set: whether the set's peak is there and on the limit."""
+    """A flag for every place of every set: whether the set's peak is there and on the limit."""
     sizes = [np.abs(one.asked.knee) for one in movements]
     return np.concatenate(
         [(each >= each.max() * (1.0 - AT_PEAK)) & (each.max() >= limit * (1.0 - MET)) for each in sizes]

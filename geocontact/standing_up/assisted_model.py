@@ -34,16 +34,16 @@ if TYPE_CHECKING:
 
 
 WIDTH = 0.25
-"""Of the help, in parts of the movement; invented."""
+"""Width of the help, in parts of the movement; invented."""
 ASSISTANCE_PARAMETERS = (
     ContactParameter("share", "-", 0.25, 0.25, 0.0, 2.0),
     ContactParameter("timing", "-", 0.25, 0.25, 0.0, 0.8),
 )
-"""Of the person's knee torque, and where in the movement it is most."""
+"""Share of the person's knee torque, and where in the movement it is most."""
 ASSISTED_PARAMETERS = (*WORN_PARAMETERS, *ASSISTANCE_PARAMETERS)
 SHARE, TIMING = (len(WORN_PARAMETERS) + k for k in range(2))
 KNEE = 1
-"""Of the torques."""
+"""Index of the knee among the torques."""
 TORQUES = ("ankle torque", "knee torque", "hip torque", "exo_hip torque")
 """What is sought over time."""
 DRIVEN = (3, 4, 5, 8)
@@ -75,7 +75,7 @@ class AssistedModel:
 
 
 def assisted_model(subject: Subject, strap: StrapLaw | None = None, width: float = WIDTH) -> AssistedModel:
-    """Of a person who wears the exoskeleton, with the strap that is calibrated unless another is given."""
+    """The model of a person who wears the exoskeleton, with the strap that is calibrated unless another is."""
     from casadi import SX, exp, vertcat
 
     p, part, torque = SX.sym("p", len(ASSISTED_PARAMETERS)), SX.sym("part"), SX.sym("torque", len(TORQUES))

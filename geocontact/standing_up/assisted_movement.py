@@ -37,13 +37,13 @@ MEASURES = ("strap", "knee", "energy", "shear")
 """Smooth peak of one strap's normal force [N], of the person's knee torque of both legs [N m], mean energy of the
 straps' springs [J], smooth peak of one strap's force along the thigh [N]."""
 PLACES = 9
-"""Of an interval, evenly from its start to its end: where true peaks are looked for."""
+"""Places of an interval, evenly from its start to its end: where true peaks are looked for."""
 UNITS = {"strap": "N", "knee": "N m", "energy": "J", "shear": "N"}
 
 
 @dataclass(frozen=True, eq=False)
 class Asked:
-    """Of one movement, in the order of `MEASURES`.
+    """What one movement asks for, in the order of `MEASURES`.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def asked(
     order: int = ORDER,
     places: int = PLACES,
 ) -> Asked:
-    """Of all trials of a solved `habit` together; derivatives are not numbers where they are not wanted."""
+    """What all trials of a solved `habit` ask for; derivatives are not numbers where they are not wanted."""
     parts = [_over_points(model, problem, found, k) for k in range(len(found.motions))]
     weights = np.concatenate([each.weights for each in parts]) / len(parts)
     values = np.concatenate([each.values for each in parts], axis=1)
@@ -106,7 +106,7 @@ def asked(
 
 @dataclass(frozen=True, eq=False)
 class _OverPoints:
-    """Of one trial at its collocation points, and derivatives there by states, controls and parameters."""
+    """Values of one trial at its collocation points, and derivatives there by states, controls and parameters."""
 
     values: Float[np.ndarray, "k t"]
     weights: Float[np.ndarray, " t"]
@@ -179,7 +179,7 @@ class StoppedByHandError(ArithmeticError):
 
 @dataclass(frozen=True, eq=False)
 class Movement:
-    """Of all trials with one set of parameters; `sizes` are those of the problem's cost."""
+    """The movement of all trials with one set of parameters; `sizes` are those of the problem's cost."""
 
     problem: ControlProblem
     found: CollocationResult

@@ -63,14 +63,14 @@ class AssumedShares:
 
     @property
     def sd(self) -> Float[np.ndarray, " p"]:
-        """Of both together."""
+        """Standard deviation of both together."""
         return np.asarray(np.sqrt(np.diag(self.held + self.jerk)))
 
 
 def assumed_shares(
     phase: PhaseProblem, found: CollocationResult, covariance: Float[np.ndarray, "p p"], stays: Sequence[bool]
 ) -> AssumedShares:
-    """Of a phase that was solved. ValueError where the optimality system is singular.
+    """Shares of a phase that was solved. ValueError where the optimality system is singular.
 
     Parameters
     ----------

@@ -48,7 +48,7 @@ RIVAL = 10.0
 """Rise of minus twice the log posterior, in parts of the misfit, below which another minimum stays possible: its height
 is e^-5 of the best one's, 0.7 %."""
 SAME_PLACE = 0.01
-"""Of what is believed: parameters that come so near are those of one minimum."""
+"""Share of the prior: parameters that come so near are those of one minimum."""
 
 
 @dataclass(frozen=True)

@@ -93,7 +93,7 @@ COMPONENTS = 3
 
 
 def chair_on_person(chair: SX) -> Wrenches:
-    """Of force forwards, force up [N] and moment about z through the ground's origin [N m], (3, 1)."""
+    """Load of force forwards, force up [N] and moment about z through the ground's origin [N m], (3."""
     from casadi import vertcat
 
     return {SITS: (vertcat(chair[0], chair[1], 0.0), vertcat(0.0, 0.0, chair[2]))}
@@ -111,9 +111,9 @@ FOOT_PARAMETERS = (
     ContactParameter("dissipation", "s/m", 1.5, 0.5, 0.1, 20.0, logarithm=True),
     ContactParameter("friction", "-", 1.0, 0.3, 0.1, 5.0, logarithm=True),
 )
-"""Of both spheres: modulus, places of the centres ahead of the ankle, how far they reach below it, radius, dissipation,
-factor of the friction. What is believed of them is invented. The height of the centres instead of their lowest points
-would be one number with the radius: estimates of the two had a correlation of 0.994."""
+"""Parameters of both spheres: modulus, places of the centres ahead of the ankle, how far they reach below it, radius,
+dissipation, factor of the friction. What is believed of them is invented. The height of the centres instead of their
+lowest points would be one number with the radius: estimates of the two had a correlation of 0.994."""
 LAW = ("stiffness", "heel", "toe")
 """What is free where the others are known."""
 SOUGHT = tuple(each.name for each in FOOT_PARAMETERS if each.name != "dissipation")
@@ -164,6 +164,6 @@ def ground_on_feet(tree: Tree, p: SX, ground_law: GroundLaw = GROUND_LAW) -> Wre
 
 
 PLANTED = searched(FOOT_PARAMETERS, [6.1e6, -0.045, 0.135, 0.095, 0.035, 1.5, 1.0])
-"""Of synthetic trials where all but `LAW` are known, invented."""
+"""Parameters of synthetic trials where all but `LAW` are known, invented."""
 EVERY_PLANTED = searched(FOOT_PARAMETERS, [6.1e6, -0.045, 0.135, 0.089, 0.032, 1.0, 1.3])
-"""Of synthetic trials where none is, invented."""
+"""Parameters of synthetic trials where none is, invented."""

@@ -49,7 +49,7 @@ class Resampled:
 
     @property
     def widening(self) -> float:
-        """Of a standard deviation, because the mean of so few is not known exactly."""
+        """Factor of a standard deviation, because the mean of so few is not known exactly."""
         return float(np.sqrt(1.0 + 1.0 / len(self.off)))
 
 
@@ -100,7 +100,7 @@ Told = Literal["known", "believed", "held", "on its bound", "not separable", "no
 HALF = 0.5
 """Share of the belief's standard deviation that is left of a number that the trials make known, at most."""
 NEAR = 1e-3
-"""Of the room between the bounds: a parameter that near to one is on it."""
+"""Share of the room between the bounds: a parameter that near to one is on it."""
 
 
 @dataclass(frozen=True)
@@ -140,7 +140,7 @@ class ContactNumber:
 
 @dataclass(frozen=True, eq=False)
 class ContactNumbers:
-    """Of all parameters.
+    """Values and intervals of all parameters.
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ def contact_numbers(
     again: Resampled | None = None,
     held: Float[np.ndarray, "p p"] | None = None,
 ) -> ContactNumbers:
-    """Of a phase that was solved.
+    """Values and intervals of a phase that was solved.
 
     Intervals are Laplace's: the curvature of the cost at its least, with what is believed in it. With resampled trials
     the bias that they show is taken off, and the intervals are widened for its own error. With the covariance of what
@@ -227,7 +227,7 @@ def _assumed(
 
 
 def believed_covariance(parameters: Sequence[ContactParameter], names: Collection[str]) -> Float[np.ndarray, "p p"]:
-    """Of what is searched, where a phase holds its numbers at what is believed: of `names`, the others exact."""
+    """Prior covariance of what is searched, where a phase holds its numbers at what is believed: of `na."""
     return np.diag([each.sd**2 if each.name in names else 0.0 for each in parameters])
 
 
@@ -244,7 +244,7 @@ def corrected(phase: PhaseProblem, found: CollocationResult, again: Resampled | 
 
 
 def held_covariance(of: ContactNumbers, parameters: Sequence[ContactParameter]) -> Float[np.ndarray, "p p"]:
-    """Of what is searched, as a phase that held them afterwards has to take it: of the numbers in their order.
+    """Covariance of what is searched, as a phase that held them afterwards has to take it: of the numbers.
 
     What the trials tell counts by their interval and correlation; what they do not (held there, or on a bound) by what
     is believed of it.

@@ -48,18 +48,19 @@ if TYPE_CHECKING:
 LEGS = THIGH_STRAP.count
 """Straps in parallel at the thigh."""
 DAMPING, TURNING_DAMPING = THIGH_STRAP.damping, THIGH_STRAP.turning_damping
-"""Of one strap [N s/m], [N m s/rad]."""
+"""Damping of one strap [N s/m], [N m s/rad]."""
 PLATE, LOWER, UPPER, MODULE = 2.0, 3.0, 4.0, 5.0
 """Masses of foot plates, shank and thigh parts of both sides and the module at the pelvis [kg]."""
 HEIGHT = 0.25
-"""Of the module [m]."""
+"""Height of the module [m]."""
 EXO_JOINTS = ("exo_ankle", "exo_knee", "exo_hip")
 STRAP_PARAMETERS = THIGH_STRAP.parameters
-"""Of one strap at the thigh: stiffness across it, along it and in turning, and its distance from the knee."""
+"""Parameters of one strap at the thigh: stiffness across it, along it and in turning, and its distance from the
+knee."""
 WORN_PARAMETERS = (*FOOT_PARAMETERS, *STRAP_PARAMETERS)
 STRAP = tuple(each.name for each in STRAP_PARAMETERS)
 STRAP_PLANTED = searched(STRAP_PARAMETERS, [4.5e3, 2e3, 30.0, 0.22])
-"""Of synthetic trials, invented."""
+"""Parameters of synthetic trials, invented."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +93,7 @@ class Strap:
 
 
 StrapLaw = Callable[[Tree, "SX"], Strap]
-"""Of what is searched of `STRAP_PARAMETERS` and of what stands behind them."""
+"""The law of a strap, of what is searched of `STRAP_PARAMETERS` and of what stands behind them."""
 
 
 def two_chains(subject: Subject) -> Multibody:

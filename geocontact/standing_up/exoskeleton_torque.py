@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 FRICTIONS = ("viscous", "Coulomb")
 UNITS = (*(("kg", "kg m", "kg m", "kg m^2") * 3), *(("N m s/rad", "N m") * 3))
-"""Of the parameters, in their order."""
+"""Units of the parameters, in their order."""
 OF_A_BODY = ("mass", "first moment along x", "first moment along y", "inertia")
 TURNS = float(np.radians(1.0))
 """Rate at which Coulomb friction is at three quarters of its size [rad/s]: tanh instead of a step."""
@@ -67,7 +67,7 @@ class ExoskeletonDynamics:
     residual: float
 
     def friction(self, u: Table) -> Table:
-        """Of each hinge, against its rate [N m]."""
+        """Friction of each hinge, against its rate [N m]."""
         at = len(self.names) - len(FRICTIONS) * len(EXO_JOINTS)
         viscous, coulomb = self.values[at:].reshape(len(EXO_JOINTS), len(FRICTIONS)).T
         return np.asarray(viscous * u + coulomb * _sign(u))
@@ -77,7 +77,7 @@ class ExoskeletonDynamics:
         return np.asarray(regressor(self.subject, q, u, a) @ self.values)
 
     def torque(self, motors: Table, u: Table) -> Table:
-        """Of the exoskeleton at its hinges in a trial [N m]."""
+        """Torque of the exoskeleton at its hinges in a trial [N m]."""
         return np.asarray(motors - self.friction(u))
 
 
@@ -121,7 +121,9 @@ def identified(
 
 
 def human_torque(together: Table, exoskeleton: Table) -> Table:
-    """Of the person at ankle, knee and hip: inverse dynamics of both, rigidly coupled, less the exoskeleton's [N m]."""
+    """Torque of the person at ankle, knee and hip: inverse dynamics of both, rigidly coupled, less the exoskeleton's
+    [N m].
+    """
     return np.asarray(together - exoskeleton)
 
 

@@ -19,7 +19,7 @@ from geocontact.standing_up.trials import StandingTrial
 FORCE, CENTRE = 20.0, 5e-3
 """What smoothed coordinates leave of the force [N] and the centre [m], roughly."""
 INSIDE = 1e-3
-"""Of the room between bounds that a start keeps from them."""
+"""Share of the room between bounds that a start keeps from them."""
 Coordinates = Callable[[Float[np.ndarray, " t"]], Float[np.ndarray, "t n"]]
 
 

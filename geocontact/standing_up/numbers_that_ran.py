@@ -121,7 +121,9 @@ def end_numbers(control: ControlProblem, prefix: str = "") -> list[Ran]:
 
 
 def search_numbers(motions: Sequence[CollocatedMotion], trials: Sequence[StandingTrial], prefix: str = "") -> list[Ran]:
-    """Of each trial its length and rate, and the mesh on which it was solved; `mesh.csv` has where intervals begin."""
+    """Numbers of each trial: its length and rate, and the mesh on which it was solved; `mesh.csv` has where intervals
+    begin.
+    """
     rows = []
     for motion, trial in zip(motions, trials, strict=True):
         name, lengths = f"{prefix}{motion.name}", np.diff(motion.breaks)

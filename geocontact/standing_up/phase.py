@@ -91,7 +91,7 @@ def judged(
     *,
     certify: bool = True,
 ) -> tuple[JudgedMotion, ...]:
-    """Of every trial; `controlled` are those of the equations' inputs that were sought."""
+    """Certificate of every trial; `controlled` are those of the equations' inputs that were sought."""
     stepper = Stepper(equations)
     system = phase.control.system
     each = []
@@ -249,7 +249,7 @@ def _channels(model: StandingModel, noise: StandingNoise) -> dict[str, tuple[SX,
 def _bounds(
     parameters: Sequence[ContactParameter], free: Sequence[str], held: Float[np.ndarray, " p"] | None
 ) -> Bounds:
-    """Of what is searched; what is not free keeps its usual value, or that of `held`."""
+    """Bounds of what is searched; what is not free keeps its usual value, or that of `held`."""
     low, high = bounds(parameters, free)
     if held is None:
         return low, high

@@ -50,7 +50,7 @@ def profiles(
     points: int,
     solve: Callable[[PhaseProblem, CollocationResult], CollocationResult],
 ) -> tuple[PhaseProfile, ...]:
-    """Of all parameters that have an interval, so many points to either side, each search from the one before.
+    """Profiles of all parameters that have an interval, so many points to either side, each search from the one before.
 
     Parameters
     ----------

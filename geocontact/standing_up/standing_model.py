@@ -40,7 +40,7 @@ class GroundLaw:
 
 @dataclass(frozen=True)
 class ModelConstants:
-    """Of one model, as its equations were built.
+    """Constants of one model, as its equations were built.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ class StandingModel:
 
     @property
     def torques(self) -> SX:
-        """Of these joints [N m]."""
+        """Torques of these joints [N m]."""
         return self.equations.w[: len(self.joints), :]
 
     @property

@@ -51,7 +51,7 @@ def strap_motion(
 
 
 STEP = 1e-6
-"""Of the time along the rates, for rates of displacements [s]."""
+"""Step of the time along the rates, for rates of displacements [s]."""
 
 
 @dataclass(frozen=True, eq=False)

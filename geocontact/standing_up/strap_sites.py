@@ -60,7 +60,9 @@ def usual(parameters: Sequence[ContactParameter]) -> Vector:
 
 
 def bounds(parameters: Sequence[ContactParameter], free: Sequence[str]) -> tuple[Vector, Vector]:
-    """Of what is searched; both are the usual value where a parameter is not free. ValueError for a name not there."""
+    """Bounds of what is searched; both are the usual value where a parameter is not free. ValueError for a name not
+    there.
+    """
     unknown = set(free) - {each.name for each in parameters}
     if unknown:
         raise ValueError(f"there is no parameter {min(unknown)!r}")
@@ -74,7 +76,7 @@ def bounds(parameters: Sequence[ContactParameter], free: Sequence[str]) -> tuple
 LEGS, MODULES = 2, 1
 """Straps in parallel at thigh and shank, and at the pelvis."""
 DAMPING, TURNING_DAMPING = 10.0, 0.1
-"""Of one strap [N s/m], [N m s/rad]: the study's, held."""
+"""Damping of one strap [N s/m], [N m s/rad]: the study's, held."""
 SHIFT = 0.01
 """The exoskeleton's knee above the person's [m]."""
 SPRINGS = ("normal", "tangential", "turning")
@@ -117,7 +119,7 @@ class StrapSite:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the parameters."""
+        """Names of the parameters."""
         return tuple(each.name for each in self.parameters)
 
 
@@ -137,7 +139,7 @@ SHANK_STRAP = StrapSite("shank", "shank", "exo_shank", 1, False, LEGS, _paramete
 PELVIS_STRAP = StrapSite(
     "pelvis", "trunk", "exo_module", 3, False, MODULES, _parameters("pelvis ", (0.1, 0.03, -0.05, 0.25))
 )
-"""Of the trunk, which stands for the pelvis too."""
+"""Strap of the trunk, which stands for the pelvis too."""
 STRAP_SITES = (THIGH_STRAP, SHANK_STRAP, PELVIS_STRAP)
 """The first is always there; in this order the normal forces of a trial and of a model stand."""
 

@@ -28,7 +28,7 @@ SETTLED = 0.006
 COARSE = 10
 """Intervals of a first search, whose answer is where the finer one starts."""
 MOST_TORQUE = 1000.0
-"""Of both legs [N m]."""
+"""Torque of both legs, at the most [N m]."""
 UNPOWERED = 1e-3
 """Weight of the exoskeleton's torques beyond its assistance [1/(N m)^2]: straps carry it where they can."""
 N = len(COORDINATES)
@@ -214,7 +214,9 @@ def standing_trial(
 def problem_scales(
     subject: Subject, count: int = N
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " x"], Float[np.ndarray, " u"]]:
-    """Of the balance a tenth of body weight, along and about; of the states and the controls what standing up has."""
+    """Scales of the balance: a tenth of body weight, along and about; of the states and the controls what standing up
+    has.
+    """
     turns = count - 3
     place = np.r_[[0.01, 0.01, 0.05], np.ones(turns)]
     speed = np.r_[[0.1, 0.1, 0.5], np.ones(turns)]

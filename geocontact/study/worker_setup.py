@@ -9,7 +9,7 @@ import signal
 import sys
 
 PR_SET_PDEATHSIG = 1
-"""Of Linux' prctl(2): the signal that the system sends when the thread that started this process is gone.
+"""Option of Linux' prctl(2): the signal that the system sends when the thread that started this process is gone.
 
 Dask starts each of them in a thread of its own, which it keeps until the process has ended.
 """

@@ -41,7 +41,7 @@ KNEE_GEOMETRY = LawParameters(
 UNIT_FORCE = 0.75
 """Modulus at which `disc_force` is a³/R."""
 LEAST_RADIUS = 1e-3
-"""Of R(φ) [m], which an unlucky search might make negative."""
+"""Least radius of R(φ) [m], which an unlucky search might make negative."""
 
 
 @dataclass(frozen=True)

@@ -215,7 +215,7 @@ class PosedKnee:
 
     @property
     def slots(self) -> LawParameters:
-        """Its numbers."""
+        """Places of the numbers that the kernel reads."""
         return self.contact.slots
 
     @property

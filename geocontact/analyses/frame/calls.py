@@ -79,7 +79,7 @@ def _listed(names: Sequence[str]) -> str:
 
 
 def key(one: Declared) -> str:
-    """Its name in `run.json`."""
+    """Key of the option in `run.json`."""
     return one.spelled.key or one.name
 
 

@@ -130,7 +130,7 @@ ForceUnit = Literal["lbf", "N", "kN", "mN", "kgf"]
 AngleUnit = Literal["deg", "rad"]
 LengthUnit = Literal["m", "cm", "mm", "in", "um"]
 C3dUnit = Annotated[LengthUnit | None, ForFiles((".c3d", ".toml", ".xml"))]
-"""Of places in .c3d files whose own is empty."""
+"""Unit of places in .c3d files whose own is empty."""
 CaseFolder = Annotated[Path, Missing("there is no such folder", "name the folder that holds case.toml")]
 Length = Annotated[float, Typed("m", "length", "gc.mm(4)", "mm unless a unit is written")]
 PartLength = Annotated[float, Typed("m", "length", "gc.mm(100)", "mm unless a unit is written")]

@@ -89,7 +89,7 @@ def _shown(value: object) -> str:
 def thinned(
     count: int, curves: Sequence[Float[np.ndarray, " t"]] = (), always: Iterable[int] = (), most: int = FRAMES
 ) -> Int[np.ndarray, " k"]:
-    """Of `count` frames at most about `most`: those with the extremes of the curves; every so manieth without curves.
+    """Frames, about `most` of `count` at most: those with the extremes of the curves; every so manieth without curves.
 
     `always` are frames that are kept besides.
     """

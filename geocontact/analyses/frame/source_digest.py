@@ -9,7 +9,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def digest() -> str:
-    """Of all sources of the package: twelve hexadecimal digits."""
+    """Digest of all sources of the package: twelve hexadecimal digits."""
     found = hashlib.sha256()
     for file in sorted(ROOT.rglob("*.py")):
         found.update(file.relative_to(ROOT).as_posix().encode() + b"\0" + file.read_bytes() + b"\0")

@@ -30,7 +30,7 @@ class SensitivityRow:
 
 
 def sensitivity(sides: Mapping[str, Identification]) -> list[SensitivityRow]:
-    """Of all sides, one after another."""
+    """Sensitivity of all sides, one after another."""
     return [row for side, each in sides.items() for row in _rows(side, each)]
 
 
@@ -85,7 +85,7 @@ class Prediction:
 
 
 def predictions(inputs: ModulusInputs, sides: Mapping[str, Identification]) -> list[Prediction]:
-    """Of every side that the other trial's areas have; threshold, radius and lag as identified or given."""
+    """Predictions of every side that the other trial's areas have; threshold, radius and lag as identified or given."""
     if inputs.other is None:
         return []
     table, found = inputs.other.table, []

@@ -132,7 +132,7 @@ def _numbers(side: str, each: Identification, found: Identified) -> dict[str, An
 
 
 def _intervals(each: Identification) -> dict[str, Any]:
-    """Of every free number, by profile likelihood and by block bootstrap."""
+    """Intervals of every free number, by profile likelihood and by block bootstrap."""
     drawn, found = each.replicates, {}
     for k, (name, p) in enumerate(each.profiles.items()):
         ends = None if drawn is None else [float(end[k]) * PER_SI[name] for end in (drawn.lower, drawn.upper)]

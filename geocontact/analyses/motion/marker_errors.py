@@ -44,7 +44,7 @@ class MarkerErrors:
 
     @classmethod
     def of(cls, poses: Poses) -> MarkerErrors:
-        """Of the markers that were seen and count."""
+        """Errors of the markers that were seen and count."""
         frame, which = np.unravel_index(int(np.nanargmax(poses.distances)), poses.distances.shape)
         rms = float(np.sqrt(np.nanmean(poses.distances**2)))
         largest = float(poses.distances[frame, which])

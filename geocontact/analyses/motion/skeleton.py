@@ -20,7 +20,7 @@ METRES_PER_NEWTON = 1e-3
 LOADED = 20.0
 """N from which a force is drawn: the point of a small one means little."""
 TILE, MARGIN = 0.5, 0.5
-"""Of the floor [m]."""
+"""Sizes of the floor [m]."""
 
 
 def skeleton(model: Multibody, values: Float[np.ndarray, "t n"]) -> Linkage:

@@ -59,7 +59,7 @@ def turned(body: Inertial, turn: Rotation, place: Vector) -> Inertial:
 
 
 def _parts(sex: Sex, stature: float) -> Iterator[Inertial]:
-    """Of a body of 1 kg, all on the vertical line above the hips but the arms, which hang beside it."""
+    """Parts of a body of 1 kg, all on the vertical line above the hips but the arms, which hang beside it."""
     of, scale = SEGMENTS[sex], stature / STATURE[sex]
     top = (1.0 - HIPS) * stature
     trunk = scale * of["trunk"].length
@@ -107,11 +107,12 @@ class Amputee:
 
     @property
     def mass(self) -> float:
-        """Of the person with the prosthesis [kg]."""
+        """Mass of the person with the prosthesis [kg]."""
         return self.prosthetic.person.mass
 
     def pelvis_body(self) -> Inertial:
-        """Of the pelvis with trunk, head and arms, in its frame: one rigid body that stands upright (`upper_body`).
+        """Body of the pelvis with trunk, head and arms, in its frame: one rigid body that stands upright
+        (`upper_body`).
 
         It has the mass that the legs leave. The study adds that mass to an even ellipsoid of the pelvis' size: for a
         man of 77 kg 0.1 to 0.2 kg m² in place of 0.9 to 3.1, with a centre that lies 0.26 m lower.

@@ -59,10 +59,10 @@ def _turned(matrix: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
 
 KNEE = ("knee_flexion", "knee_adduction", "knee_rotation")
 ANKLE = ("ankle_flexion", "ankle_inversion", "ankle_rotation")
-"""Of the intact leg; flexion lifts the foot."""
+"""Ankle of the intact leg; flexion lifts the foot."""
 TOES = "toe_extension"
 HELD = KNEE[1:]
-"""Of both knees; they stay at zero."""
+"""Coordinates of both knees; they stay at zero."""
 BODIES = {
     "thigh": "femur",
     "shank": "tibia",

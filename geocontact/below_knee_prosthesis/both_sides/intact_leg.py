@@ -85,11 +85,11 @@ class IntactLeg:
 
     @property
     def length(self) -> float:
-        """Of the foot, from the heel to the tip along x [m]."""
+        """Length of the foot, from the heel to the tip along x [m]."""
         return float(self.hallux[0] - self.heel[0])
 
     def thigh_body(self) -> Inertial:
-        """Of the thigh in its frame, by de Leva's shares of mass and length."""
+        """Body of the thigh in its frame, by de Leva's shares of mass and length."""
         of = SEGMENTS[self.person.sex]["thigh"]
         mass = of.mass * self.person.mass
         sagittal, transverse, long = of.moments(mass, self.thigh)
@@ -102,15 +102,16 @@ class IntactLeg:
 
     @property
     def density(self) -> float:
-        """Of that frustum with de Leva's mass of a shank [kg/m³]."""
+        """Density of that frustum with de Leva's mass of a shank [kg/m³]."""
         return SEGMENTS[self.person.sex]["shank"].mass * self.person.mass / self.shank_frustum.volume
 
     def shank_body(self) -> Inertial:
-        """Of the shank in its frame."""
+        """Body of the shank in its frame."""
         return self.shank_frustum.body(self.density)
 
     def foot_bodies(self) -> tuple[Inertial, Inertial]:
-        """Of the foot in its frame, and of the toes in a frame with the same axes and its origin in the toe joint.
+        """Bodies of the foot in its frame, and of the toes in a frame with the same axes and its origin in the toe
+        joint.
 
         A frustum from heel to tip, as thick at the heel as the ankle, whose taper puts the mass centre where de Leva
         has it; cut off at the toe joint. Half-way up between sole and ankle.
@@ -127,7 +128,8 @@ class IntactLeg:
         return _along_x(rear.body(density), start), _along_x(front.body(density), toes)
 
     def spheres(self) -> tuple[SphereSet, SphereSet]:
-        """Of the sole, on the foot in its frame and on the toes in theirs; places follow the markers, sizes do not.
+        """Spheres of the sole, on the foot in its frame and on the toes in theirs; places follow the markers, sizes do
+        not.
 
         The study puts spheres where pressure is high and does not tell where.
         """
@@ -139,7 +141,9 @@ class IntactLeg:
         return SphereSet(np.array(places), radius, PIECES[:-1]), SphereSet(toe[None], radius[:1], PIECES[-1:])
 
     def laws(self) -> tuple[SoleLaw, SoleLaw]:
-        """Of these spheres. The study has no force under the intact foot to fit them to either: they bear the body."""
+        """Laws of these spheres. The study has no force under the intact foot to fit them to either: they bear the
+        body.
+        """
         found = []
         for spheres in self.spheres():
             ones = np.ones(len(spheres))

@@ -209,7 +209,7 @@ def standing_amputee(
 
 
 def _upright(pelvis: Rotation) -> Rotation:
-    """Of a pelvis in the laboratory (y up): components of who stands upright there into the pelvis' own."""
+    """Axes of a pelvis in the laboratory (y up): components of who stands upright there into the pelvis' own."""
     up, across = np.array([0.0, 1.0, 0.0]), pelvis.apply([0.0, 0.0, 1.0]) * np.array([1.0, 0.0, 1.0])
     across = across / np.linalg.norm(across)
     return pelvis.inv() * Rotation.from_matrix(np.column_stack([np.cross(up, across), up, across]))

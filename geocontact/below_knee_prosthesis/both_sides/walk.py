@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 INTACT_FOOT, INTACT_TOES = "calcn_l", "toes_l"
 FREE = ("pelvis_tx", "pelvis_ty")
-"""Of the pelvis: fore and aft, and vertical, which the study leaves free."""
+"""Coordinates of the pelvis, fore and aft and vertical, which the study leaves free."""
 
 
 def moving_tree(amputee: Amputee) -> Multibody:
@@ -75,14 +75,14 @@ def spring_forces(tree: Tree, amputee: Amputee) -> dict[str, SX]:
 
 
 def prosthetic_loads(tree: Tree, amputee: Amputee) -> Wrenches:
-    """Of a level ground on the prosthetic foot."""
+    """Loads of a level ground on the prosthetic foot."""
     foot = amputee.foot
     none = RigidTransform.identity()
     return sole_wrenches(tree, "calcn_r", none, foot.keel, foot.sole, foot.law, HalfSpace(), ending="_r")
 
 
 def intact_loads(tree: Tree, amputee: Amputee) -> Wrenches:
-    """Of a level ground on the intact foot and its toes, by their spheres."""
+    """Loads of a level ground on the intact foot and its toes, by their spheres."""
     leg = amputee.intact
     found = {}
     for body, spheres, law in zip((INTACT_FOOT, INTACT_TOES), leg.spheres(), leg.laws(), strict=True):
@@ -93,7 +93,7 @@ def intact_loads(tree: Tree, amputee: Amputee) -> Wrenches:
 def equations_of_both(
     amputee: Amputee, *, prescribed: Sequence[str] = (), driven: Sequence[str] = (), intact_on_spheres: bool = False
 ) -> Equations:
-    """Of the coordinates that are not prescribed.
+    """Equations of the coordinates that are not prescribed.
 
     Parameters
     ----------
@@ -167,7 +167,7 @@ class WholeMotion:
 
     @property
     def force(self) -> Float[np.ndarray, "t 3"]:
-        """Of the ground on the prosthetic foot [N]."""
+        """Force of the ground on the prosthetic foot [N]."""
         return self.own[:, :3]
 
     def part(self, start: float, stop: float) -> WholeMotion:
@@ -182,7 +182,7 @@ class WholeMotion:
 
 
 def coordinate_names(amputee: Amputee) -> tuple[str, ...]:
-    """Of the moving tree."""
+    """Names of the coordinates of the moving tree."""
     return tuple(c.name for c in moving_tree(amputee).coordinates)
 
 
@@ -223,7 +223,9 @@ def walk_by_angles(
 def accelerations_by_angles(
     amputee: Amputee, given: GivenWalk, walk: WholeMotion, *, intact_on_spheres: bool = False
 ) -> Float[np.ndarray, "t n"]:
-    """Of all coordinates of such a walk [rad/s², m/s²]: those of what is found by the equations, the rest as given."""
+    """Accelerations of all coordinates of such a walk [rad/s², m/s²]: those of what is found by the equations, the
+    rest as given.
+    """
     prescribed = _prescribed(walk.names)
     equations = equations_of_both(amputee, prescribed=prescribed, intact_on_spheres=intact_on_spheres)
     columns = [given.names.index(name) for name in prescribed]
@@ -263,7 +265,7 @@ def driving_forces(
 
 
 def driven_stepper(amputee: Amputee, *, intact_on_spheres: bool = False, machine_code: bool = True) -> Stepper:
-    """Of a walk by forces: all coordinates free, socket and keel by their springs alone."""
+    """Stepper of a walk by forces: all coordinates free, socket and keel by their springs alone."""
     driven = _driven(coordinate_names(amputee))
     equations = equations_of_both(amputee, driven=driven, intact_on_spheres=intact_on_spheres)
     return Stepper(equations, machine_code=machine_code)
@@ -313,7 +315,7 @@ def _driven(names: Sequence[str]) -> list[str]:
 def _pressing(
     amputee: Amputee, q: Float[np.ndarray, "t n"], u: Float[np.ndarray, "t n"], intact_on_spheres: bool
 ) -> tuple[Float[np.ndarray, "t 6"], Float[np.ndarray, "t 6"]]:
-    """Of the ground by the spheres of both feet: force and moment about its origin [N, N m]."""
+    """Load of the ground by the spheres of both feet: force and moment about its origin [N, N m]."""
     from casadi import SX, Function, densify, vertcat
 
     tree = tree_of(moving_tree(amputee))

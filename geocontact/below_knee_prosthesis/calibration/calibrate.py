@@ -89,7 +89,7 @@ STARTS, TURNS, FINISHED = 8, 4, 2
 ROUNDS, ENOUGH = 30, 1e-2
 """Evaluations of a search, and the cost that is not worth another."""
 SHARES = (1.0, 0.7, 0.5, 0.35, 0.2)
-"""Of the way from the usual numbers to a start along which the keel may find no balance."""
+"""Shares of the way from the usual numbers to a start along which the keel may find no balance."""
 HELD = np.log(3.0)
 """Standard deviation of a number's step in a linear turn: depths are held only so far."""
 
@@ -127,7 +127,7 @@ class SoleCalibration:
 
     @property
     def offsets(self) -> tuple[FootOffset, ...]:
-        """Of the foot in each stance, beside its standing trial."""
+        """Offsets of the foot in each stance, beside its standing trial."""
         return self.knowledge.offsets
 
     @property

@@ -63,7 +63,7 @@ class KnownNumber:
 
 @dataclass(frozen=True, eq=False)
 class Knowledge:
-    """Of all numbers.
+    """Knowledge of all numbers.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ class Knowledge:
 
     @property
     def offsets(self) -> tuple[FootOffset, ...]:
-        """Of the foot in each stance, beside its standing trial."""
+        """Offsets of the foot in each stance, beside its standing trial."""
         pairs = [(each.value, sd) for each, sd in zip(self.beside, self.beside_sd, strict=True)]
         return tuple(
             FootOffset(height, pitch, height_sd, pitch_sd)
@@ -98,11 +98,11 @@ class Knowledge:
 
 @runtime_checkable
 class StanceResiduals(Protocol):
-    """Of stances, by the logarithms of a sole's numbers: `SoleResiduals`, `WholeResiduals`."""
+    """Residuals of stances, by the logarithms of a sole's numbers: `SoleResiduals`, `WholeResiduals`."""
 
     @property
     def sd(self) -> Float[np.ndarray, " p"]:
-        """Of everything that is sought, beforehand."""
+        """Standard deviation of everything that is sought, beforehand."""
 
     @property
     def sizes(self) -> Float[np.ndarray, " a"]:
@@ -119,7 +119,7 @@ class StanceResiduals(Protocol):
         """Predicted less measured over the noise."""
 
     def slope_of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "n p"]:
-        """Its derivatives."""
+        """Derivatives of the data."""
 
     def channel_by_channel(self) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
         """Times and places of the data's residuals."""

@@ -68,7 +68,9 @@ class Errors:
 
     @property
     def standing(self) -> float:
-        """Of the height of the foot's middle [m]: a foot that did not stand flat stood on one of its ends."""
+        """Standard deviation of the height of the foot's middle [m]: a foot that did not stand flat stood on one of
+        its ends.
+        """
         return float(np.hypot(self.height, self.pitch * MIDDLE[0]))
 
 
@@ -158,7 +160,7 @@ def stance_from_markers(
     gap_limit: float,
     errors: Errors = USUAL,
 ) -> RecordedStance:
-    """Of a right leg.
+    """Recorded stance of a right leg.
 
     Parameters
     ----------
@@ -246,7 +248,7 @@ LEAD = 12
 
 @dataclass(frozen=True, eq=False)
 class WalkedStance:
-    """As of a right leg.
+    """A stance that the whole model walks, as that of a right leg.
 
     Parameters
     ----------
@@ -278,7 +280,7 @@ class WalkedStance:
         return float(time[0] - self.lead * (time[1] - time[0]))
 
     def inputs(self) -> RecordedInputs:
-        """Of the equations."""
+        """Inputs of the equations."""
         return driving_inputs(self.motion, self.push.at(self.motion.time))
 
     def with_foot(self, offset: FootOffset) -> WalkedStance:

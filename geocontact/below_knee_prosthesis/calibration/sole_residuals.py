@@ -54,7 +54,7 @@ def with_slip(stance: RecordedStance, slip: Float[np.ndarray, "t 2"]) -> Recorde
 
 
 STEP = 1e-5
-"""Of a logarithm, for differences."""
+"""Step of a logarithm, for differences."""
 FIRST, AGAIN = 6, 4
 """Turns of the search for the slip: at the usual numbers, and from there at any others."""
 FARTHEST = 5.0
@@ -104,7 +104,7 @@ class SoleResiduals:
 
     @property
     def sd(self) -> Float[np.ndarray, " p"]:
-        """Of everything that is sought, beforehand."""
+        """Standard deviation of everything that is sought, beforehand."""
         return np.concatenate([self.zones.sd, np.ones(2 * len(self.stances))])
 
     @property
@@ -114,7 +114,7 @@ class SoleResiduals:
 
     @property
     def reach(self) -> Float[np.ndarray, " p"]:
-        """Of everything that is sought, to either bound."""
+        """Reach of everything that is sought, to either bound."""
         return np.concatenate([self.zones.reach, np.full(2 * len(self.stances), FARTHEST)])
 
     def values(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " k"]:
@@ -123,7 +123,7 @@ class SoleResiduals:
         return np.asarray(usual * np.exp(z[: len(usual)]))
 
     def errors(self, z: Float[np.ndarray, " p"], place: int) -> tuple[float, float]:
-        """Of height [m] and pitch [rad] of one stance."""
+        """Errors of height [m] and pitch [rad] of one stance."""
         aside = z[len(self.zones.names) :].reshape(-1, 2)
         height, pitch = aside[place] if len(aside) else (0.0, 0.0)
         e = self.stances[place].errors

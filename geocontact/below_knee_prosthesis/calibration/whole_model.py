@@ -161,7 +161,7 @@ class WholeStance:
         return forward, np.einsum("ti,ti->t", forward, poses.translation)
 
     def _arguments(self, x: Float[np.ndarray, "t x"], p: Float[np.ndarray, " p"]) -> tuple[np.ndarray, ...]:
-        """Of the functions of a state, at the samples."""
+        """Arguments of the functions of a state, at the samples."""
         n = len(self.model.equations.names)
         w = self.inputs.at(self.stance.recorded.time)
         return x[:, :n].T, x[:, n : 2 * n].T, x[:, 2 * n :].T, w.T, np.repeat(p[:, None], len(x), axis=1)
@@ -225,7 +225,7 @@ class WholeResiduals:
 
     @property
     def sd(self) -> Float[np.ndarray, " p"]:
-        """Of everything that is sought, beforehand."""
+        """Standard deviation of everything that is sought, beforehand."""
         return np.concatenate([self.zones.sd, np.ones(2 * len(self.wholes))])
 
     @property
@@ -236,7 +236,7 @@ class WholeResiduals:
 
     @property
     def reach(self) -> Float[np.ndarray, " p"]:
-        """Of everything that is sought, to either bound."""
+        """Reach of everything that is sought, to either bound."""
         return np.concatenate([self.zones.reach, np.full(2 * len(self.wholes), FARTHEST)])
 
     def values(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " k"]:
@@ -295,7 +295,7 @@ class WholeResiduals:
         return np.concatenate(parts)
 
     def _aside(self, z: Float[np.ndarray, " p"], place: int, shown: ShownStance) -> Float[np.ndarray, "t 4 a"]:
-        """Of the channels of one stance by height and pitch of all, by one-sided differences."""
+        """Derivatives of the channels of one stance by height and pitch of all, by one-sided differences."""
         count = len(self.zones.names)
         found = np.zeros((*self.noise[place].shape, len(z) - count))
         base = self.whole(z, place).channels(shown)
@@ -391,7 +391,7 @@ class WholeCalibration:
 
     @property
     def offsets(self) -> tuple[FootOffset, ...]:
-        """Of the foot in each stance, beside its standing trial; none where they were not sought."""
+        """Offsets of the foot in each stance, beside its standing trial; none where they were not sought."""
         return self.knowledge.offsets
 
     @property

@@ -42,22 +42,22 @@ class ZoneParameters:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """As stiffness.forefoot."""
+        """Names such as stiffness.forefoot."""
         return tuple(f"{kind}.{zone}" for kind in KINDS for zone in self.zones)
 
     @property
     def kinds(self) -> tuple[Kind, ...]:
-        """Of each number."""
+        """Kinds of each number."""
         return tuple(kind for kind in KINDS for _ in self.zones)
 
     @property
     def sd(self) -> Float[np.ndarray, " p"]:
-        """Of the prior of the logarithm of each number (`PRIOR`)."""
+        """Standard deviation of the prior of the logarithm of each number (`PRIOR`)."""
         return np.log([PRIOR[kind][0] for kind in self.kinds])
 
     @property
     def reach(self) -> Float[np.ndarray, " p"]:
-        """Of the logarithm of each number from the usual one to either bound."""
+        """Reach of the logarithm of each number from the usual one to either bound."""
         return np.log([PRIOR[kind][1] for kind in self.kinds])
 
     def values_of(self, law: SoleLaw) -> Float[np.ndarray, " p"]:
@@ -76,14 +76,14 @@ class ZoneParameters:
         )
 
     def by_sphere(self, values: Float[np.ndarray, " zones"]) -> Float[np.ndarray, " n"]:
-        """Of each sphere its zone's."""
+        """Number of each sphere's zone."""
         found = np.empty(len(self.sole.spheres))
         for chosen, value in zip(self.sole.spheres.zones.values(), values, strict=True):
             found[chosen] = value
         return found
 
     def by_name(self, values: Float[np.ndarray, " p"]) -> Mapping[str, float]:
-        """As a table."""
+        """The numbers as a table."""
         return dict(zip(self.names, map(float, values), strict=True))
 
     def parameters(self) -> list[Parameter]:

@@ -84,7 +84,7 @@ def choose(
     present: float,
     level: float,
 ) -> FootChoice:
-    """Of draws of one outcome by response and value.
+    """Choice from draws of one outcome by response and value.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ def _gain(
     ends: tuple[float, float],
     level: float,
 ) -> tuple[float, float, float]:
-    """Of the second value over the first, draw by draw."""
+    """Gain of the second value over the first, draw by draw."""
     both = away(PchipInterpolator(values, drawn, axis=1)(np.array(ends)), sense, target)
     return interval(both[:, 0] - both[:, 1], level)
 
@@ -205,7 +205,7 @@ def choose_pair(
     target: float | None,
     level: float,
 ) -> PairChoice:
-    """Of draws of one outcome; the present alignment, 0, is among them.
+    """Choice from draws of one outcome; the present alignment, 0, is among them.
 
     Parameters
     ----------

@@ -239,7 +239,7 @@ def draws(
     step: Callable[[], None] = lambda: None,
     alignments: Sequence[float] = (),
 ) -> Draws:
-    """Of a sweep.
+    """Draws of a sweep.
 
     Parameters
     ----------

@@ -81,7 +81,7 @@ LEAST = 1e-9
 
 
 def feet_on_ground(maps: Sequence[FootMap]) -> FeetOnGround:
-    """Of maps whose rows are the same; ValueError for others."""
+    """Feet of maps whose rows are the same; ValueError for others."""
     first = maps[0]
     if any(each.pitch is not first.pitch and not np.array_equal(each.pitch, first.pitch) for each in maps):
         raise ValueError("the maps have other rows")
@@ -102,11 +102,11 @@ NEAR, LOWERED = 1e-6, 100
 DRAG, SLIPS = 0.2, 0.4
 """Force along the ground over the load: that of the second table, and the most that is read."""
 FURTHER = 1.1
-"""Of the depths: those of the second table, whose keel gives more under a load."""
+"""Share of the depths: those of the second table, whose keel gives more under a load."""
 SLIDING = 1.0
 """m/s; at which the second table's feet slide, so that friction is what is wanted on every sphere."""
 MARGIN = 1.05
-"""Of the loads of a stance, over them."""
+"""Share of the loads of a stance, beyond them."""
 PLACES = 3
 """Channels before the angles of the joints: height, and centre of pressure along x and y of the keel's frame."""
 
@@ -315,7 +315,9 @@ class CarriedLoad:
     kept: float
 
     def moment(self, point: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " t"]:
-        """Of the ground's force about a point of the keel's frame in its sagittal plane [N m]; positive: toes up."""
+        """Moment of the ground's force about a point of the keel's frame in its sagittal plane [N m]; positive: toes
+        up.
+        """
         return _moment(self.task, self.centre, self.task.pitch + self.tilt, point)
 
     @property

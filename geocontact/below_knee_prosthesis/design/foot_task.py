@@ -63,7 +63,7 @@ class SagittalLeg:
 
 
 def sagittal_leg(leg: Leg, keel: Keel) -> SagittalLeg:
-    """Of a person's leg on a keel."""
+    """The bars of a person's leg on a keel."""
     place, own = leg.turn.inv(), keel.posterior_mass + keel.joints * keel.segment_mass
     mass, centre, inertia = leg.residual_body()
     turned = place.as_matrix() @ inertia @ place.as_matrix().T
@@ -156,7 +156,7 @@ def point_of_shank(
 def force_along(
     leg: SagittalLeg, q: Float[np.ndarray, "*s 4"], point: Float[np.ndarray, "*#s 2"], force: Float[np.ndarray, "*#s 2"]
 ) -> Float[np.ndarray, "*s 4"]:
-    """Of a force [N] on a point of the keel's frame: forces along the coordinates [N, N m]."""
+    """Generalised forces of a force [N] on a point of the keel's frame: forces along the coordinates [N, N m]."""
     up, arm = thigh_direction(q[..., 2]), turned(q[..., 3], leg.knee - point)
     turning = [-leg.length * dot(across(up), force), -dot(across(arm), force)]
     return np.concatenate([force, np.stack(turning, axis=-1)], axis=-1)
@@ -170,7 +170,7 @@ def _bars(
 
 
 LOADED = 0.08
-"""Of body weight; frames with less are left out."""
+"""Share of body weight; frames with less are left out."""
 EVERY = 2
 """Which frame of a recorded stance is taken: 100 Hz."""
 

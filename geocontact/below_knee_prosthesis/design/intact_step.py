@@ -27,7 +27,7 @@ OF_INTACT: tuple[Aim, ...] = ("ankle_moment", "radius", "loading_rate")
 
 @dataclass(frozen=True, eq=False)
 class IntactStep:
-    """Its loaded frames.
+    """Loaded frames of a step of the intact foot.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class IntactStep:
 
     @property
     def ankle_moment(self) -> Float[np.ndarray, " t"]:
-        """Of the ground's force about the ankle [N m]; positive: toes up."""
+        """Moment of the ground's force about the ankle [N m]; positive: toes up."""
         return np.asarray(self.centre[:, 0] * self.force[:, 1] - self.centre[:, 1] * self.force[:, 0])
 
     @property
@@ -80,7 +80,7 @@ class IntactStep:
 def intact_step(
     seen: MarkerTrajectories, leg: IntactLeg, plate: PlateStance, *, cutoff: float | None, gap_limit: float
 ) -> IntactStep:
-    """Of the longest stance on a plate; InputError where markers or plate do not tell it.
+    """Step of the longest stance on a plate; InputError where markers or plate do not tell it.
 
     Parameters
     ----------

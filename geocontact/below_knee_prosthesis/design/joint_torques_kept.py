@@ -102,7 +102,7 @@ class MovedLeg:
 
 
 def recorded_motion(foot: FootMap, task: FootTask) -> RecordedLeg:
-    """Of the leg on the present foot, which bears the recorded load and rolls without slipping."""
+    """Motion of the leg on the present foot, which bears the recorded load and rolls without slipping."""
     leg, count = task.leg, int(np.ceil((task.time[-1] - task.time[0]) / STEP))
     time = np.linspace(task.time[0], task.time[-1], 2 * count + 1)
     turns = make_interp_spline(task.time, np.column_stack([task.thigh, task.pitch]), k=5)
@@ -172,13 +172,13 @@ class OtherFeet:
 
     @property
     def mass(self) -> float:
-        """Of the whole body [kg]."""
+        """Mass of the whole body [kg]."""
         return self.leg.body + self.leg.thigh[0] + self.leg.shank[0]
 
     def _rate(
         self, k: int, state: Float[np.ndarray, "n 9"], floor: Float[np.ndarray, " n"]
     ) -> tuple[Float[np.ndarray, "n 9"], Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
-        """Of deviations, their rates and the slip; with the load and the force along the ground."""
+        """Rate of deviations, their rates and the slip; with the load and the force along the ground."""
         r, leg, off, rate, slip = self.recorded, self.leg, state[:, :4], state[:, 4:8], state[:, 8]
         q, u = r.q[k] + off, r.u[k] + rate
         q[:, 3] += self.turn
@@ -203,7 +203,7 @@ class OtherFeet:
         return np.column_stack([rate, found, np.where(sticking, sliding, 0.0)]), load, held
 
     def _tracking(self, off: Float[np.ndarray, "n 4"], rate: Float[np.ndarray, "n 4"]) -> Float[np.ndarray, "n 4"]:
-        """Of spring and damper at hip and knee, along the coordinates [N m]."""
+        """Torques of spring and damper at hip and knee, along the coordinates [N m]."""
         size = self.tracking * STIFFNESS * self.mass
         hip, knee = (-size * (of + RETARDATION * by) for of, by in zip(_joints(off), _joints(rate), strict=True))
         return np.column_stack([np.zeros((len(off), 2)), hip - knee, knee])

@@ -30,7 +30,8 @@ from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 Vary = Literal["fulcrum", "alignment", "stiffness"]
 Response = Literal["angles kept", "torque kept", "joint torques kept"]
 RESPONSES: tuple[Response, ...] = ("angles kept", "torque kept", "joint torques kept")
-"""Of the person: angles of all joints, the ankle's torque without inertia, torques of hip and knee with it."""
+"""Responses of the person: angles of all joints, the ankle's torque without inertia, torques of hip and knee with
+it."""
 JUDGED = RESPONSES[:2]
 """Those that a best value has to hold for; the third is told beside it."""
 AIMS: tuple[Aim, ...] = tuple(MEASURES)
@@ -62,7 +63,7 @@ class Knob:
 
     @property
     def alignments(self) -> Float[np.ndarray, " n"]:
-        """Of each value [rad]."""
+        """Alignment of each value [rad]."""
         return self.settings if self.vary == "alignment" else np.full(len(self.settings), self.turned)
 
     @property
@@ -71,7 +72,8 @@ class Knob:
         return {"fulcrum": self.fulcrum, "alignment": 0.0, "stiffness": 1.0}[self.vary]
 
     def maps(self, foot: VariableStiffnessFoot, task: FootTask) -> tuple[FootMap, ...]:
-        """Of each value on the terrain, the present one on level ground last, for stances not much beyond this one.
+        """Maps of each value on the terrain, the present one on level ground last, for stances not much beyond this
+        one.
 
         ArithmeticError as `foot_map`.
         """

@@ -74,9 +74,9 @@ ROLLING = 0.3
 ROLLS = 0.8
 """Share of the stance up to which the path of the centre of pressure is a roll-over shape: to opposite heel contact."""
 FIRM = 0.2
-"""Of body weight; load from which it counts."""
+"""Share of body weight; load from which it counts."""
 LANDING = 0.3
-"""Of body weight; load at which the stiffness of the landing foot is taken."""
+"""Share of body weight; load at which the stiffness of the landing foot is taken."""
 
 
 def outcomes(found: CarriedLoad) -> dict[Aim, float]:
@@ -106,7 +106,7 @@ def returned(found: CarriedLoad) -> float:
 
 
 def roll_over_radius(found: CarriedLoad) -> float:
-    """Of the arc through the centre of pressure in the shank's frame [m]."""
+    """Radius of the arc through the centre of pressure in the shank's frame [m]."""
     return radius_of_path(found.task.time, found.task.load / found.task.weight, shank_path(found))
 
 

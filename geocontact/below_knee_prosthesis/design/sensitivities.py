@@ -24,14 +24,14 @@ from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 Unit = Literal["m", "rad", "-", "factor"]
 UNITS: dict[Vary, Unit] = {"fulcrum": "m", "alignment": "rad", "stiffness": "-"}
 RECORDED = "as recorded"
-"""Of the person, where the foot that the stance was recorded on is another one."""
+"""Response of the person, where the foot that the stance was recorded on is another one."""
 STEPS: dict[Vary, float] = {"fulcrum": 0.010, "alignment": float(np.radians(1.0)), "stiffness": 0.1}
 """By which what is chosen is changed: m, rad, factor."""
 
 
 @dataclass(frozen=True, eq=False)
 class FootSensitivity:
-    """Of the outcomes to one number.
+    """Sensitivity of the outcomes to one number.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def _of_choice(
 
 
 def _factor(name: str, by: float, outcome: Callable[[float], Float[np.ndarray, " aims"]]) -> FootSensitivity:
-    """Of a number whose logarithm changes by that much."""
+    """Factor of a number whose logarithm changes by that much."""
     return FootSensitivity(name, float(np.exp(by)), "factor", {RECORDED: 0.5 * (outcome(by) - outcome(-by))})
 
 

@@ -59,7 +59,7 @@ class CompressionFit:
     series: float
 
     def stiffness(self, fulcrum: float) -> float:
-        """Of a compression [N/m]."""
+        """Stiffness of a compression [N/m]."""
         return compression_stiffness(fulcrum, self.length, self.bending, self.series, self.support)
 
     def fulcrum(self, stiffness: float, lowest: float, highest: float) -> float:

@@ -165,12 +165,12 @@ class Keel:
 
     @property
     def segment_mass(self) -> float:
-        """Of such a segment [kg]."""
+        """Mass of such a segment [kg]."""
         return self.density * self.width * self.thickness * self.pitch
 
     @property
     def posterior_mass(self) -> float:
-        """Of the part behind the first joint [kg]."""
+        """Mass of the part behind the first joint [kg]."""
         return self.density * self.width * self.thickness * self.posterior
 
     def compliance(self, fulcrum: float) -> Float[np.ndarray, " n"]:
@@ -190,11 +190,11 @@ class Keel:
         return np.asarray(found * tip_compliance(fulcrum, self.length, self.bending, self.support) / (found @ arms))
 
     def stiffness(self, fulcrum: float) -> Float[np.ndarray, " n"]:
-        """Of each joint [N m/rad]."""
+        """Stiffness of each joint [N m/rad]."""
         return 1.0 / self.compliance(fulcrum)
 
     def damping(self, fulcrum: float) -> Float[np.ndarray, " n"]:
-        """Of each joint [N m s/rad]."""
+        """Damping of each joint [N m s/rad]."""
         return self.retardation * self.stiffness(fulcrum)
 
     @property
@@ -238,7 +238,7 @@ def torsional_stiffness(modulus: float, width: float, thickness: float) -> float
 
 
 POINTS, LEAST = 201, 1e-10
-"""Of the shape, and the relative error allowed."""
+"""Points of the shape, and the relative error allowed."""
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ MOST, HALVINGS = 2000, 4
 FIRST, PATIENCE, SHORTEST = 0.25, 6, 1e-5
 """Stride to begin with, steps of Newton in it, and shortest stride."""
 NEAR = 1e-3
-"""Of a stride: torque that may be left on the way."""
+"""Share of a stride: torque that may be left on the way."""
 RATIO, STRIDE, TAKEN, MERIT, FAILED, ON_PATH = range(6)
 """How a search stands: r that was reached, stride, steps in it; least sum of squares, halvings, whether on the path."""
 

@@ -65,7 +65,7 @@ def seen_by_keel(
     rate: Float[np.ndarray, "t 4 4"] | None,
     spheres: int,
 ) -> InKeel:
-    """Of poses `X_GK`; gravity in the ground's frame [m/s²]; rates of the poses, None where nothing moves.
+    """The ground for poses `X_GK`; gravity in the ground's frame [m/s²]; rates of the poses, None where nothing moves.
 
     One plane for all is turned once, then handed to each of the `spheres`.
     """

@@ -131,7 +131,7 @@ class KeelMotion:
 
     @property
     def force(self) -> Float[np.ndarray, "t 3"]:
-        """Of the ground on the whole sole [N]."""
+        """Force of the ground on the whole sole [N]."""
         return np.asarray(self.loads.force.sum(axis=1))
 
 

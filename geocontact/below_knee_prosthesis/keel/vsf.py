@@ -81,7 +81,7 @@ def vsf_keel(support: Support = "pinned", *, joints: int = 8) -> Keel:
 
 
 def fulcrum_of(setting: str, support: Support = "pinned") -> float:
-    """Of low, medium or high [m]; KeyError for another name."""
+    """Fulcrum of low, medium or high [m]; KeyError for another name."""
     name = {"low": "lowest", "medium": "medium", "high": "highest"}[setting]
     return numbers(support)[name].value
 

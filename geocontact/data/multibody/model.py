@@ -233,7 +233,7 @@ class Multibody:
 
     @property
     def mass(self) -> float:
-        """Of all bodies [kg]."""
+        """Mass of all bodies [kg]."""
         return sum(body.mass for body in self.bodies)
 
     def poses(self, values: Float[np.ndarray, "t n"]) -> dict[str, RigidTransform]:
@@ -253,7 +253,7 @@ class Multibody:
         return np.stack(places, axis=1) if places else np.zeros((len(values), 0, 3))
 
     def mass_centre(self, values: Float[np.ndarray, "t n"]) -> Float[np.ndarray, "t 3"]:
-        """Of all bodies, in the ground's frame [m], one row for each row of coordinates [rad, m]."""
+        """Mass centre of all bodies, in the ground's frame [m], one row for each row of coordinates [rad, m]."""
         poses = self.poses(values)
         places = [
             body.mass / self.mass * poses[body.name].apply(body.centre) for body in self.bodies if body.mass > 0.0

@@ -189,6 +189,6 @@ class _Piece:
 
 
 def _nonzeros(matrix: SX) -> SX:
-    """Its entries in a column, in the order of its pattern."""
+    """Entries of a matrix in a column, in the order of its pattern."""
     column: SX = matrix.nz[:]
     return column

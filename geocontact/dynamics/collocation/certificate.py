@@ -185,7 +185,7 @@ class CertificateLimits:
 
 @dataclass(frozen=True)
 class Certificate:
-    """Of one trial's motion.
+    """Certificate of one trial's motion.
 
     Parameters
     ----------
@@ -289,8 +289,8 @@ def fine_residual(
     p: Float[np.ndarray, " p"],
     turning: Sequence[bool],
 ) -> FineResidual:
-    """Of a jerk-controlled system, with the acceleration as the state has it and as the derivative of the rate's
-    polynomial, whichever leaves more.
+    """Residual of a jerk-controlled system, with the acceleration as the state has it and as the derivative of the
+    rate's polynomial, whichever leaves more.
     """
     from casadi import Function
 

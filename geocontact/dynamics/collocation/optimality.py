@@ -31,7 +31,7 @@ from geocontact.dynamics.collocation.transcription import Transcription, scales_
 
 @dataclass(frozen=True, eq=False)
 class OptimalitySystem:
-    """Of all variables, scaled as the transcription scales them.
+    """Optimality conditions of all variables, scaled as the transcription scales them.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ def inverse_reduced_hessian(
 
 @dataclass(frozen=True, eq=False)
 class MotionResponse:
-    """Of one trial, derivatives by each parameter.
+    """Response of one trial, derivatives by each parameter.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ class MotionResponse:
 
 
 def responses(problem: ControlProblem, found: CollocationResult) -> tuple[MotionResponse, ...]:
-    """Of each trial of a problem whose parameters are all given. ValueError where the system is singular."""
+    """Response of each trial of a problem whose parameters are all given. ValueError where the system is singular."""
     system = optimality_system(problem, found)
     on = system.on
     low, high = on.bounds()

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 MOST_HALVINGS = 4
-"""Of an interval: to a sixteenth of its first length."""
+"""Halvings of an interval, at the most: to a sixteenth of its first length."""
 
 
 def refined(

@@ -33,7 +33,7 @@ class Scales:
 
 
 def scales_from(problem: ControlProblem) -> Scales:
-    """As the problem has them, else from its data.
+    """Scales that the problem has, else from its data.
 
     From data: the largest size in the courses where the search starts, 1 where all is 0; of a parameter its start.
     """

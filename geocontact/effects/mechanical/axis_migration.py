@@ -20,7 +20,7 @@ BEND = 0.6
 
 
 def longest_lever(system: System) -> float:
-    """Of a site [m]: as far as an attachment reaches."""
+    """Longest lever of a site [m]: as far as an attachment reaches."""
     ends = [abs(each) for p in system.parameters if p.unit == "m" for each in (p.start, p.lower, p.upper)]
     return max((each for each in ends if math.isfinite(each)), default=0.0) or system.length
 

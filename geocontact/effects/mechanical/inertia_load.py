@@ -22,11 +22,11 @@ from geocontact.effects.parts import load_channels, with_balance, with_geometry
 
 RANK = 20.0
 HEAVY = 0.2
-"""Of the largest load, that a mass which somebody left out makes at the most in a typical acceleration."""
+"""Share of the largest load, that a mass which somebody left out makes at the most in a typical acceleration."""
 KNOWN = 10.0
 """Times the known moment of inertia that somebody may have left out."""
 FIRST = 0.02
-"""Of the largest mass, from which a search sets out."""
+"""Share of the largest mass, from which a search sets out."""
 INERTIA = {("N", "m"): "kg", ("N m", "rad"): "kg m^2"}
 """Unit of a load over that of the acceleration of an input."""
 

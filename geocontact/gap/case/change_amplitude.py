@@ -68,7 +68,8 @@ def amplitude(
     change: Sequence[Float[np.ndarray, "_ c"]],
     deviation: Sequence[Float[np.ndarray, "_ c"]] = (),
 ) -> Amplitude | None:
-    """Of a change of a prediction in trials with the residuals `before`, both weighed; None where there is none.
+    """Amplitude of a change of a prediction in trials with the residuals `before`, both weighed; None where there is
+    none.
 
     `deviation` is what of these residuals the trials differ by, nothing where that is not to count as chance.
     """

@@ -76,7 +76,7 @@ class Problem:
 
     @property
     def calibration_layouts(self) -> tuple[Layout, ...]:
-        """Of the trials that may be fitted."""
+        """Layouts of the trials that may be fitted."""
         return self.layouts[: len(self.calibration.trials)]
 
     @property
@@ -145,7 +145,7 @@ class Problem:
         return tuple(layout.whitener(levels) for layout in self.layouts)
 
     def _variation(self, model: Refit, whiteners: Sequence[Whitener]) -> Float[np.ndarray, " q"]:
-        """Of parameters around their fitted values; of what is not fitted around its mean over the trials."""
+        """Variation of parameters around their fitted values; of what is not fitted around its mean over the trials."""
         kinds = [self.fitted, len(self.usual) - self.fitted]
         weight, spent = np.repeat([USUALLY, 1.0], kinds), np.repeat([0.0, 1.0], kinds)
         found = variation(self._products(whiteners, model), self.usual, weight, spent)

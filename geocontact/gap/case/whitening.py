@@ -25,7 +25,7 @@ from geocontact.identify.signals.low_pass import LowPass
 SENSOR_LOUDER = 1.2  # times the stated noise of a sensor
 QUIETEST = 0.1  # of `INPUT_NOISE`, that an input's limit is at the least: resolution, slow errors
 Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
-"""Of power that is left, by frequency [Hz]."""
+"""Shares of power that is left, by frequency [Hz]."""
 
 SLOW = 30.0  # samples, that slow noise usually remembers
 QUICK = 2.0  # samples, that quick noise usually remembers

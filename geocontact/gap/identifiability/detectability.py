@@ -92,7 +92,7 @@ def detectabilities(
     asked: Sequence[Candidate],
     step: Callable[[], None] = lambda: None,
 ) -> tuple[Detectability, ...]:
-    """Of those asked about, all of which and `candidates` may gain; `step` is called after each."""
+    """Detectability of those asked about, all of which and `candidates` may gain; `step` is called after each."""
     variants, competitors = (
         Counter(one.name for one in candidates if one.parameters),
         competitors_of(ground, candidates),
@@ -114,7 +114,7 @@ def competitors_of(ground: BaseState, candidates: Sequence[Candidate]) -> dict[s
 def detectability(
     ground: BaseState, candidate: Candidate, competitors: dict[str, list[Gainer]], variants: int
 ) -> Detectability:
-    """Of one candidate; `rivals` are all that may gain, by label."""
+    """Detectability of one candidate; `rivals` are all that may gain, by label."""
     faint, clear = (at_nats(ground, candidate, nats) for nats in (FAINTEST, CLEAR))
     others = [each for label, some in competitors.items() if label != candidate.label for each in some]
 

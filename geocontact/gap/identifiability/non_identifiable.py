@@ -65,7 +65,7 @@ def shown(seen: Sequence[Visibility]) -> tuple[str, ...]:
 
 
 def visibilities(problem: Problem, candidates: Sequence[Candidate]) -> list[Visibility]:
-    """Of every candidate with a parameter, at every start that it offers."""
+    """Visibility of every candidate with a parameter, at every start that it offers."""
     system, values, measured = problem.system, problem.plain.values, problem.calibration
     whiten = [Plain(there, problem.floor_of_noise) for there in measured.present]
     before = measured.residuals(system, values)
@@ -88,7 +88,7 @@ def visibilities(problem: Problem, candidates: Sequence[Candidate]) -> list[Visi
 
 
 def mistakes(problem: Problem, candidates: Sequence[Candidate]) -> list[Visibility]:
-    """Of every mistake in the data that changes a prediction, in all trials.
+    """Visibility of every mistake in the data that changes a prediction, in all trials.
 
     Nats that cannot decide whether a mistake is absorbed any more are not searched to the end.
     """

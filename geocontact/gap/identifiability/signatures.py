@@ -68,7 +68,7 @@ class BaseState:
         return self.fitted_rows / len(self.slopes)
 
     def whitened(self, parts: Sequence[Float[np.ndarray, "_ c"]]) -> Float[np.ndarray, " n"]:
-        """Of what is given for all samples of all trials."""
+        """Whitened values of what is given for all samples of all trials."""
         return np.concatenate([w(p[..., None])[:, 0] for w, p in zip(self.whitenings, parts, strict=True)])
 
     def moved(self, system: System, values: Mapping[str, float]) -> Float[np.ndarray, " n"]:

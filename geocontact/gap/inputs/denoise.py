@@ -319,7 +319,7 @@ class Stretches:
 
     @classmethod
     def of(cls, values: Float[np.ndarray, " n"], step: float, passed: LowPass) -> Stretches:
-        """Of values `step` seconds apart."""
+        """Values of values `step` seconds apart."""
         hop = max(round(PERIODS / SHIFTS / min(passed.corner * step, 0.5 * BELOW_NYQUIST)), FEWEST // SHIFTS)
         width = SHIFTS * hop
         longer = np.pad(values, (width, 2 * width), mode="reflect", reflect_type="odd")

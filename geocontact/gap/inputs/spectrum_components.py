@@ -137,7 +137,7 @@ class Parts:
 
     @classmethod
     def of(cls, seen: Spectrum, filters: Sequence[LowPass]) -> Parts:
-        """Of a spectrum below Nyquist's frequency."""
+        """Values of a spectrum below Nyquist's frequency."""
         frequency, power, count = _pooled(seen)
         even = np.linspace(0.0, 0.5 / filters[0].step, FREQUENCIES)
         part = np.array([one.power(even).mean() for one in filters])
@@ -170,7 +170,7 @@ class Parts:
 
     @cached_property
     def _tail(self) -> Float[np.ndarray, " f"]:
-        """Of a movement's tail, its power over that at low frequencies."""
+        """Share of a movement's tail, its power over that at low frequencies."""
         return (1.0 + (self.frequency / TAIL) ** 4) ** -2.0
 
 

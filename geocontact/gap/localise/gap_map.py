@@ -214,7 +214,7 @@ def smoothed(curves: Float[np.ndarray, "t ..."]) -> Float[np.ndarray, "t ..."]:
 
 
 def _least(cells: tuple[Cell, ...], channel: str) -> float:
-    """Of the channel's most significant cell, of two families: means, and what is faster."""
+    """The p-value of the channel's most significant cell, of two families: means, and what is faster."""
     return min(1.0, FAMILIES * min((cell.p_value for cell in cells if cell.channel == channel), default=1.0))
 
 

@@ -36,7 +36,7 @@ SHOWN = 0.5  # of the gap that the cells together must show: less, and most of i
 
 
 Seen = list[tuple[Float[np.ndarray, "_ n"], Float[np.ndarray, " _"]]]
-"""Of each trial: forces of the cells, or what they are off by, and the model's force, or the gap."""
+"""What each trial shows: forces of the cells, or what they are off by, and the model's force, or the gap."""
 
 
 def on_surface(

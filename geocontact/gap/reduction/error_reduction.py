@@ -93,7 +93,7 @@ class ErrorReduction:
 def error_reduction(
     problem: Problem, clean: Problem, after: Judged, named: bool, data_error: DataError | None = None
 ) -> dict[str, ErrorReduction]:
-    """Of every channel.
+    """Reduction of the error of every channel.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def error_reduction(
 def error_reduction_of(
     errors: RawInputErrors, problem: Problem, after: Judged, named: bool, data_error: DataError | None
 ) -> dict[str, ErrorReduction]:
-    """Of every channel, from its errors; see `error_reduction`."""
+    """Reduction of the error of every channel, from its errors; see `error_reduction`."""
     from scipy.stats import t
 
     count, present = len(problem.calibration.trials), problem.recorded.present

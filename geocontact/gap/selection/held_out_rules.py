@@ -251,7 +251,9 @@ class HeldOutRules:
         return not one.mistaken and any(own is not None and own.worse for own in self._amplitudes(one))
 
     def _amplitudes(self, one: Contender) -> list[Amplitude | None]:
-        """Of what a model changes on held-out trials, in units of the floor: of all channels together, of each."""
+        """Amplitude of what a model changes on held-out trials, in units of the floor: of all channels together, of
+        each.
+        """
         floor, held = self.problem.floor, self.weights[len(self.problem.calibration.trials) :]
         old, new = ([part / floor for part in parts] for parts in (self.before, self._after(one)))
         change = [b - a for b, a in zip(old, new, strict=True)]
@@ -330,7 +332,9 @@ def whitened_samples(
 
 
 def left_out_residuals(problem: Problem, one: Judged, noise: Noise) -> list[Float[np.ndarray, "_ c"]]:
-    """Of every trial, predicted from all others: one Gauss-Newton step without it (`gap.reduction.error_reduction`)."""
+    """Residuals of every trial, predicted from all others: one Gauss-Newton step without it
+    (`gap.reduction.error_reduction`).
+    """
     whitenings = problem.whitenings(noise, one.model)
     spread = prior_spread(one.model.system, one.model.values)
     both = [

@@ -88,7 +88,7 @@ def _of_one_effect(
 
 
 def _monomials(problem: Problem) -> list[Float[np.ndarray, "_ m"]]:
-    """Of every input's position and rate, each over its range, and of time within the trial."""
+    """Monomials of every input's position and rate, each over its range, and of time within the trial."""
     trials = [*problem.calibration.trials, *problem.evaluation.trials]
     movements = [recorded(t.signals, problem.system.inputs, problem.system.motion.reach) for t in trials]
     columns = [[np.ones(len(t))] for t in trials]

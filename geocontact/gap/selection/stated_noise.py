@@ -67,7 +67,7 @@ class Misfit:
 
 
 def misfits(problem: Problem, stated: Mapping[str, float], one: Judged, base: Judged) -> tuple[Misfit, ...]:
-    """Of each channel whose noise the case states.
+    """Misfits of each channel whose noise the case states.
 
     Parameters
     ----------

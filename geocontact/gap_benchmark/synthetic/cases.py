@@ -57,7 +57,7 @@ HIDDEN, SHARE_HIDDEN, WHOLE = 1.5, 0.97, 40.0
 """An absorbed effect shows less than this [nats], base parameters reproduce at least this share of it, and before
 they do it is at least this large [nats]."""
 ALIKE, APART = 0.9, 10.0
-"""Of a pair: largest cosine between the visible signatures; what each shows at least beside the other [nats]."""
+"""Limits of a pair: largest cosine between the visible signatures; what each shows at least beside the other [nats]."""
 ATTEMPTS = 60
 TRIALS = ((3, 2), (3, 2), (3, 2), (4, 2), (3, 3))
 """For calibration and evaluation, where the laboratory has no number of its own."""

@@ -45,7 +45,7 @@ class Placement:
         return Placement(**{part: _sum(one, parts[part]) for part, one in self._parts.items()})
 
     def drawn(self, rng: np.random.Generator) -> Placement:
-        """Of one trial, these being standard deviations."""
+        """Placements of one trial, these being standard deviations."""
         return self.times(rng.standard_normal(len(self)))
 
     def each(self) -> Iterator[Placement]:
@@ -53,7 +53,7 @@ class Placement:
         yield from (self.times(one) for one in np.eye(len(self)))
 
     def opposite(self) -> Placement:
-        """As far to the other side."""
+        """The same amplitude to the other side."""
         return self.times(np.full(len(self), -1.0))
 
     def moved(self, course: InputCourse) -> InputCourse:

@@ -15,7 +15,7 @@ from geocontact.gap_benchmark.synthetic.visibility import WhitenedTrial
 
 
 def magnitudes_of(scene: SyntheticScene, trials: Sequence[WhitenedTrial], departure: float) -> SyntheticMagnitudes:
-    """Of the whole system, and of each interface where an effect may sit alone."""
+    """Magnitudes of the whole system, and of each interface where an effect may sit alone."""
     courses = [one.path(np.arange(one.count) * scene.step) for one in trials]
     pairs = [scene.motion(course) for course in courses]
     most = {

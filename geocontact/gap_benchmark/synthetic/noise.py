@@ -25,7 +25,7 @@ OTHERS, NOBODY = 0.5, 0.1
 FAR_FROM_NYQUIST = 0.3
 """Highest corner as a share of the sampling frequency."""
 ORDER = 2
-"""Of the low-pass that most use, which runs over the data forwards and backwards."""
+"""Order of the low-pass that most use, which runs over the data forwards and backwards."""
 LONG = 1024
 """Frequencies at which a spectrum is summed."""
 SILENT = 1e-7
@@ -34,7 +34,7 @@ SILENT = 1e-7
 
 @runtime_checkable
 class SensorNoise(Protocol):
-    """Of a sensor: its whole standard deviation, a realisation, and the covariance of `count` samples in a row."""
+    """Noise of a sensor: its whole standard deviation, a realisation, and the covariance of `count` samples."""
 
     @property
     def sd(self) -> float:
@@ -46,7 +46,7 @@ class SensorNoise(Protocol):
         ...
 
     def covariance(self, count: int, step: float) -> Float[np.ndarray, "s s"]:
-        """Of `count` samples in a row."""
+        """Covariance of `count` samples in a row."""
         ...
 
 
@@ -78,7 +78,7 @@ class Coloured:
         return total
 
     def covariance(self, count: int, step: float) -> Float[np.ndarray, "s s"]:
-        """Of `count` samples in a row."""
+        """Covariance of `count` samples in a row."""
         lag = np.arange(count)
         first = np.sum([sd * sd * rho**lag for sd, rho in self.parts(step)], axis=0)
         return np.asarray(toeplitz(first))
@@ -184,7 +184,7 @@ class PowerLawNoise:
         return np.asarray(self.sd * irfft(rfft(raw) * np.sqrt(power), length)[:count])
 
     def covariance(self, count: int, step: float) -> Float[np.ndarray, "s s"]:
-        """Of `count` samples in a row."""
+        """Covariance of `count` samples in a row."""
         length, power = self._power(count, step)
         return np.asarray(toeplitz(self.sd**2 * irfft(power, length)[:count]))
 
@@ -220,7 +220,7 @@ class FilteredNoise:
         return np.asarray(smooth + self.sd * np.sqrt(self.white) * rng.standard_normal(count))
 
     def covariance(self, count: int, step: float) -> Float[np.ndarray, "s s"]:
-        """Of `count` samples in a row."""
+        """Covariance of `count` samples in a row."""
         smooth = smooth_covariance(self.sd * np.sqrt(1.0 - self.white), count, step, self.passed)[0]
         return np.asarray(smooth + self.white * self.sd**2 * np.eye(count))
 
@@ -248,7 +248,7 @@ class Humming:
 
     @property
     def sd(self) -> float:
-        """Of all together."""
+        """Standard deviation of all together."""
         return float(np.hypot(np.hypot(self.beside.sd, self.hum), self.third))
 
     def draw(self, rng: np.random.Generator, count: int, step: float) -> Float[np.ndarray, " s"]:
@@ -258,7 +258,7 @@ class Humming:
         return np.asarray(noise + np.sqrt(2.0) * self.third * np.sin(3.0 * angle) if self.third else noise)
 
     def covariance(self, count: int, step: float) -> Float[np.ndarray, "s s"]:
-        """Of `count` samples in a row, over all phases."""
+        """Covariance of `count` samples in a row, over all phases."""
         angle = 2.0 * np.pi * self.frequency * step * np.arange(count)
         along = self.hum**2 * np.cos(angle) + self.third**2 * np.cos(3.0 * angle)
         return np.asarray(self.beside.covariance(count, step) + toeplitz(along))
@@ -288,7 +288,7 @@ class Knocked:
 
     @property
     def sd(self) -> float:
-        """Of the other noise: most trials have no more."""
+        """Standard deviation of the other noise: most trials have no more."""
         return self.beside.sd
 
     def draw(self, rng: np.random.Generator, count: int, step: float) -> Float[np.ndarray, " s"]:
@@ -298,7 +298,7 @@ class Knocked:
         return noise + sign * self._shape(np.arange(count) * step - begin) if knocked else noise
 
     def covariance(self, count: int, step: float) -> Float[np.ndarray, "s s"]:
-        """Of `count` samples in a row, over all moments: that of shot noise as rare as this."""
+        """Covariance of `count` samples in a row, over all moments: that of shot noise as rare as this."""
         shape = self._shape((np.arange(count) + 0.5) * step)
         along = np.correlate(shape, shape, "full")[count - 1 :] * self.chance / count
         return np.asarray(self.beside.covariance(count, step) + toeplitz(along))
@@ -326,7 +326,7 @@ class Wandering:
 
     @property
     def sd(self) -> float:
-        """Of the other noise, which is all that there is at the start."""
+        """Standard deviation of the other noise, which is all that there is at the start."""
         return self.beside.sd
 
     def draw(self, rng: np.random.Generator, count: int, step: float) -> Float[np.ndarray, " s"]:
@@ -336,6 +336,6 @@ class Wandering:
         return np.asarray(noise + np.concatenate([[0.0], np.cumsum(by)]))
 
     def covariance(self, count: int, step: float) -> Float[np.ndarray, "s s"]:
-        """Of the first `count` samples of a trial: that of a walk is the time of the earlier one."""
+        """Covariance of the first `count` samples of a trial: that of a walk is the time of the earlier one."""
         time = step * np.arange(count)
         return np.asarray(self.beside.covariance(count, step) + self.walk**2 * np.minimum(time[:, None], time))

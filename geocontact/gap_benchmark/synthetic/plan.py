@@ -99,7 +99,7 @@ class SeriesSpring:
 STRAP_IN_SERIES = SeriesSpring(
     lambda scale: scale.stroke / scale.force, lambda share, departure: 1.0 - departure * (1.0 - share)
 )
-"""Of a strap: base parameters take most of a linear spring away."""
+"""Compliance in series of a strap: base parameters take most of a linear spring away."""
 
 
 @dataclass(frozen=True)

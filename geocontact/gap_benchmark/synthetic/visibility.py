@@ -78,7 +78,7 @@ def starts(scene: SyntheticScene, rng: np.random.Generator) -> list[Float[np.nda
 
 
 BINS = 100
-"""Of the phase of a trial."""
+"""Bins of the phase of a trial."""
 MOST = 0.7
 """Share of the squared gap that a window holds."""
 

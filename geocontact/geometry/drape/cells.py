@@ -101,7 +101,7 @@ def measured(
 
 _LOW, _HIGH = slice(None, -1), slice(1, None)
 CORNERS = ((_LOW, _LOW), (_HIGH, _LOW), (_HIGH, _HIGH), (_LOW, _HIGH))
-"""Of each cell, in the order first, next row, opposite, next column: once around."""
+"""Corners of each cell, in the order first, next row, opposite, next column: once around."""
 PAIRS = ((0, 1), (1, 2), (3, 2), (0, 3), (0, 2), (1, 3))
 """Sides and diagonals of a cell, by its corners."""
 

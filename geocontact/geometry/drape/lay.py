@@ -39,11 +39,11 @@ class LandmarkConstraints:
     goal: Float[np.ndarray, " m"]
 
     def miss(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " m"]:
-        """Of the mat with these nodes [m]."""
+        """Miss of the mat with these nodes [m]."""
         return np.asarray(self.matrix @ points.ravel() - self.goal)
 
     def jacobian(self, axes: Float[np.ndarray, "n 2 3"]) -> csr_array:
-        """Of the miss, by moves of the nodes along two axes each."""
+        """Jacobian of the miss, by moves of the nodes along two axes each."""
         n = len(axes)
         node, way, x = np.meshgrid(np.arange(n), np.arange(2), np.arange(3), indexing="ij")
         along = coo_array((axes.ravel(), ((3 * node + x).ravel(), (2 * node + way).ravel())), shape=(3 * n, 2 * n))
@@ -230,7 +230,7 @@ def _energy(
     spread_to: Float[np.ndarray, "n 3"],
     hold: LandmarkConstraints | None,
 ) -> float:
-    """Of all springs and of the holds [m^2]."""
+    """Energy of all springs and of the holds [m^2]."""
     miss = np.zeros(0) if hold is None else hold.miss(points)
     astray = np.nan_to_num(points - spread_to)
     return float(residual @ residual) + STAYS**2 * float((astray**2).sum()) + float(miss @ miss)

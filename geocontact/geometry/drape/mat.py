@@ -39,12 +39,12 @@ class Mat:
 
     @property
     def cell_area(self) -> float:
-        """Of a cell while the mat is flat [m^2]."""
+        """Area of a cell while the mat is flat [m^2]."""
         return self.pitch[0] * self.pitch[1]
 
     @property
     def middle(self) -> Float[np.ndarray, " 2"]:
-        """Of the mat, in cells."""
+        """Middle of the mat, in cells."""
         return np.array([0.5 * self.rows, 0.5 * self.columns])
 
     def away(self, cells: Float[np.ndarray, "k 2"]) -> Float[np.ndarray, "k 2"]:
@@ -83,7 +83,7 @@ class Marks:
             raise ValueError(f"{len(self.cells)} marks of the mat but {len(self.names)} names")
 
     def name(self, k: int) -> str:
-        """Of mark k."""
+        """Name of mark k."""
         return self.names[k] if self.names else f"mark {k + 1}"
 
     def on(self, mat: Mat) -> None:

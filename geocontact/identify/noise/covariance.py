@@ -60,7 +60,7 @@ class NoiseBlock:
         return replace(self, inputs=self.inputs / np.outer(times, times), spread=self.spread * times)
 
     def covariance(self, levels: NoiseLevels) -> Float[np.ndarray, "n n"]:
-        """Of rows divided by `spread`, at these levels."""
+        """Covariance of rows divided by `spread`, at these levels."""
         powers = (levels.white**2, levels.coloured**2, levels.memory, levels.growing**2, levels.inputs**2)
         return summed(self.time, self.channel, self.signal, self.inputs, *powers, 1.0 + ROUNDING)
 

@@ -57,7 +57,7 @@ class NoiseSpectrum:
     def covariance(
         self, lag: Float[np.ndarray, "m n"]
     ) -> tuple[Float[np.ndarray, "m n"], Float[np.ndarray, "m n"], Float[np.ndarray, "m n"]]:
-        """Of the noise with itself, of its rate with it, of its rate with its rate.
+        """Covariance of the noise with itself, of its rate with it, of its rate with its rate.
 
         `lag` is that of the first argument behind the second [s]: ∫ S cos(2π f τ) df, -∫ S r sin(2π f τ) df and
         ∫ S r² cos(2π f τ) df, with r the rates of unit sines.
@@ -103,7 +103,7 @@ class InputNoise(Protocol):
     """What noise of unit variance of each input makes of some samples of some channels."""
 
     def covariance(self, at: Int[np.ndarray, " n"], channel: Int[np.ndarray, " n"]) -> Float[np.ndarray, "j n n"]:
-        """Of samples `at` of the channels `channel`, for each input."""
+        """Covariance of samples `at` of the channels `channel`, for each input."""
 
 
 @dataclass(frozen=True)

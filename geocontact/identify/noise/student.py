@@ -20,7 +20,8 @@ from geocontact.identify.optimise.bounded_gauss_newton import CLOSE, LIMIT
 DEGREES = (1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
 """Degrees of freedom that are tried; with more a sample of four standard deviations still weighs a third or more."""
 NARROWEST = 1e-3
-"""Of the variance, that a scale squared is at the least: samples that happen to agree exactly are no noise level."""
+"""Share of the variance, that a scale squared is at the least: samples that happen to agree exactly are no noise
+level."""
 
 
 @dataclass(frozen=True)
@@ -37,11 +38,11 @@ class StudentNoise:
         return f"noise with heavy tails (Student's with {self.degrees:g} degrees of freedom)"
 
     def weights(self, residuals: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-        """Of single samples."""
+        """Weights of single samples."""
         return np.asarray((self.degrees + 1.0) / (self.degrees + (residuals / self.scale) ** 2))
 
     def weights_of_stretches(self, residuals: Sequence[Float[np.ndarray, " _"]]) -> list[Float[np.ndarray, " _"]]:
-        """Of samples that belong together in stretches: a sample's own, times that of its stretch."""
+        """Weights of samples that belong together in stretches: a sample's own, times that of its stretch."""
         found = []
         for part in residuals:
             own = self.weights(part)

@@ -142,7 +142,7 @@ def lag_of(
 def _correlations(
     model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], most: int
 ) -> Float[np.ndarray, " lags"]:
-    """Of the model from `most` samples early to as many late."""
+    """Correlations of the model from `most` samples early to as many late."""
     return np.array([_correlation(model, measured, k) for k in range(-most, most + 1)])
 
 

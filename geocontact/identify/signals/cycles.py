@@ -204,7 +204,7 @@ def lag_of(
 def _correlation(
     style: Float[np.ndarray, "b t"], reference: Float[np.ndarray, "b t"], lag: int
 ) -> Float[np.ndarray, " b"]:
-    """Of the style, taken `lag` steps earlier, with the reference where both are known."""
+    """Correlation of the style, taken `lag` steps earlier, with the reference where both are known."""
     length = style.shape[1]
     a = style[:, max(lag, 0) : length + min(lag, 0)]
     b = reference[:, max(-lag, 0) : length - max(lag, 0)]

@@ -11,7 +11,7 @@ from scipy.interpolate import PchipInterpolator
 from geocontact.identify.signals.cycles import Span
 
 UNEVEN = 0.05
-"""Of a step that a sample may be off without being moved."""
+"""Share of a step that a sample may be off without being moved."""
 GAP = 1.5
 """Steps between samples beyond which nothing is said of what lies between them."""
 
@@ -110,7 +110,8 @@ def filled_and_smoothed(
 
 
 ORDER = 2
-"""Of the filter; run both ways it is of the fourth order (Winter, Biomechanics and Motor Control, 2009, sec. 3.4)."""
+"""Order of the filter; run both ways it is of the fourth order (Winter, Biomechanics and Motor Control, 2009, sec.
+3.4)."""
 TWICE = (2.0**0.5 - 1.0) ** 0.25
 """Tangent of the cut-off of two passes of order two over that of each (Winter 2009, sec. 3.4.4.2)."""
 OPENSIM = 3

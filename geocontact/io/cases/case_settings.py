@@ -24,7 +24,7 @@ SETTINGS = "case.toml"
 TRIALS = "trials"
 
 MOST_BYTES = 512_000_000
-"""Of all trials of a case together."""
+"""Bytes of all trials of a case together, at the most."""
 
 
 def case_folder(folder: str | PathLike[str]) -> Path:
@@ -97,7 +97,7 @@ LARGEST_SETTINGS = 1_000_000
 """Bytes of case.toml."""
 
 MOST_TRIALS = 1000
-"""Of either kind."""
+"""Trials of either kind, at the most."""
 
 _FILE_NAME = re.compile(r"\w([\w .+-]*[\w+-])?")
 

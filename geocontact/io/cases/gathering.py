@@ -36,7 +36,7 @@ from geocontact.io.text.units import si_unit, split_header
 
 STORAGE = (".mot", ".sto")
 ENDINGS = {"_moment": "N m", "_force": "N"}
-"""Of a generalised force, as `geocontact id` and OpenSim name it."""
+"""Endings of a generalised force, as `geocontact id` and OpenSim name it."""
 EXAMPLE = '"angle [deg]" = "knee_angle_r"'
 
 
@@ -196,7 +196,7 @@ class Gathering:
 
     @property
     def sites(self) -> tuple[str, ...]:
-        """Of all trials, in the order in which they are named."""
+        """Sites of all trials, in the order in which they are named."""
         return tuple(dict.fromkeys(site for source in self.sources.values() for site in source.mats))
 
 

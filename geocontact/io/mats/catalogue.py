@@ -15,7 +15,7 @@ from geocontact.io.mats.text import MatText, read_mat_text
 
 @dataclass(frozen=True)
 class Reader:
-    """Of one format: whether a text is of it, and its mats."""
+    """A reader of one format: whether a text is of it, and its mats."""
 
     suits: Callable[[MatText], bool]
     read: Callable[[MatText, MatLayout | None], tuple[PressureFrames, ...]]

@@ -133,7 +133,7 @@ def _names(header: str, notation: Notation) -> list[tuple[str, str]]:
 
 
 def _unit(units: set[str], file: str, place: str) -> float | None:
-    """Of all cells; None where their columns name none."""
+    """Unit of all cells; None where their columns name none."""
     if units == {""}:
         return None
     known = {pressure_unit(unit) for unit in units}

@@ -58,7 +58,7 @@ MOST_LINES = 1000
 
 
 SMALLEST, LARGEST = 1e-6, 1e9
-"""Of any length, area, rate or pressure of a mat in its usual unit."""
+"""Limits of any length, area, rate or pressure of a mat in its usual unit."""
 
 
 def _positive(value: object) -> float:

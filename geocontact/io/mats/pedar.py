@@ -24,7 +24,7 @@ from geocontact.io.mats.text import MatText, notation_of, shown
 KIND = "pedar"
 
 SENSORS = 99
-"""Of one insole, numbered from 1."""
+"""Sensors of one insole, numbered from 1."""
 
 _UNIT = re.compile(r"pressure values in\s+(?P<unit>\S+)", re.IGNORECASE)
 _INSOLE = re.compile(r"(?P<side>left|right) insole:\s*(?P<ids>[\d,\s]*)", re.IGNORECASE)

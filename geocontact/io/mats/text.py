@@ -88,7 +88,7 @@ class Notation:
     decimal: str
 
     def cells(self, line: str) -> list[str]:
-        """Of a line; quoted ones keep the commas inside them, and a separator at the end begins no cell."""
+        """Cells of a line; quoted ones keep the commas inside them, and a separator at the end begins no cell."""
         found = line.split(self.delimiter) if '"' not in line else self._unquoted(line)
         return found[:-1] if len(found) > 1 and not found[-1].strip() else found
 
@@ -115,7 +115,7 @@ class Notation:
             values.extend(self._number(cell, column, file, line, missing) for column, cell in enumerate(cells, 1))
 
     def number(self, text: str) -> float:
-        """Of one cell; ValueError when it is none. Python's `1_000` is none here, and neither is 1.234,5."""
+        """Number of one cell; ValueError when it is none. Python's `1_000` is none here, and neither is 1.234,5."""
         if "_" in text:
             raise ValueError(text)
         return float(text if self.decimal == "." else self._pointed(text))

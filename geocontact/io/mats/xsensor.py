@@ -242,7 +242,7 @@ def _count(keys: Keys, key: str, declared: int | None, file: str) -> int:
 
 
 def _seconds(said: tuple[int, str, str], file: str) -> float:
-    """Of a time of day with or without its date, 14:03:07.250 or 2:03:07,25 PM, or a number of seconds."""
+    """Seconds of a time of day with or without its date, 14:03:07.250 or 2:03:07,25 PM, or a number of seconds."""
     line, _, text = said
     if found := _CLOCK.fullmatch(text):
         hours = int(found["h"]) % 12 + 12 * (found["half"].upper() == "PM") if found["half"] else int(found["h"])

@@ -48,7 +48,7 @@ class Encoding:
 
     @property
     def attributes(self) -> dict[str, str]:
-        """As the attributes of `<VTKFile>`."""
+        """The attributes of `<VTKFile>` that numbers need."""
         named = {
             "byte_order": next(name for name, sign in _ORDERS.items() if sign == self.byte_order),
             "header_type": next(name for name, code in _HEADERS.items() if code == self.header),

@@ -82,7 +82,9 @@ _CLOSING = 4  # bytes of nothing behind the last parameter: its description's le
 
 @dataclass(frozen=True)
 class C3dParameter:
-    """Its names, kind of number (bytes), how many there are, and where kind and numbers stand in the file."""
+    """A parameter: its names, kind of number (bytes), how many there are, and where kind and numbers stand in the
+    file.
+    """
 
     group: str
     name: str

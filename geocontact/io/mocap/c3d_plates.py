@@ -32,7 +32,7 @@ RUN = 3
 """Samples in a row at the limit that are no chance."""
 
 BITS = (12, 14, 16)
-"""Of converters, where the file does not say."""
+"""Bits of converters, where the file does not say."""
 
 _WHOLE = 0.02  # of a count; files hold single precision
 
@@ -349,7 +349,7 @@ def _texts(group: Mapping[str, Any], name: str) -> np.ndarray:
 
 
 def _padded(values: np.ndarray, count: int, default: float | str) -> np.ndarray:
-    """As many values as channels."""
+    """Values for as many channels as there are."""
     return np.concatenate([values[:count], np.full(max(count - len(values), 0), default)])
 
 

@@ -18,10 +18,10 @@ from geocontact.io.mocap.plate_zero import zero_samples
 from geocontact.io.text.tables import TextTable, listed, read_table
 
 OUTSIDE = 0.2
-"""Of a plate's length, beyond its edge: farther off, the median centre of pressure is warned of."""
+"""Share of a plate's length, beyond its edge: farther off, the median centre of pressure is warned of."""
 
 FAR = 1.0
-"""Of a plate's length, beyond its edge: farther off, the plate cannot be used."""
+"""Share of a plate's length, beyond its edge: farther off, the plate cannot be used."""
 
 HEAVY = 0.2
 """Share of the largest force from which samples count: below it the centre of pressure is not sharp."""
@@ -169,7 +169,7 @@ def plate_named(
 
 
 def _require_up(plate: ForcePlate, plates: tuple[ForcePlate, ...], path: Path, weight: float) -> None:
-    """Of the usual force under load: InputError where it presses down, a warning where a device may do so."""
+    """Check of the usual force under load: InputError where it presses down, a warning where a device may do so."""
     pushing = plate.wrench.force @ plate.normal
     loaded = pushing[np.abs(pushing) >= LOADED]
     usual = float(np.median(loaded)) if len(loaded) else 0.0

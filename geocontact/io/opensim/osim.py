@@ -303,7 +303,7 @@ def _read_axis(file: str, joint: str, transform: Element, slot: int) -> Transfor
 
 
 def _without_function(file: str, axis: Element, names: tuple[str, ...]) -> JointFunction:
-    """As OpenSim has it: where `<function/>` is empty a coordinate moves its axis by itself, where there is none not at
+    """What OpenSim does: where `<function/>` is empty a coordinate moves its axis by itself, where there is none not at
     all (seen by trial on OpenSim 4.6).
     """
     if not _is_identity(axis):

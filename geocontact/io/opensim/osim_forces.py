@@ -139,7 +139,7 @@ _DEFAULTS = {
     ("CoordinateLimitForce", "damping"): 0.001,
     ("CoordinateLimitForce", "transition"): 0.1,
 }
-"""Of OpenSim 4.6, for what a file does not say."""
+"""Defaults of OpenSim 4.6, for what a file does not say."""
 
 _READ: dict[str, Callable[[str, Element, Multibody, Frames], PassiveForce]] = {
     "CoordinateLimitForce": _limit,

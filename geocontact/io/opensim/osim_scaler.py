@@ -191,7 +191,7 @@ def _multiply(file: str, axis: Element, factor: float) -> None:
 
 
 def _body_of(point: Element, frames: Frames) -> str:
-    """Of a point of a path: as OpenSim does, also where the point is in a frame that is fixed to the body."""
+    """Body of a point of a path: as OpenSim does, also where the point is in a frame that is fixed to the body."""
     socket = socket_of(point, "parent_frame")
     if not socket:
         return text_of(point, "body")

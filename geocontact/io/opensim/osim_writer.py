@@ -204,7 +204,7 @@ def _ball(ball: ContactBall) -> Element:
 
 
 def frame_path(body: str) -> str:
-    """Of a body's own frame in the model."""
+    """Path of a body's own frame in the model."""
     return "/ground" if body == GROUND else f"/bodyset/{body}"
 
 

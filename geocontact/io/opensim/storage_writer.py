@@ -39,7 +39,8 @@ def write_storage(
 
 
 TRAJECTORY_DIGITS = 15
-"""Of a number: with 10 a foot on a stiff ground is accelerated by 1e-5 rad/s^2 otherwise than the solution says."""
+"""Digits of a number: with 10 a foot on a stiff ground is accelerated by 1e-5 rad/s^2 otherwise than the solution
+says."""
 Table = Mapping[str, Float[np.ndarray, " t"]]
 
 

@@ -18,7 +18,7 @@ from geocontact.io.opensim.marker_weights import FROM_FILE
 Ends = tuple[float, float]
 NONE = "Unassigned"
 NOT_TRACKED = "Muscles", "Actuators"
-"""Of a model's forces, by OpenSim's own words for them: they never act in inverse dynamics here."""
+"""Kinds of a model's forces, by OpenSim's own words for them: they never act in inverse dynamics here."""
 
 
 def write_ik_setup(

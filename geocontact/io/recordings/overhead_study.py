@@ -50,7 +50,7 @@ from geocontact.io.documents import Document, File, Listed, Quantity, Word, doub
 
 WORKER = Plausible("the mass of a person", KG, (20.0, 300.0))
 LENGTHS = ("upper_arm", "shoulder_width", "torso")
-"""Of a person, to which a device is adjusted."""
+"""Lengths of a person, to which a device is adjusted."""
 Length = Annotated[float, Quantity("m")]
 
 

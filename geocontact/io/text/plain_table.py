@@ -29,7 +29,7 @@ def is_sheet(path: str | PathLike[str]) -> bool:
 
 
 def sheet_text(path: str | PathLike[str]) -> str:
-    """Its cells with commas between them, a line for each row; InputError where it cannot be read.
+    """The cells of a sheet with commas between them, a line for each row; InputError where it cannot be read.
 
     Cells hold what the workbook stores, not what it shows: numbers with all their digits.
     """

@@ -41,7 +41,7 @@ class WrenchHead:
 
 
 def read_wrench_head(path: Path) -> WrenchHead:
-    """Of a table that can be read, whatever its format; lines above its header count before run.json."""
+    """Head of a table that can be read, whatever its format; lines above its header count before."""
     with open_plain(path, "replace") as stream:
         lines = [stream.readline(LONGEST_LINE) for _ in range(MOST_LINES)]
     point, frame = None, None
@@ -55,7 +55,7 @@ def read_wrench_head(path: Path) -> WrenchHead:
 
 
 def _of_run(path: Path) -> WrenchHead:
-    """As the run that wrote the table says; nothing where there is none, or where it says nothing of this table."""
+    """What the run that wrote the table says; nothing where there is none, or where it says nothing of this table."""
     run = path.with_name(RUN)
     try:
         told = json.loads(run.read_text(encoding="utf-8"))["tables"][path.name]

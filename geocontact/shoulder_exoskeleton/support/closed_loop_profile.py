@@ -59,7 +59,7 @@ BACK, NUDGED = 0.95, 0.99
 MORE = (1.05, 1.02)
 """Times the factors of a profile that is tried in the end where programs and simulations have not agreed."""
 DRAWS = 60
-"""Of the model's errors, for a choice that is certain."""
+"""Draws of the model's errors, for a choice that is certain."""
 
 Make = Callable[[Among, Limits, Aim, float], SupportProfile]
 """How a profile is made: `best_profile`, `uniform_profile`."""
@@ -145,7 +145,7 @@ class ClosedLoop:
         return Transfer(bare.elevation, gain, run.torque - given, run.force - given / trial.lever)
 
     def transfer(self, trial: ArmTrial, factors: Factors) -> Transfer:
-        """Of an arm that took no part in making a profile, under it."""
+        """Outcome of an arm that took no part in making a profile, under it."""
         return self.corrected(trial, self.run(trial, factors), factors, self.start(trial).gain)
 
     def among(

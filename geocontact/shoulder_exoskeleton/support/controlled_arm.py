@@ -107,7 +107,7 @@ def controlled_arm(
 
 
 DOWN = np.array([0.0, 0.0, -1.0])
-"""Of the trunk, in the device's frame."""
+"""Direction of the trunk downwards, in the device's frame."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,7 +30,7 @@ PRESENT = 7.8 / 12.8
 
 @dataclass(frozen=True)
 class SupportOutcome:
-    """Of one profile in one case.
+    """Outcome of one profile in one case.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class SupportOutcome:
 
 
 def outcome(case: SupportCase, factors: Factors) -> SupportOutcome:
-    """Of a profile that has a factor for each supported phase of the case."""
+    """Outcome of a profile that has a factor for each supported phase of the case."""
     steepest = float(np.abs(np.diff(case.given(factors)) / np.diff(case.time)).max())
     return outcome_of(case.needed, case.support(factors), float(case.force(factors).max()), steepest)
 
@@ -66,7 +66,7 @@ def outcome(case: SupportCase, factors: Factors) -> SupportOutcome:
 def outcome_of(
     needed: Float[np.ndarray, " t"], support: Float[np.ndarray, " t"], force: float, rate: float
 ) -> SupportOutcome:
-    """Of a torque on the arm beside the one that it needs [N m].
+    """Outcome of a torque on the arm beside the one that it needs [N m].
 
     Parameters
     ----------

@@ -190,7 +190,7 @@ ONSET = 0.1
 
 @dataclass(frozen=True)
 class PhaseCheck:
-    """Of one detection beside the true phases.
+    """Errors of one detection beside the true phases.
 
     Parameters
     ----------

@@ -78,7 +78,7 @@ class SupportCase:
 
     @property
     def keys(self) -> tuple[FactorKey, ...]:
-        """Of the factors that act in this case, one for each supported phase."""
+        """Keys of the factors that act in this case, one for each supported phase."""
         return tuple(FactorKey(self.task, self.hand, PHASES[k]) for k in SUPPORTED)
 
     @cached_property
@@ -175,7 +175,7 @@ class Among:
 
     @cached_property
     def keys(self) -> Keys:
-        """Of all factors that act in a case."""
+        """Keys of all factors that act in a case."""
         return tuple(dict.fromkeys(key for case in self.cases for key in case.keys))
 
     def columns(self, case: SupportCase, values: Float[np.ndarray, "m three"]) -> Float[np.ndarray, "m k"]:
@@ -227,7 +227,7 @@ def excess(rows: Rows, factors: Float[np.ndarray, " k"]) -> float:
 
 
 def count_of(draws: Sequence[Rows], certainty: float) -> int:
-    """As many of the draws as the certainty asks for."""
+    """Number of the draws that the certainty asks for."""
     return ceil(certainty * len(draws) - 1e-9)
 
 

@@ -18,7 +18,7 @@ def inputs_table(inputs: Sequence[Mapping[str, object]]) -> Table:
 
 
 ROWS = 200
-"""Of a table that a page shows; its file has all."""
+"""Rows of a table that a page shows; its file has all."""
 
 
 def frame_table(title: str, rows: pd.DataFrame, digits: int = 4, most: int = ROWS) -> Table:

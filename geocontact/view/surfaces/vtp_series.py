@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 DIGITS = 7
-"""As many as float32 has."""
+"""Significant digits of float32."""
 HEAD = '<?xml version="1.0"?>\n<VTKFile type="{kind}" version="0.1" byte_order="LittleEndian">\n'
 
 

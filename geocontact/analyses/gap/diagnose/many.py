@@ -37,7 +37,7 @@ SUMMARY = "summary"
 FAILED = 1
 ANSWER = "diagnosis.json"
 SOURCES, SAID = "sources", "said"
-"""Of the results in run.json: which sources they came of, and the verdict in words."""
+"""Keys of the results in run.json: which sources they came of, and the verdict in words."""
 WRONG = 2
 
 

@@ -39,7 +39,9 @@ USUAL = {each.name: each.default for each in fields(IdentifyOptions)}
 
 
 def numbers_table(found: Fitted, free: Free | None, o: IdentifyOptions) -> pd.DataFrame:
-    """Of the law, of how recordings are read, of what they tell before the fit, of the search, then all cut-offs."""
+    """Numbers of the law, of how recordings are read, of what they tell before the fit, of the search, then all
+    cut-offs.
+    """
     rows: list[Row] = []
     for parameter in found.estimate.problem.parameters:
         rows += _of_law(parameter, o)
@@ -161,7 +163,7 @@ def _cuts(found: Fitted) -> Iterator[Row]:
 
 
 def _stroke_cuts() -> Iterator[Row]:
-    """Of recordings with a free joint."""
+    """Cut-offs of recordings with a free joint."""
     yield from _default(
         ("stroke still", end_stop.STILL, "-", "of the displacement's range, at its ends: the joint does not slide"),
         ("stroke stands", end_stop.STANDS, "-", "of that range, median deviation of a stand"),

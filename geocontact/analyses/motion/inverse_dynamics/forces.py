@@ -50,7 +50,7 @@ class Forces:
 
     @property
     def weight(self) -> float:
-        """Of all bodies [N]."""
+        """Weight of all bodies [N]."""
         return self.model.mass * float(np.linalg.norm(self.model.gravity))
 
     @property
@@ -95,7 +95,7 @@ class Peak:
 
     @property
     def share(self) -> float:
-        """Of what it is measured by; NaN where that is nothing."""
+        """Share of what it is measured by; NaN where that is nothing."""
         return self.size / self.whole if self.whole > 0.0 else float("nan")
 
     @property
@@ -105,13 +105,15 @@ class Peak:
 
 
 def force_left(forces: Forces) -> Peak:
-    """Of the force [N], by the largest measured force, or by the weight where nothing was measured."""
+    """Residual of the force [N], by the largest measured force, or by the weight where nothing was measured."""
     whole = forces.peak if forces.peak > 0.0 else forces.weight
     return _peak(forces, forces.residual_forces, whole, FORCE)
 
 
 def moment_left(forces: Forces) -> Peak:
-    """Of the moments along the coordinates [N m], by the largest measured force at the height of the mass centre."""
+    """Residual of the moments along the coordinates [N m], by the largest measured force at the height of the mass
+    centre.
+    """
     return _peak(forces, forces.residual_moments, forces.peak * forces.height, MOMENT)
 
 

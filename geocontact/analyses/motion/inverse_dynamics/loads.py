@@ -86,7 +86,7 @@ def _given(record: Record, o: IdOptions) -> tuple[Path | None, tuple[ExternalLoa
 
 
 def _weight(model: Multibody) -> float:
-    """Of all bodies [N]."""
+    """Weight of all bodies [N]."""
     return model.mass * float(np.linalg.norm(model.gravity))
 
 

@@ -142,7 +142,7 @@ def _of_the_model(record: Record, passive: PassiveForces) -> dict[str, object]:
 
 
 def _cycles(forces: Forces, given: Loaded) -> GaitCycles:
-    """Of all but what is left over, by the mass of the model."""
+    """Cycles of all but the residuals, by the mass of the model."""
     model = forces.model
     if not model.mass > 0.0:
         return GaitCycles({}, {}, {})
@@ -154,13 +154,13 @@ def _cycles(forces: Forces, given: Loaded) -> GaitCycles:
 
 
 def _peak(loads: dict[str, Wrench]) -> float:
-    """Of the net force: all loads together."""
+    """Peak of the net force: all loads together."""
     net = sum((wrench.force for wrench in loads.values()), start=np.zeros((1, 3)))
     return float(np.linalg.norm(net, axis=1).max())
 
 
 def _height(given: Loaded) -> float:
-    """Of the mass centre above the ground's origin, mean over the whole recording [m]; 0 without gravity."""
+    """Height of the mass centre above the ground's origin, mean over the whole recording [m]; 0 without gravity."""
     size = float(np.linalg.norm(given.model.gravity))
     up = -given.model.gravity / size if size > 0.0 else np.zeros(3)
     return float(np.mean(given.model.mass_centre(given.values) @ up))

@@ -91,7 +91,7 @@ def _largest(forces: Forces, turning: Bool[np.ndarray, " n"]) -> tuple[int, int]
 
 
 def _start(forces: Forces, turning: Bool[np.ndarray, " n"], shown: Int[np.ndarray, " k"]) -> int:
-    """Of the frames shown, the one next to the largest moment."""
+    """The frame shown that is next to the largest moment."""
     return int(np.argmin(np.abs(shown - _largest(forces, turning)[0]))) if turning.any() else 0
 
 

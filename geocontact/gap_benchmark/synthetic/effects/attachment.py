@@ -9,10 +9,10 @@ from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
 from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, NotFoundError, Rng, SyntheticMagnitudes
 
 LIFTED = 0.3
-"""Of the largest deflection, how far the other way an interface may be moved that cannot pull: further, and the arm of
-an exoskeleton would fall off."""
+"""Share of the largest deflection, how far the other way an interface may be moved that cannot pull: further, and the
+arm of an exoskeleton would fall off."""
 STRIPS = 24
-"""Of a pad; more change nothing."""
+"""Strips of a pad; more change nothing."""
 
 
 def slip(rng: Rng, scale: SyntheticMagnitudes) -> Draw:

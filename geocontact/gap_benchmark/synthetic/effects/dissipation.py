@@ -68,7 +68,7 @@ def thinning(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
 
 
 def _most_damping(scale: SyntheticMagnitudes) -> float:
-    """Of each sphere, or of an interface [N s/m]."""
+    """Largest damping of each sphere, or of an interface [N s/m]."""
     return 3000.0 if scale.numbers.on_ground else 0.5 * scale.force / scale.rate
 
 

@@ -11,7 +11,7 @@ from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Values
 from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 BRANCHES = 4
-"""Of the second family's relaxation."""
+"""Branches of the second family's relaxation."""
 
 
 def stiffening(rng: Rng, scale: SyntheticMagnitudes) -> Draw:

@@ -54,7 +54,7 @@ def _factors(rng: Rng, most: float, count: int) -> Float[np.ndarray, " p"]:
 
 
 def sizes(scene: SyntheticScene, path: Path) -> Sizes:
-    """Of a movement like those that will be recorded."""
+    """Sizes of a movement like those that will be recorded."""
     course = path(np.arange(samples(scene, path)) * scene.step)
     outputs = scene.body.recorded(scene.base_model(course)(scene.theta))
     ranges = np.nanmax(outputs, axis=1) - np.nanmin(outputs, axis=1)
@@ -81,9 +81,9 @@ def sampled(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
 LENGTH, ANGLE = 1e-3, np.radians(0.5)
 """Standard deviation of a length [m], of an angle [rad]."""
 INPUT_ZERO = 0.01
-"""Of the zero of an input that is neither, as a share of its range."""
+"""Standard deviation of the zero of an input that is neither, as a share of its range."""
 GAIN, ZERO = 0.01, 0.005
-"""Of the gain of an output [-]; of its zero, as a share of its range."""
+"""Standard deviations of the gain of an output [-] and of its zero, as a share of its range."""
 CAREFUL, CARELESS = 0.7, 1.3
 """Laboratories differ: range of the factor on all of these."""
 SEEN = 0.05

@@ -183,7 +183,7 @@ CLOCKS = {
     "interrupted": Clock(losing=0.0, interrupted=0.5),
 }
 STEPS = {"fine": (0.05, 0.3), "coarse": (0.5, 2.0)}
-"""Of the numbers, in standard deviations of the noise; mixed: of each channel one of the two."""
+"""Steps of the numbers, in standard deviations of the noise; mixed: of each channel one of the two."""
 COARSEST_INPUT = 1.0
 TRIALS: Mapping[Trials, tuple[tuple[int, int], ...]] = {
     "fewest": ((1, 1), (2, 1)),
@@ -299,7 +299,9 @@ def _warm_up(rng: Rng, usual: Placement) -> WarmUp:
 
 
 def _step(rng: Rng, steps: Steps, row: int, coarsest: float) -> float:
-    """Of numbers, in standard deviations of their noise; of two channels in a row one is fine, if they are mixed."""
+    """Step of numbers, in standard deviations of their noise; of two channels in a row one is fine, if they are
+    mixed.
+    """
     low, high = STEPS[("fine", "coarse")[row % 2] if steps == "mixed" else steps]
     return _between(rng, low, min(high, coarsest))
 

@@ -37,7 +37,7 @@ class Pace:
 
     @classmethod
     def of(cls, duration: float, speed: Speed) -> Pace:
-        """Of a speed over time, scaled so that the trial ends when it did."""
+        """Values of a speed over time, scaled so that the trial ends when it did."""
         knots = np.arange(-MARGIN, duration + MARGIN + KNOTS, KNOTS)
         inside = np.clip(knots, 0.0, duration)
         place = CubicSpline(knots, speed(inside)).antiderivative()
@@ -77,9 +77,10 @@ def paced(scene: SyntheticScene, pace: Callable[[Rng, float], Pace]) -> Syntheti
 
 
 RATIO = (4.0, 8.0)
-"""Of a sweep's largest speed to its least."""
+"""Ratio of a sweep's largest speed to its least."""
 SIZES = (0.33, 0.11, 0.06)
-"""Of the three sines, as shares of the way: together they go as far as half of it to either side of its middle."""
+"""Sizes of the three sines, as shares of the way: together they go as far as half of it to either side of its
+middle."""
 PASSES = (0.7, 1.3)
 """Periods of the slowest sine in a trial."""
 BESIDE = ((1.5, 1.7), (2.3, 2.6))

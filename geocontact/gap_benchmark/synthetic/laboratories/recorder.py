@@ -77,7 +77,7 @@ def starts(rng: Rng, duration: float, edge: float) -> Speed:
 
 
 def other_filters(rng: Rng, sort: str, count: int, step: float) -> tuple[NoiseFilter, ...]:
-    """Of every input."""
+    """Filters of every input, other than the movement's."""
     if sort == "raw":
         return (NoiseFilter(0.5 / step),) * count
     if sort == "six":
@@ -144,7 +144,7 @@ def at_another_rate(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
 
 
 def power_law_noise(rng: Rng, sort: str, sd: float) -> PowerLawNoise:
-    """Of one output that had `sd`: pink, growing (white here, or nearly) or tailed."""
+    """Noise of one output that had `sd`: pink, growing (white here, or nearly) or tailed."""
     sd = sd * rng.uniform(0.7, 1.4)
     if sort == "pink":
         return PowerLawNoise(sd, rng.uniform(0.7, 1.2), float(np.exp(rng.uniform(np.log(0.5), np.log(5.0)))), 0.3)

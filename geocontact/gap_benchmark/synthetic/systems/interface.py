@@ -11,7 +11,7 @@ from geocontact.gap_benchmark.synthetic.compile import loop
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Values
 
 TOLERANCE = 1e-11
-"""Of what a spring in series gives way by, in the input's unit."""
+"""Tolerance of what a spring in series gives way by, in the input's unit."""
 
 
 class NotConvergedError(ArithmeticError):

@@ -83,7 +83,7 @@ def course_deflection(course: InputCourse, numbers: Mapping[str, float]) -> tupl
 
 
 RADIUS = 0.037
-"""Of a usual case [m]."""
+"""Radius of a usual case [m]."""
 
 
 def biased(scale: SyntheticMagnitudes) -> tuple[Biased, ...]:

@@ -61,7 +61,7 @@ class Driven:
 
     @property
     def still(self) -> Driven:
-        """As if it rested where it begins."""
+        """A course that rests where it begins."""
         begin = np.repeat(self.way[:, :1], 3, axis=1)
         begin[2:] = 0.0
         return Driven(self.time[:3], begin)
@@ -317,7 +317,7 @@ def events(
 
 
 LEVELS = ((0.0, 0.5, 1.0), (0.0, 0.5, 1.0), (0.0, 1.0), (0.3, 0.6, 1.0), (0.6, 0.8, 1.0))
-"""Of support, taken in turn by the trials."""
+"""Levels of support, taken in turn by the trials."""
 
 RATE, STILL = 0.06, 0.0014
 """Noise of the recorded arm: of its rate [rad/s], about, whatever the corner, for who smooths little has markers of

@@ -47,7 +47,7 @@ def outputs(sites: Sites) -> tuple[str, ...]:
 
 
 def units(sites: Sites) -> tuple[str, ...]:
-    """Of inputs, then of outputs."""
+    """Units of inputs, then of outputs."""
     return (*(unit for _ in sites for unit in MOTIONS.values()), *("N" for _ in sites))
 
 

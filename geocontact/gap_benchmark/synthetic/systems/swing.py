@@ -53,7 +53,7 @@ class Arm:
 
     @property
     def numbers(self) -> Float[np.ndarray, " five"]:
-        """As the march reads them."""
+        """The numbers in the order in which the march reads them."""
         return np.array([self.inertia, self.hinge, self.weight, self.k, self.b])
 
     def driven(self, e: Values, rate: Values, way: Values) -> tuple[Values, Values]:
