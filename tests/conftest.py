@@ -21,6 +21,7 @@ from jaxtyping import install_import_hook
 from tests.drawing import undrawn
 from tests.elsewhere import Elsewhere, another_process, here
 from tests.one_core import one_core
+from tests.recording import close
 from tests.scheduling import FileByFile, lasting_first, run_before
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -53,6 +54,13 @@ def checked_modules() -> Iterator[str]:
 
 if not UNCHECKED:
     install_import_hook(list(checked_modules()), "beartype.beartype")
+
+
+@pytest.fixture(autouse=True)
+def closed() -> Iterator[None]:
+    """No test hears of the record of another one."""
+    yield
+    close()
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -125,10 +125,10 @@ def measured(case: Case) -> tuple[dict[str, Any], pd.DataFrame | None]:
     row: dict[str, Any] = {"case": case.name, "free": case.free, "piece_mm": case.edge * 1e3}
     record = Record("knee settle", o.in_si(), o.in_si())
     with record.catching_warnings():
-        inputs = thinned(read(o, record), case.every)
+        inputs = thinned(read(o), case.every)
         started = time.process_time()
         try:
-            result = settle_run.run(inputs, o, record)
+            result = settle_run.run(inputs, o)
         except InputError as error:
             return {**row, "refused": str(error)}, None
     seconds, s, told = time.process_time() - started, result.settled, record.results["equilibrium"]

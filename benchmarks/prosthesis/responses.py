@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from benchmarks.machine import write_results
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.trial import read
 from geocontact.below_knee_prosthesis.design.foot_task import Terrain, words
@@ -37,7 +36,7 @@ def main() -> None:
         plates=TRIAL / "plates.mot",
         plate="own_force",
     )
-    given = read(asked, Record("prosthesis design", {}, {}))
+    given = read(asked)
     task, figures = given.trial.task(), {}
     for terrain in TERRAINS:
         knob = Knob("fulcrum", FULCRUMS, given.trial.fulcrum, terrain)

@@ -192,7 +192,6 @@ def strap_profiles(options: argparse.Namespace) -> dict[str, Any]:
     """The same of the strap in phase B, feet held at what was planted, on the shipped study with an exoskeleton."""
     import numpy as np
 
-    from geocontact.analyses.frame.record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.dynamics.collocation.solve import SolverOptions
     from geocontact.standing_up.calibrated_phase import PhaseSearch, calibrated_phase
@@ -200,7 +199,7 @@ def strap_profiles(options: argparse.Namespace) -> dict[str, Any]:
     from geocontact.standing_up.exoskeleton import strapped
     from geocontact.standing_up.phases import phase_b
 
-    study = standing_trials(SAMPLES / "standing_up_exoskeleton" / "study.toml", "study", Record("calibrate", {}))
+    study = standing_trials(SAMPLES / "standing_up_exoskeleton" / "study.toml", "study")
     model = strapped(study.subject, study.sites)
 
     def build(trials: Any, begin: Any) -> Any:
@@ -222,7 +221,6 @@ def freed(options: argparse.Namespace) -> dict[str, Any]:
     """
     import numpy as np
 
-    from geocontact.analyses.frame.record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.standing_up.chain import EVERY_PLANTED, SOUGHT, SOUGHT_WORN
     from geocontact.standing_up.exoskeleton import STRAP, STRAP_PLANTED, strapped
@@ -234,7 +232,7 @@ def freed(options: argparse.Namespace) -> dict[str, Any]:
     for label, free in (sets_a | {"A with dissipation": SOUGHT_WORN}).items():
         phase = phase_a(alone.model, alone.subject, alone.trials, alone.noise, free=free)
         rows[label] = told_of(phase, alone.trials, alone.planted)
-    study = standing_trials(SAMPLES / "standing_up_exoskeleton" / "study.toml", "study", Record("calibrate", {}))
+    study = standing_trials(SAMPLES / "standing_up_exoskeleton" / "study.toml", "study")
     model, planted = strapped(study.subject, study.sites), [*EVERY_PLANTED, *STRAP_PLANTED]
     for label, free in (("B, normal", STRAP[:1]), ("B, normal and tangential", STRAP[:2]), ("B", STRAP)):
         phase = phase_b(model, study.subject, study.trials, study.noise, EVERY_PLANTED, free=free)

@@ -130,7 +130,6 @@ def slopes(options: argparse.Namespace) -> dict[str, Any]:
     """On the shipped trial that was not used: every parameter of a movement, and the least force of the strap."""
     import numpy as np
 
-    from geocontact.analyses.frame.record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.dynamics.collocation.solve import SolverOptions
     from geocontact.standing_up.assistance_design import KNEE, HelpTask, designed
@@ -140,7 +139,7 @@ def slopes(options: argparse.Namespace) -> dict[str, Any]:
     from geocontact.standing_up.chain import EVERY_PLANTED
     from geocontact.standing_up.exoskeleton import STRAP_PLANTED
 
-    given = standing_trials(SAMPLES / "standing_up_held_out" / "study.toml", "study", Record("benchmark", {}))
+    given = standing_trials(SAMPLES / "standing_up_held_out" / "study.toml", "study")
     options_of = SolverOptions("radau", 4, 1, 1e-9)
     movements = Movements(assisted_model(given.subject), given.subject, given.trials, options_of, 20.0)
     p = np.r_[EVERY_PLANTED, STRAP_PLANTED, 0.3, 0.25]

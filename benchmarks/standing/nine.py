@@ -267,7 +267,6 @@ def predict(out: Path, nodes: float, factor: float, keep: Callable[[dict[str, An
     """
     import numpy as np
 
-    from geocontact.analyses.frame.record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.dynamics.collocation.solve import SolverOptions, refined, solve
     from geocontact.io.recordings.spheres import read_contact_parameters
@@ -278,7 +277,7 @@ def predict(out: Path, nodes: float, factor: float, keep: Callable[[dict[str, An
     from geocontact.standing_up.trials import seen_in
     from geocontact.standing_up.trivial_trials import mean_trial
 
-    study, known = (standing_trials(out / f"{name}.toml", "study", Record("predict", {}))
+    study, known = (standing_trials(out / f"{name}.toml", "study")
                     for name in ("prediction", "calibration"))  # fmt: skip
     units = {each.name: each.unit for each in WORN_PARAMETERS}
     bounds = {each.name: (each.least, each.most) for each in WORN_PARAMETERS}

@@ -169,7 +169,6 @@ def predicted(out: Path, nodes: float) -> dict[str, Any]:
     """C1 and C2 of both trials, as `geocontact sit-to-stand predict` does it with everything given."""
     import numpy as np
 
-    from geocontact.analyses.frame.record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.analyses.sit_to_stand.trial_result import TrialResult, errors_table
     from geocontact.dynamics.collocation.solve import SolverOptions, refined, solve
@@ -182,7 +181,7 @@ def predicted(out: Path, nodes: float) -> dict[str, Any]:
     from geocontact.standing_up.trials import seen_in
 
     study, model = (
-        standing_trials(out / "C.toml", "study", Record("predict", {})),
+        standing_trials(out / "C.toml", "study"),
         strapped(Subject(), STRAP_SITES, seated=True),
     )
     of = model.parameters
@@ -222,10 +221,9 @@ def spread(out: Path, nodes: float) -> dict[str, Any]:
     import numpy as np
     from scipy.stats import t as student
 
-    from geocontact.analyses.frame.record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 
-    study = standing_trials(out / "all.toml", "study", Record("calibrate", {}))
+    study = standing_trials(out / "all.toml", "study")
     with np.load(out / "truth.npz") as file:
         truth = {key: file[key] for key in file.files}
     names = ("q", "u", "force", "centre", "torque", "strap")

@@ -27,9 +27,9 @@ import pandas as pd
 
 from geocontact.analyses.catalogue import job_named
 from geocontact.analyses.frame import source_digest
+from geocontact.analyses.frame.collector import add_input, listener, note, reserve, results_place, say
 from geocontact.analyses.frame.folder import Scratch, is_kept
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.data.errors import InputError
@@ -83,12 +83,12 @@ class PlannedStudy:
     trials: tuple[CohortTrial, ...]
 
 
-def read(o: CohortOptions, record: Record) -> PlannedStudy:
+def read(o: CohortOptions) -> PlannedStudy:
     """Description and trials; files of the trials are read by whoever evaluates them."""
     study = read_study_file(o.study)
-    record.add_input("study", o.study, analysis=study.analysis)
+    add_input("study", o.study, analysis=study.analysis)
     if study.table:
-        record.add_input("table", o.study.parent / study.table)
+        add_input("table", o.study.parent / study.table)
     return PlannedStudy(study, tuple(trials_of(study)))
 
 
@@ -197,7 +197,7 @@ class CohortResult(Result):
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Mean curves, statistics, and all trials with a link to the page of each."""
-        return {REPORT: study_page(self.title, self.record, self.curves, self.tables())}
+        return {REPORT: study_page(self.title, self.curves, self.tables())}
 
     def write_files(self, folder: Path) -> None:
         """Also the tables of all trials together; then other studies may write into the folder."""
@@ -226,21 +226,21 @@ class _Planned:
     known: TrialOutcome | None
 
 
-def run(planned: PlannedStudy, o: CohortOptions, record: Record) -> CohortResult:
+def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
     """Results of all trials that can be evaluated; InputError where none can be."""
-    scratch = None if record.out is not None else Scratch()
-    out = record.out if record.out is not None else scratch.folder if scratch is not None else Path()
+    place = results_place()
+    scratch = Scratch() if place is None else None
+    out = place if place is not None else scratch.folder if scratch is not None else Path()
     store = Store(out.resolve() / RESULTS)
     with ExitStack() as held:  # until the tables are written, unless something goes wrong before
         held.enter_context(store.begun())
         plan = _plan(planned, store)
         if any(one.known is not None and one.known.state == DONE for one in plan):
             is_kept(store.folder)
-        became = _evaluated(planned, plan, store, o, record)
-        trials, curves, surface = _looked_at(planned, plan, became, store, o, record)
+        became = _evaluated(planned, plan, store, o)
+        trials, curves, surface = _looked_at(planned, plan, became, store, o)
         kept = ExitStack() if scratch is not None else held.pop_all()
     return CohortResult(
-        record=record,
         planned=planned,
         trials=trials,
         store=store,
@@ -257,56 +257,55 @@ def _looked_at(
     became: list[TrialOutcome],
     store: Store,
     o: CohortOptions,
-    record: Record,
 ) -> tuple[tuple[StudiedTrial, ...], tuple[StudyCurves, ...], SurfaceValues | None]:
     """What became of each trial, curves, a surface where there is one; what goes wrong and what differs is said."""
     trials = tuple(StudiedTrial(one.trial, one.address, became[k]) for k, one in enumerate(plan))
     for one in trials:
         if one.outcome.state != DONE:
-            record.listener.fail(f"{one.trial.name}: {one.outcome.line}")
+            listener().fail(f"{one.trial.name}: {one.outcome.line}")
     done = [one for one in trials if one.outcome.state == DONE]
     if not done:
         raise InputError(o.study, "", f"none of the {len(trials)} trials could be evaluated", "see the lines above")
     new = sum(one.known is None for one in plan)
-    record.results["trials"] = {"all": len(trials), "done": len(done)}
+    note("trials", {"all": len(trials), "done": len(done)})
     all_of_them = f"{len(done)} of {counted(len(trials), 'trial')} of {planned.file.analysis}"
-    record.say(f"{all_of_them} have results, {new} of them new")
+    say(f"{all_of_them} have results, {new} of them new")
     curves = curves_of(planned.file, [(one.trial, one.address) for one in done], store)
     surface = surface_values(planned.file, [(one.trial, one.address) for one in done], store)
-    _say(curves, record)
+    _say(curves)
     if surface is not None:
-        _say_surface(surface, record)
+        _say_surface(surface)
     return trials, curves, surface
 
 
-def _say(curves: tuple[StudyCurves, ...], record: Record) -> None:
+def _say(curves: tuple[StudyCurves, ...]) -> None:
     """What conditions differ in, and which trials lie apart."""
     for one, first, second, found in differences_of(curves):
         name = f"{split_header(one.column)[0]}, {first} against {second}"
         where = STEPS[found.p <= LEVEL]
         subjects = counted(found.subjects, "subject")
         if found.smallest > LEVEL:
-            record.say(f"{name}: {subjects} cannot show a difference, the smallest p is {found.smallest:.2g}")
+            say(f"{name}: {subjects} cannot show a difference, the smallest p is {found.smallest:.2g}")
         elif len(where):
-            record.say(f"{name}: p is at most 5 % at {len(where)} of 101 places, {where[0]:g} to {where[-1]:g} %")
+            say(f"{name}: p is at most 5 % at {len(where)} of 101 places, {where[0]:g} to {where[-1]:g} %")
         else:
-            record.say(f"{name}: no difference shown by {subjects}, the smallest p is {found.p.min():.2g}")
+            say(f"{name}: no difference shown by {subjects}, the smallest p is {found.p.min():.2g}")
     apart = outlier_table(curves)
     for name in dict.fromkeys(apart["name"]):
-        record.warn(f"{name} lies apart from the other trials of its condition")
+        reserve(f"{name} lies apart from the other trials of its condition")
 
 
-def _say_surface(surface: SurfaceValues, record: Record) -> None:
+def _say_surface(surface: SurfaceValues) -> None:
     """On how many points conditions differ."""
     for first, second, there, found in surface_differences(surface):
         name = f"distance at {len(surface.points)} particles, {first} against {second}"
         subjects = counted(found.subjects, "subject")
         if found.smallest > LEVEL:
-            record.say(f"{name}: {subjects} cannot show a difference, the smallest p is {found.smallest:.2g}")
+            say(f"{name}: {subjects} cannot show a difference, the smallest p is {found.smallest:.2g}")
             continue
         shown = np.zeros(there.shape, bool)
         shown[there] = found.p <= LEVEL
-        record.say(f"{name}: p is at most 5 % at {shown.any(axis=0).sum()} of them, by {subjects}")
+        say(f"{name}: p is at most 5 % at {shown.any(axis=0).sum()} of them, by {subjects}")
 
 
 def _plan(planned: PlannedStudy, store: Store) -> list[_Planned]:
@@ -328,9 +327,7 @@ def _plan(planned: PlannedStudy, store: Store) -> list[_Planned]:
     return found
 
 
-def _evaluated(
-    planned: PlannedStudy, plan: list[_Planned], store: Store, o: CohortOptions, record: Record
-) -> list[TrialOutcome]:
+def _evaluated(planned: PlannedStudy, plan: list[_Planned], store: Store, o: CohortOptions) -> list[TrialOutcome]:
     """What became of each trial of the plan; only what is missing is evaluated."""
     run_id, sources = secrets.token_hex(8), source_digest.digest()
     missing = {one.address: one.trial for one in plan if one.known is None}
@@ -338,14 +335,14 @@ def _evaluated(
         TrialTask(planned.file.analysis, trial.options, planned.file.home, store, address, sources, run_id)
         for address, trial in missing.items()
     ]
-    became = dict(_outcomes(tasks, o, record))
+    became = dict(_outcomes(tasks, o))
     return [one.known or became[one.address] for one in plan]
 
 
-def _outcomes(tasks: list[TrialTask], o: CohortOptions, record: Record) -> Iterator[tuple[str, TrialOutcome]]:
+def _outcomes(tasks: list[TrialTask], o: CohortOptions) -> Iterator[tuple[str, TrialOutcome]]:
     if not tasks:
         return
-    with workers_of(o) as client, record.listener.progress("trials", len(tasks)) as step:
+    with workers_of(o) as client, listener().progress("trials", len(tasks)) as step:
         started, spent = time.perf_counter(), 0.0
         for task, outcome in outcomes(client, tasks):
             if outcome.state == STOPPED:
@@ -356,8 +353,8 @@ def _outcomes(tasks: list[TrialTask], o: CohortOptions, record: Record) -> Itera
             if outcome.state == DONE:
                 is_kept(task.store.folder)
             step()
-        record.results["work"] = {"seconds": round(time.perf_counter() - started, 3), "workers": _count(client)}
-        record.results["one_by_one"] = {"seconds": round(spent, 3)}
+        note("work", {"seconds": round(time.perf_counter() - started, 3), "workers": _count(client)})
+        note("one_by_one", {"seconds": round(spent, 3)})
 
 
 def _count(client: Any) -> int:

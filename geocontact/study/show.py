@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import current
 from geocontact.analyses.frame.result import REPORT
 from geocontact.analyses.frame.words import headline
 from geocontact.data.trial import mean_and_sd
@@ -29,7 +29,7 @@ ROWS = 500
 """Rows of the table of trials that the page shows; trials.csv has all."""
 
 
-def study_page(title: str, record: Record, curves: Sequence[StudyCurves], tables: Mapping[str, pd.DataFrame]) -> Page:
+def study_page(title: str, curves: Sequence[StudyCurves], tables: Mapping[str, pd.DataFrame]) -> Page:
     """The page, with curves that can be read by pointing at them."""
     sections: list[Section] = [section for one in curves if (section := _panel(one)).curves]
     for name, words in (
@@ -42,10 +42,10 @@ def study_page(title: str, record: Record, curves: Sequence[StudyCurves], tables
     sections.append(_trials(tables["trials"]))
     return Page(
         title,
-        f"geocontact {record.command}",
+        f"geocontact {current().command}",
         STEPS if curves else np.zeros(1),
         "cycle [%]" if curves else "",
-        headline=headline(record.sentences),
+        headline=headline(current().sentences),
         sections=tuple(sections),
         plays=False,
     )

@@ -10,6 +10,7 @@ from geocontact.analyses.motion.inverse_dynamics.loads import warn_of_other_feet
 from geocontact.data.wrench import Wrench
 from geocontact.io.opensim.osim_multibody import read_multibody
 from tests.cli.calls import MESHES
+from tests.recording import opened
 
 BODIES = ("pelvis", "foot_r")
 
@@ -26,8 +27,8 @@ def test_loads_that_act_under_the_other_body_are_told(exchanged: bool) -> None:
         body: Wrench(up, np.zeros((20, 3)), poses[where].translation, "ground")
         for body, where in zip(BODIES, under, strict=True)
     }
-    record = Record("id", {}, {})
-    warn_of_other_feet(record, model, values, loads)
+    record = opened(Record("id", {}, {}))
+    warn_of_other_feet(model, values, loads)
     assert len(record.warnings) == (2 if exchanged else 0)
     if exchanged:
         assert "are the loads of the two exchanged?" in record.warnings[0]

@@ -18,6 +18,7 @@ from geocontact.io.mesh.meshes import read_mesh
 from geocontact.systems.knee_full_chain import geometry_of
 from tests.cli.calls import stl, written
 from tests.geometry.bodies import cube, joined
+from tests.recording import opened
 
 SAID = "bone.stl holds 2 closed surfaces, one inside the other: 1536.0 of its 3936.0 mm^2 lie inside another one"
 
@@ -29,41 +30,41 @@ def bone(folder: Path, *, marrow: bool = True) -> Path:
     return written(folder / "bone.stl", stl(vertices[faces]))
 
 
-def surface(record: Record, file: Path) -> None:
+def surface(file: Path) -> None:
     """`fit` and `mat`."""
-    read_input_surface(record, "mesh", file, "mm", None)
+    read_input_surface("mesh", file, "mm", None)
 
 
-def body(record: Record, file: Path) -> None:
+def body(file: Path) -> None:
     """`knee settle`."""
-    read_body(record, "fixed", file, "mm", None, False)
+    read_body("fixed", file, "mm", None, False)
 
 
-def ground(record: Record, file: Path) -> None:
+def ground(file: Path) -> None:
     """`cop`, whose grounds are larger."""
-    ground_of(record, CopOptions(Path("spheres.csv"), motion=Path("m.csv"), ground=str(file), unit="cm"))
+    ground_of(CopOptions(Path("spheres.csv"), motion=Path("m.csv"), ground=str(file), unit="cm"))
 
 
 @pytest.mark.parametrize("read", [surface, body])
-def test_a_job_warns_of_a_cavity(read: Callable[[Record, Path], None], tmp_path: Path) -> None:
-    record = Record("job", {})
-    read(record, bone(tmp_path))
+def test_a_job_warns_of_a_cavity(read: Callable[[Path], None], tmp_path: Path) -> None:
+    record = opened(Record("job", {}))
+    read(bone(tmp_path))
     (line,) = record.warnings
     assert line == f"{SAID} and count as surface all the same; delete in the file what is none"
     assert record.inputs[0]["closed_surfaces"] == 2
 
 
 def test_a_ground_with_a_cavity_is_warned_of(tmp_path: Path) -> None:
-    record = Record("cop", {})
-    ground(record, bone(tmp_path))
+    record = opened(Record("cop", {}))
+    ground(bone(tmp_path))
     (line,) = record.warnings
     assert line.startswith("bone.stl holds 2 closed surfaces, one inside the other: 153600.0 of its 393600.0 mm^2")
 
 
 @pytest.mark.parametrize("read", [surface, body, ground])
-def test_one_block_is_not_warned_of(read: Callable[[Record, Path], None], tmp_path: Path) -> None:
-    record = Record("job", {})
-    read(record, bone(tmp_path, marrow=False))
+def test_one_block_is_not_warned_of(read: Callable[[Path], None], tmp_path: Path) -> None:
+    record = opened(Record("job", {}))
+    read(bone(tmp_path, marrow=False))
     assert record.warnings == []
 
 

@@ -13,9 +13,10 @@ import pytest
 from matplotlib.figure import Figure
 
 import geocontact as gc
+from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.frame.job import Call, Job, execute
 from geocontact.analyses.frame.options import Length, Options, Spelled
-from geocontact.analyses.frame.record import Listener, Record
+from geocontact.analyses.frame.record import Listener
 from geocontact.analyses.frame.result import Result
 from geocontact.cli.command import Command
 from geocontact.data.errors import InputError, InputWarning
@@ -61,20 +62,20 @@ class Doubled(Result):
         return "Twice"
 
 
-def read_length(o: DoubleOptions, record: Record) -> float:
-    record.add_input("`file`", o.file)
+def read_length(o: DoubleOptions) -> float:
+    add_input("`file`", o.file)
     try:
         value = float(o.file.read_text()) * 1e-3
     except ValueError as error:
         raise InputError(o.file, "", "is no number", "or give `more`") from error
     if value > 1.0:
-        record.warn("more than a metre, see `more`")
+        reserve("more than a metre, see `more`")
     return value
 
 
-def run(value: float, o: DoubleOptions, record: Record) -> Doubled:
-    record.say(f"twice {value:g} m")
-    return Doubled(record=record, options=o, length=2.0 * value + o.more)
+def run(value: float, o: DoubleOptions) -> Doubled:
+    say(f"twice {value:g} m")
+    return Doubled(options=o, length=2.0 * value + o.more)
 
 
 double = Job("double", DoubleOptions, read_length, run)

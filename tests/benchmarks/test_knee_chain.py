@@ -21,6 +21,7 @@ from geocontact.analyses.frame.record import Record
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
 from geocontact.systems.knee_posed import PosedKnee
+from tests.recording import opened
 from tests.systems.posed_knees import chain, poses
 
 KNEE = knee_chain.sample_knee()
@@ -133,7 +134,7 @@ def test_the_case_on_disk_is_one_for_the_command(tmp_path: Path) -> None:
     assert "sensor_gain.forces" not in knee_alike.table(alike, 0.0).to_numpy()
     assert sorted(case.meshes) == ["fixed", "moving"]
     assert "motion_offset" not in (folder / "case.toml").read_text(encoding="utf-8"), "the answer stands nowhere in it"
-    record = Record("gap diagnose", {})
-    gc.diagnose.read(gc.diagnose.options(folder), record)
+    record = opened(Record("gap diagnose", {}))
+    gc.diagnose.read(gc.diagnose.options(folder))
     hashes = {one["role"]: one["sha256"] for one in record.inputs}
     assert hashes["mesh fixed"] == case.meshes["fixed"].mesh.sha256

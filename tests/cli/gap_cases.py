@@ -16,6 +16,7 @@ from geocontact.analyses.frame.record import Listener, Record
 from geocontact.analyses.gap.diagnose.options import DiagnoseOptions
 from geocontact.analyses.gap.diagnose.result import DiagnoseResult, read, run
 from geocontact.analyses.gap.discriminability.result import DiscriminabilityResult, discriminability
+from tests.recording import opened
 from tests.systems.examples import (
     ELBOW_CONSTANTS,
     ELBOW_VALUES,
@@ -101,8 +102,8 @@ def diagnosed_elbow() -> DiagnoseResult:
     """Its diagnosis, made once for all tests of a process."""
     with TemporaryDirectory() as folder, unchecked():
         options = DiagnoseOptions(damped_elbow(Path(folder) / "elbow_7"))
-        record = Record("gap diagnose", options.in_si(), options.in_si(), listener=Hearing(TOLD))
-        return run(read(options, record), options, record)
+        opened(Record("gap diagnose", options.in_si(), options.in_si(), listener=Hearing(TOLD)))
+        return run(read(options), options)
 
 
 @contextmanager

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from casadi import Function
 
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.standing_up.assistance_design import KNEE, NAMES, STRAP, HelpTask, designed
@@ -28,7 +27,7 @@ PARTS = np.array([0.5, -1.0, 0.7])
 
 @pytest.fixture(scope="module")
 def movements() -> Movements:
-    given = standing_trials(Path(MESHES) / "standing_up_held_out" / "study.toml", "study", Record("x", {}))
+    given = standing_trials(Path(MESHES) / "standing_up_held_out" / "study.toml", "study")
     options = SolverOptions("radau", 3, 1, 1e-9)
     return Movements(assisted_model(given.subject), given.subject, given.trials, options, 8.0)
 

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from benchmarks.standing.other_world import World, own_trials
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions, solve
 from geocontact.standing_up.assumed_shares import JERK_KNOWN, AssumedShares, assumed_shares
@@ -55,7 +54,7 @@ def solved_again(
     warm: CollocationResult | None, feet: np.ndarray, sizes: tuple[float, float]
 ) -> tuple[PhaseProblem, CollocationResult]:
     """The strap of the shortest shipped trial."""
-    study = standing_trials(Path(MESHES) / "standing_up_exoskeleton" / "study.toml", "study", Record("x", {}))
+    study = standing_trials(Path(MESHES) / "standing_up_exoskeleton" / "study.toml", "study")
     trial = min(study.trials, key=lambda each: each.time[-1])
     model = with_exoskeleton(study.subject)
     phase = standing_phase(

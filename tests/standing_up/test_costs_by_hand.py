@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import geocontact.standing_up.trials as trials_module
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, standing_trials
 from geocontact.dynamics.collocation.problem import ControlledSystem, ControlProblem
 from geocontact.standing_up.assisted_model import assisted_model, habit
@@ -26,7 +25,7 @@ P = np.r_[EVERY_PLANTED, STRAP_PLANTED, 0.3, 0.25]
 
 @pytest.fixture(scope="module")
 def given() -> StandingUpTrials:
-    return standing_trials(Path(MESHES) / "standing_up_held_out" / "study.toml", "study", Record("x", {}))
+    return standing_trials(Path(MESHES) / "standing_up_held_out" / "study.toml", "study")
 
 
 def cost_at(system: ControlledSystem, seed: int) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:

@@ -15,9 +15,9 @@ from typing import Any, ClassVar
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.frame.collector import add_input, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import Result
 from geocontact.data.errors import InputError
 from geocontact.io.text.results import write_table
@@ -59,15 +59,15 @@ class QuickResult(Result):
         file.write_text("<p>sine</p>", encoding="utf-8")
 
 
-def read(o: QuickOptions, record: Record) -> tuple[float, str]:
-    record.add_input("number", o.file)
+def read(o: QuickOptions) -> tuple[float, str]:
+    add_input("number", o.file)
     words = o.file.read_text(encoding="utf-8").split()
     if len(words) > 2:  # a file that only this one names
-        record.add_input("beside", o.file.with_name(words[2]))
+        add_input("beside", o.file.with_name(words[2]))
     return float(words[0]), words[1] if len(words) > 1 else ""
 
 
-def run(inputs: tuple[float, str], o: QuickOptions, record: Record) -> QuickResult:
+def run(inputs: tuple[float, str], o: QuickOptions) -> QuickResult:
     number, wrong = inputs
     match wrong:
         case "wrong":
@@ -89,7 +89,7 @@ def run(inputs: tuple[float, str], o: QuickOptions, record: Record) -> QuickResu
                 taken.append(np.ones(50_000_000 // 8))
                 time.sleep(0.05)
     time_ = np.linspace(0.0, 1.0, 5 + int(number))
-    record.say(f"{number:g}")
+    say(f"{number:g}")
     table = pd.DataFrame(
         {
             "time [s]": time_,
@@ -97,7 +97,7 @@ def run(inputs: tuple[float, str], o: QuickOptions, record: Record) -> QuickResu
             "side": np.where(time_ < 0.5, "left", "right"),
         }
     )
-    return QuickResult(record=record, table_=table)
+    return QuickResult(table_=table)
 
 
 quick = Job("quick", QuickOptions, read, run)

@@ -14,7 +14,6 @@ import pandas as pd
 import pytest
 from scipy.io import netcdf_file
 
-from geocontact.analyses.frame.record import Record
 from geocontact.study.curves import StudyCurves
 from geocontact.study.show import study_figure, study_page
 from geocontact.study.store import LOCK, sole_writer
@@ -122,7 +121,7 @@ def test_only_one_study_at_a_time_writes_into_a_folder(tmp_path: Path, scheduler
 
 def test_units_on_the_page_are_as_in_print(tmp_path: Path) -> None:
     one = StudyCurves("area [mm^2]", ("A",), ("A",), ("all",), np.ones((1, 101)))
-    page = study_page("areas", Record("cohort", {}), [one], {"trials": pd.DataFrame({"name": ["A"], "folder": [""]})})
+    page = study_page("areas", [one], {"trials": pd.DataFrame({"name": ["A"], "folder": [""]})})
     assert [part.unit for part in page.sections if isinstance(part, Curves)] == ["mm²"]
 
 

@@ -16,7 +16,7 @@ from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.pose_error import pose_error_of
 from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.bodies import chosen_faces, read_body_and_outer, refuse_two_spaces
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.frame.shared_options import MedialSide, medial_side, refuse_other_axes
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import MM2
@@ -38,16 +38,16 @@ from geocontact.view.surfaces.vtp_series import require_pyvista
 DIRECTIONS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
-def motions_given(record: Record, o: AreaOptions, moving: Surface) -> list[tuple[str, Motion]]:
+def motions_given(o: AreaOptions, moving: Surface) -> list[tuple[str, Motion]]:
     """Name of the sub-folder (empty when there is one motion) and motion, with the offset of adduction asked for."""
-    motions = _read(record, o) if o.sweep is None else [("", _swept(record, o, o.sweep, moving))]
+    motions = _read(o) if o.sweep is None else [("", _swept(o, o.sweep, moving))]
     if o.adduction is None:
         return motions
     axis, angle = o.adduction
     return [(folder, motion.turned(DIRECTIONS[axis], angle)) for folder, motion in motions]
 
 
-def _read(record: Record, o: AreaOptions) -> list[tuple[str, Motion]]:
+def _read(o: AreaOptions) -> list[tuple[str, Motion]]:
     paths = _expanded(o.motion or ())
     _refuse_names(paths)
     motions = {path: _motion(path, o) for path in paths}
@@ -56,12 +56,12 @@ def _read(record: Record, o: AreaOptions) -> list[tuple[str, Motion]]:
     found = []
     for path, motion in motions.items():
         folder = path.stem if len(motions) > 1 else ""
-        record.add_input("motion", path, frames=len(motion), source=motion.source, folder=folder or ".")
+        add_input("motion", path, frames=len(motion), source=motion.source, folder=folder or ".")
         if path in bases:
-            motion = _relative(record, motion, *bases[path])
+            motion = _relative(motion, *bases[path])
         found.append((folder, motion))
     if o.osim is not None:
-        record.add_input("model", o.osim, joint=o.joint)
+        add_input("model", o.osim, joint=o.joint)
     return found
 
 
@@ -92,15 +92,15 @@ def _motions_of_fixed(o: AreaOptions, paths: list[Path]) -> dict[Path, tuple[Pat
     return dict(zip(paths, zip(fixed, read, strict=True), strict=True))
 
 
-def _relative(record: Record, motion: Motion, file: Path, fixed: Motion) -> Motion:
+def _relative(motion: Motion, file: Path, fixed: Motion) -> Motion:
     """Poses of MOVING in FIXED, both moving in one frame."""
-    record.add_input("motion of fixed", file, frames=len(fixed), source=fixed.source)
+    add_input("motion of fixed", file, frames=len(fixed), source=fixed.source)
     try:
         found = motion.relative_to(fixed)
     except ValueError as error:
         raise InputError(file, "", str(error), "cut `motion` to times at which both are known") from error
     if fixed.at(motion.time) is not fixed:
-        record.warn(
+        reserve(
             f"{file}: has other times than the motion of MOVING; interpolated to those, translations linearly, "
             "rotations along the shortest arc"
         )
@@ -142,17 +142,17 @@ def _refuse_names(paths: Sequence[Path]) -> None:
         raise InputError("", "`motion`", f"two motions are called {twice}", "their results would share a folder")
 
 
-def _swept(record: Record, o: AreaOptions, asked: tuple[str, float, float, float], moving: Surface) -> Motion:
+def _swept(o: AreaOptions, asked: tuple[str, float, float, float], moving: Surface) -> Motion:
     name, start, stop, step = asked
     if o.axis is not None:
         file = quantities.named_file(o.axis)
         if file is not None:
-            record.add_input("`axis`", file)
+            add_input("`axis`", file)
         line = quantities.axis(o.axis, o.unit)
     else:
         fit = fit_cylinder(moving.vertices[moving.used])
         line = fit.line
-        record.warn(
+        reserve(
             f"no `axis`: turned about the cylinder fitted to all of {moving.name}, "
             f"radius {(fit.radius or 0.0) * 1e3:.2f} mm, rms {fit.rms * 1e3:.2f} mm"
         )
@@ -336,7 +336,7 @@ class Bodies:
         return f"MOVING {self.moving.name} on FIXED {self.fixed.name}"
 
 
-def read(o: AreaOptions, record: Record) -> Bodies:
+def read(o: AreaOptions) -> Bodies:
     """Everything the options name."""
     if o.paraview:
         require_pyvista()
@@ -347,31 +347,29 @@ def read(o: AreaOptions, record: Record) -> Bodies:
     if o.compare is not None:
         table = read_reference(o.compare)
         reference = Reference(o.compare, table, TOLERANCE if o.tolerance is None else o.tolerance)
-        record.add_input("`compare`", o.compare)
+        add_input("`compare`", o.compare)
     error = pose_error_of(o)
     if o.markers is not None:
-        record.add_input("`markers`", o.markers)
+        add_input("`markers`", o.markers)
     closed = {body: o.assume_closed in (body, "both") for body in ("moving", "fixed")}
-    moving, outer_moving = read_body_and_outer(record, "moving", o.moving, o.unit, o.place_moving, closed["moving"])
-    fixed, outer_fixed = read_body_and_outer(record, "fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
+    moving, outer_moving = read_body_and_outer("moving", o.moving, o.unit, o.place_moving, closed["moving"])
+    fixed, outer_fixed = read_body_and_outer("fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
     refuse_two_spaces(moving, fixed)
     refuse_zero_without_inside(o.threshold, moving, fixed)
     if split is not None:
         refuse_other_axes(fixed.space, fixed.name, o.side, o.medial)
-    settings = _settings(record, o, split, moving, fixed)
+    settings = _settings(o, split, moving, fixed)
     if o.split is not None and split is not None:
         refuse_plane_beside(o.split, split[0], fixed, settings.fixed_faces, o.unit)
-        record.say(f"medial is {split[1].words} of {fixed.name}")
-    bodies = Bodies(moving, fixed, settings, tuple(motions_given(record, o, moving)), reference, error)
-    return _outer(record, o, bodies, {"moving": outer_moving, "fixed": outer_fixed})
+        say(f"medial is {split[1].words} of {fixed.name}")
+    bodies = Bodies(moving, fixed, settings, tuple(motions_given(o, moving)), reference, error)
+    return _outer(o, bodies, {"moving": outer_moving, "fixed": outer_fixed})
 
 
-def _outer(
-    record: Record, o: AreaOptions, bodies: Bodies, found: Mapping[Literal["moving", "fixed"], UnitedSurface | None]
-) -> Bodies:
+def _outer(o: AreaOptions, bodies: Bodies, found: Mapping[Literal["moving", "fixed"], UnitedSurface | None]) -> Bodies:
     """The bodies with their outer surfaces where these are asked for, and known where they are not."""
     if o.outer is not None and not any(found[body] for body in found if o.outer in (body, "both")):
-        record.warn(f"`outer` {o.outer} leaves nothing out: no closed surface lies inside or across another one")
+        reserve(f"`outer` {o.outer} leaves nothing out: no closed surface lies inside or across another one")
     inner = {}
     for body, united in found.items():
         if united is None:
@@ -379,7 +377,7 @@ def _outer(
         if o.outer not in (body, "both"):
             inner[body] = united
             continue
-        record.say(
+        say(
             f"{united.surface.name} holds {united.words}: its outer surface counts, "
             f"{united.inner_area * MM2:.1f} mm^2 inside are left out"
         )
@@ -394,17 +392,15 @@ def _outer(
     return replace(bodies, inner=inner)
 
 
-def _settings(
-    record: Record, o: AreaOptions, split: tuple[Plane, MedialSide] | None, moving: Surface, fixed: Surface
-) -> Settings:
+def _settings(o: AreaOptions, split: tuple[Plane, MedialSide] | None, moving: Surface, fixed: Surface) -> Settings:
     pieces = BRIEF if min(o.threshold) >= FINE else FEW
     refinement = Refinement(pieces=pieces) if o.bounds is None else Refinement(bounds=o.bounds, pieces=PATIENT)
     return Settings(
         thresholds=o.threshold,
         rule=o.rule,
         refinement=refinement,
-        fixed_faces=chosen_faces(record, "`region`", o.region, fixed, o.unit),
-        moving_faces=chosen_faces(record, "`region_moving`", o.region_moving, moving, o.unit),
+        fixed_faces=chosen_faces("`region`", o.region, fixed, o.unit),
+        moving_faces=chosen_faces("`region_moving`", o.region_moving, moving, o.unit),
         split=None if split is None else split[0],
         medial_side=0 if split is None else split[1].sign,
         sensitivity=tuple((max(o.threshold) or ZERO_REACH) * SENSITIVITY),

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.area.bodies import Bodies
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.congruence import CongruencePair
@@ -43,15 +43,13 @@ class CongruenceEvolution:
         }
 
 
-def congruence_evolution(
-    record: Record, bodies: Bodies, radius: float, name: str, motion: Motion
-) -> CongruenceEvolution:
+def congruence_evolution(bodies: Bodies, radius: float, name: str, motion: Motion) -> CongruenceEvolution:
     """Congruence of all frames, curvatures fitted within `radius` [m]; none over less than `LEAST` of the area."""
     pair = CongruencePair(bodies.moving, bodies.fixed, bodies.settings, radius)
     rotation = motion.poses.rotation.as_matrix().reshape(-1, 3, 3)
     translation = np.asarray(motion.poses.translation).reshape(-1, 3)
     frames = []
-    with record.listener.progress(f"{name or 'frames'}, congruence", len(motion)) as step:
+    with listener().progress(f"{name or 'frames'}, congruence", len(motion)) as step:
         for turn, shift in zip(rotation, translation, strict=True):
             frames.append(pair.at(turn, shift))
             step()
@@ -59,13 +57,13 @@ def congruence_evolution(
         *(np.array([getattr(each, part) for each in frames]) for part in ("least", "most", "index", "share"))
     )
     label = f"{name}: " if name else ""
-    found = _over_enough(record, bodies, radius, label, motion, every)
-    _tell(record, bodies, radius, name, found)
+    found = _over_enough(bodies, radius, label, motion, every)
+    _tell(bodies, radius, name, found)
     return found
 
 
 def _over_enough(
-    record: Record, bodies: Bodies, radius: float, label: str, motion: Motion, found: CongruenceEvolution
+    bodies: Bodies, radius: float, label: str, motion: Motion, found: CongruenceEvolution
 ) -> CongruenceEvolution:
     """The same without what is over too little of the area: a reservation, or a refusal where there is nothing else."""
     few = found.share < LEAST
@@ -80,7 +78,7 @@ def _over_enough(
     for k, threshold in enumerate(bodies.settings.thresholds):
         if few[:, k].any():
             low, high = found.share[few[:, k], k].min(), found.share[few[:, k], k].max()
-            record.warn(
+            reserve(
                 f"{label}no index of congruence within {threshold * 1e3:g} mm in {few[:, k].sum()} of {len(few)} "
                 f"frames: both curvatures are known over {low:.0%} to {high:.0%} of the area, and {LEAST:.0%} are "
                 f"needed; {remedy}"
@@ -112,10 +110,10 @@ def _remedy(bodies: Bodies, radius: float, motion: Motion, found: CongruenceEvol
     )
 
 
-def _tell(record: Record, bodies: Bodies, radius: float, name: str, found: CongruenceEvolution) -> None:
+def _tell(bodies: Bodies, radius: float, name: str, found: CongruenceEvolution) -> None:
     """Range of the index, and what it is not over."""
     summary: dict[str, object] = {"radius_mm": radius * 1e3}
-    record.results[f"{name} congruence".lstrip()] = summary
+    note(f"{name} congruence".lstrip(), summary)
     label = f"{name}: " if name else ""
     for k, threshold in enumerate(bodies.settings.thresholds):
         index, share = found.index[:, k], found.share[:, k]
@@ -124,13 +122,13 @@ def _tell(record: Record, bodies: Bodies, radius: float, name: str, found: Congr
             continue
         low, high = (float(end) * PER_MM for end in (index[there].min(), index[there].max()))
         summary[f"index_per_mm_at_{threshold * 1e3:g}_mm"] = [round(low, 6), round(high, 6)]
-        record.say(
+        say(
             f"{label}index of congruence within {threshold * 1e3:g} mm: {low:.4f} … {high:.4f} 1/mm "
             f"(0 fits exactly), curvatures fitted within {radius * 1e3:g} mm"
         )
         worst = float(share[there].min())
         if worst < FEW:
-            record.warn(
+            reserve(
                 f"{label}the index of congruence is over {worst:.0%} of the area within {threshold * 1e3:g} mm in the "
                 "worst frame: elsewhere the surfaces do not face each other, or too few vertices lie within "
                 f"`congruence` {radius * 1e3:g} mm"

@@ -15,7 +15,7 @@ from geocontact.analyses.area.congruence import CongruenceEvolution
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.pose_error import AreaUncertainty, uncertainty_table
 from geocontact.analyses.area.pressure import PressureEvolution
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import MM2, AreaEvolution
 from geocontact.data.motion import Motion
@@ -128,7 +128,7 @@ def refuse_strangers(e: AreaEvolution, motion: Motion, o: AreaOptions) -> None:
     raise InputError("", "", what, f"{remedy} (they are nearest in {_nearest(e, motion)})")
 
 
-def warn_of_no_contact(record: Record, e: AreaEvolution, motion: Motion, name: str) -> None:
+def warn_of_no_contact(e: AreaEvolution, motion: Motion, name: str) -> None:
     """A reservation where FIXED has no contact in any frame, even within the largest threshold."""
     if e.fixed.area.max() > 0.0:
         return
@@ -139,27 +139,27 @@ def warn_of_no_contact(record: Record, e: AreaEvolution, motion: Motion, name: s
     check = f"check unit, {PLACES}, the motion's axes, which body moves, and the threshold"
     if closest <= largest:
         check = "the faces that count are elsewhere, check `region`"
-    record.warn(f"{line}; {check}")
+    reserve(f"{line}; {check}")
 
 
-def warn_of_lift_off(record: Record, e: AreaEvolution, motion: Motion, name: str) -> None:
+def warn_of_lift_off(e: AreaEvolution, motion: Motion, name: str) -> None:
     """A reservation where FIXED has contact in some frames and in others has none."""
     without = e.fixed.area[:, int(np.argmax(e.thresholds))] <= 0.0
     if not without.any() or without.all():
         return
     frame = int(np.argmax(e.min_distance))
-    record.warn(
+    reserve(
         f"{_of(name)}{int(without.sum())} of {len(without)} frames have nothing within {max(e.thresholds) * 1e3:g} mm; "
         f"the bodies are farthest apart, {e.min_distance[frame] * 1e3:.3g} mm, in {_frame(frame, motion)}; "
         "if they should touch, are MOVING and FIXED exchanged, or is a row of the motion wrong?"
     )
 
 
-def warn_of_overlap(record: Record, e: AreaEvolution, motion: Motion, name: str) -> None:
+def warn_of_overlap(e: AreaEvolution, motion: Motion, name: str) -> None:
     """A reservation where one body is farther inside the other than measured poses of rigid bodies bring it."""
     depth = -float(e.min_distance.min())
     if round(depth, DIGITS) >= OVERLAP:
-        record.warn(
+        reserve(
             f"{_of(name)}the bodies overlap, by {depth * 1e3:.2f} mm at most, in {_nearest(e, motion)}; "
             f"rigid ones do not: check {PLACES}, the order of rotations, "
             "that quaternions have the scalar first, and which body moves"
@@ -191,9 +191,7 @@ NONE = 1e-9
 """Share of a contact area below which what lies inside is rounding."""
 
 
-def say_inner_area(
-    record: Record, bodies: Bodies, o: AreaOptions, name: str, motion: Motion, evolution: AreaEvolution
-) -> None:
+def say_inner_area(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, evolution: AreaEvolution) -> None:
     """For each file with surfaces inside or across others that count: how much of its contact area is on these."""
     for body, whole, alone in _with_and_without(bodies, o, motion, evolution):
         united = bodies.inner[body]
@@ -202,15 +200,18 @@ def say_inner_area(
         frame = int(np.argmax(inside))
         largest = float(inside[frame])
         holds = f"{f'{name}: ' if name else ''}{united.surface.name} holds {united.words}"
-        record.results[f"{name} inner_surfaces_{body}".lstrip()] = {
-            "closed_surfaces": united.count,
-            "largest_inner_area_mm2": round(max(largest, 0.0) * MM2, 3),
-            "frame": frame,
-        }
+        note(
+            f"{name} inner_surfaces_{body}".lstrip(),
+            {
+                "closed_surfaces": united.count,
+                "largest_inner_area_mm2": round(max(largest, 0.0) * MM2, 3),
+                "frame": frame,
+            },
+        )
         if largest <= NONE * float(whole[frame]):
-            record.say(f"{holds}; nothing of area_{body} {within} lies inside")
+            say(f"{holds}; nothing of area_{body} {within} lies inside")
             continue
-        record.warn(
+        reserve(
             f"{holds}: {largest * MM2:.1f} of the {whole[frame] * MM2:.1f} mm^2 of area_{body} {within} in frame "
             f"{frame + 1} of {len(motion)}, {motion.course.at(frame)}, lie inside another one; "
             f"`outer` {body} counts the outer surface alone"

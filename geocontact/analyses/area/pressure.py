@@ -13,7 +13,7 @@ from jaxtyping import Bool, Float
 from geocontact.analyses.area.bodies import Bodies
 from geocontact.analyses.area.options import FLAT, AreaOptions
 from geocontact.analyses.frame.bodies import confined_modulus, measured_thickness
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.evolution import Settings
@@ -26,15 +26,13 @@ from geocontact.loads.pressure_load import PressureLoad
 Faces = Bool[np.ndarray, " f"]
 
 
-def layer_given(
-    record: Record, fixed: Surface, faces: Faces | None, settings: Settings, o: AreaOptions, edge: float
-) -> Layer:
+def layer_given(fixed: Surface, faces: Faces | None, settings: Settings, o: AreaOptions, edge: float) -> Layer:
     """FIXED's layer in pieces of at most `edge` [m]."""
     try:
         pieces = surface_quadrature(fixed, edge, faces)
     except ValueError as error:
         raise InputError("", "`piece`", str(error), "give a longer edge") from error
-    thickness = measured_thickness(record, fixed, pieces.point, pieces.normal, o.thickness, "`thickness`")
+    thickness = measured_thickness(fixed, pieces.point, pieces.normal, o.thickness, "`thickness`")
     parts: dict[str, Bool[np.ndarray, " p"]] = {}
     if settings.split is not None:
         medial = settings.split.height(pieces.point) * settings.medial_side > 0.0
@@ -43,15 +41,13 @@ def layer_given(
     return Layer(pieces, thickness, confined_modulus(o.modulus, o.poisson), o.foundation or "linear", parts, height)
 
 
-def skin_given(record: Record, moving: Surface, o: AreaOptions) -> Skin:
+def skin_given(moving: Surface, o: AreaOptions) -> Skin:
     """What MOVING brings: smooth facets unless flat, and a layer where its modulus is given."""
     normals = None if o.facets == FLAT else corner_normals(moving)
     if o.modulus_moving is None:
         return Skin(normals)
     centres = moving.vertices[moving.faces].mean(axis=1)
-    thickness = measured_thickness(
-        record, moving, centres, moving.face_normal, o.thickness_moving, "`thickness_moving`"
-    )
+    thickness = measured_thickness(moving, centres, moving.face_normal, o.thickness_moving, "`thickness_moving`")
     return Skin(normals, thickness, confined_modulus(o.modulus_moving, o.poisson_moving))
 
 
@@ -142,7 +138,7 @@ class _Gathered:
 
 
 def pressure_evolution(
-    record: Record, bodies: Bodies, o: AreaOptions, name: str, motion: Motion, kept: Sequence[int]
+    bodies: Bodies, o: AreaOptions, name: str, motion: Motion, kept: Sequence[int]
 ) -> PressureEvolution:
     """Loads of all frames; pressures of the frames in `kept` and of the one with the largest force."""
     moving, fixed, settings = bodies.moving, bodies.fixed, bodies.settings
@@ -150,24 +146,24 @@ def pressure_evolution(
         what = f"{moving.name} is open ({moving.topology.why_open}): it has no inside, so there is no depth"
         raise InputError("", "`pressure`", what, "close it, or see `assume_closed` moving")
     edge = PIECE if o.piece is None else o.piece
-    layer = layer_given(record, fixed, settings.fixed_faces, settings, o, edge)
-    skin = skin_given(record, moving, o)
+    layer = layer_given(fixed, settings.fixed_faces, settings, o, edge)
+    skin = skin_given(moving, o)
     rotation = np.ascontiguousarray(motion.poses.rotation.as_matrix().reshape(-1, 3, 3))
     translation = np.asarray(motion.poses.translation).reshape(-1, 3)
     found = _Gathered(layer, len(fixed.faces), kept)
     with (
         ThreadPoolExecutor(o.workers or os.cpu_count() or 1) as pool,
-        record.listener.progress(f"pressure {name}".strip(), len(motion)) as step,
+        listener().progress(f"pressure {name}".strip(), len(motion)) as step,
     ):
         for frame in pool.map(lambda r, t: pressed(layer, moving, r, t, skin), rotation, translation):
             found.add(frame)
             step()
     worst = found.heaviest
     around = _around(fixed, found.maps[worst] > 0.0, settings.fixed_faces)
-    finer = layer_given(record, fixed, around, settings, o, 0.5 * edge)
+    finer = layer_given(fixed, around, settings, o, 0.5 * edge)
     again = pressed(finer, moving, rotation[worst], translation[worst], skin).load.pressing
     evolution = _evolution(found, skin, again)
-    _summarise(record, evolution, name)
+    _summarise(evolution, name)
     return evolution
 
 
@@ -195,27 +191,30 @@ def _around(fixed: Surface, faces: Faces, counted: Faces | None) -> Faces:
     return np.asarray(near if counted is None else near & counted)
 
 
-def _summarise(record: Record, e: PressureEvolution, name: str) -> None:
+def _summarise(e: PressureEvolution, name: str) -> None:
     force, again, layer, strain = e.loads[e.heaviest].pressing, e.finer, e.layer, e.strain
     off = abs(force - again) / again if again > 0.0 else 0.0
     if off > AGREED:
-        record.warn(f"pieces of half the size change the largest force by {off:.1%}; give a smaller `piece`")
+        reserve(f"pieces of half the size change the largest force by {off:.1%}; give a smaller `piece`")
     if not force > 0.0:
-        record.warn("the bodies never overlap: an elastic layer is not pressed, and all forces are 0")
+        reserve("the bodies never overlap: an elastic layer is not pressed, and all forces are 0")
     if layer.law == "linear" and strain > STRAINED:
-        record.warn(f"the layer is strained by up to {strain:.0%}: `foundation` logarithmic is for that")
-    record.results[f"pressure {name}".strip()] = {
-        "law": layer.law,
-        "layer_modulus_Pa": layer.modulus,
-        "pieces": len(layer.pieces.area),
-        "largest_force_N": round(force, 6),
-        "with_pieces_of_half_the_size_N": round(again, 6),
-        "largest_pressure_Pa": max(load.peak for load in e.loads),
-        "largest_strain": round(strain, 6),
-        "thickness_mm": [round(float(v) * 1e3, 4) for v in (layer.thickness.min(), layer.thickness.max())],
-        "facets": "flat" if e.skin.normals is None else "smooth",
-        "layer_modulus_moving_Pa": None if e.skin.thickness is None else e.skin.modulus,
-    }
+        reserve(f"the layer is strained by up to {strain:.0%}: `foundation` logarithmic is for that")
+    note(
+        f"pressure {name}".strip(),
+        {
+            "law": layer.law,
+            "layer_modulus_Pa": layer.modulus,
+            "pieces": len(layer.pieces.area),
+            "largest_force_N": round(force, 6),
+            "with_pieces_of_half_the_size_N": round(again, 6),
+            "largest_pressure_Pa": max(load.peak for load in e.loads),
+            "largest_strain": round(strain, 6),
+            "thickness_mm": [round(float(v) * 1e3, 4) for v in (layer.thickness.min(), layer.thickness.max())],
+            "facets": "flat" if e.skin.normals is None else "smooth",
+            "layer_modulus_moving_Pa": None if e.skin.thickness is None else e.skin.modulus,
+        },
+    )
     label = f"{name}: " if name else ""
     peak = max(load.peak for load in e.loads)
-    record.say(f"{label}{layer.law} foundation: force up to {force:.1f} N, pressure up to {peak * 1e-6:.2f} MPa")
+    say(f"{label}{layer.law} foundation: force up to {force:.1f} N, pressure up to {peak * 1e-6:.2f} MPa")

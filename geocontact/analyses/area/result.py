@@ -48,10 +48,10 @@ from geocontact.analyses.area.page import FRAMES, thinned_page
 from geocontact.analyses.area.pose_error import ENDS, AreaUncertainty, area_uncertainty
 from geocontact.analyses.area.pressure import PressureEvolution, pressure_evolution
 from geocontact.analyses.area.pressure_page import shown_pressures
+from geocontact.analyses.frame.collector import current, listener, note, reserve, say
 from geocontact.analyses.frame.contact_pressures import PressureMap, pressure_figure, write_contact_loads
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import Thinned
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.data.evolution import MM2, AreaEvolution
 from geocontact.data.motion import Motion
@@ -230,8 +230,8 @@ class AreaResult(Result):
         """Maps, series for ParaView, stills and loads for OpenSim besides, as asked for."""
         for one in self.motions:
             self.notes[one.name] = write_further(self.options, self.bodies, one, folder / one.name)
-            for note in self.notes[one.name]:
-                self.record.warn(note)
+            for line in self.notes[one.name]:
+                reserve(line)
         super().write_files(folder)
 
 
@@ -240,36 +240,32 @@ def _named(one: MotionResult, file: str) -> str:
     return f"{one.name}/{file}" if one.name else file
 
 
-def run(bodies: Bodies, o: AreaOptions, record: Record) -> AreaResult:
+def run(bodies: Bodies, o: AreaOptions) -> AreaResult:
     """Every motion after the other."""
-    with record.listener.preparing():
+    with listener().preparing():
         warm_up()
-    shared = tuple(record.warnings)
-    motions = tuple(_over(record, bodies, o, name, motion, shared) for name, motion in bodies.motions)
-    return AreaResult(record=record, options=o, bodies=bodies, motions=motions)
+    shared = tuple(current().warnings)
+    motions = tuple(_over(bodies, o, name, motion, shared) for name, motion in bodies.motions)
+    return AreaResult(options=o, bodies=bodies, motions=motions)
 
 
-def _over(
-    record: Record, bodies: Bodies, o: AreaOptions, name: str, motion: Motion, shared: tuple[str, ...]
-) -> MotionResult:
+def _over(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, shared: tuple[str, ...]) -> MotionResult:
     """One motion; `shared` are the reservations that hold for all of them."""
-    before = len(record.warnings)
-    evolution, maps = _evaluated(record, bodies, o, name, motion)
-    pressure = pressure_evolution(record, bodies, o, name, motion, maps.frames) if o.pressure else None
-    say_inner_area(record, bodies, o, name, motion, evolution)
-    comparison = None if bodies.reference is None else _compared(record, evolution, bodies.reference)
-    uncertainty = _uncertain(record, bodies, o, name, motion, evolution)
-    alike = None if o.congruence is None else congruence_evolution(record, bodies, o.congruence, name, motion)
-    reservations = (*shared, *record.warnings[before:])
+    before = len(current().warnings)
+    evolution, maps = _evaluated(bodies, o, name, motion)
+    pressure = pressure_evolution(bodies, o, name, motion, maps.frames) if o.pressure else None
+    say_inner_area(bodies, o, name, motion, evolution)
+    comparison = None if bodies.reference is None else _compared(evolution, bodies.reference)
+    uncertainty = _uncertain(bodies, o, name, motion, evolution)
+    alike = None if o.congruence is None else congruence_evolution(bodies, o.congruence, name, motion)
+    reservations = (*shared, *current().warnings[before:])
     return MotionResult(name, motion, evolution, maps, pressure, comparison, uncertainty, alike, reservations)
 
 
-def _evaluated(
-    record: Record, bodies: Bodies, o: AreaOptions, name: str, motion: Motion
-) -> tuple[AreaEvolution, DistanceMaps]:
+def _evaluated(bodies: Bodies, o: AreaOptions, name: str, motion: Motion) -> tuple[AreaEvolution, DistanceMaps]:
     every = 1 if o.save_map or o.paraview else -(-len(motion) // FRAMES)
     maps = DistanceMaps(bodies.moving, bodies.fixed, every)
-    with record.listener.progress(name or "frames", len(motion)) as step:
+    with listener().progress(name or "frames", len(motion)) as step:
 
         def each(frame: int, contact: FrameContact) -> None:
             maps.add(frame, contact)
@@ -277,26 +273,26 @@ def _evaluated(
 
         evolution = area_evolution(bodies.moving, bodies.fixed, motion, bodies.settings, o.workers, each)
     refuse_strangers(evolution, motion, o)
-    warn_of_no_contact(record, evolution, motion, name)
-    warn_of_lift_off(record, evolution, motion, name)
-    warn_of_overlap(record, evolution, motion, name)
-    _warn_of_doubts(record, evolution, bodies.settings, o.bounds is not None)
-    _summarise(record, evolution, name)
-    record.say(least_distance(evolution, motion, name))
+    warn_of_no_contact(evolution, motion, name)
+    warn_of_lift_off(evolution, motion, name)
+    warn_of_overlap(evolution, motion, name)
+    _warn_of_doubts(evolution, bodies.settings, o.bounds is not None)
+    _summarise(evolution, name)
+    say(least_distance(evolution, motion, name))
     return evolution, maps
 
 
 def _uncertain(
-    record: Record, bodies: Bodies, o: AreaOptions, name: str, motion: Motion, evolution: AreaEvolution
+    bodies: Bodies, o: AreaOptions, name: str, motion: Motion, evolution: AreaEvolution
 ) -> AreaUncertainty | None:
     if bodies.error is None:
         return None
-    with record.listener.progress(f"{name or 'frames'}, error of the pose", len(motion)) as step:
+    with listener().progress(f"{name or 'frames'}, error of the pose", len(motion)) as step:
         found = area_uncertainty(
             bodies.moving, bodies.fixed, motion, bodies.settings, evolution, bodies.error, o.workers, step
         )
     summary: dict[str, object] = {}
-    record.results[f"{name} pose_error".lstrip()] = summary
+    note(f"{name} pose_error".lstrip(), summary)
     for k, threshold in enumerate(evolution.thresholds):
         lower, upper = found.interval(k) * MM2
         odd = sum(found.verdict(frame, k) != "yes" for frame in range(len(motion)))
@@ -311,27 +307,27 @@ def _uncertain(
             "largest_sd_ci95_mm2": [round(float(end), 3) for end in known[1:, worst]],
             "frames_where_first_order_disagrees": odd,
         }
-        record.say(
+        say(
             f"error of the pose: largest area within {threshold * 1e3:g} mm is {peak[0]:.1f} … {peak[1]:.1f} mm^2 "
             f"(95 %); first order agrees with the draws in {len(motion) - odd} of {len(motion)} frames"
         )
-        record.say(
+        say(
             f"largest standard deviation of the area {known[0, worst]:.3g} mm^2, in frame {worst + 1} of "
             f"{len(motion)}: {len(bodies.error.draws)} draws know it to "
             f"{known[1, worst]:.3g} … {known[2, worst]:.3g} mm^2 (95 %)"
         )
         if odd:
-            record.warn(
+            reserve(
                 f"first order and draws of the pose disagree in {odd} frames at {threshold * 1e3:g} mm: "
                 "trust the draws there (column agree of pose_error.csv)"
             )
     return found
 
 
-def _warn_of_doubts(record: Record, e: AreaEvolution, settings: Settings, asked: bool) -> None:
+def _warn_of_doubts(e: AreaEvolution, settings: Settings, asked: bool) -> None:
     if e.undecided.any():
         worst = int(e.undecided.max())
-        record.warn(f"up to {worst} points per frame have no side (winding number near 0.5); they count as outside")
+        reserve(f"up to {worst} points per frame have no side (winding number near 0.5); they count as outside")
     wanted = settings.refinement.bounds
     if settings.rule == REFINED or asked:
         for side, name in ((e.fixed, "area_fixed"), (e.moving, "area_moving")):
@@ -339,10 +335,10 @@ def _warn_of_doubts(record: Record, e: AreaEvolution, settings: Settings, asked:
                 width = np.nan_to_num((side.upper - side.lower) / side.upper)
             if (width > wanted).any():
                 line = f"bounds of {name} stay {width.max():.1%} apart in the worst frame; asked for {wanted:.1%}"
-                record.warn(line if asked else f"{line} (`bounds` {wanted:.0%} divides triangles longer)")
+                reserve(line if asked else f"{line} (`bounds` {wanted:.0%} divides triangles longer)")
 
 
-def _summarise(record: Record, e: AreaEvolution, name: str) -> None:
+def _summarise(e: AreaEvolution, name: str) -> None:
     lines: dict[str, object] = {
         "frames": len(e.time),
         "signed": e.signed,
@@ -355,16 +351,16 @@ def _summarise(record: Record, e: AreaEvolution, name: str) -> None:
             round(float(areas.max()), 3),
         ]
         label = f"{name}: " if name else ""
-        record.say(f"{label}area of FIXED within {threshold * 1e3:g} mm: {areas.min():.1f} … {areas.max():.1f} mm^2")
-    record.results[name or "motion"] = lines
+        say(f"{label}area of FIXED within {threshold * 1e3:g} mm: {areas.min():.1f} … {areas.max():.1f} mm^2")
+    note(name or "motion", lines)
 
 
-def _compared(record: Record, evolution: AreaEvolution, reference: Reference) -> pd.DataFrame:
+def _compared(evolution: AreaEvolution, reference: Reference) -> pd.DataFrame:
     rows = compared(evolution.table(), reference.table, reference.path)
     worst = largest_difference(rows)
-    record.say(rows.to_string(index=False, max_rows=40))
+    say(rows.to_string(index=False, max_rows=40))
     verdict = "within" if reference.accepts(rows) else "beyond"
-    record.say(f"largest relative difference {worst:.2%}, {verdict} the tolerance of {reference.tolerance:.2%}")
+    say(f"largest relative difference {worst:.2%}, {verdict} the tolerance of {reference.tolerance:.2%}")
     return rows
 
 

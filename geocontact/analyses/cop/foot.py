@@ -12,7 +12,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.analyses.cop.options import LAW, CopOptions
 from geocontact.analyses.frame.bodies import read_body_motion, warn_of_inner_surfaces
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
@@ -73,7 +73,7 @@ def low_passed(
 SIZES = (50e-3, 100.0)  # m; diagonals of a ground's mesh that are plausible, from a plate to a walkway
 
 
-def ground_of(record: Record, o: CopOptions) -> Ground:
+def ground_of(o: CopOptions) -> Ground:
     """The plane, stairs or mesh that the option names."""
     text = LEVEL if o.ground is None else o.ground
     written = plane_or_stairs(text)
@@ -87,23 +87,21 @@ def ground_of(record: Record, o: CopOptions) -> Ground:
         raise InputError("", "`ground`", what, "write plane:nx,ny,nz,offset, stairs:h0,x1:h1, or name a mesh")
     if o.unit is None:
         raise InputError("", "`unit`", "is missing: mesh files carry no unit", "pass `unit` mm, cm, m or in")
-    return _mesh(record, path, o.unit)
+    return _mesh(path, o.unit)
 
 
-def _mesh(record: Record, path: Path, unit: str) -> Ground:
+def _mesh(path: Path, unit: str) -> Ground:
     mesh = read_mesh(path, unit, plausible=SIZES)
     surface = Surface.of(mesh)
-    record.add_input(
-        "ground", path, sha256=mesh.sha256, unit=unit, faces=len(mesh.faces), closed=surface.topology.closed
-    )
-    warn_of_inner_surfaces(record, surface)
+    add_input("ground", path, sha256=mesh.sha256, unit=unit, faces=len(mesh.faces), closed=surface.topology.closed)
+    warn_of_inner_surfaces(surface)
     if surface.inside_out:
-        record.warn(f"{surface.name}: faces point inwards; taken the other way round")
+        reserve(f"{surface.name}: faces point inwards; taken the other way round")
     if surface.closed:
         return surface
     up = np.einsum("f,fi->i", surface.face_area, surface.face_normal)
     up /= max(float(np.linalg.norm(up)), 1e-30)
-    record.warn(
+    reserve(
         f"{surface.name} is open ({surface.topology.why_open}): taken as a sheet, above is where its faces look, "
         f"on the whole ({up[0]:.2f}, {up[1]:.2f}, {up[2]:.2f})"
     )
@@ -115,13 +113,13 @@ DAMPING, FULL_DEPTH = 200.0, 2e-3  # N s/m, m
 STATIC, KINETIC, THRESHOLD_SPEED = 0.9, 0.7, 0.25  # -, -, m/s: rubber on a laboratory floor
 
 
-def sole_law(record: Record, table: SphereTable, o: CopOptions) -> SoleLaw:
+def sole_law(table: SphereTable, o: CopOptions) -> SoleLaw:
     """The law; a number that is given in two places is refused, one that is given nowhere has its default, told."""
     file = LawFile() if o.law is None else read_law(o.law)
     if o.law is not None:
-        record.add_input("law", o.law)
+        add_input("law", o.law)
     if file.foot is not None:
-        record.warn(f"{o.law}: [foot] is beside the standing trial of a prosthesis and has no effect here")
+        reserve(f"{o.law}: [foot] is beside the standing trial of a prosthesis and has no effect here")
     _refuse_strange_zones(o, file, table)
     assumed: dict[str, float] = {}
     static, kinetic = (None, None) if o.friction is None else o.friction
@@ -134,8 +132,8 @@ def sole_law(record: Record, table: SphereTable, o: CopOptions) -> SoleLaw:
         raise InputError("", "`exponent`", what, f"give `exponent` {table.exponent:g}")
     try:
         law = SoleLaw(
-            stiffness=_each(record, one, table, file, "k"),
-            damping=_each(record, one, table, file, "b"),
+            stiffness=_each(one, table, file, "k"),
+            damping=_each(one, table, file, "b"),
             exponent=exponent,
             full_depth=one("full_depth", "delta_full", o.full_depth, file.delta_full, FULL_DEPTH),
             static=_friction(one, table, file, "mu_s", static, STATIC),
@@ -146,12 +144,12 @@ def sole_law(record: Record, table: SphereTable, o: CopOptions) -> SoleLaw:
         raise
     except ValueError as error:
         raise InputError(o.law or "", "force law", str(error), "correct the number") from error
-    _check_sizes(record, o, law)
-    _tell_assumed(record, assumed, law)
+    _check_sizes(o, law)
+    _tell_assumed(assumed, law)
     return law
 
 
-def _check_sizes(record: Record, o: CopOptions, law: SoleLaw) -> None:
+def _check_sizes(o: CopOptions, law: SoleLaw) -> None:
     """Refuse numbers of files that a law cannot have, and warn of unusual ones; those of options are checked there."""
     found = {
         "k": None if o.stiffness is not None else (float(law.stiffness.min()), float(law.stiffness.max())),
@@ -166,7 +164,7 @@ def _check_sizes(record: Record, o: CopOptions, law: SoleLaw) -> None:
         if refusal := known.refusal(value):
             raise InputError(o.law or o.spheres, name, *refusal)
         if doubt := known.doubt(value):
-            record.warn(f"force law: {name}: {doubt}")
+            reserve(f"force law: {name}: {doubt}")
 
 
 class _Numbers:
@@ -188,15 +186,15 @@ class _Numbers:
 UNITS = {"n": "", "b": " N s/m", "delta_full": " m", "mu_s": "", "mu_k": "", "v_th": " m/s"}
 
 
-def _tell_assumed(record: Record, assumed: dict[str, float], law: SoleLaw) -> None:
+def _tell_assumed(assumed: dict[str, float], law: SoleLaw) -> None:
     """Say which numbers nobody gave, of those that have an effect."""
     idle = {"delta_full": not law.damping.any(), "v_th": not (law.static.any() or law.kinetic.any())}
     shown = [f"{key} = {assumed[key]:g}{unit}" for key, unit in UNITS.items() if key in assumed and not idle.get(key)]
     if shown:
-        record.warn(f"numbers of the force law that were not given are assumed: {', '.join(shown)}")
+        reserve(f"numbers of the force law that were not given are assumed: {', '.join(shown)}")
 
 
-def _each(record: Record, one: _Numbers, table: SphereTable, file: LawFile, key: str) -> Float[np.ndarray, " n"]:
+def _each(one: _Numbers, table: SphereTable, file: LawFile, key: str) -> Float[np.ndarray, " n"]:
     """k or b of every sphere."""
     option, given, filed, column, default = {
         "k": ("stiffness", one.options.stiffness, file.k, table.stiffness, STIFFNESS),
@@ -212,7 +210,7 @@ def _each(record: Record, one: _Numbers, table: SphereTable, file: LawFile, key:
     rest = one(option, key, given, filed, default) if without or given is not None or filed is not None else default
     if key == "k" and key in one.assumed:
         where = "every sphere" if not zones else f"zone {', '.join(sorted(without))}"
-        record.warn(f"no stiffness given for {where}: {default:g} N/m^n is taken; forces are only as good as that")
+        reserve(f"no stiffness given for {where}: {default:g} N/m^n is taken; forces are only as good as that")
     return np.array([zones.get(zone, rest) for zone in table.zone])
 
 
@@ -248,16 +246,16 @@ class PlateCurves:
     free_moment: Float[np.ndarray, " f"]
 
 
-def chosen_plate(record: Record, o: CopOptions) -> ForcePlate | None:
+def chosen_plate(o: CopOptions) -> ForcePlate | None:
     """The plate to compare with, in our frame; None where none is asked for."""
     if o.compare is None:
         return None
     plate = plate_named(read_force_plates(o.compare, o.c3d_unit), o.plate, o.compare, "`plate`")
-    record.add_input("`compare`", o.compare, plate=plate.name)
+    add_input("`compare`", o.compare, plate=plate.name)
     if o.plate_pose is None:
         return plate
     pose = read_pose(o.plate_pose)
-    record.add_input("`plate_pose`", o.plate_pose)
+    add_input("`plate_pose`", o.plate_pose)
     wrench = plate.wrench.seen_from(pose, "ground")
     corners = None if plate.corners is None else pose.apply(plate.corners)
     point, normal = pose.apply(plate.point), pose.rotation.apply(plate.normal)
@@ -320,16 +318,16 @@ class Foot:
     plate: ForcePlate | None
 
 
-def read(o: CopOptions, record: Record) -> Foot:
+def read(o: CopOptions) -> Foot:
     """Everything the options name."""
-    ground = ground_of(record, o)
+    ground = ground_of(o)
     table = _spheres(o)
-    record.add_input("spheres", o.spheres, spheres=len(table.radius))
+    add_input("spheres", o.spheres, spheres=len(table.radius))
     sole = SphereSet(table.centre, table.radius, table.zone)
-    law = sole_law(record, table, o)
+    law = sole_law(table, o)
     _require_ground(o)
-    motion = smoothed_motion(read_body_motion(record, o.motion, o), o.motion_cutoff, o.motion)
-    plate = chosen_plate(record, o)
+    motion = smoothed_motion(read_body_motion(o.motion, o), o.motion_cutoff, o.motion)
+    plate = chosen_plate(o)
     if plate is not None and o.compare is not None:
         plate = smoothed_plate(plate, o.force_cutoff, o.compare)
     return Foot(o.spheres.name, sole, law, motion, ground, plate)

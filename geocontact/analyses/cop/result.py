@@ -29,8 +29,8 @@ from geocontact.analyses.cop.foot import Foot, comparison_table, low_passed, pla
 from geocontact.analyses.cop.loads import NAMES, SHARE, FootLoads, along_foot, loads_table, stance_table, stances
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.cop.page import cop_page
+from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT
 from geocontact.data.errors import InputError
 from geocontact.loads.centre_of_pressure import POINTS, FootAxis, axis_of_sole
@@ -97,9 +97,9 @@ NEAR = 20e-3  # m; a foot that never comes this close is a mistake in the input
 REMEDY = "check the frame, the unit and which way is up; see `ground`"
 
 
-def run(foot: Foot, o: CopOptions, record: Record) -> CopResult:
+def run(foot: Foot, o: CopOptions) -> CopResult:
     """Load of every frame, and the plate's beside it."""
-    loads = _loads(record, foot, o)
+    loads = _loads(foot, o)
     time = foot.motion.time
 
     def smooth(values: Float[np.ndarray, "t k"]) -> Float[np.ndarray, "t k"]:
@@ -112,7 +112,6 @@ def run(foot: Foot, o: CopOptions, record: Record) -> CopResult:
     curves = None if foot.plate is None else plate_curves(foot.plate, time, centre, o)
     comparison = None if curves is None else comparison_table(time, centre, curves)
     result = CopResult(
-        record=record,
         options=o,
         foot=foot,
         loads=loads,
@@ -133,20 +132,20 @@ def _axis(foot: Foot, toe: str, length: float | None) -> FootAxis:
     return axis_of_sole(foot.sole, direction, length)
 
 
-def _loads(record: Record, foot: Foot, o: CopOptions) -> SphereLoads:
+def _loads(foot: Foot, o: CopOptions) -> SphereLoads:
     if len(foot.motion) == 1 and foot.law.needs_velocity:
-        record.warn(f"{o.motion} has one frame: the foot is taken to stand still")
+        reserve(f"{o.motion} has one frame: the foot is taken to stand still")
     rate = pose_rate(foot.motion.time, foot.motion.poses)
     try:
-        with record.listener.preparing():
+        with listener().preparing():
             loads = sphere_loads(foot.sole, foot.law, foot.motion.poses, rate, foot.ground)
     except ValueError as error:
         raise InputError(o.motion, "", str(error), REMEDY) from error
-    _say_what_is_odd(record, foot, loads, o)
+    _say_what_is_odd(foot, loads, o)
     return loads
 
 
-def _say_what_is_odd(record: Record, foot: Foot, loads: SphereLoads, o: CopOptions) -> None:
+def _say_what_is_odd(foot: Foot, loads: SphereLoads, o: CopOptions) -> None:
     touching = loads.depth > 0.0
     if not touching.any():
         distance = foot.ground.proximity(loads.centre.reshape(-1, 3)).distance.reshape(loads.depth.shape)
@@ -154,35 +153,36 @@ def _say_what_is_odd(record: Record, foot: Foot, loads: SphereLoads, o: CopOptio
         if gap > NEAR:
             what = f"the foot stays {gap * 1e3:.0f} mm above the ground in every frame"
             raise InputError(o.motion, "", what, REMEDY)
-        record.warn(f"no sphere touches the ground; the nearest comes within {gap * 1e3:.2f} mm")
+        reserve(f"no sphere touches the ground; the nearest comes within {gap * 1e3:.2f} mm")
     beneath = (loads.depth > foot.sole.radius).any(axis=1)
     if beneath.any():
-        record.warn(f"centres of spheres are under the ground in {int(beneath.sum())} frames: too soft, or misplaced")
+        reserve(f"centres of spheres are under the ground in {int(beneath.sum())} frames: too soft, or misplaced")
 
 
 def _summarise(r: CopResult) -> None:
-    record, c, law = r.record, r.centre, r.foot.law
+    c, law = r.centre, r.foot.law
     found = np.isfinite(c.centre[:, 0])
     if c.pressing.any() and not found.any():
-        record.warn(f"no centre of pressure: the normal force stays below the gate of {r.options.gate:g} N")
-    record.results["cop"] = {
-        "frames": len(r.foot.motion),
-        "frames_with_cop": int(found.sum()),
-        "peak_normal_N": round(float(c.pressing.max()), 6),
-        "point": r.options.point,
-        "law": {
-            "k": sorted(set(law.stiffness.tolist())),
-            "b": sorted(set(law.damping.tolist())),
-            "n": law.exponent,
-            "delta_full_m": law.full_depth,
-            "mu_s": _one_or_all(law.static),
-            "mu_k": _one_or_all(law.kinetic),
-            "v_th_m_per_s": law.threshold_speed,
+        reserve(f"no centre of pressure: the normal force stays below the gate of {r.options.gate:g} N")
+    note(
+        "cop",
+        {
+            "frames": len(r.foot.motion),
+            "frames_with_cop": int(found.sum()),
+            "peak_normal_N": round(float(c.pressing.max()), 6),
+            "point": r.options.point,
+            "law": {
+                "k": sorted(set(law.stiffness.tolist())),
+                "b": sorted(set(law.damping.tolist())),
+                "n": law.exponent,
+                "delta_full_m": law.full_depth,
+                "mu_s": _one_or_all(law.static),
+                "mu_k": _one_or_all(law.kinetic),
+                "v_th_m_per_s": law.threshold_speed,
+            },
         },
-    }
-    record.say(
-        f"normal force up to {c.pressing.max():.1f} N; a centre of pressure in {found.sum()} of {len(found)} frames"
     )
+    say(f"normal force up to {c.pressing.max():.1f} N; a centre of pressure in {found.sum()} of {len(found)} frames")
     _tell_foot(r)
     if r.comparison is not None:
         _tell_comparison(r, root_mean_squares(r.comparison))
@@ -198,18 +198,16 @@ def _tell_foot(r: CopResult) -> None:
                 known = within[name].dropna()
                 for end, value in (("from", known.min()), ("to", known.max())):
                     told[f"{str(name).removesuffix(SHARE)}_{end}"] = round(float(value), 9) if len(known) else None
-        r.record.results["along_foot"] = told
+        note("along_foot", told)
         least, most = (told[f"{NAMES[r.options.point]}_{end}"] for end in ("from", "to"))
         if least is not None and most is not None:
             length = f"foot of {r.axis.length * 1e3:.0f} mm"
-            r.record.say(f"centre of pressure at {least:.0%} to {most:.0%} of the {length}, from the heel")
+            say(f"centre of pressure at {least:.0%} to {most:.0%} of the {length}, from the heel")
     if r.options.stances:
         count = len(stances(r))
-        r.record.results["stances"] = count
+        note("stances", count)
         if not count:
-            r.record.warn(
-                f"no complete stance: the normal force does not rise through {r.options.gate:g} N and fall again"
-            )
+            reserve(f"no complete stance: the normal force does not rise through {r.options.gate:g} N and fall again")
 
 
 def _one_or_all(values: Float[np.ndarray, " n"]) -> float | list[float]:
@@ -220,9 +218,9 @@ def _one_or_all(values: Float[np.ndarray, " n"]) -> float | list[float]:
 
 def _tell_comparison(r: CopResult, differences: dict[str, float | None]) -> None:
     rows = 0 if r.comparison is None else len(r.comparison)
-    r.record.results["comparison"] = {"rows": rows, **differences}
+    note("comparison", {"rows": rows, **differences})
     shown = ", ".join(f"{name[4:]} {value:.4g}" for name, value in differences.items() if value is not None)
-    r.record.say(f"root mean square difference to the plate: {shown or 'nothing to compare above the gate'}")
+    say(f"root mean square difference to the plate: {shown or 'nothing to compare above the gate'}")
 
 
 centre_of_pressure = Job("cop", CopOptions, read, run)

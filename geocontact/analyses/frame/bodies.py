@@ -12,8 +12,8 @@ from typing import Literal, Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Bool, Float
 
+from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.frame.quantities import named_file
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.shared_options import RAYS
 from geocontact.contact.elasticity import layer_modulus
 from geocontact.data.errors import InputError
@@ -40,7 +40,6 @@ def confined_modulus(young: float | None, poisson: float | None) -> float:
 
 
 def measured_thickness(
-    record: Record,
     body: Surface,
     points: Float[np.ndarray, "n 3"],
     normals: Float[np.ndarray, "n 3"],
@@ -60,7 +59,7 @@ def measured_thickness(
         if len(usable) == 0:
             raise InputError("", option, f"no ray comes out of {body.name} again", "give a length")
         found = np.where(lost, usable.min(), found)
-        record.warn(f"{int(lost.sum())} of {len(found)} rays do not come out of {body.name}: the thinnest is taken")
+        reserve(f"{int(lost.sum())} of {len(found)} rays do not come out of {body.name}: the thinnest is taken")
     return found
 
 
@@ -93,7 +92,7 @@ class MotionOptions(Protocol):
         """Unit of angles where the file does not say."""
 
 
-def read_body_motion(record: Record, file: Path, o: MotionOptions) -> Motion:
+def read_body_motion(file: Path, o: MotionOptions) -> Motion:
     """Poses over seconds; InputError where `order` or `angles` has no effect, or time is in per cent of a cycle."""
     motion = read_motion(
         file,
@@ -110,9 +109,9 @@ def read_body_motion(record: Record, file: Path, o: MotionOptions) -> Motion:
             raise InputError("", f"`{option}`", what, "leave it out")
     if motion.time_unit != "s":
         raise InputError(file, "", "time is in per cent of a cycle", "write its time in s: rates and loads need it")
-    record.add_input("motion", file, frames=len(motion), source=motion.source)
+    add_input("motion", file, frames=len(motion), source=motion.source)
     if o.osim is not None:
-        record.add_input("model", o.osim, joint=o.joint)
+        add_input("model", o.osim, joint=o.joint)
     return motion
 
 
@@ -146,54 +145,50 @@ def read_surface(path: str, unit: str, assume_closed: bool = False) -> Surface:
     return Surface.of(read_mesh(path, unit), assume_closed)
 
 
-def read_body(record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool) -> Surface:
+def read_body(role: str, path: Path, unit: str, placement: str | None, assume_closed: bool) -> Surface:
     """Surface of one body in its body frame; warns of what about it needs care.
 
     `placement` is that of `read_input_surface`.
     """
-    surface = read_input_surface(record, role, path, unit, placement, assume_closed)
-    _warn_of_sides(record, role, surface)
+    surface = read_input_surface(role, path, unit, placement, assume_closed)
+    _warn_of_sides(role, surface)
     return surface
 
 
 def read_body_and_outer(
-    record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool
+    role: str, path: Path, unit: str, placement: str | None, assume_closed: bool
 ) -> tuple[Surface, UnitedSurface | None]:
     """The same, and its outer surface where closed surfaces of the file lie inside or across others, not warned of."""
-    surface = _read_surface(record, role, path, unit, placement, assume_closed)
-    _warn_of_sides(record, role, surface)
+    surface = _read_surface(role, path, unit, placement, assume_closed)
+    _warn_of_sides(role, surface)
     return surface, united(surface)
 
 
-def read_input_surface(
-    record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool = False
-) -> Surface:
+def read_input_surface(role: str, path: Path, unit: str, placement: str | None, assume_closed: bool = False) -> Surface:
     """Surface in its body frame; says which anatomical axes its file names, warns of closed surfaces inside others.
 
     `placement` is a text file with a 4x4 matrix (translation in the mesh unit), or `model.osim:body[:mesh]`.
     """
-    surface = _read_surface(record, role, path, unit, placement, assume_closed)
-    warn_of_inner_surfaces(record, surface)
+    surface = _read_surface(role, path, unit, placement, assume_closed)
+    warn_of_inner_surfaces(surface)
     return surface
 
 
-def warn_of_inner_surfaces(record: Record, surface: Surface) -> None:
+def warn_of_inner_surfaces(surface: Surface) -> None:
     """A reservation where a mesh holds closed surfaces that lie inside or across others."""
     found = united(surface)
     if found is not None:
-        record.warn(f"{found.reservation}; delete in the file what is none")
+        reserve(f"{found.reservation}; delete in the file what is none")
 
 
-def _read_surface(
-    record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool
-) -> Surface:
+def _read_surface(role: str, path: Path, unit: str, placement: str | None, assume_closed: bool) -> Surface:
     mesh = read_mesh(path, unit)
     if placement is not None:
-        mesh = _placed(record, role, mesh, placement, unit)
+        mesh = _placed(role, mesh, placement, unit)
     surface = Surface.of(mesh, assume_closed)
     topology = surface.topology
     span = (mesh.vertices.max(axis=0) - mesh.vertices.min(axis=0)) * 1e3
-    record.add_input(
+    add_input(
         role,
         path,
         sha256=mesh.sha256,
@@ -210,7 +205,7 @@ def _read_surface(
         **({"space": mesh.space} if mesh.space else {}),
     )
     if mesh.space:
-        record.say(f"{mesh.name}: its header says SPACE={mesh.space}, {AXES[mesh.space]}")
+        say(f"{mesh.name}: its header says SPACE={mesh.space}, {AXES[mesh.space]}")
     return surface
 
 
@@ -223,7 +218,7 @@ def refuse_two_spaces(moving: Surface, fixed: Surface) -> None:
 
 
 def chosen_faces(
-    record: Record, option: str, text: str | None, surface: Surface, unit: str, more: Mapping[str, Values] = NOTHING
+    option: str, text: str | None, surface: Surface, unit: str, more: Mapping[str, Values] = NOTHING
 ) -> Bool[np.ndarray, " f"] | None:
     """Faces named by an expression or by a file of face numbers; None when all count.
 
@@ -233,7 +228,7 @@ def chosen_faces(
         return None
     file = named_file(text)
     if file is not None:
-        record.add_input(option, file)
+        add_input(option, file)
         chosen = np.zeros(len(surface.faces), bool)
         chosen[read_face_indices(file, len(surface.faces))] = True
         return chosen
@@ -246,15 +241,15 @@ def chosen_faces(
     return chosen
 
 
-def _placed(record: Record, role: str, mesh: Mesh, placement: str, unit: str) -> Mesh:
+def _placed(role: str, mesh: Mesh, placement: str, unit: str) -> Mesh:
     model, colon, body = placement.partition(".osim:")
     if colon:
         name, _, file = body.partition(":")
         matrix = mesh_placement(f"{model}.osim", name, file)
-        record.add_input(f"placement of {role}", f"{model}.osim", body=name)
+        add_input(f"placement of {role}", f"{model}.osim", body=name)
         return placed(mesh, matrix, LENGTH[unit])
     pose = read_pose(placement, unit)
-    record.add_input(f"placement of {role}", placement)
+    add_input(f"placement of {role}", placement)
     return placed(mesh, pose.as_matrix())
 
 
@@ -262,15 +257,15 @@ def _median_edge(surface: Surface) -> float:
     return round(float(np.median(surface.edge_length)) * 1e3, 4)
 
 
-def _warn_of_sides(record: Record, role: str, surface: Surface) -> None:
+def _warn_of_sides(role: str, surface: Surface) -> None:
     other = {"moving": "area_fixed", "fixed": "area_moving"}[role]
     if not surface.closed:
         why = surface.topology.why_open or "it has no closed edge"
-        record.warn(f"{surface.name} is open ({why}): {other} is unsigned")
+        reserve(f"{surface.name} is open ({why}): {other} is unsigned")
         return
     if not surface.topology.closed:
-        record.warn(f"{surface.name} is taken as closed on your word ({surface.topology.why_open})")
+        reserve(f"{surface.name} is taken as closed on your word ({surface.topology.why_open})")
     if surface.inside_out:
-        record.warn(f"{surface.name}: faces point inwards; taken the other way round")
+        reserve(f"{surface.name}: faces point inwards; taken the other way round")
     if surface.topology.closed and not surface.normals_trusted:
-        record.warn(f"{surface.name}: parts overlap or are turned over; inside is decided by the winding number")
+        reserve(f"{surface.name}: parts overlap or are turned over; inside is decided by the winding number")

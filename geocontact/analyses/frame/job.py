@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from geocontact.analyses.frame.calls import python_help, require_arguments
+from geocontact.analyses.frame.collector import collecting
 from geocontact.analyses.frame.folder import written_whole
 from geocontact.analyses.frame.options import Declared, Options, declared
 from geocontact.analyses.frame.record import Listener, Record, as_python
@@ -33,17 +34,17 @@ class Job(Generic[I, R]):
     options
         Class of the options, below `Options`.
     read
-        Reads what the options name, and tells the record of it.
+        Reads what the options name.
     run
-        Computes from what was read; tells the record what was found and what is to be doubted.
+        Computes from what was read. Both reach the record of the run by `frame.collector`.
     """
 
     def __init__(
         self,
         command: str,
         options: type[Options],
-        read: Callable[[Any, Record], I],
-        run: Callable[[I, Any, Record], R],
+        read: Callable[[Any], I],
+        run: Callable[[I, Any], R],
     ) -> None:
         self.command, self.options, self.read, self.run = command, options, read, run
         self.__doc__ = python_help(options)
@@ -60,9 +61,9 @@ class Job(Generic[I, R]):
         asked = self.options(*inputs, **options)
         asked.refuse_missing_files()
         record = Record(self.command, asked.in_si(), asked.in_si())
-        with record.catching_warnings():
+        with collecting(record):
             tell_doubts(asked, record)
-            result = self.run(self.read(asked, record), asked, record)
+            result = self.run(self.read(asked), asked)
         for line in record.warnings:
             warnings.warn(line, InputWarning, stacklevel=2)
         return result
@@ -113,7 +114,7 @@ def execute(job: Job[Any, R], options: Options, out: Path, call: Call) -> tuple[
     record = Record(
         job.command, call.typed, options.in_si(), listener=call.listener, spell=call.spell, forms=call.forms, out=out
     )
-    with record.catching_warnings(), written_whole(out, call.overwrite) as draft:
+    with collecting(record), written_whole(out, call.overwrite) as draft:
         tell_doubts(options, record)
-        result = job.run(job.read(options, record), options, record)
+        result = job.run(job.read(options), options)
         return result, result.put(draft)

@@ -11,6 +11,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Literal
 
+from geocontact.analyses.frame.collector import collecting, current
 from geocontact.analyses.frame.folder import written_whole
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.table_forms import TableForms
@@ -57,7 +58,7 @@ class Result(ABC):
     elsewhere: ClassVar[frozenset[str]] = frozenset()
     """Tables that `write` leaves to another file of the analysis."""
 
-    record: Record = field(repr=False)
+    record: Record = field(default_factory=current, repr=False)
 
     @property
     def sentences(self) -> tuple[str, ...]:
@@ -215,14 +216,14 @@ class Result(ABC):
             Refuse a folder that holds results already when false.
         """
         out = Path(folder)
-        with self.record.catching_warnings(), written_whole(out, overwrite) as draft:
+        with collecting(self.record), written_whole(out, overwrite) as draft:
             self.put(draft, TableForms(parquet, netcdf))
         return out
 
     def page(self, file: str | PathLike[str]) -> Path:
         """Write the page alone: one HTML file with figures and numbers that can be mailed."""
         path = Path(file)
-        with self.record.catching_warnings():
+        with collecting(self.record):
             self.write_page(path)
         return path
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import NextExperiment
 from geocontact.data.gap_case import GapCase
@@ -41,24 +41,24 @@ class CaseWithModel:
     system: System
 
 
-def read_case(folder: Path, run_simulator: bool, record: Record) -> CaseWithModel:
+def read_case(folder: Path, run_simulator: bool) -> CaseWithModel:
     """Case in a folder; `run_simulator` allows one of the system "command" to run the program that it names."""
     case = read_gap_case(folder, run_programs=run_simulator)
     system = system_of(case)
-    add_inputs(record, folder, case)
+    add_inputs(folder, case)
     return CaseWithModel(folder, case, system)
 
 
-def add_inputs(record: Record, folder: Path, case: GapCase) -> None:
+def add_inputs(folder: Path, case: GapCase) -> None:
     """What was read: case.toml, the tables that lie beside it, the trials, and the meshes."""
-    record.add_input("case", folder / "case.toml", system=case.system)
+    add_input("case", folder / "case.toml", system=case.system)
     for side, trials in (("calibration", case.calibration), ("evaluation", case.evaluation)):
         for trial in trials:
-            record.add_input(side, folder / "trials" / f"{trial.name}.csv", samples=len(trial))
+            add_input(side, folder / "trials" / f"{trial.name}.csv", samples=len(trial))
     for file in sorted(folder.glob("*.csv")):
-        record.add_input("table", file)
+        add_input("table", file)
     for site, cells in case.cells.items():
         for name in cells.trials:
-            record.add_input(f"cells {site}", cells_file(folder, name, site), cells=len(cells.ids))
+            add_input(f"cells {site}", cells_file(folder, name, site), cells=len(cells.ids))
     for name, one in case.meshes.items():
-        record.add_input(f"mesh {name}", one.mesh.name, sha256=one.mesh.sha256, unit=one.mesh.unit)
+        add_input(f"mesh {name}", one.mesh.name, sha256=one.mesh.sha256, unit=one.mesh.unit)

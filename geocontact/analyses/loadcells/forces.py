@@ -11,7 +11,7 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.frame import quantities
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, note, reserve, say
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.loadcells.options import FOUND, STANCE, STRIDE, LoadcellOptions
 from geocontact.data.cell_regression import CellRegression
@@ -39,27 +39,27 @@ class LoadCellInputs:
     cycles: list[GivenCycle] | None
 
 
-def read(o: LoadcellOptions, record: Record) -> LoadCellInputs:
+def read(o: LoadcellOptions) -> LoadCellInputs:
     """Everything the options name."""
     regression = PUBLISHED
     if o.matrix is not None:
         regression = read_regression(o.matrix)
-        record.add_input("`matrix`", o.matrix)
+        add_input("`matrix`", o.matrix)
     mapping = {} if o.map is None else parse_map(o.map, regression.cells)
     recordings = {path: read_load_cells(path, regression.cells, o.unit, mapping) for path in o.recordings}
     for path, folder in o.folders.items():
         r = recordings[path]
-        record.add_input("recording", path, unit=r.unit, frames=len(r.time), folder=folder or ".")
-    return LoadCellInputs(regression, recordings, _given_cycles(record, o))
+        add_input("recording", path, unit=r.unit, frames=len(r.time), folder=folder or ".")
+    return LoadCellInputs(regression, recordings, _given_cycles(o))
 
 
-def _given_cycles(record: Record, o: LoadcellOptions) -> list[GivenCycle] | None:
+def _given_cycles(o: LoadcellOptions) -> list[GivenCycle] | None:
     asked = (o.cycles or "").strip()
     if o.cycles is None or asked in FOUND:
         return None
     file = quantities.named_file(asked)
     if file is not None:
-        record.add_input("`cycles`", file)
+        add_input("`cycles`", file)
         return _from_table(file, o.recordings)
     if len(o.recordings) > 1:
         raise InputError("", "`cycles`", "times do not say which recording they are of", "give a table of cycles")
@@ -138,7 +138,7 @@ class Cut:
 
 
 def cuts_asked_for(
-    record: Record, forces: Mapping[Path, CompartmentForces], given: list[GivenCycle] | None, o: LoadcellOptions
+    forces: Mapping[Path, CompartmentForces], given: list[GivenCycle] | None, o: LoadcellOptions
 ) -> list[Cut]:
     """Every cycle of every recording, those given or those found; an empty list where none are asked for.
 
@@ -156,7 +156,7 @@ def cuts_asked_for(
     if not whole:
         raise InputError("", "`cycles`", "lie across gaps of the recordings, all of them", "name others: 1.7:2.8")
     if len(whole) < len(cuts):
-        record.warn(f"{len(cuts) - len(whole)} of {len(cuts)} cycles lie across gaps of a recording and are left out")
+        reserve(f"{len(cuts) - len(whole)} of {len(cuts)} cycles lie across gaps of a recording and are left out")
     return whole
 
 
@@ -255,71 +255,77 @@ SHOWN = 3  # gaps that are named
 WHOLE = 1e-6  # how far the two weights of a cell may be from 1 together
 
 
-def recorded_forces(given: LoadCellInputs, o: LoadcellOptions, record: Record) -> tuple[RecordedCells, ...]:
+def recorded_forces(given: LoadCellInputs, o: LoadcellOptions) -> tuple[RecordedCells, ...]:
     """Forces of every recording, and what is to be said of them."""
-    _describe(record, given.regression)
+    _describe(given.regression)
     recorded = tuple(
         RecordedCells(path, o.folders[path], r.forces, compartment_forces(r.time, r.forces, given.regression))
         for path, r in given.recordings.items()
     )
     for each in recorded:
-        _summarise(record, each, given.regression)
+        _summarise(each, given.regression)
     return recorded
 
 
-def _describe(record: Record, regression: CellRegression) -> None:
+def _describe(regression: CellRegression) -> None:
     """The weights, and a word where they do not count each cell once."""
     odd = {cell: share for cell, share in regression.shares.items() if abs(share - 1.0) > WHOLE}
     if odd:
         told = ", ".join(f"{cell} {share:g}" for cell, share in odd.items())
-        record.warn(f"medial and lateral together do not count each cell's force once: {told}")
-    record.results["regression"] = {
-        "name": regression.name,
-        "source": regression.source,
-        "cells": list(regression.cells),
-        "medial": list(regression.medial),
-        "lateral": list(regression.lateral),
-    }
+        reserve(f"medial and lateral together do not count each cell's force once: {told}")
+    note(
+        "regression",
+        {
+            "name": regression.name,
+            "source": regression.source,
+            "cells": list(regression.cells),
+            "medial": list(regression.medial),
+            "lateral": list(regression.lateral),
+        },
+    )
 
 
-def _summarise(record: Record, r: RecordedCells, regression: CellRegression) -> None:
+def _summarise(r: RecordedCells, regression: CellRegression) -> None:
     f = r.forces
     peaks = {side: float(values.max()) for side, values in f.curves.items()}
     least = -SLIGHT * peaks["total"]
     pulling = {c: float(v.min()) for c, v in r.by_cell(regression).items() if v.min() < least}
     if pulling:
         told = ", ".join(f"{cell} {low:.0f} N" for cell, low in pulling.items())
-        record.warn(f"{r.file}: cells are in tension at times ({told}): offsets, or the sign is turned (`map` PM=-PM)")
+        reserve(f"{r.file}: cells are in tension at times ({told}): offsets, or the sign is turned (`map` PM=-PM)")
     if peaks["total"] < LITTLE:
         what = f"the total stays below {peaks['total']:.0f} N, little for a knee that walks"
-        record.warn(f"{r.file}: {what}; if the file is in lbf pass `unit` lbf")
+        reserve(f"{r.file}: {what}; if the file is in lbf pass `unit` lbf")
     if missing := gaps(f.time):
         times = ", ".join(f"{seconds(each.start)} to {seconds(each.end)} s" for each in missing[:SHOWN])
         more = f" and {len(missing) - SHOWN} more" if len(missing) > SHOWN else ""
-        record.warn(f"{r.file}: no samples from {times}{more}: nothing is known of the forces there")
+        reserve(f"{r.file}: no samples from {times}{more}: nothing is known of the forces there")
     at = float(f.time[int(np.argmax(f.total))])
-    record.results[r.folder or "recording"] = {
-        "frames": len(f.time),
-        **{f"peak_{side}_N": round(value, 6) for side, value in peaks.items()},
-        "peak_total_at_s": round(at, 6),
-    }
+    note(
+        r.folder or "recording",
+        {
+            "frames": len(f.time),
+            **{f"peak_{side}_N": round(value, 6) for side, value in peaks.items()},
+            "peak_total_at_s": round(at, 6),
+        },
+    )
     label = f"{r.folder}: " if r.folder else ""
     told = ", ".join(f"{side} {value:.1f} N" for side, value in peaks.items())
-    record.say(f"{label}largest forces: {told} (total at {seconds(round(at, 3))} s)")
+    say(f"{label}largest forces: {told} (total at {seconds(round(at, 3))} s)")
 
 
-def say_cycles(record: Record, cuts: list[Cut]) -> None:
+def say_cycles(cuts: list[Cut]) -> None:
     """How many cycles there are, and how styles differ."""
     if not cuts:
         return
     counts = {style: len(trials) for style, trials in stacked(cuts, "total").items()}
-    record.results["cycles"] = counts
-    record.say(", ".join(f"{counted(count, 'cycle')} of {style}" for style, count in counts.items()))
+    note("cycles", counts)
+    say(", ".join(f"{counted(count, 'cycle')} of {style}" for style, count in counts.items()))
     if max(counts.values()) == 1:
-        record.warn("one cycle per style: means are single cycles, and there is no spread to show")
+        reserve("one cycle per style: means are single cycles, and there is no spread to show")
     if len(counts) > 1:
         table = style_table(cuts)
-        record.results["styles"] = table.to_dict(orient="records")
-        record.say(table.to_string(index=False, float_format=lambda value: f"{value:.1f}"))
+        note("styles", table.to_dict(orient="records"))
+        say(table.to_string(index=False, float_format=lambda value: f"{value:.1f}"))
     if len(counts) > SERIES:
-        record.warn(f"{len(counts)} styles are more than a figure tells apart ({SERIES}); ensemble.csv has them all")
+        reserve(f"{len(counts)} styles are more than a figure tells apart ({SERIES}); ensemble.csv has them all")

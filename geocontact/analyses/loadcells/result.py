@@ -20,7 +20,6 @@ import pandas as pd
 
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import drawing
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import Result
 from geocontact.analyses.loadcells.forces import (
     SIDES,
@@ -148,12 +147,12 @@ def _named(one: RecordedCells, file: str) -> str:
     return (Path(one.folder) / file).as_posix()
 
 
-def run(given: LoadCellInputs, o: LoadcellOptions, record: Record) -> LoadcellResult:
+def run(given: LoadCellInputs, o: LoadcellOptions) -> LoadcellResult:
     """Forces of every recording, and the cycles of all of them."""
-    recordings = recorded_forces(given, o, record)
-    cuts = cuts_asked_for(record, {each.file: each.forces for each in recordings}, given.cycles, o)
-    say_cycles(record, cuts)
-    return LoadcellResult(record=record, options=o, regression=given.regression, recordings=recordings, cuts=cuts)
+    recordings = recorded_forces(given, o)
+    cuts = cuts_asked_for({each.file: each.forces for each in recordings}, given.cycles, o)
+    say_cycles(cuts)
+    return LoadcellResult(options=o, regression=given.regression, recordings=recordings, cuts=cuts)
 
 
 load_cells = Job("loadcells", LoadcellOptions, read, run)

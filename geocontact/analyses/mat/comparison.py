@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, note, reserve, say
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.data.wrench import Wrench
@@ -62,7 +62,7 @@ class Phase:
     end: float
 
 
-def read_phases(record: Record, o: MatOptions) -> tuple[Phase, ...] | None:
+def read_phases(o: MatOptions) -> tuple[Phase, ...] | None:
     """Phases in the order of the file; None where nobody names any."""
     if o.phases is None:
         return None
@@ -70,7 +70,7 @@ def read_phases(record: Record, o: MatOptions) -> tuple[Phase, ...] | None:
     missing = [name for name in COLUMNS if name not in table.columns]
     if missing:
         raise InputError(o.phases, "line 1", f"no column {', '.join(missing)}", f"write {', '.join(COLUMNS)}")
-    record.add_input("`phases`", o.phases, rows=len(table))
+    add_input("`phases`", o.phases, rows=len(table))
     return tuple(Phase(str(name), start, end) for name, start, end in zip(*(table[c] for c in COLUMNS), strict=True))
 
 
@@ -117,18 +117,16 @@ class ModelForces:
     head: WrenchHead
 
 
-def read_model(record: Record, o: MatOptions) -> ModelForces | None:
+def read_model(o: MatOptions) -> ModelForces | None:
     """The forces to compare with; None where there are none."""
     if o.compare is None:
         return None
     model = ModelForces(o.compare, read_table(o.compare), read_wrench_head(o.compare))
-    record.add_input("`compare`", o.compare, rows=len(model.table.time))
+    add_input("`compare`", o.compare, rows=len(model.table.time))
     return model
 
 
-def model_curves(
-    record: Record, model: ModelForces, ours: Wrench, time: Float[np.ndarray, " t"], o: MatOptions
-) -> Curves:
+def model_curves(model: ModelForces, ours: Wrench, time: Float[np.ndarray, " t"], o: MatOptions) -> Curves:
     """What the model has of `UNITS`, NaN at times it does not cover; moments about the point of `ours`.
 
     A table that names its point (`# point_mm = ...`) has its moments moved to ours; one that does not is taken to
@@ -139,12 +137,15 @@ def model_curves(
     if not curves:
         raise InputError(model.file, "", "holds none of our columns", f"name them {', '.join(UNITS)} with their unit")
     if curves.keys() & {*FORCE, *MOMENT}:
-        _check_frame(record, model, ours, o)
+        _check_frame(model, ours, o)
     head = model.head
-    record.results["compared_with"] = {
-        "frame": head.frame or "not said, taken as ours",
-        "point_mm": "not said, taken as ours" if head.point is None else (head.point * 1e3).tolist(),
-    }
+    note(
+        "compared_with",
+        {
+            "frame": head.frame or "not said, taken as ours",
+            "point_mm": "not said, taken as ours" if head.point is None else (head.point * 1e3).tolist(),
+        },
+    )
     return _moved(curves, model, ours)
 
 
@@ -156,13 +157,13 @@ def _at(model: ModelForces, name: str, unit: str, time: Float[np.ndarray, " t"])
     return np.asarray(known[1] * np.interp(time, table.time, table.needed(name), np.nan, np.nan))
 
 
-def _check_frame(record: Record, model: ModelForces, ours: Wrench, o: MatOptions) -> None:
+def _check_frame(model: ModelForces, ours: Wrench, o: MatOptions) -> None:
     if model.head.frame is None or model.head.frame == ours.frame:
         return
     what = f"is in the frame '{model.head.frame[:60]}', the mat's forces are in '{ours.frame}'"
     if o.frame is not None:
         raise InputError(model.file, "", what, "turn it into that frame, or give both one name where they are one")
-    record.warn(f"{model.file} {what}: axes are compared as if they were one; say which frame ours is with `frame`")
+    reserve(f"{model.file} {what}: axes are compared as if they were one; say which frame ours is with `frame`")
 
 
 def _moved(curves: Curves, model: ModelForces, ours: Wrench) -> Curves:
@@ -188,19 +189,19 @@ Curve = Float[np.ndarray, " t"]
 
 
 def compared(
-    record: Record, model: ModelForces, phases: tuple[Phase, ...] | None, whole: MatLoad, time: Curve, o: MatOptions
+    model: ModelForces, phases: tuple[Phase, ...] | None, whole: MatLoad, time: Curve, o: MatOptions
 ) -> pd.DataFrame:
     """One row per channel and phase ("all", then those that are named, or "0-10 %", …)."""
     if len(time) < 3 * PARTS:
         raise InputError(model.file, "", f"{len(time)} frames are too few to compare", f"{3 * PARTS} are needed")
     even, step = even_times(time)
     if even is not time:
-        record.warn("frames are not evenly spaced: agreement is told at even times, without what lies in gaps")
+        reserve("frames are not evenly spaced: agreement is told at even times, without what lies in gaps")
     measured = load_table(whole, time)
     in_phases = _phases(phases, even, step, o)
     rows = [
         {"channel": name, "unit": UNITS[name], "phase": phase, **asdict(each)}
-        for name, theirs in model_curves(record, model, whole.wrench, time, o).items()
+        for name, theirs in model_curves(model, whole.wrench, time, o).items()
         for model_there in [at_times(time, theirs, even, step)]
         for ours in [at_times(time, measured[f"{name} [{UNITS[name]}]"].to_numpy(float), even, step)]
         for phase, each in {"all": agreement(model_there, ours, step), **in_phases(model_there, ours)}.items()
@@ -208,14 +209,14 @@ def compared(
     agreed = pd.DataFrame(rows).rename(columns={"lag": "lag [s]", "r2": "r2 [-]", "correlation": "correlation [-]"})
     if not (agreed.loc[agreed["phase"] == "all", "samples"] > 0).any():
         raise InputError(model.file, "", "has no time in common with the mat", "check its time column")
-    _tell(record, agreed[agreed["phase"] == "all"])
+    _tell(agreed[agreed["phase"] == "all"])
     return agreed
 
 
-def _tell(record: Record, whole: pd.DataFrame) -> None:
-    record.results["agreement"] = whole.replace({np.nan: None}).to_dict(orient="records")
+def _tell(whole: pd.DataFrame) -> None:
+    note("agreement", whole.replace({np.nan: None}).to_dict(orient="records"))
     for row in whole.itertuples():
-        record.say(f"{row.channel}: mean absolute difference {row.mae:.4g} {row.unit}, root mean square {row.rmsd:.4g}")
+        say(f"{row.channel}: mean absolute difference {row.mae:.4g} {row.unit}, root mean square {row.rmsd:.4g}")
 
 
 def _phases(

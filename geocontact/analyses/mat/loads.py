@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Bool, Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import note, say, spelled
 from geocontact.analyses.frame.result import Result
 from geocontact.analyses.mat.comparison import AXES, load_table
 from geocontact.analyses.mat.options import MatOptions
@@ -28,19 +28,19 @@ from geocontact.loads.mat_map import MatMap
 
 
 def stated_errors(
-    record: Record, placed: MatMap, registration: Registration | None, slip: PoseCovariance | None, o: MatOptions
+    placed: MatMap, registration: Registration | None, slip: PoseCovariance | None, o: MatOptions
 ) -> MatErrors:
     """Errors of cells, and of the place: as `registration` states it, else as the residuals tell.
 
     Those are of the registration, if there is one, and of the mat's landmarks (`slip`); they are independent.
     """
     cell, gain = o.accuracy, o.gain or 0.0
-    nothing = record.spell("not stated: no `registration`, and no residual")
+    nothing = spelled("not stated: no `registration`, and no residual")
     told: dict[str, object] = {"cell": cell, "gain": gain, "place": nothing}
-    record.results["uncertainty"] = told
+    note("uncertainty", told)
     if o.registration is not None:
         shift, turn = o.registration
-        told["place"] = record.spell("`registration`")
+        told["place"] = spelled("`registration`")
         told.update({"sd_shift_mm": [shift * 1e3] * 3, "sd_turn_deg": [np.degrees(turn)] * 3})
         return MatErrors(cell, gain, shift, turn)
     middle = (placed.area @ placed.centre) / placed.area.sum()
@@ -92,44 +92,45 @@ class MatLoads:
     home: str
 
 
-def loads(
-    record: Record, given: MatInputs, p: PlacedMat, seen: PreparedFrames, travel: Travel | None, o: MatOptions
-) -> MatLoads:
+def loads(given: MatInputs, p: PlacedMat, seen: PreparedFrames, travel: Travel | None, o: MatOptions) -> MatLoads:
     """Loads about the point that was asked for; carried along where the segment moves."""
     whose = o.surface if p.registration is None else o.body or o.body_landmarks or o.surface
     home = o.frame or f"of {whose.name}"
     origin = given.point if travel is None else np.zeros(3)  # of the segment
     pressure = p.cells.of(seen.frames.pressure)
     whole = mat_load(p.cells, pressure, origin, home, o.gate, o.touched)
-    chosen = cells_of(record, given.segments, p.surface, p.cells, o)
+    chosen = cells_of(given.segments, p.surface, p.cells, o)
     parts = segment_loads(p.cells, pressure, origin, home, chosen, o.gate, o.touched)
     mat, marks = mat_and_marks(seen.frames, p.landmarks, o)
-    errors = stated_errors(record, p.cells, p.registration, slip_covariance(mat, p.drape, marks, o.belt), o)
+    errors = stated_errors(p.cells, p.registration, slip_covariance(mat, p.drape, marks, o.belt), o)
     spread = wrench_covariance(p.cells, pressure, whole.wrench, errors)
     spread += filling_covariance(p.cells, pressure, whole.wrench, seen.gaps)
     if travel is not None:
         whole, parts, spread = travel.carried(whole, parts, spread, given.point)
     found = MatLoads(pressure, whole, parts, spread, errors, home)
-    _tell(record, found, seen.frames.time, given.point)
+    _tell(found, seen.frames.time, given.point)
     return found
 
 
-def _tell(record: Record, found: MatLoads, time: Float[np.ndarray, " t"], point: Float[np.ndarray, " 3"]) -> None:
+def _tell(found: MatLoads, time: Float[np.ndarray, " t"], point: Float[np.ndarray, " 3"]) -> None:
     whole = found.whole
     heaviest = int(np.argmax(whole.pressing))
     round_about = np.isnan(whole.normal[0])  # a belt looks to no side
-    record.results["load"] = {
-        "frame": whole.wrench.frame,
-        "point_mm": (point * 1e3).tolist(),
-        "frames": len(time),
-        "largest_force_N": round(float(whole.pressing[heaviest]), 6),
-        "at_s": round(float(time[heaviest]), 6),
-        "perpendicular_N": None if round_about else round(float(whole.perpendicular[heaviest]), 6),
-        "interface_normal": None if round_about else whole.normal.tolist(),
-        "peak_Pa": float(whole.peak.max()),
-        "segments": list(found.segments),
-    }
-    record.say(
+    note(
+        "load",
+        {
+            "frame": whole.wrench.frame,
+            "point_mm": (point * 1e3).tolist(),
+            "frames": len(time),
+            "largest_force_N": round(float(whole.pressing[heaviest]), 6),
+            "at_s": round(float(time[heaviest]), 6),
+            "perpendicular_N": None if round_about else round(float(whole.perpendicular[heaviest]), 6),
+            "interface_normal": None if round_about else whole.normal.tolist(),
+            "peak_Pa": float(whole.peak.max()),
+            "segments": list(found.segments),
+        },
+    )
+    say(
         f"force up to {whole.pressing[heaviest]:.1f} N at {time[heaviest]:g} s, pressure up to "
         f"{whole.peak.max() * 1e-3:.1f} kPa, area up to {whole.area.max() * 1e4:.0f} cm²"
     )

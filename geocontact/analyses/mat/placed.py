@@ -9,8 +9,8 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.analyses.frame.bodies import chosen_faces, read_input_surface
+from geocontact.analyses.frame.collector import add_input, note, reserve
 from geocontact.analyses.frame.quantities import centre, named_file
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.mat.comparison import ModelForces, Phase, read_model, read_phases
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placement import (
@@ -45,25 +45,23 @@ from geocontact.loads.mat_map import MatMap, mat_map
 Parts = Mapping[str, str | Bool[np.ndarray, " f"]]
 
 
-def read_segments(record: Record, scan: Surface, o: MatOptions) -> Parts:
+def read_segments(scan: Surface, o: MatOptions) -> Parts:
     """Expression of each part, or the faces that a file lists."""
     found: dict[str, str | Bool[np.ndarray, " f"]] = {}
     for text in o.segment:
         name, sign, expression = (part.strip() for part in text.partition("="))
         if not sign or not name.replace("_", "").replace("-", "").isalnum() or name in found:
             raise InputError("", "`segment`", f"{text!r} has no name of its own", 'write for example "upper=y > 20"')
-        faces = None if named_file(expression) is None else chosen_faces(record, "`segment`", expression, scan, o.unit)
+        faces = None if named_file(expression) is None else chosen_faces("`segment`", expression, scan, o.unit)
         found[name] = expression if faces is None else faces
     return found
 
 
-def cells_of(
-    record: Record, parts: Parts, surface: Surface, placed: MatMap, o: MatOptions
-) -> dict[str, Bool[np.ndarray, " n"]]:
+def cells_of(parts: Parts, surface: Surface, placed: MatMap, o: MatOptions) -> dict[str, Bool[np.ndarray, " n"]]:
     """Cells of each part: those that lie for the most part on its faces, which are chosen in the frame of `surface`."""
     found: dict[str, Bool[np.ndarray, " n"]] = {}
     for name, part in parts.items():
-        faces = chosen_faces(record, "`segment`", part, surface, o.unit) if isinstance(part, str) else part
+        faces = chosen_faces("`segment`", part, surface, o.unit) if isinstance(part, str) else part
         found[name] = np.asarray(placed.share.T @ np.asarray(faces, float) >= 0.5)
         if not found[name].any():
             raise InputError("", "`segment`", f"no cell lies on '{name}'", "check the expression and the frame")
@@ -71,7 +69,7 @@ def cells_of(
         counted = np.sum(list(found.values()), axis=0)
         for what, cells in (("in no segment", counted == 0), ("in more than one segment", counted > 1)):
             if cells.any():
-                record.warn(f"{int(cells.sum())} cells are {what}: segments do not add up to the whole")
+                reserve(f"{int(cells.sum())} cells are {what}: segments do not add up to the whole")
     return found
 
 
@@ -118,31 +116,31 @@ class MatInputs:
     model: ModelForces | None
 
 
-def read(o: MatOptions, record: Record) -> MatInputs:
+def read(o: MatOptions) -> MatInputs:
     """Everything the options name."""
-    recorded, listed_dead = read_recording(record, o)
-    motion = read_segment_motion(record, o)
-    scan = read_input_surface(record, "surface", o.surface, o.unit, None)
+    recorded, listed_dead = read_recording(o)
+    motion = read_segment_motion(o)
+    scan = read_input_surface("surface", o.surface, o.unit, None)
     return MatInputs(
         recorded,
         listed_dead,
         motion,
         scan,
-        _landmarks(record, recorded, o),
-        read_second_scan(record, o),
+        _landmarks(recorded, o),
+        read_second_scan(o),
         np.zeros(3) if o.point is None else np.array(centre(o.point, o.unit, "`point`")),
-        read_body_model(record, o),
-        read_segments(record, scan, o),
-        read_phases(record, o),
-        read_model(record, o),
+        read_body_model(o),
+        read_segments(scan, o),
+        read_phases(o),
+        read_model(o),
     )
 
 
-def _landmarks(record: Record, frames: PressureFrames, o: MatOptions) -> MatLandmarks | None:
+def _landmarks(frames: PressureFrames, o: MatOptions) -> MatLandmarks | None:
     if o.landmarks is None:
         return None
     marks = read_mat_landmarks(o.landmarks, frames.rows, frames.columns)
-    record.add_input("`landmarks`", o.landmarks, landmarks=len(marks.name))
+    add_input("`landmarks`", o.landmarks, landmarks=len(marks.name))
     return marks
 
 
@@ -163,17 +161,17 @@ class PlacedMat:
     registration: Registration | None
 
 
-def placed(record: Record, given: MatInputs, frames: PressureFrames, o: MatOptions) -> PlacedMat:
+def placed(given: MatInputs, frames: PressureFrames, o: MatOptions) -> PlacedMat:
     """The mat where landmarks or the second scan show it."""
     scan = outwards(given.scan, o)
     _guard(scan, frames, o)
     marks = given.landmarks
     if given.second_scan is not None:
-        marks = marks_found(record, scan, given.second_scan, frames, o)
+        marks = marks_found(scan, given.second_scan, frames, o)
     if marks is None:
         raise InputError("", "`landmarks`", "is missing: nothing says where the mat lies", "give `landmarks`")
-    surface, marks, registration = registered(record, scan, marks, given.body, o)
-    laid = _laid(record, surface, frames, marks, o)
+    surface, marks, registration = registered(scan, marks, given.body, o)
+    laid = _laid(surface, frames, marks, o)
     return PlacedMat(surface, laid, _mapped(surface, laid, frames), marks, registration)
 
 
@@ -195,7 +193,7 @@ def _guard(surface: Surface, frames: PressureFrames, o: MatOptions) -> None:
     raise InputError(o.surface, "", what, "check `unit` and the mat's pitch")
 
 
-def _laid(record: Record, surface: Surface, frames: PressureFrames, marks: MatLandmarks, o: MatOptions) -> Drape:
+def _laid(surface: Surface, frames: PressureFrames, marks: MatLandmarks, o: MatOptions) -> Drape:
     mat, at = mat_and_marks(frames, marks, o)
     geodesics = Geodesics(surface)
     try:
@@ -206,28 +204,31 @@ def _laid(record: Record, surface: Surface, frames: PressureFrames, marks: MatLa
         inside = "" if surface.closed else ", and `inwards` where faces look into the body"
         remedy = f"check landmarks, unit and `seen_from`{inside}"
         raise InputError(o.landmarks or "", "", str(error), remedy) from error
-    _tell_how_it_lies(record, laid, frames, marks)
-    _warn_how_it_lies(record, laid, frames, marks)
-    say_which_side(record, surface, laid, marks, o)
-    say_how_it_closes(record, mat, laid, o)
+    _tell_how_it_lies(laid, frames, marks)
+    _warn_how_it_lies(laid, frames, marks)
+    say_which_side(surface, laid, marks, o)
+    say_how_it_closes(mat, laid, o)
     return laid
 
 
-def _tell_how_it_lies(record: Record, laid: Drape, frames: PressureFrames, marks: MatLandmarks) -> None:
+def _tell_how_it_lies(laid: Drape, frames: PressureFrames, marks: MatLandmarks) -> None:
     known = laid.distortion[laid.covered & frames.valid]
-    record.results["mat"] = {
-        "cells": int(frames.valid.sum()),
-        "uncovered_cells": np.argwhere(frames.valid & ~laid.covered).tolist(),
-        "folded_cells": np.argwhere(laid.folded & frames.valid).tolist(),
-        "area_distortion_largest": float(np.abs(known).max()) if known.size else None,
-        "area_distortion_rms": float(np.sqrt(np.mean(known**2))) if known.size else None,
-        "landmark_residual_mm": {
-            n: float(m) * 1e3 if np.isfinite(m) else None for n, m in zip(marks.name, laid.misses, strict=True)
+    note(
+        "mat",
+        {
+            "cells": int(frames.valid.sum()),
+            "uncovered_cells": np.argwhere(frames.valid & ~laid.covered).tolist(),
+            "folded_cells": np.argwhere(laid.folded & frames.valid).tolist(),
+            "area_distortion_largest": float(np.abs(known).max()) if known.size else None,
+            "area_distortion_rms": float(np.sqrt(np.mean(known**2))) if known.size else None,
+            "landmark_residual_mm": {
+                n: float(m) * 1e3 if np.isfinite(m) else None for n, m in zip(marks.name, laid.misses, strict=True)
+            },
         },
-    }
+    )
 
 
-def _warn_how_it_lies(record: Record, laid: Drape, frames: PressureFrames, marks: MatLandmarks) -> None:
+def _warn_how_it_lies(laid: Drape, frames: PressureFrames, marks: MatLandmarks) -> None:
     """Refuse a mat that does not lie at its landmarks; warn of one that hardly does, or hangs over, folds, shrinks."""
     missed = np.nan_to_num(laid.misses, nan=np.inf)
     worst, farthest = int(np.argmax(missed)), int(np.argmax(np.where(np.isfinite(missed), missed, -1.0)))
@@ -236,15 +237,15 @@ def _warn_how_it_lies(record: Record, laid: Drape, frames: PressureFrames, marks
         raise InputError("", "`landmarks`", what, "check places and points of the landmarks, the pitch and the unit")
     if missed[worst] > FAR * min(frames.pitch):
         where = f"{missed[worst] * 1e3:.1f} mm" if np.isfinite(missed[worst]) else "the edge of the scan"
-        record.warn(f"landmark {marks.name[worst]} is missed by {where}")
+        reserve(f"landmark {marks.name[worst]} is missed by {where}")
     off, folded = (int((frames.valid & which).sum()) for which in (~laid.covered, laid.folded))
     if off:
-        record.warn(f"{off} cells hang over the edge of the scan; what they read is left out")
+        reserve(f"{off} cells hang over the edge of the scan; what they read is left out")
     if folded:
-        record.warn(f"{folded} cells are folded over others: check the landmarks")
+        reserve(f"{folded} cells are folded over others: check the landmarks")
     change = np.abs(laid.distortion[laid.covered & frames.valid]).max(initial=0.0)
     if change > SHRUNK:
-        record.warn(f"cells are up to {change:.1%} larger or smaller on the scan than on the flat mat")
+        reserve(f"cells are up to {change:.1%} larger or smaller on the scan than on the flat mat")
 
 
 def _mapped(surface: Surface, laid: Drape, frames: PressureFrames) -> MatMap:
@@ -285,7 +286,7 @@ class ClosestPoint:
         return np.where(self.drape.covered, self.drape.distortion, -1.0)
 
 
-def closest_point(record: Record, p: PlacedMat, frames: PressureFrames, o: MatOptions) -> ClosestPoint | None:
+def closest_point(p: PlacedMat, frames: PressureFrames, o: MatOptions) -> ClosestPoint | None:
     """The same marks and pressures on a mat that is pushed down flat; how it differs goes to the record.
 
     None where the mat is laid that way, or where it cannot be: two marks do not place a flat mat.
@@ -297,11 +298,11 @@ def closest_point(record: Record, p: PlacedMat, frames: PressureFrames, o: MatOp
         flat = project(Geodesics(p.surface), mat, marks)
         there = mat_map(p.surface, flat.nodes, frames.valid & flat.covered, frames.cell_area)
     except ValueError as error:
-        record.results[HERE] = {"not_possible": str(error)}
+        note(HERE, {"not_possible": str(error)})
         return None
     used, projected = (_load(p, each, frames, o) for each in (p.cells, there))
     found = ClosestPoint(flat, used, projected)
-    _tell(record, found, frames)
+    _tell(found, frames)
     return found
 
 
@@ -310,17 +311,20 @@ def _load(p: PlacedMat, cells: MatMap, frames: PressureFrames, o: MatOptions) ->
     return mat_load(cells, cells.of(frames.pressure), np.zeros(3), p.surface.name, o.gate)
 
 
-def _tell(record: Record, found: ClosestPoint, frames: PressureFrames) -> None:
+def _tell(found: ClosestPoint, frames: PressureFrames) -> None:
     at, flat = found.frame, found.drape
     force = np.linalg.norm(found.projected.wrench.force - found.used.wrench.force, axis=1)
     centre = np.linalg.norm(found.projected.centre - found.used.centre, axis=1) * MM
     known = np.abs(flat.distortion[flat.covered & frames.valid])
-    record.results[HERE] = {
-        "area_distortion_largest": float(known.max()),
-        "area_distortion_rms": float(np.sqrt(np.mean(known**2))),
-        "uncovered_cells": int((frames.valid & ~flat.covered).sum()),
-        "force_differs_N": float(force[at]),
-        "force_differs_at_most_N": float(force.max()),
-        "centre_of_pressure_differs_mm": float(centre[at]) if np.isfinite(centre[at]) else None,
-        "centre_of_pressure_differs_at_most_mm": float(np.nanmax(centre)) if np.isfinite(centre).any() else None,
-    }
+    note(
+        HERE,
+        {
+            "area_distortion_largest": float(known.max()),
+            "area_distortion_rms": float(np.sqrt(np.mean(known**2))),
+            "uncovered_cells": int((frames.valid & ~flat.covered).sum()),
+            "force_differs_N": float(force[at]),
+            "force_differs_at_most_N": float(force.max()),
+            "centre_of_pressure_differs_mm": float(centre[at]) if np.isfinite(centre[at]) else None,
+            "centre_of_pressure_differs_at_most_mm": float(np.nanmax(centre)) if np.isfinite(centre).any() else None,
+        },
+    )

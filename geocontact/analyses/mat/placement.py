@@ -9,8 +9,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.frame.bodies import read_input_surface
+from geocontact.analyses.frame.collector import add_input, note, reserve, say
 from geocontact.analyses.frame.quantities import centre
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
@@ -35,7 +35,7 @@ def open_belt(o: MatOptions, error: NotAroundError) -> InputError:
     return InputError("", f"`belt` {o.belt}", str(error), remedy)
 
 
-def say_how_it_closes(record: Record, mat: Mat, laid: Drape, o: MatOptions) -> None:
+def say_how_it_closes(mat: Mat, laid: Drape, o: MatOptions) -> None:
     """Length of the belt and of the way around that it took; cells share the difference."""
     if o.belt is None:
         return
@@ -43,8 +43,8 @@ def say_how_it_closes(record: Record, mat: Mat, laid: Drape, o: MatOptions) -> N
     length = (mat.rows, mat.columns)[along] * mat.pitch[along]
     stretch = laid.stretch[..., along]
     around = length * (1.0 + np.nanmean(stretch))
-    record.results["belt"] = {"around": o.belt, "length_mm": length * 1e3, "way_around_mm": float(around) * 1e3}
-    record.say(f"belt of {length * 1e3:.0f} mm closes around {around * 1e3:.0f} mm of the body")
+    note("belt", {"around": o.belt, "length_mm": length * 1e3, "way_around_mm": float(around) * 1e3})
+    say(f"belt of {length * 1e3:.0f} mm closes around {around * 1e3:.0f} mm of the body")
 
 
 HOLLOW = -0.1
@@ -60,16 +60,16 @@ def outwards(surface: Surface, o: MatOptions) -> Surface:
     return replace(surface, faces=np.ascontiguousarray(surface.faces[:, ::-1]))
 
 
-def say_which_side(record: Record, surface: Surface, laid: Drape, marks: MatLandmarks, o: MatOptions) -> None:
+def say_which_side(surface: Surface, laid: Drape, marks: MatLandmarks, o: MatOptions) -> None:
     """Warn where landmarks cannot show the side, and where an open scan looks as if it were seen from inside."""
     arms = marks.place - marks.place.mean(axis=0)
     if o.landmarks is not None and np.linalg.matrix_rank(arms, 1e-6 * float(np.abs(arms).max())) < 2:
-        record.warn(
+        reserve(
             f"the landmarks lie on one line of the mat: they do not show which side of it faces the body, and "
             f"`seen_from` {o.seen_from} is believed"
         )
     if not surface.closed and _bulge(laid) < HOLLOW:
-        record.warn(
+        reserve(
             "the scan is hollow under the mat, as its faces look: if they look into the body, every force has the "
             "wrong sign; pass `inwards` then"
         )
@@ -98,18 +98,18 @@ class BodyModel:
     surface: Surface | None
 
 
-def read_body_model(record: Record, o: MatOptions) -> BodyModel | None:
+def read_body_model(o: MatOptions) -> BodyModel | None:
     """Landmarks and, where the fit is by shape, the surface; None where results stay in the scan's frame."""
     if o.body_landmarks is None:
         return None
     names, on_scan, on_body = _pairs(o.body_landmarks)
-    record.add_input("`body_landmarks`", o.body_landmarks, landmarks=len(names))
-    body = None if o.body is None else read_input_surface(record, "body", o.body, o.body_unit or o.unit, None)
+    add_input("`body_landmarks`", o.body_landmarks, landmarks=len(names))
+    body = None if o.body is None else read_input_surface("body", o.body, o.body_unit or o.unit, None)
     return BodyModel(names, on_scan, on_body, body)
 
 
 def registered(
-    record: Record, scan: Surface, marks: MatLandmarks, model: BodyModel | None, o: MatOptions
+    scan: Surface, marks: MatLandmarks, model: BodyModel | None, o: MatOptions
 ) -> tuple[Surface, MatLandmarks, Registration | None]:
     """Scan and marks of the mat in the body's frame, and how well they fit; as they are without a body."""
     if model is None:
@@ -118,13 +118,13 @@ def registered(
         guard = compare_landmarks(model.on_scan, model.on_body)
         found = fit_landmarks(model.on_scan, model.on_body, names=model.names)
         if guard.warning:
-            record.warn(guard.warning)
-        _tell_fit(record, "landmarks", found)
+            reserve(guard.warning)
+        _tell_fit("landmarks", found)
         if model.surface is not None:
             engine, found = _by_shape(scan, model.surface, found, o)
-            _tell_fit(record, "shape", found, engine=engine)
+            _tell_fit("shape", found, engine=engine)
             if not found.converged:
-                record.warn("the registration by shape did not settle; look at registration.csv")
+                reserve("the registration by shape did not settle; look at registration.csv")
     except InputError:
         raise
     except ValueError as error:
@@ -162,20 +162,21 @@ def _pairs(path: Path) -> tuple[tuple[str, ...], Float[np.ndarray, "n 3"], Float
     )
 
 
-def _tell_fit(record: Record, way: str, found: Registration, **more: str) -> None:
+def _tell_fit(way: str, found: Registration, **more: str) -> None:
     worst, off = found.worst
-    record.results[f"registration by {way}"] = {
-        "rms_mm": found.rms * 1e3,
-        "overlap": found.overlap,
-        "worst": worst,
-        "worst_mm": off * 1e3,
-        "hold": None if np.isnan(found.hold) else found.hold,
-        "pose": found.pose.as_matrix().tolist(),
-        **more,
-    }
-    record.say(
-        f"registration by {way}: root mean square {found.rms * 1e3:.2f} mm, {found.overlap:.0%} of the points met"
+    note(
+        f"registration by {way}",
+        {
+            "rms_mm": found.rms * 1e3,
+            "overlap": found.overlap,
+            "worst": worst,
+            "worst_mm": off * 1e3,
+            "hold": None if np.isnan(found.hold) else found.hold,
+            "pose": found.pose.as_matrix().tolist(),
+            **more,
+        },
     )
+    say(f"registration by {way}: root mean square {found.rms * 1e3:.2f} mm, {found.overlap:.0%} of the points met")
 
 
 FITS = 0.12  # of a side's length, by which the region may be longer or shorter than the mat
@@ -190,18 +191,16 @@ class SecondScan:
     corner: Float[np.ndarray, " 3"] | None
 
 
-def read_second_scan(record: Record, o: MatOptions) -> SecondScan | None:
+def read_second_scan(o: MatOptions) -> SecondScan | None:
     """The scan with the mat on; None where there is none."""
     if o.scan_with_mat is None:
         return None
-    surface = read_input_surface(record, "scan with the mat", o.scan_with_mat, o.unit, None)
+    surface = read_input_surface("scan with the mat", o.scan_with_mat, o.unit, None)
     corner = None if o.first_corner is None else np.array(centre(o.first_corner, o.unit, "`first_corner`"))
     return SecondScan(surface, corner)
 
 
-def marks_found(
-    record: Record, scan: Surface, second: SecondScan, frames: PressureFrames, o: MatOptions
-) -> MatLandmarks:
+def marks_found(scan: Surface, second: SecondScan, frames: PressureFrames, o: MatOptions) -> MatLandmarks:
     """Where the mat's corners lie on the scan, in its frame."""
     try:
         compare_boxes(second.surface.vertices, scan.vertices, ("scan with the mat", "scan"))
@@ -213,7 +212,7 @@ def marks_found(
     except ValueError as error:
         remedy = "check that both scans are of the same body, or give `landmarks`"
         raise InputError(o.scan_with_mat or "", "", str(error), remedy) from error
-    _tell_raised(record, found, raised, outline, frames)
+    _tell_raised(found, raised, outline, frames)
     first = _first(outline, _candidates(outline, frames, o), second.corner, o)
     hand = 1 if o.seen_from == "outside" else -1
     rows, columns = float(frames.rows), float(frames.columns)
@@ -223,26 +222,27 @@ def marks_found(
     return MatLandmarks(names, place, outline.corners[order])
 
 
-def _tell_raised(
-    record: Record, found: Registration, raised: ScanDifference, outline: Rectangle, frames: PressureFrames
-) -> None:
-    record.results["second scan"] = {
-        "rms_mm": found.rms * 1e3,
-        "overlap": found.overlap,
-        "pose": found.pose.as_matrix().tolist(),
-        "noise_mm": raised.noise * 1e3,
-        "mat_thickness_mm": raised.thickness * 1e3,
-        "outline_rms_mm": outline.rms * 1e3,
-        "sides_mm": (outline.sides * 1e3).tolist(),
-        "mat_mm": [frames.rows * frames.pitch[0] * 1e3, frames.columns * frames.pitch[1] * 1e3],
-        "corners_mm": (outline.corners * 1e3).tolist(),
-    }
-    record.say(
+def _tell_raised(found: Registration, raised: ScanDifference, outline: Rectangle, frames: PressureFrames) -> None:
+    note(
+        "second scan",
+        {
+            "rms_mm": found.rms * 1e3,
+            "overlap": found.overlap,
+            "pose": found.pose.as_matrix().tolist(),
+            "noise_mm": raised.noise * 1e3,
+            "mat_thickness_mm": raised.thickness * 1e3,
+            "outline_rms_mm": outline.rms * 1e3,
+            "sides_mm": (outline.sides * 1e3).tolist(),
+            "mat_mm": [frames.rows * frames.pitch[0] * 1e3, frames.columns * frames.pitch[1] * 1e3],
+            "corners_mm": (outline.corners * 1e3).tolist(),
+        },
+    )
+    say(
         f"second scan: {found.overlap:.0%} on the first, the mat {raised.thickness * 1e3:.1f} mm high, its outline "
         f"within {outline.rms * 1e3:.2f} mm of a rectangle"
     )
     if not found.converged:
-        record.warn("the registration of the second scan did not settle")
+        reserve("the registration of the second scan did not settle")
 
 
 def _candidates(outline: Rectangle, frames: PressureFrames, o: MatOptions) -> list[int]:

@@ -13,7 +13,7 @@ from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.bodies import read_body_motion
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, note, reserve, say
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
@@ -62,7 +62,6 @@ class Treated:
 
 
 def treated(
-    record: Record,
     read: PressureFrames,
     pressure: Float[np.ndarray, "t r c"],
     declared: tuple[tuple[int, int], ...],
@@ -83,8 +82,8 @@ def treated(
     dead = found | listed
     gaps = holes(pressure, read.valid, dead, read.pitch)
     result = _by(way, read, pressure, found, listed, gaps)
-    _tell(record, read, pressure, found, result, gaps, way)
-    _warn(record, read, found, result, way)
+    _tell(read, pressure, found, result, gaps, way)
+    _warn(read, found, result, way)
     return result
 
 
@@ -105,7 +104,6 @@ def _by(
 
 
 def _tell(
-    record: Record,
     read: PressureFrames,
     pressure: Float[np.ndarray, "t r c"],
     found: Bool[np.ndarray, "r c"],
@@ -117,29 +115,32 @@ def _tell(
     whole = filled(pressure, gaps)
     heaviest = int(np.argmax((whole * read.cell_area).sum(axis=(1, 2))))
     dead = np.argwhere(found | result.declared).tolist()
-    record.results["dead_cells"] = {
-        "way": way,
-        "cells": [
-            {
-                "row": r,
-                "column": c,
-                "known_by": "its readings" if found[r, c] else "the layout",
-                "reads_kPa": float(read.pressure[0, r, c]) * 1e-3 if found[r, c] else None,
-                "filled": bool(result.guessed[r, c]),
-            }
-            for r, c in dead
-        ],
-        "area_left_out_mm2": float(read.cell_area[(found | result.declared) & ~result.valid].sum()) * MM2,
-        "force_by_filling_N": sum(float(whole[heaviest, r, c] * read.cell_area[r, c]) for r, c in dead),
-        "force_as_read_N": sum(float(pressure[heaviest, r, c] * read.cell_area[r, c]) for r, c in dead),
-        "filling_is_off_by_share": [round(hole.share, 6) for hole in gaps],
-    }
+    note(
+        "dead_cells",
+        {
+            "way": way,
+            "cells": [
+                {
+                    "row": r,
+                    "column": c,
+                    "known_by": "its readings" if found[r, c] else "the layout",
+                    "reads_kPa": float(read.pressure[0, r, c]) * 1e-3 if found[r, c] else None,
+                    "filled": bool(result.guessed[r, c]),
+                }
+                for r, c in dead
+            ],
+            "area_left_out_mm2": float(read.cell_area[(found | result.declared) & ~result.valid].sum()) * MM2,
+            "force_by_filling_N": sum(float(whole[heaviest, r, c] * read.cell_area[r, c]) for r, c in dead),
+            "force_as_read_N": sum(float(pressure[heaviest, r, c] * read.cell_area[r, c]) for r, c in dead),
+            "filling_is_off_by_share": [round(hole.share, 6) for hole in gaps],
+        },
+    )
 
 
-def _warn(record: Record, read: PressureFrames, found: Bool[np.ndarray, "r c"], result: Treated, way: Way) -> None:
+def _warn(read: PressureFrames, found: Bool[np.ndarray, "r c"], result: Treated, way: Way) -> None:
     alone = (found | result.declared) & ~result.guessed
     if way == "fill" and alone.any():
-        record.warn(f"{int(alone.sum())} dead cells have no working cell beside them and are left out")
+        reserve(f"{int(alone.sum())} dead cells have no working cell beside them and are left out")
     if not found.any():
         return
     cells = [f"row {r} column {c} ({read.pressure[0, r, c] * 1e-3:g} kPa)" for r, c in np.argwhere(found)]
@@ -150,7 +151,7 @@ def _warn(record: Record, read: PressureFrames, found: Bool[np.ndarray, "r c"], 
         "mask": f"left out, {lost:.0f} of {whole:.0f} mm²",
         "fill": "filled from their neighbours",
     }[way]
-    record.warn(f"cells that never change while those around them do seem dead: {named}; {done}")
+    reserve(f"cells that never change while those around them do seem dead: {named}; {done}")
 
 
 UNEVEN = 0.6  # of a step that a frame may come early or late, as clocks are rounded; a lost frame is off by one
@@ -185,13 +186,13 @@ class PreparedFrames:
         return np.asarray(clipping)
 
 
-def read_recording(record: Record, o: MatOptions) -> tuple[PressureFrames, tuple[tuple[int, int], ...]]:
+def read_recording(o: MatOptions) -> tuple[PressureFrames, tuple[tuple[int, int], ...]]:
     """The mat that is asked for, and the cells that its layout lists as dead."""
     layout = None if o.layout is None else read_layout(o.layout)
     if o.layout is not None:
-        record.add_input("`layout`", o.layout)
+        add_input("`layout`", o.layout)
     read = _chosen(read_mat(o.frames, layout, o.kind), o)
-    record.add_input(
+    add_input(
         "frames",
         o.frames,
         mat=read.name,
@@ -204,18 +205,16 @@ def read_recording(record: Record, o: MatOptions) -> tuple[PressureFrames, tuple
     return read, layout.dead if layout else ()
 
 
-def made_ready(
-    record: Record, read: PressureFrames, listed: tuple[tuple[int, int], ...], o: MatOptions
-) -> PreparedFrames:
+def made_ready(read: PressureFrames, listed: tuple[tuple[int, int], ...], o: MatOptions) -> PreparedFrames:
     """Frames without offset and dead cells, smoothed; `listed` are the cells that the layout lists as dead."""
     pressure = np.where(read.valid, read.pressure, 0.0)
     if o.unloaded is not None:
         pressure = pressure - _zero(read, pressure, o.unloaded).at(read.time)
-    sound = treated(record, read, pressure, listed, o.dead, o.touched)
+    sound = treated(read, pressure, listed, o.dead, o.touched)
     pressure, valid = _smooth(read, sound.pressure, o), sound.valid
     frames = replace(read, pressure=np.where(valid, pressure, np.nan), valid=valid)
     found = PreparedFrames(frames, read, sound.gaps)
-    _say_what_is_odd(record, found, o)
+    _say_what_is_odd(found, o)
     return found
 
 
@@ -258,34 +257,34 @@ def _smooth(read: PressureFrames, pressure: Float[np.ndarray, "t r c"], o: MatOp
         raise InputError("", "`cutoff`", str(error), "give a lower one, or 0 for none") from error
 
 
-def _say_what_is_odd(record: Record, seen: PreparedFrames, o: MatOptions) -> None:
+def _say_what_is_odd(seen: PreparedFrames, o: MatOptions) -> None:
     frames, clipping = seen.frames, seen.saturated
     if clipping.any():
         cells, share = int(clipping.any(axis=0).sum()), clipping.any(axis=(1, 2)).mean()
-        record.warn(
+        reserve(
             f"{cells} cells clip at {frames.saturation * 1e-3:g} kPa, in {share:.0%} of the frames: forces are too low"
         )
     dead = int((~frames.valid).sum())
     if dead:
-        record.say(f"{dead} of {frames.valid.size} places of the grid have no working cell")
+        say(f"{dead} of {frames.valid.size} places of the grid have no working cell")
     silent = frames.valid & ~(frames.pressure > 0.0).any(axis=0)
     if silent.any() and not silent.all():
-        record.results["silent_cells"] = np.argwhere(silent).tolist()
-    _say_what_is_negative(record, frames)
+        note("silent_cells", np.argwhere(silent).tolist())
+    _say_what_is_negative(frames)
     force = frames.force
     if o.unloaded is None and force.max(initial=0.0) > 0.0 and force.min() > RESTING * force.max():
         what = f"the mat never reads less than {force.min():.0f} N"
-        record.warn(f"{what}: if it was unloaded at some time, say when with `unloaded`")
+        reserve(f"{what}: if it was unloaded at some time, say when with `unloaded`")
 
 
-def _say_what_is_negative(record: Record, frames: PressureFrames) -> None:
+def _say_what_is_negative(frames: PressureFrames) -> None:
     """Noise about zero sums to little; an offset that was taken off and was none does not."""
     pressure = np.where(frames.valid, frames.pressure, 0.0)
     below = np.tensordot(np.minimum(pressure, 0.0), frames.cell_area, 2)
     lowest, least = float(pressure.min(initial=0.0)), float(below.min(initial=0.0))
-    record.results["below_zero"] = {"lowest_Pa": lowest, "largest_force_N": -least}
+    note("below_zero", {"lowest_Pa": lowest, "largest_force_N": -least})
     if -least > RESTING * float(np.abs(frames.force).max(initial=0.0)):
-        record.warn(f"cells that read below 0 sum to {least:.1f} N in one frame: check `unloaded` and the offset")
+        reserve(f"cells that read below 0 sum to {least:.1f} N in one frame: check `unloaded` and the offset")
 
 
 TOUCH = 1e-6  # s; a frame so far beyond the motion is at its end, as times are rounded
@@ -314,19 +313,17 @@ class Travel:
         )
 
 
-def read_segment_motion(record: Record, o: MatOptions) -> Motion | None:
+def read_segment_motion(o: MatOptions) -> Motion | None:
     """Poses of the segment over time; None where it is not said to move."""
     if o.motion is None:
         return None
-    motion = read_body_motion(record, o.motion, o)
+    motion = read_body_motion(o.motion, o)
     if len(motion) < 2:
         raise InputError("", "`motion`", f"{o.motion} holds one pose", "two are needed")
     return motion
 
 
-def followed(
-    record: Record, seen: PreparedFrames, motion: Motion | None, o: MatOptions
-) -> tuple[PreparedFrames, Travel | None]:
+def followed(seen: PreparedFrames, motion: Motion | None, o: MatOptions) -> tuple[PreparedFrames, Travel | None]:
     """The frames for which there is a pose, and the poses; all frames and None where nothing moves."""
     if motion is None:
         return seen, None
@@ -337,15 +334,18 @@ def followed(
         raise InputError(o.motion or "", "", f"no frame has a pose: {span}", "bring both to one clock")
     left_out = int((~inside).sum())
     if left_out:
-        record.warn(f"{left_out} of {len(time)} frames are left out, they have no pose: {span}")
+        reserve(f"{left_out} of {len(time)} frames are left out, they have no pose: {span}")
     poses = poses_at(motion.time, motion.poses, np.clip(time[inside], low, high))
     frame = o.frame or _name(o)
-    record.results["motion"] = {
-        "source": motion.source,
-        "frame": frame,
-        "poses": len(motion),
-        "frames_left_out": left_out,
-    }
+    note(
+        "motion",
+        {
+            "source": motion.source,
+            "frame": frame,
+            "poses": len(motion),
+            "frames_left_out": left_out,
+        },
+    )
     chosen = replace(seen, frames=_only(seen.frames, inside), read=_only(seen.read, inside))
     return chosen, Travel(poses, frame)
 

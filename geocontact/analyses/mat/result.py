@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.frame.collector import listener, reserve
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import Thinned
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT
 from geocontact.analyses.mat.comparison import compared
 from geocontact.analyses.mat.loads import MatFindings, loads, mat_tables
@@ -76,7 +76,7 @@ class MatResult(MatFindings):
         try:
             write_mat_vtp(folder / "mat_on_surface.vtp", s.vertices, s.faces, self._on_faces(), named)
         except InputError as error:
-            self.record.warn(str(error))
+            reserve(str(error))
         super().write_files(folder)
 
     def _point_and_frame(self) -> dict[str, object]:
@@ -98,27 +98,26 @@ class MatResult(MatFindings):
         }
 
 
-def run(given: MatInputs, o: MatOptions, record: Record) -> MatResult:
+def run(given: MatInputs, o: MatOptions) -> MatResult:
     """Loads of every frame that has a pose, or of every frame where nothing moves."""
-    with record.listener.stages(o.frames.name) as at:
-        return _evaluated(given, o, record, at)
+    with listener().stages(o.frames.name) as at:
+        return _evaluated(given, o, at)
 
 
-def _evaluated(given: MatInputs, o: MatOptions, record: Record, at: Callable[[str], None]) -> MatResult:
+def _evaluated(given: MatInputs, o: MatOptions, at: Callable[[str], None]) -> MatResult:
     at("recording made ready")
-    seen, travel = followed(record, made_ready(record, given.recorded, given.listed_dead, o), given.motion, o)
+    seen, travel = followed(made_ready(given.recorded, given.listed_dead, o), given.motion, o)
     frames = seen.frames
     at("mat laid on its surface")
-    with record.listener.preparing():
-        there = placed(record, given, frames, o)
+    with listener().preparing():
+        there = placed(given, frames, o)
     at(f"loads of {len(frames.time)} frames")
-    found = loads(record, given, there, seen, travel, o)
+    found = loads(given, there, seen, travel, o)
     model, agreement = given.model, None
     if model is not None:
         at("comparison with the model")
-        agreement = compared(record, model, given.phases, found.whole, frames.time, o)
+        agreement = compared(model, given.phases, found.whole, frames.time, o)
     return MatResult(
-        record=record,
         options=o,
         frames=frames,
         saturated=seen.saturated,
@@ -133,7 +132,7 @@ def _evaluated(given: MatInputs, o: MatOptions, record: Record, at: Callable[[st
         errors=found.errors,
         home=found.home,
         registration=there.registration,
-        closest_point=closest_point(record, there, frames, o),
+        closest_point=closest_point(there, frames, o),
         agreement=agreement,
     )
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.analyses.frame.collector import spelled
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.mat.loads import MatFindings
@@ -218,9 +219,7 @@ def _reservations(r: MatFindings) -> list[str]:
         f"Cells are up to {known.max():.1%} larger or smaller on the scan than flat; each keeps its own sensing area.",
         f"Landmarks are missed by up to {miss}.",
         f"The errors that were stated make the largest force uncertain by {sd:.1f} N (standard deviation).",
-        r.record.spell(
-            "What was neither stated (`gain`, `registration`) nor told by a registration is not in that number."
-        ),
+        spelled("What was neither stated (`gain`, `registration`) nor told by a registration is not in that number."),
         "The scan is one shape: where soft tissue gives way under the load, pressures sit where it was before.",
     ]
 

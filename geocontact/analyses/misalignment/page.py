@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import spelled
 from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.page.content import Page, Section, Words
@@ -35,7 +35,6 @@ def elbow_page(
     answer: Sequence[str],
     facts: Sequence[tuple[str, str]],
     sections: Sequence[Section],
-    record: Record,
     start_frame: int | None = None,
 ) -> Page:
     """The page with the answer, in the words of `record`.
@@ -47,7 +46,7 @@ def elbow_page(
         subtitle,
         time,
         label,
-        headline=[record.spell(line) for line in answer],
+        headline=[spelled(line) for line in answer],
         facts=facts[:FACTS],
         sections=tuple(sections),
         start_frame=start_frame or 0,

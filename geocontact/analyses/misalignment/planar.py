@@ -10,7 +10,7 @@ from typing import Any
 import pandas as pd
 
 from geocontact.analyses.frame import quantities
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.axis_misalignment.axis_drift import STILL, AxisDrift, from_instant_centre, polynomial, table
 from geocontact.axis_misalignment.planar_joint import FOLD, LOST, POLE, SOUND
 from geocontact.data.errors import InputError
@@ -44,26 +44,24 @@ def drift(text: str, option: str) -> Path | dict[str, tuple[float, ...]]:
     return found
 
 
-def axis_drift(
-    record: Record, told: Path | Mapping[str, tuple[float, ...]] | None, span: tuple[float, float]
-) -> AxisDrift:
+def axis_drift(told: Path | Mapping[str, tuple[float, ...]] | None, span: tuple[float, float]) -> AxisDrift:
     """Drift of coefficients [m, m/rad, m/rad², …] or of a table; none where nothing is told.
 
     A table that does not hold all angles of `span` [rad] is used with a warning: it is held at its ends.
     """
     if told is None:
         return STILL
-    return polynomial(told.get("x", ()), told.get("y", ())) if isinstance(told, Mapping) else _table(record, told, span)
+    return polynomial(told.get("x", ()), told.get("y", ())) if isinstance(told, Mapping) else _table(told, span)
 
 
-def _table(record: Record, file: Path, span: tuple[float, float]) -> AxisDrift:
+def _table(file: Path, span: tuple[float, float]) -> AxisDrift:
     told = read_axis_drift(file)
-    record.add_input("`drift`", file, rows=len(told.angle), tells=told.tells)
+    add_input("`drift`", file, rows=len(told.angle), tells=told.tells)
     if told.angle[0] > span[0] or told.angle[-1] < span[1]:
         ends, asked = (
             " to ".join(f"{math.degrees(a):.4g}" for a in two) for two in ((told.angle[0], told.angle[-1]), span)
         )
-        record.warn(f"{file}: angles from {ends} deg, asked for {asked}: beyond its ends the axis is taken to stay")
+        reserve(f"{file}: angles from {ends} deg, asked for {asked}: beyond its ends the axis is taken to stay")
     try:
         if told.tells == "instant centre":
             return from_instant_centre(told.angle, told.x, told.y)

@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.filters import at_times, even_times, zero_lag
@@ -19,7 +19,6 @@ from geocontact.io.text.columns import parse_map
 
 
 def recordings(
-    record: Record,
     role: str,
     paths: Sequence[Path],
     mapping: str | None,
@@ -35,7 +34,7 @@ def recordings(
         if path.stem in [r.name for r in found]:
             raise InputError(path, "", f"is the second recording named {path.stem!r}", "rename one")
         raw = read_elbow_recording(path, columns, angles, unit, needed)
-        record.add_input(role, path, samples=len(raw.time))
+        add_input(role, path, samples=len(raw.time))
         found.append(raw if cutoff is None else _filtered(path, raw, cutoff))
     return found
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.modulus.options import ModulusOptions
 from geocontact.contact.area_hertz import READINGS, Reading
 from geocontact.data.errors import InputError
@@ -66,47 +66,45 @@ class ModulusInputs:
     other: OtherTrial | None
 
 
-def read(o: ModulusOptions, record: Record) -> ModulusInputs:
+def read(o: ModulusOptions) -> ModulusInputs:
     """Everything the options name."""
     mapping = {} if o.map is None else parse_map(o.map, (*SIDES, FLEXION))
     if FLEXION in mapping and o.flexion is None:
         raise InputError("", "`map`", "flexion has no effect without `flexion`", "leave it out")
-    table, forces = _areas(record, "`area`", o.area), _forces(record, "`force`", o.force, o, mapping)
-    evolutions = _evolutions(record, o, table, forces, mapping.get(FLEXION, (1.0, FLEXION)))
+    table, forces = _areas("`area`", o.area), _forces("`force`", o.force, o, mapping)
+    evolutions = _evolutions(o, table, forces, mapping.get(FLEXION, (1.0, FLEXION)))
     reading = next(each for each in READINGS if each.name == o.reading)
     at_once = ADDUCTION in (o.free or {}) and all(half in evolutions for half in HALVES)
     sides = (BOTH,) if at_once else tuple(evolutions)
-    measured = _measured_areas(record, o, table)
+    measured = _measured_areas(o, table)
     lag = 0.0 if o.lag is None else o.lag
     sticks = None if o.adhesion is None else Adhesion(o.adhesion, o.work_of_adhesion or 0.0)
-    return ModulusInputs(table, forces, evolutions, reading, lag, sticks, sides, measured, _other(record, o, mapping))
+    return ModulusInputs(table, forces, evolutions, reading, lag, sticks, sides, measured, _other(o, mapping))
 
 
-def _areas(record: Record, role: str, paths: tuple[Path, ...]) -> AreaTable:
+def _areas(role: str, paths: tuple[Path, ...]) -> AreaTable:
     table = read_area_table(paths)
     for path in paths:
-        record.add_input(role, path)
+        add_input(role, path)
     return table
 
 
-def _forces(
-    record: Record, role: str, path: Path, o: ModulusOptions, mapping: Mapping[str, tuple[float, str]]
-) -> ForceCurves:
+def _forces(role: str, path: Path, o: ModulusOptions, mapping: Mapping[str, tuple[float, str]]) -> ForceCurves:
     forces = read_force_curves(path, o.unit, {side: mapping[side] for side in SIDES if side in mapping})
-    record.add_input(role, path, unit=forces.unit)
+    add_input(role, path, unit=forces.unit)
     return forces
 
 
 def _evolutions(
-    record: Record, o: ModulusOptions, table: AreaTable, forces: ForceCurves, source: tuple[float, str]
+    o: ModulusOptions, table: AreaTable, forces: ForceCurves, source: tuple[float, str]
 ) -> dict[str, ThresholdAreas]:
     """Areas of every side that has forces, with the radius at each frame."""
     sides = [side for side in ORDER if side in table.areas and side in forces.forces]
     if not sides:
         what = f"areas of {', '.join(table.areas)}, forces of {', '.join(forces.forces)}"
         raise InputError(o.force, "", what, "they need a side in common; `split` the area")
-    flexion = _flexion(record, o, table, source)
-    radii = _radii(record, o, table, flexion, sides)
+    flexion = _flexion(o, table, source)
+    radii = _radii(o, table, flexion, sides)
     length = float("nan") if o.length is None else o.length
     return {
         s: ThresholdAreas(table.time, table.thresholds, table.areas[s], radii[s], length, table.tilted.get(s), flexion)
@@ -114,38 +112,36 @@ def _evolutions(
     }
 
 
-def _measured_areas(record: Record, o: ModulusOptions, table: AreaTable) -> MeasuredAreas | None:
+def _measured_areas(o: ModulusOptions, table: AreaTable) -> MeasuredAreas | None:
     if o.calibrate is None:
         return None
     if len(table.thresholds) < 3:
         what, remedy = "calibrating needs areas at 3 thresholds or more", "see `threshold` of geocontact area"
         raise InputError(o.calibrate, "", what, remedy)
-    record.add_input("`calibrate`", o.calibrate)
+    add_input("`calibrate`", o.calibrate)
     return read_area_over_force(o.calibrate)
 
 
-def _other(record: Record, o: ModulusOptions, mapping: Mapping[str, tuple[float, str]]) -> OtherTrial | None:
+def _other(o: ModulusOptions, mapping: Mapping[str, tuple[float, str]]) -> OtherTrial | None:
     if not o.predict_area:
         return None
-    table = _areas(record, "`predict_area`", o.predict_area)
+    table = _areas("`predict_area`", o.predict_area)
     if o.predict_force is None:
         return OtherTrial(table, None)
-    return OtherTrial(table, _forces(record, "`predict_force`", o.predict_force, o, mapping))
+    return OtherTrial(table, _forces("`predict_force`", o.predict_force, o, mapping))
 
 
 def _radii(
-    record: Record, o: ModulusOptions, table: AreaTable, flexion: Float[np.ndarray, " t"] | None, sides: list[str]
+    o: ModulusOptions, table: AreaTable, flexion: Float[np.ndarray, " t"] | None, sides: list[str]
 ) -> dict[str, Float[np.ndarray, " t"]]:
     if o.profile is None or flexion is None:
         return {side: np.full(len(table.time), o.radius) for side in sides}
     profiles = read_radius_profile(o.profile)
-    record.add_input("`profile`", o.profile)
+    add_input("`profile`", o.profile)
     return {side: _followed(profiles, side, flexion, o.profile) for side in sides}
 
 
-def _flexion(
-    record: Record, o: ModulusOptions, table: AreaTable, source: tuple[float, str]
-) -> Float[np.ndarray, " t"] | None:
+def _flexion(o: ModulusOptions, table: AreaTable, source: tuple[float, str]) -> Float[np.ndarray, " t"] | None:
     """Flexion at the frames of the areas [rad]."""
     if o.flexion is None:
         return None
@@ -155,7 +151,7 @@ def _flexion(
     if time[0] < motion.time[0] - 1e-6 or time[-1] > motion.time[-1] + 1e-6:
         what = f"ends before the areas do ({motion.time[0]:g} to {motion.time[-1]:g} s)"
         raise InputError(o.flexion, "", what, "give the motion that the areas were computed on")
-    record.add_input("`flexion`", o.flexion)
+    add_input("`flexion`", o.flexion)
     return np.asarray(np.interp(time, motion.time, values))
 
 

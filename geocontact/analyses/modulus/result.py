@@ -21,9 +21,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 import pandas as pd
 
+from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.modulus.identified import Identified, constant, predictions, sensitivity
 from geocontact.analyses.modulus.inputs import ModulusInputs, model_of, read, threshold_given, unknowns
@@ -116,21 +116,21 @@ FEW_BLOCKS = 5
 STRAYED = 0.3  # rms of the calibration's relative differences beyond which the table is not met
 
 
-def run(inputs: ModulusInputs, o: ModulusOptions, record: Record) -> ModulusResult:
+def run(inputs: ModulusInputs, o: ModulusOptions) -> ModulusResult:
     """E* of every side, with what it depends on, and the forces of a trial that was not used."""
-    calibration = _calibrated(record, inputs, o.calibrate)
+    calibration = _calibrated(inputs, o.calibrate)
     threshold = threshold_given(o, inputs.table) if calibration is None else calibration.threshold
     others = unknowns(o, inputs, threshold)
-    _doubt(record, inputs)
-    sides = _sides(record, inputs, threshold, others, o)
+    _doubt(inputs)
+    sides = _sides(inputs, threshold, others, o)
     found = Identified(sides, sensitivity(sides), calibration, predictions(inputs, sides), o.poisson)
-    record.results["modulus"] = describe(found)
-    _tell(record, found)
-    return ModulusResult(record=record, options=o, found=found)
+    note("modulus", describe(found))
+    _tell(found)
+    return ModulusResult(options=o, found=found)
 
 
 def _identified(
-    record: Record, inputs: ModulusInputs, side: str, threshold: float, others: tuple[Parameter, ...], o: ModulusOptions
+    inputs: ModulusInputs, side: str, threshold: float, others: tuple[Parameter, ...], o: ModulusOptions
 ) -> Identification:
     model, measured = model_of(inputs, side, threshold, others)
     if not model.per_modulus({}).any():
@@ -144,38 +144,38 @@ def _identified(
     except ValueError as error:
         remedy = "leave it out of `free`" if others else "check that areas and forces belong together"
         raise InputError(inputs.table.file, "", f"{side}: {error}", remedy) from error
-    _reserve(record, side, found)
+    _reserve(side, found)
     return found
 
 
 def _sides(
-    record: Record, inputs: ModulusInputs, threshold: float, others: tuple[Parameter, ...], o: ModulusOptions
+    inputs: ModulusInputs, threshold: float, others: tuple[Parameter, ...], o: ModulusOptions
 ) -> dict[str, Identification]:
     """Every side that tells something; the others are told. InputError where none does."""
     found, untold = {}, []
     for side in inputs.sides:
         try:
-            found[side] = _identified(record, inputs, side, threshold, others, o)
+            found[side] = _identified(inputs, side, threshold, others, o)
         except InputError as error:
             untold.append(error)
     if not found:
         raise untold[0]
     for each in untold:
-        record.warn(f"{each.what}: this side is left out")
+        reserve(f"{each.what}: this side is left out")
     return found
 
 
-def _doubt(record: Record, inputs: ModulusInputs) -> None:
+def _doubt(inputs: ModulusInputs) -> None:
     """What is odd about the inputs before anything is fitted."""
     for each in gaps(inputs.forces.time):
         span = f"{seconds(each.start)} to {seconds(each.end)} s"
-        record.warn(f"{inputs.forces.file}: no samples from {span}: frames of the area in there are not used")
+        reserve(f"{inputs.forces.file}: no samples from {span}: frames of the area in there are not used")
     areas = next(iter(inputs.table.areas.values()))
     if areas.shape[1] > 1 and (areas == areas[:, :1]).all():
-        record.warn(f"{inputs.table.file}: areas are the same at every threshold: nothing depends on it here")
+        reserve(f"{inputs.table.file}: areas are the same at every threshold: nothing depends on it here")
 
 
-def _calibrated(record: Record, inputs: ModulusInputs, path: Path | None) -> Calibration | None:
+def _calibrated(inputs: ModulusInputs, path: Path | None) -> Calibration | None:
     """Threshold with which the areas of the whole are those of the table at the same force."""
     if path is None or inputs.measured_areas is None:
         return None
@@ -186,43 +186,43 @@ def _calibrated(record: Record, inputs: ModulusInputs, path: Path | None) -> Cal
     except ValueError as error:
         raise InputError(path, "", str(error), "give areas at forces of the trial") from error
     if found.on_end:
-        record.warn(f"{path.name}: the best threshold is an end of those evaluated, {found.threshold * 1e3:g} mm")
+        reserve(f"{path.name}: the best threshold is an end of those evaluated, {found.threshold * 1e3:g} mm")
     if found.rms > STRAYED:
-        record.warn(f"{path.name}: areas differ by {found.rms:.0%} (rms) even at the best threshold")
+        reserve(f"{path.name}: areas differ by {found.rms:.0%} (rms) even at the best threshold")
     return found
 
 
-def _reserve(record: Record, side: str, each: Identification) -> None:
+def _reserve(side: str, each: Identification) -> None:
     """What has to be said about one side."""
     _, r2 = agreement(each.measured, each.predicted)
     if constant(each):
-        record.warn(f"{side}: the area is the same in every frame: nothing tells whether the law holds")
+        reserve(f"{side}: the area is the same in every frame: nothing tells whether the law holds")
     if r2 < 0.0:
-        record.warn(f"{side}: R² is {r2:.2f}, a constant force would do better than the law")
+        reserve(f"{side}: R² is {r2:.2f}, a constant force would do better than the law")
     for name in each.on_bound:
-        record.warn(f"{side}: the data set no limit to {name} within its bounds on one side or both")
+        reserve(f"{side}: the data set no limit to {name} within its bounds on one side or both")
     drawn = each.replicates
     if drawn is not None and drawn.blocks < FEW_BLOCKS:
-        record.warn(f"{side}: {drawn.blocks} blocks of {drawn.block:.2g} s are few for a bootstrap")
+        reserve(f"{side}: {drawn.blocks} blocks of {drawn.block:.2g} s are few for a bootstrap")
     if drawn is not None and drawn.block < each.memory.typical:
         what = f"the residual remembers for about {each.memory.typical:.2g} s of {len(each.measured)} frames"
-        record.warn(f"{side}: {what}, longer than a block: the law misses something, and intervals are rough")
+        reserve(f"{side}: {what}, longer than a block: the law misses something, and intervals are rough")
     free = each.told_apart.get("free")
     if free is not None and free.verdict != "told apart":
-        record.warn(f"{side}: {', '.join(free.names)} are {free.verdict} (condition {free.condition:.3g})")
+        reserve(f"{side}: {', '.join(free.names)} are {free.verdict} (condition {free.condition:.3g})")
 
 
-def _tell(record: Record, found: Identified) -> None:
+def _tell(found: Identified) -> None:
     for side, each in found.sides.items():
         p = each.profiles[MODULUS]
         rmse, r2 = agreement(each.measured, each.predicted)
         span = f"{p.lower * 1e-6:.4g} … {p.upper * 1e-6:.4g}"
         sticks = "" if each.model.adhesion is None else f", {each.model.adhesion.words}"
-        record.say(f"{side}: E* {each.modulus * 1e-6:.4g} MPa (95 % {span}), RMSE {rmse:.0f} N, R² {r2:.2f}{sticks}")
-    record.say("E and ν are one number here: area and force tell E* = E/(1 - ν²), and E only for a stated ν")
+        say(f"{side}: E* {each.modulus * 1e-6:.4g} MPa (95 % {span}), RMSE {rmse:.0f} N, R² {r2:.2f}{sticks}")
+    say("E and ν are one number here: area and force tell E* = E/(1 - ν²), and E only for a stated ν")
     for told in found.predictions:
         if told.measured is not None:
-            record.say(f"{told.side}, trial not used: RMSE {told.rmse:.0f} N, R² {told.r2:.2f}")
+            say(f"{told.side}, trial not used: RMSE {told.rmse:.0f} N, R² {told.r2:.2f}")
 
 
 modulus = Job("modulus", ModulusOptions, read, run)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import reserve
 from geocontact.dynamics.inverse_kinematics import Poses
 
 FAR = 0.05
@@ -61,11 +61,11 @@ class MarkerErrors:
             f"{self.marker} at {self.time:.3g} s (OpenSim advises less than {limits.words})"
         )
 
-    def warn(self, record: Record, limits: MarkerLimits, why: str = "") -> None:
+    def warn(self, limits: MarkerLimits, why: str = "") -> None:
         """One line where they are beyond the limits; `why` is the cause that was found."""
         if self.within(limits):
             return
         check = f"check where {self.marker} is on the model and in the recording, the scaling, and exchanged markers"
         if self.rms > FAR:
             check = "another subject's size, axes (`axes`) or unit?"
-        record.warn(f"markers are {self.words(limits)}: {why or check}")
+        reserve(f"markers are {self.words(limits)}: {why or check}")

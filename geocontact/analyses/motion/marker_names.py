@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.quantities import named_file
-from geocontact.analyses.frame.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
@@ -16,14 +16,14 @@ from geocontact.io.text.tables import listed
 MANY = 80  # names that a message still lists: marker sets of whole bodies
 
 
-def renamed(record: Record, seen: MarkerTrajectories, model: Multibody, given: str | None) -> MarkerTrajectories:
+def renamed(seen: MarkerTrajectories, model: Multibody, given: str | None) -> MarkerTrajectories:
     """Recorded markers by the model's names, as `markers_map` says; others keep theirs."""
     if given is None:
         return seen
     file = named_file(given)
     names = marker_map_typed(given, "`markers_map`") if file is None else read_marker_map(file)
     if file is not None:
-        record.add_input("`markers_map`", file, markers=len(names))
+        add_input("`markers_map`", file, markers=len(names))
     own = {m.name for m in model.markers}
     usable = {lab: name for lab, name in names.items() if lab in seen.names and name in own}
     if not usable:
@@ -34,7 +34,7 @@ def renamed(record: Record, seen: MarkerTrajectories, model: Multibody, given: s
         if which:
             near = near_names(which, there)
             hint = f"; perhaps {', '.join(near.values())}" if near else ""
-            record.warn(f"`markers_map`: {listed(tuple(which))} {what}{hint}")
+            reserve(f"`markers_map`: {listed(tuple(which))} {what}{hint}")
     try:
         return seen.renamed(usable)
     except ValueError as error:

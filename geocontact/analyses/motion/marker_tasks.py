@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from geocontact.analyses.frame.collector import add_input, current, reserve
 from geocontact.analyses.frame.quantities import number
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.marker_names import map_hint, names_told
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import Followed, MarkerTasks, MarkerTrajectories
@@ -22,7 +22,6 @@ HELD = 1e3  # weight of a coordinate that is held, against 1 of a marker: a radi
 
 
 def marker_tasks(
-    record: Record,
     model: Multibody,
     seen: MarkerTrajectories,
     file: Path | None,
@@ -36,15 +35,15 @@ def marker_tasks(
     """
     if not model.markers:
         raise InputError(
-            str(record.options["model"]), "", "has no markers", "give a model with a MarkerSet, or `marker_set`"
+            str(current().options["model"]), "", "has no markers", "give a model with a MarkerSet, or `marker_set`"
         )
     if file is None:
         tasks = MarkerTasks({m.name: 1.0 for m in model.markers})
     else:
         tasks = read_marker_weights(file)
-        record.add_input("`tasks`", file, markers=len(tasks.markers), coordinates=len(tasks.coordinates))
+        add_input("`tasks`", file, markers=len(tasks.markers), coordinates=len(tasks.coordinates))
         if (named := tasks_file(file)) != file:
-            record.add_input("tasks that it names", named)
+            add_input("tasks that it names", named)
     known = {c.name: c for c in model.coordinates}
     markers = {**tasks.markers, **_named(weight, "`weight`", {m.name for m in model.markers}, "R.Heel=10")}
     if min(markers.values(), default=0.0) < 0.0:
@@ -56,14 +55,13 @@ def marker_tasks(
     wanted = {name: (HELD, np.radians(v) if known[name].kind == "rotational" else v) for name, v in held.items()}
     _refuse_strangers(model, seen, markers)
     weighed = [name for name, (weight, _) in tasks.coordinates.items() if weight > 0.0]
-    _warn(record, model, seen, markers, [*weighed, *tasks.from_file])
+    _warn(model, seen, markers, [*weighed, *tasks.from_file])
     near = {name: by for name, by in tasks.from_file.items() if name in known and name not in wanted}
-    followed = _followed(record, model, seen, near, file, follow)
+    followed = _followed(model, seen, near, file, follow)
     return MarkerTasks(markers, {**tasks.coordinates, **wanted}, near, followed)
 
 
 def _followed(
-    record: Record,
     model: Multibody,
     seen: MarkerTrajectories,
     near: Mapping[str, float],
@@ -79,7 +77,7 @@ def _followed(
         what = f"{listed(tuple(near))} is to be near a recording"
         raise InputError(tasks or "", "", what, "name its file with `follow` in ik; scale takes manual_value")
     table = read_table(follow)
-    record.add_input("`follow`", follow, frames=len(table.time))
+    add_input("`follow`", follow, frames=len(table.time))
     columns = columns_of(table, model.joints)
     lost = [name for name in near if name not in columns]
     if lost:
@@ -101,9 +99,7 @@ def _refuse_strangers(model: Multibody, seen: MarkerTrajectories, markers: dict[
         raise InputError(seen.source, "", what, names_told(seen, model))
 
 
-def _warn(
-    record: Record, model: Multibody, seen: MarkerTrajectories, markers: dict[str, float], coordinates: list[str]
-) -> None:
+def _warn(model: Multibody, seen: MarkerTrajectories, markers: dict[str, float], coordinates: list[str]) -> None:
     """Say which weights count nothing: of what was never seen, of what the model lacks."""
     visible = np.isfinite(seen.positions).all(axis=2).any(axis=0)
     there = {name for name, once in zip(seen.names, visible, strict=True) if once}
@@ -120,7 +116,7 @@ def _warn(
     for what, names in rows:
         if names:
             hint = map_hint(seen, names) if "recorded" in what else ""
-            record.warn("; ".join(each for each in (f"{seen.source}: {what}: {listed(tuple(names))}", hint) if each))
+            reserve("; ".join(each for each in (f"{seen.source}: {what}: {listed(tuple(names))}", hint) if each))
 
 
 def _named(texts: tuple[str, ...], option: str, names: set[str], example: str) -> dict[str, float]:

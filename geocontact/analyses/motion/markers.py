@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.frame.options import LengthUnit
 from geocontact.analyses.frame.quantities import named_file, turned_axes
-from geocontact.analyses.frame.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
@@ -57,14 +57,14 @@ def _refuse_absurd(seen: MarkerTrajectories) -> None:
         raise InputError(seen.source, "", what, f"is the unit in the file's head right? perhaps it is {likely}")
 
 
-def renamed_as_told(record: Record, seen: MarkerTrajectories, given: str | None) -> MarkerTrajectories:
+def renamed_as_told(seen: MarkerTrajectories, given: str | None) -> MarkerTrajectories:
     """Markers by new names, as `markers_map` says; InputError where one of them was not recorded."""
     if given is None:
         return seen
     file = named_file(given)
     names = marker_map_typed(given, "`markers_map`") if file is None else read_marker_map(file)
     if file is not None:
-        record.add_input("`markers_map`", file, markers=len(names))
+        add_input("`markers_map`", file, markers=len(names))
     lost = [name for name in names if name not in seen.names]
     if lost:
         what = f"{lost[0]} was not recorded"
@@ -75,10 +75,10 @@ def renamed_as_told(record: Record, seen: MarkerTrajectories, given: str | None)
         raise InputError(seen.source, "`markers_map`", str(error), "map that one too, or leave it out") from error
 
 
-def with_marker_set(record: Record, model: Multibody, osim: Path, file: Path | None) -> Multibody:
+def with_marker_set(model: Multibody, osim: Path, file: Path | None) -> Multibody:
     """The model with the markers of another file in place of its own."""
     if file is None:
         return model
     markers = read_marker_set(file, osim)
-    record.add_input("`marker_set`", file, markers=len(markers))
+    add_input("`marker_set`", file, markers=len(markers))
     return replace(model, markers=markers)

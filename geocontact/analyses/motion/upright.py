@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import reserve
 from geocontact.analyses.frame.quantities import turned_axes
-from geocontact.analyses.frame.record import Record
 from geocontact.data.multibody.joint import JointModel
 from geocontact.data.multibody.model import GROUND, Multibody
 
@@ -17,7 +17,7 @@ FREE = 6
 """Coordinates of a joint that leaves a body free of the ground."""
 
 
-def warn_of_tilt(record: Record, model: Multibody, values: Float[np.ndarray, "t n"], axes: str | None) -> None:
+def warn_of_tilt(model: Multibody, values: Float[np.ndarray, "t n"], axes: str | None) -> None:
     """A warning where the root body is far from how the model stands by default, with the axes that would mend it."""
     root = next((j for j in model.joints if j.parent == GROUND and len(j.coordinates) == FREE), None)
     if root is None or not np.any(model.gravity):
@@ -27,7 +27,7 @@ def warn_of_tilt(record: Record, model: Multibody, values: Float[np.ndarray, "t 
     if not len(tilt) or np.median(tilt) <= TILTED:
         return
     meant = axes_upright(ups.mean(axis=0), up, axes)
-    record.warn(
+    reserve(
         f"{root.child} is {np.degrees(np.median(tilt)):.0f} degrees from upright in half of the frames: gravity of "
         f"{model.name} does not point down in the recording; unless the subject lies, try `axes` {meant}"
     )

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.folder import digest
-from geocontact.analyses.frame.record import Record
 from geocontact.below_knee_prosthesis.foot_numbers import foot_numbers, socket_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import AS_STOOD, FootOffset, Leg
@@ -24,12 +24,12 @@ from geocontact.io.recordings.spheres import read_law
 from geocontact.loads.sphere_set import SoleLaw
 
 
-def foot_with_law(record: Record, foot: VariableStiffnessFoot, file: Path | None) -> VariableStiffnessFoot:
+def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableStiffnessFoot:
     """The foot with the numbers that a file gives, for all spheres or by zone; the rest are as they were."""
     if file is None:
         return foot
     law_file, zones = read_law(file), foot.sole.spheres.zones
-    record.add_input("`law`", file)
+    add_input("`law`", file)
     strange = sorted(set(law_file.zone) - set(zones))
     if strange:
         raise InputError(file, f"zone.{strange[0]}", "no sphere is in that zone", f"zones are: {', '.join(zones)}")
@@ -58,13 +58,13 @@ def foot_with_law(record: Record, foot: VariableStiffnessFoot, file: Path | None
     return replace(foot, law=new)
 
 
-def offset_of_law(record: Record, file: Path | None, standing: Path) -> FootOffset:
+def offset_of_law(file: Path | None, standing: Path) -> FootOffset:
     """How the foot is beside a standing trial; none where the file does not say, or says it of another trial."""
     beside = None if file is None else read_law(file).foot
     if beside is None:
         return AS_STOOD
     if beside.standing is not None and beside.standing != digest(standing):
-        record.warn(
+        reserve(
             f"{file}: [foot] was found beside another standing trial than `static`, and is left out: height and pitch "
             "are errors of that trial (if it is the same in another file, take the line `standing` out of the law)"
         )

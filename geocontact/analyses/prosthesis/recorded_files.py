@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
@@ -53,7 +53,6 @@ def require_under_foot(file: Path, name: str, centre: Float[np.ndarray, " t"]) -
 
 
 def right_markers(
-    record: Record,
     role: str,
     file: Path,
     side: Side,
@@ -63,13 +62,12 @@ def right_markers(
     time: tuple[float, float] | None = None,
 ) -> MarkerTrajectories:
     """Markers of a file by the names used here, mirrored where the prosthesis is on the left."""
-    seen = renamed_as_told(record, markers_given(file, axes, time, c3d_unit), markers_map)
-    record.add_input(role, file, frames=len(seen), markers=len(seen.names))
+    seen = renamed_as_told(markers_given(file, axes, time, c3d_unit), markers_map)
+    add_input(role, file, frames=len(seen), markers=len(seen.names))
     return as_right(seen, side)
 
 
 def plate_under_foot(
-    record: Record,
     file: Path,
     name: str | None,
     side: Side,
@@ -89,7 +87,7 @@ def plate_under_foot(
         By which the plate is named.
     """
     plate = plate_named(read_force_plates(file, c3d_unit), name, file, f"`{option}`")
-    record.add_input(f"`{option}s`", file, plate=plate.name)
+    add_input(f"`{option}s`", file, plate=plate.name)
     force = of_side(np.nan_to_num(plate.wrench.force), side)
     require_weight(file, f"`{option}`", plate.name, force[:, 1], mass * GRAVITY)
     return PlateStance(plate.time, force, of_side(plate.centre_of_pressure(GATE), side)), plate.name

@@ -12,8 +12,8 @@ from jaxtyping import Bool, Float
 
 from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.bodies import chosen_faces, read_input_surface
+from geocontact.analyses.frame.collector import add_input, listener, reserve, say
 from geocontact.analyses.frame.json_file import finite
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.shared_options import medial_side, refuse_other_axes
 from geocontact.analyses.shape.options import NEEDS, ShapeOptions
 from geocontact.data.errors import InputError
@@ -172,22 +172,22 @@ class ShapeInputs:
     axis: Axis | None
 
 
-def read(o: ShapeOptions, record: Record) -> ShapeInputs:
+def read(o: ShapeOptions) -> ShapeInputs:
     """Everything the options name."""
     if o.paraview:
         require_pyvista()
-    with record.listener.preparing():
-        surface = read_input_surface(record, "mesh", o.mesh, o.unit, o.place)
+    with listener().preparing():
+        surface = read_input_surface("mesh", o.mesh, o.unit, o.place)
         if surface.inside_out:
-            record.warn(f"{surface.name}: faces point inwards; taken the other way round")
-        axis = _axis(record, o)
-        faces = chosen_faces(record, "`region`", o.region, surface, o.unit, _names(record, surface, axis, o))
+            reserve(f"{surface.name}: faces point inwards; taken the other way round")
+        axis = _axis(o)
+        faces = chosen_faces("`region`", o.region, surface, o.unit, _names(surface, axis, o))
     counted = np.ones(len(surface.faces), bool) if faces is None else faces
     if o.split is None:
         return ShapeInputs(Patch(surface, counted, o.points == "vertices", None, 0), axis)
     plane, side = quantities.splitting_plane(o.split, o.unit), medial_side(o.split, o.side, o.medial)
     refuse_other_axes(surface.space, surface.name, o.side, o.medial)
-    record.say(f"medial is {side.words} of {surface.name}")
+    say(f"medial is {side.words} of {surface.name}")
     return ShapeInputs(Patch(surface, counted, o.points == "vertices", plane, side.sign), axis)
 
 
@@ -202,14 +202,14 @@ def sagittal_about(axis: Axis, o: ShapeOptions) -> Sagittal:
         raise InputError("", "`sagittal`", str(error), "name two directions across the axis") from error
 
 
-def _axis(record: Record, o: ShapeOptions) -> Axis | None:
+def _axis(o: ShapeOptions) -> Axis | None:
     if o.axis is None:
         return None
-    _note(record, "`axis`", o.axis)
+    _note("`axis`", o.axis)
     return quantities.axis(o.axis, o.unit)
 
 
-def _names(record: Record, surface: Surface, axis: Axis | None, o: ShapeOptions) -> Mapping[str, Values]:
+def _names(surface: Surface, axis: Axis | None, o: ShapeOptions) -> Mapping[str, Values]:
     """Names beside places and normals that a region may use; those that lack an option say which."""
     found: dict[str, Values] = {name: _missing(name, option) for name, option in NEEDS.items()}
     if axis is not None:
@@ -217,13 +217,13 @@ def _names(record: Record, surface: Surface, axis: Axis | None, o: ShapeOptions)
         if o.sagittal is not None:
             found |= about_flexion(surface, sagittal_about(axis, o))
     if o.centre is not None:
-        _note(record, "`centre`", o.centre)
+        _note("`centre`", o.centre)
         found |= about(surface, quantities.centre(o.centre, o.unit), None, LENGTH[o.unit])
     if o.other is not None:
-        other = read_input_surface(record, "other", o.other, o.unit, o.place_other)
+        other = read_input_surface("other", o.other, o.unit, o.place_other)
         found |= about_other(surface, other, LENGTH[o.unit])
         if not other.closed and o.region is not None and "distance" in o.region:
-            record.warn(f"{other.name} is open ({other.topology.why_open}): distance to it has no sign")
+            reserve(f"{other.name} is open ({other.topology.why_open}): distance to it has no sign")
     return found
 
 
@@ -234,7 +234,7 @@ def _missing(name: str, option: str) -> Values:
     return refuse
 
 
-def _note(record: Record, option: str, text: str) -> None:
+def _note(option: str, text: str) -> None:
     file = quantities.named_file(text)
     if file is not None:
-        record.add_input(option, file)
+        add_input(option, file)

@@ -21,8 +21,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.shape.fitting import (
     Fitting,
@@ -119,25 +119,25 @@ WINDOW = np.radians(30.0)
 POOR = 0.1  # of the radius, that the rms of the points may be
 
 
-def run(given: ShapeInputs, o: ShapeOptions, record: Record) -> ShapeResult:
+def run(given: ShapeInputs, o: ShapeOptions) -> ShapeResult:
     """Fit the whole, then each side along the axis of the whole."""
     patch = given.patch
     along = np.asarray(given.axis.direction, float) if given.axis is not None and o.hold_axis else None
-    with record.listener.stages(patch.surface.name) as at:
+    with listener().stages(patch.surface.name) as at:
         at(f"{o.shape} through {len(patch.points)} points")
-        whole = _fitted(record, patch.surface.name, patch.points, along, o)
+        whole = _fitted(patch.surface.name, patch.points, along, o)
         sides = {}
         for name, (plane, side) in patch.sides.items():
             at(f"{o.shape} through the {name} points")
             own = patch.points[plane.height(patch.points) * side >= 0.0]
-            sides[name] = _fitted(record, name, own, whole.axis, o)
+            sides[name] = _fitted(name, own, whole.axis, o)
         fitting = Fitting(patch, whole, sides, _profiles(patch, given.axis, whole, o, at))
-    record.results["fit"] = describe(fitting, o)
-    return ShapeResult(record=record, options=o, fitting=fitting)
+    note("fit", describe(fitting, o))
+    return ShapeResult(options=o, fitting=fitting)
 
 
 def _fitted(
-    record: Record, name: str, points: Float[np.ndarray, "n 3"], along: Float[np.ndarray, " 3"] | None, o: ShapeOptions
+    name: str, points: Float[np.ndarray, "n 3"], along: Float[np.ndarray, " 3"] | None, o: ShapeOptions
 ) -> ShapeFit:
     """Shape through the points; a cylinder parallel to `along` where that is given."""
     try:
@@ -147,11 +147,11 @@ def _fitted(
             fit = SHAPES[o.shape](np.ascontiguousarray(points), o.robust)
     except ValueError as error:
         raise InputError("", f"`shape` {o.shape}", f"{name}: {error}", "choose more faces with `region`") from error
-    _warn_of_doubts(record, name, fit)
+    _warn_of_doubts(name, fit)
     q = fit.quality
     radius = "" if fit.radius is None else f"radius {fit.radius * 1e3:.3f} mm{_interval(fit)}, "
     rms = f"rms {fit.rms * 1e3:.3f} mm"
-    record.say(f"{name}: {o.shape}, {radius}{rms} over {len(points)} points, {int(q.inlier.sum())} of them inliers")
+    say(f"{name}: {o.shape}, {radius}{rms} over {len(points)} points, {int(q.inlier.sum())} of them inliers")
     return fit
 
 
@@ -162,27 +162,27 @@ def _interval(fit: ShapeFit) -> str:
     return f" (95 % {low:.3f} … {high:.3f})"
 
 
-def _warn_of_doubts(record: Record, name: str, fit: ShapeFit) -> None:
+def _warn_of_doubts(name: str, fit: ShapeFit) -> None:
     if not fit.quality.converged:
-        record.warn(f"{name}: the search did not end by itself; the fit may not be the best")
+        reserve(f"{name}: the search did not end by itself; the fit may not be the best")
     if fit.shape == "cylinder" and fit.arc < FLATTEST:
-        record.warn(
+        reserve(
             f"{name}: the points cover {np.degrees(fit.arc):.0f} degrees about the axis; "
             "below 60 radius and axis are hardly determined"
         )
     if fit.radius is not None and fit.rms > POOR * fit.radius:
-        record.warn(
+        reserve(
             f"{name}: rms {fit.rms * 1e3:.2f} mm is {fit.rms / fit.radius:.0%} of the radius: "
             f"a {fit.shape} does not describe this patch; another shape, or fewer faces with `region`?"
         )
     share = float(fit.quality.inlier.mean())
     if fit.radius is not None and fit.exact_in_part:
-        record.warn(
+        reserve(
             f"{name}: {share:.0%} of the points lie on the {fit.shape} exactly, the others {fit.rms * 1e3:.2f} mm off, "
             "root mean square over all: no interval of the radius, which is that of a part; choose it with `region`"
         )
     if share < 0.7:
-        record.warn(f"{name}: {1.0 - share:.0%} of the points are outliers; is it a {fit.shape}, and the right patch?")
+        reserve(f"{name}: {1.0 - share:.0%} of the points are outliers; is it a {fit.shape}, and the right patch?")
 
 
 def _profiles(

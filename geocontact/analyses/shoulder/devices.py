@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import SOURCES, Number, Source
 from geocontact.io.recordings.shoulder_device import read_device_file, read_person_file
@@ -25,7 +25,7 @@ SHORTEST, LONGEST = 0.1, 1.0
 UNITS = {name: quantity.unit for name, quantity in QUANTITIES.items()}
 
 
-def device_named(record: Record, named: str) -> Device:
+def device_named(named: str) -> Device:
     """A built-in device by its name, else from the file of that name."""
     if named in BUILT_IN:
         return BUILT_IN[named]()
@@ -47,28 +47,28 @@ def device_named(record: Record, named: str) -> Device:
         numbers[name] = Number(each.value, _source(each.source), each.note)
     device = Device(told.name, numbers)
     _require_sound(file, device)
-    record.add_input("`device`", file, numbers=len(told.numbers))
+    add_input("`device`", file, numbers=len(told.numbers))
     return device
 
 
-def wearer_named(record: Record, file: Path | None) -> Wearer:
+def wearer_named(file: Path | None) -> Wearer:
     """Lengths of the person in a file; the usual ones where it does not tell them, or there is none."""
     if file is None:
         usual = Wearer()
-        record.warn(
+        reserve(
             f"no `person`: the device is adjusted to an upper arm of {1e3 * usual.upper_arm:.0f} mm and shoulders "
             f"{1e3 * usual.shoulder_width:.0f} mm wide (invented)"
         )
         return usual
-    found = wearer_of_lengths(record, file, read_person_file(file, LENGTHS))
-    record.add_input("`person`", file)
+    found = wearer_of_lengths(file, read_person_file(file, LENGTHS))
+    add_input("`person`", file)
     return found
 
 
-def wearer_of_lengths(record: Record, file: Path, lengths: Mapping[str, float]) -> Wearer:
+def wearer_of_lengths(file: Path, lengths: Mapping[str, float]) -> Wearer:
     """The usual wearer with the lengths [m] that are known, from a file; InputError for those of no person."""
     if not lengths:
-        record.warn(f"{file.name}: no lengths of the person; the device is adjusted to the usual ones (invented)")
+        reserve(f"{file.name}: no lengths of the person; the device is adjusted to the usual ones (invented)")
     for name, value in lengths.items():
         if not SHORTEST <= value <= LONGEST:
             what = f"{1e3 * value:g} mm is no length of a person"

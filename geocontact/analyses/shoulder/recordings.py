@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
+from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.frame.options import AngleUnit, ForceUnit
-from geocontact.analyses.frame.record import Record
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import Agreement, agreement, over_stretches
 from geocontact.io.recordings.load_cells import column_in_newtons
@@ -120,7 +120,7 @@ RUNNING = 4.0
 """Current that an event of 1 stands for [A]; a screwdriver takes as much."""
 
 
-def tool_runs(record: Record, file: Path, threshold: float, time: Float[np.ndarray, " t"]) -> Bool[np.ndarray, " t"]:
+def tool_runs(file: Path, threshold: float, time: Float[np.ndarray, " t"]) -> Bool[np.ndarray, " t"]:
     """Whether the tool runs at these times [s]; InputError for events that are neither 0 nor 1.
 
     Parameters
@@ -130,17 +130,17 @@ def tool_runs(record: Record, file: Path, threshold: float, time: Float[np.ndarr
     """
     table, current, binary = _current(file)
     on = current > (0.5 if binary else threshold)
-    record.add_input("`tool`", file, samples=len(table.time))
+    add_input("`tool`", file, samples=len(table.time))
     if not on.any():
         raise InputError(file, "`tool`", "the tool never runs", "give a smaller `tool_current`, or leave it out")
     last = np.clip(np.searchsorted(table.time, time + 1e-9, "right") - 1, 0, len(on) - 1)
     return np.asarray(on[last])
 
 
-def tool_current(record: Record, file: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
+def tool_current(file: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
     """Current of the tool at these times [A], as far as the file goes; that of events is 0 or `RUNNING`."""
     table, current, _ = _current(file)
-    record.add_input("`tool`", file, samples=len(table.time))
+    add_input("`tool`", file, samples=len(table.time))
     return np.asarray(np.interp(time, table.time, current))
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import reserve
 from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
@@ -61,16 +61,16 @@ def _share(value: float) -> str:
     return f"{value:.0%}" if value >= 5e-3 else f"{value:.2%}"
 
 
-def warn_of(found: ArmSimulation, record: Record, trial: str = "") -> None:
+def warn_of(found: ArmSimulation, trial: str = "") -> None:
     """Warn where the sphere is out of the cuff, or a joint is at a stop."""
     which, time = f"{trial}{': ' if trial else ''}{found.motion.side} arm", found.motion.time
     out = found.out_of_cuff
     if out.any():
         far = np.abs(found.told["place"][:, 0])
-        record.warn(
+        reserve(
             f"{which}: the sphere is out of the cuff for {_share(float(out.mean()))} of the time, first at "
             f"{time[out][0]:.2f} s, up to {1e3 * far.max():.0f} mm from its middle"
         )
     for joint, at in zip(JOINTS, found.at_stop.T, strict=True):
         if at.any():
-            record.warn(f"{which}: {joint} is at a stop for {at.mean():.0%} of the time, first at {time[at][0]:.2f} s")
+            reserve(f"{which}: {joint} is at a stop for {at.mean():.0%} of the time, first at {time[at][0]:.2f} s")

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import Multibody
 from geocontact.identify.signals.filters import UNEVEN, zero_lag
@@ -70,10 +70,10 @@ class StandingUpTrials:
         return any(trial.chair is not None for trial in self.trials)
 
 
-def standing_trials(file: Path, role: str, record: Record, c3d_unit: str | None = None) -> StandingUpTrials:
+def standing_trials(file: Path, role: str, c3d_unit: str | None = None) -> StandingUpTrials:
     """Everything in the study; `c3d_unit` is that of .c3d files that have none."""
     study = read_standing_study(file)
-    record.add_input(role, file, trials=len(study.trials))
+    add_input(role, file, trials=len(study.trials))
     subject = Subject(study.mass, study.height)
     usual = SOUGHT_WORN if study.exoskeleton else SOUGHT
     free = _known(file, "free", study.free, usual, tuple(each.name for each in FOOT_PARAMETERS))
@@ -86,7 +86,7 @@ def standing_trials(file: Path, role: str, record: Record, c3d_unit: str | None 
     chain = two_chains(subject) if study.exoskeleton else leg_chain(subject)
     sites = strap_sites(tuple(site for each in study.trials for site in each.elsewhere))
     names = tuple(site.name for site in sites[1:])
-    trials = with_chairs([channels_of(each, chain, tracks, file, record, names, c3d_unit) for each in study.trials])
+    trials = with_chairs([channels_of(each, chain, tracks, file, names, c3d_unit) for each in study.trials])
     return StandingUpTrials(subject, StandingNoise(**study.noise), trials, study.exoskeleton, free, tracks, sites)
 
 
@@ -118,7 +118,6 @@ def channels_of(
     chain: Multibody,
     tracks: tuple[str, ...],
     study: Path,
-    record: Record,
     sites: tuple[str, ...] = (),
     c3d_unit: str | None = None,
 ) -> StandingTrial:
@@ -133,11 +132,11 @@ def channels_of(
     """
     place = f"[[trials]] {files.name}"
     _require_tracked(files, tracks, study, place)
-    time, q = _motion(files.coordinates, chain, record, f"{files.name} coordinates")
+    time, q = _motion(files.coordinates, chain, f"{files.name} coordinates")
     off, feet, chair = time >= time[0], None, None
     if files.plates is not None:
         plates = read_force_plates(files.plates, c3d_unit)
-        record.add_input(f"{files.name} plates", files.plates, plates=len(plates))
+        add_input(f"{files.name} plates", files.plates, plates=len(plates))
         feet = plate_named(plates, files.feet, files.plates, f"{place} feet")
         _require_one_clock(files.plates, feet, time)
         if files.chair is not None:
@@ -149,18 +148,18 @@ def channels_of(
         what = f"{int(used.sum())} samples are left of it"
         raise InputError(study, place, what, f"{FEWEST} are needed: check start, end and chair")
     time, q = time[used], q[used]
-    u = np.zeros_like(q) if files.rates is None else _rates(files.rates, chain, record, files.name, time)
+    u = np.zeros_like(q) if files.rates is None else _rates(files.rates, chain, files.name, time)
     force, centre = np.zeros((len(time), 2)), np.zeros(len(time))
     if feet is not None and files.plates is not None:
         force, centre = _under_the_feet(files.plates, feet, time, q[:, 0])
     torque, strap, elsewhere = None, None, {}
     if "torque" in tracks and files.torques is not None:
         names = [c.name for c in chain.coordinates[3:]]
-        torque = _columns(files.torques, names, record, f"{files.name} torques", time)
+        torque = _columns(files.torques, names, f"{files.name} torques", time)
     if "strap" in tracks:
-        strap = site_force(files.strap, record, f"{files.name} strap", "thigh", time)
+        strap = site_force(files.strap, f"{files.name} strap", "thigh", time)
         roles = {site: f"{files.name} strap_{site}" for site in sites}
-        elsewhere = {s: site_force(files.elsewhere.get(s, ()), record, role, s, time) for s, role in roles.items()}
+        elsewhere = {s: site_force(files.elsewhere.get(s, ()), role, s, time) for s, role in roles.items()}
     sat_on = None
     if files.sitting and chair is not None and files.plates is not None:
         sat_on = chair_load(files.plates, chair, time)
@@ -196,13 +195,13 @@ def chair_load(file: Path, chair: ForcePlate, time: Times) -> Table:
         raise InputError(file, chair.name, str(error), remedy) from error
 
 
-def site_force(files: Sequence[Path], record: Record, role: str, site: str, time: Times) -> Times:
+def site_force(files: Sequence[Path], role: str, site: str, time: Times) -> Times:
     """Sum over the mats of one strap [N]; not a number where there is none."""
-    forces = [strap_force(file, record, role, site, time) for file in files]
+    forces = [strap_force(file, role, site, time) for file in files]
     return np.asarray(np.sum(forces, axis=0)) if forces else np.full(len(time), np.nan)
 
 
-def strap_force(file: Path, record: Record, role: str, site: str, time: Times) -> Times:
+def strap_force(file: Path, role: str, site: str, time: Times) -> Times:
     """Normal force on the person, forwards positive [N]; InputError for pressures of cells that lie on no body."""
     names = read_table(file).channels
     if CELL in names:
@@ -212,7 +211,7 @@ def strap_force(file: Path, record: Record, role: str, site: str, time: Times) -
         )
         remedy += " and `layout`, and give the wrench.csv that it writes"
         raise InputError(file, "", what, remedy)
-    return _columns(file, [FORWARDS if FORWARDS in names else NORMAL], record, role, time)[:, 0]
+    return _columns(file, [FORWARDS if FORWARDS in names else NORMAL], role, time)[:, 0]
 
 
 def seat_off(file: Path, chair: ForcePlate) -> float:
@@ -234,9 +233,9 @@ def _within(files: StandingTrialFiles, time: Times) -> Bool[np.ndarray, " t"]:
     return np.asarray((time >= low) & (time <= high))
 
 
-def _motion(file: Path, chain: Multibody, record: Record, role: str) -> tuple[Times, Table]:
+def _motion(file: Path, chain: Multibody, role: str) -> tuple[Times, Table]:
     table = read_table(file)
-    record.add_input(role, file, frames=len(table.time))
+    add_input(role, file, frames=len(table.time))
     known = columns_of(table, chain.joints)
     lacking = [c.name for c in chain.coordinates if c.name not in known]
     if lacking:
@@ -250,18 +249,18 @@ def _motion(file: Path, chain: Multibody, record: Record, role: str) -> tuple[Ti
     return table.time, motion_of(table, chain)
 
 
-def _rates(file: Path, chain: Multibody, record: Record, name: str, time: Times) -> Table:
-    own, rates = _motion(file, chain, record, f"{name} rates")
+def _rates(file: Path, chain: Multibody, name: str, time: Times) -> Table:
+    own, rates = _motion(file, chain, f"{name} rates")
     if own[0] > time[0] + 1e-9 or own[-1] < time[-1] - 1e-9:
         what = f"runs from {own[0]:g} to {own[-1]:g} s, the coordinates from {time[0]:g} to {time[-1]:g} s"
         raise InputError(file, "", what, "put both on one clock")
     return np.column_stack([np.interp(time, own, column) for column in rates.T])
 
 
-def _columns(file: Path, names: Sequence[str], record: Record, role: str, time: Times) -> Table:
+def _columns(file: Path, names: Sequence[str], role: str, time: Times) -> Table:
     """Columns as they are, in SI, at the times of the trial."""
     table = read_table(file)
-    record.add_input(role, file, frames=len(table.time))
+    add_input(role, file, frames=len(table.time))
     values = np.column_stack([table.needed(name) for name in names])
     begin, end = table.time[[0, -1]]
     if begin > time[0] + 1e-6 or end < time[-1] - 1e-6:

@@ -9,7 +9,6 @@ import pytest
 
 from geocontact.analyses.area import bodies
 from geocontact.analyses.area.result import area as analysis
-from geocontact.analyses.frame.record import Record
 from geocontact.data.errors import InputError
 from tests.analyses.area.calls import area
 from tests.cli.calls import FEMUR, INSERT, PLATE, SPHERE, corners, gait, poses, stl, written
@@ -66,7 +65,7 @@ def test_zero_counts_what_is_inside(tmp_path: Path) -> None:
 def test_thresholds_finer_than_triangles_are_not_divided_for_long(tmp_path: Path, given: dict, pieces: int) -> None:
     given["threshold"] = (given["threshold"],)
     options = analysis.options(FEMUR, INSERT, unit="mm", motion=str(gait(tmp_path)), **given)
-    assert bodies.read(options, Record("area", {}, {})).settings.refinement.pieces == pieces
+    assert bodies.read(options).settings.refinement.pieces == pieces
 
 
 def test_bounds_that_stay_wide_say_how_to_narrow_them(tmp_path: Path) -> None:

@@ -19,6 +19,7 @@ from geocontact.axis_misalignment.least_squares import Prior
 from geocontact.axis_misalignment.uncertainty import Separability
 from tests.analyses.misalignment.test_compare import law
 from tests.analyses.misalignment.trials import KNOWN, PAPER, locked, quietly, recorded
+from tests.recording import opened
 
 L, Z = 0.169, 0.127
 CUFF = ["gamma [deg]", "cuff_moment [N m]"]
@@ -101,10 +102,10 @@ def test_a_fixation_that_is_hardly_told_is_warned_of_unless_more_is_known(made: 
 
 def hardly_told(found: Fitted) -> str:
     """The warning of c, or nothing."""
-    record = Record("elbow fit", {})
+    record = opened(Record("elbow fit", {}))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        reserve(record, found, None)
+        reserve(found, None)
     return next((line for line in record.warnings if "hardly tell the compliance c" in line), "")
 
 

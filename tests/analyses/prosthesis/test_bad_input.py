@@ -22,6 +22,7 @@ from meshes.gait_course import course
 from meshes.gait_persons import PARTICIPANTS, true_leg
 from tests.analyses.prosthesis.spoilt_trial import TRIAL, delayed_plates, in_metres, renamed_markers, spoilt_plates
 from tests.cli.calls import call
+from tests.recording import opened
 
 GIVEN: dict[str, Any] = {
     "static": TRIAL / "standing.trc",
@@ -110,8 +111,8 @@ def pressed() -> Stance:
 
 
 def doubts(stance: Stance) -> str:
-    record = Record("prosthesis simulate", {})
-    doubt(stance, record)
+    record = opened(Record("prosthesis simulate", {}))
+    doubt(stance)
     return "; ".join(record.warnings)
 
 

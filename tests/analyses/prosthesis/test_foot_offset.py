@@ -27,6 +27,7 @@ from geocontact.io.recordings.spheres import SphereTable
 from tests.analyses.prosthesis import test_compare
 from tests.analyses.prosthesis.spoilt_trial import out_of_flat
 from tests.analyses.prosthesis.test_simulate import GIVEN, TRIAL
+from tests.recording import opened
 
 FOOT = "[foot]\nheight = 0.4e-3\nheight_sd = 0.1e-3\npitch = -0.012\npitch_sd = 0.002\n"
 OFFSET = FootOffset(0.4e-3, -0.012, 0.1e-3, 0.002)
@@ -39,7 +40,7 @@ def law(folder: Path, text: str) -> Path:
 
 
 def record() -> Record:
-    return Record("prosthesis simulate", {})
+    return opened(Record("prosthesis simulate", {}))
 
 
 def test_a_law_without_it_has_the_foot_as_it_stood(tmp_path: Path) -> None:

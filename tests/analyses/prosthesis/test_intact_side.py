@@ -20,18 +20,20 @@ from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.errors import InputError
 from tests.analyses.prosthesis.intact_trial import LENGTH, MASS, RADIUS, STANDING, known_step
 from tests.analyses.prosthesis.spoilt_trial import TRIAL
+from tests.recording import opened
 
 
 def found_step(folder: Path, late: float = 0.0, away: float = 0.0, **changed: Any) -> IntactStep | None:
     """As `design` reads it, beside the shipped prosthetic stance."""
-    made, record = known_step(folder, late, away), Record("prosthesis design", {})
+    made = known_step(folder, late, away)
+    opened(Record("prosthesis design", {}))
     given: dict[str, Any] = {"static": STANDING, "mass": MASS, "plates": TRIAL / "plates.mot", "plate": "own_force"}
     given |= {"intact": made.markers, "intact_plates": made.plates}
     o = ProsthesisDesignOptions(TRIAL / "walking.trc", **(given | changed))
-    standing = right_markers(record, "`static`", o.static, o.side, None, None, None)
-    plate, _ = plate_under_foot(record, o.plates, o.plate, o.side, o.mass, None)
+    standing = right_markers("`static`", o.static, o.side, None, None, None)
+    plate, _ = plate_under_foot(o.plates, o.plate, o.side, o.mass, None)
     trial = RecordedTrial(standing, standing, plate, Person(o.mass), vsf_keel(), 0.117, 0.05, 15.0, 0.2)
-    return intact_side(o, trial, record)
+    return intact_side(o, trial)
 
 
 def test_outcomes_are_those_that_were_made(tmp_path: Path) -> None:

@@ -28,6 +28,7 @@ from geocontact.contact.bushing import Bushing
 from geocontact.io.text.results import write_table
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
 from tests.analyses.prosthesis.test_simulate import GIVEN, TRIAL
+from tests.recording import opened
 
 LAW = """
 n = 1.2
@@ -115,8 +116,8 @@ def walk_and_table(folder: Path, **options: Any) -> tuple[Walk, ProsthesisSimula
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
         o = ProsthesisSimulateOptions(TRIAL / "walking.trc", **(GIVEN | options))
-        record = Record("prosthesis simulate", {})
-        walk = fitted_walk(read(o, record), o, record)
+        opened(Record("prosthesis simulate", {}))
+        walk = fitted_walk(read(o), o)
     write_table(numbers_table(all_numbers(walk.leg, walk.foot, walk.fulcrum, bushing_of(o))), folder, "numbers")
     return walk, o, read_back(folder)
 

@@ -25,6 +25,7 @@ from geocontact.io.opensim.external_loads import read_external_loads
 from tests.below_knee_prosthesis.stances import a_stance
 from tests.below_knee_prosthesis.test_stance_errors import plate_of, walked
 from tests.cli.calls import MESHES
+from tests.recording import opened
 
 TRIAL = MESHES / "gait_P1_medium_1"
 GIVEN: dict[str, Any] = {
@@ -106,8 +107,12 @@ def test_a_simulation_that_ends_before_toe_off_says_so() -> None:
     """A number that there is none of is not printed."""
     own, seen = np.arange(0.0, 0.662, 0.002), np.arange(-0.2, 1.2, 0.002)
     found = a_stance(own, walked(own))
-    errors, told, record = stance_errors(found, plate_of(seen)), summary(found), Record("prosthesis simulate", {})
-    doubt(found, record)
+    errors, told, record = (
+        stance_errors(found, plate_of(seen)),
+        summary(found),
+        opened(Record("prosthesis simulate", {})),
+    )
+    doubt(found)
     assert any("still on the floor" in line and "0.66 s" in line for line in record.warnings)
     words = [found_words(found, told), beside_words(errors), *record.warnings]
     assert not any("nan" in line for line in words), words
@@ -121,8 +126,8 @@ def test_a_simulation_that_ends_before_toe_off_says_so() -> None:
 
 def test_a_whole_stance_has_its_length() -> None:
     own = np.arange(0.0, 0.95, 0.002)
-    found, record = a_stance(own, walked(own)), Record("prosthesis simulate", {})
-    doubt(found, record)
+    found, record = a_stance(own, walked(own)), opened(Record("prosthesis simulate", {}))
+    doubt(found)
     assert not any("still on the floor" in line for line in record.warnings)
     assert found_words(found, summary(found)).startswith("stance of 0.69 s at the fulcrum of 117 mm")
     assert beside_words(stance_errors(found, plate_of(own))).endswith("stance +0 ms")

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.shoulder.devices import device_named
 from geocontact.analyses.shoulder.recordings import current_at
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
@@ -39,7 +38,7 @@ def test_a_file_with_every_documented_number_is_the_device_itself(tmp_path: Path
     ]
     file = tmp_path / "same.toml"
     file.write_text("[numbers]\n" + "\n".join(lines) + "\n", encoding="utf-8")
-    read = device_named(Record("shoulder simulate", {}), str(file))
+    read = device_named(str(file))
     for name, number in device.numbers.items():
         assert read[name] == pytest.approx(number.value, rel=1e-12, abs=1e-15), name
 

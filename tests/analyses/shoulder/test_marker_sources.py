@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.optimise.profiles import read as read_workers
 from geocontact.analyses.shoulder.study.cases import read as read_study
@@ -139,12 +138,12 @@ def test_a_study_maps_and_turns_its_markers(tmp_path: Path, options: Any, read: 
     shutil.copy(TRIAL / "markers.trc", tmp_path / "lift.trc")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        wanted = arms_read(read(options(tmp_path / "study.toml"), Record("shoulder", {})))
+        wanted = arms_read(read(options(tmp_path / "study.toml")))
         seen = read_markers(TRIAL / "markers.trc")
         turned = replace(seen, positions=seen.positions[..., [0, 2, 1]] * [1.0, -1.0, 1.0])
         write_trc(tmp_path / "lift.trc", turned.renamed({"humerus_rup": "UP", "Lucy_MC": "MC"}))
         told = {"axes": "x,z,-y", "markers_map": "UP=humerus_rup,MC=Lucy_MC"}
-        found = arms_read(read(options(tmp_path / "study.toml", **told), Record("shoulder", {})))
+        found = arms_read(read(options(tmp_path / "study.toml", **told)))
     for one, two in zip(found, wanted, strict=True):
         np.testing.assert_allclose(one.interface, two.interface, atol=1e-7)
         np.testing.assert_allclose(one.elevation, two.elevation, atol=1e-6)

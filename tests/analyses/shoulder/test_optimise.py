@@ -11,7 +11,6 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.shoulder.devices import read_profiles
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.optimise.profiles import WORST, of_others, read, support_of
@@ -93,7 +92,7 @@ def test_people_it_was_not_made_with_at_a_fifth_of_reserve() -> None:
 def without(*persons: str, scale: Literal["arm", "none"]) -> dict[str, HeldOutSupport]:
     """Each of them with what the others make for them, as the job does at a fifth of reserve."""
     options = ShoulderOptimiseOptions(reserve=0.2, scale=scale, draws=DRAWS)
-    given = read(options, Record("shoulder optimise", {}))
+    given = read(options)
     loop = ClosedLoop(given.device, given.support, Limits(reserve=0.2), options.aim, WORST, seed=options.seed)
     make, made = of_others(loop, options, one=False), dict[str, Factors]()
     for person in persons:
@@ -133,7 +132,7 @@ def test_a_person_without_a_trial_gets_factors_by_arm_weight(small: ShoulderOpti
 
 def test_a_low_pass_reaches_the_torque() -> None:
     options = [ShoulderOptimiseOptions(cutoff=cutoff) for cutoff in (6.0, 2.0)]
-    usual, slow = (read(each, Record("shoulder optimise", {})).trials[0].needed.total for each in options)
+    usual, slow = (read(each).trials[0].needed.total for each in options)
     assert np.abs(usual - slow).max() > 0.5
 
 

@@ -26,6 +26,7 @@ from tests import opensim_oracle
 from tests.analyses.sit_to_stand.ctrl_c import Interrupting
 from tests.cli.calls import MESHES
 from tests.elsewhere import Elsewhere
+from tests.recording import opened
 from tests.unchecked import unchecked
 
 STUDY = MESHES / "standing_up" / "study.toml"
@@ -125,8 +126,8 @@ def test_a_chair_that_nobody_sat_on_has_no_seat_off() -> None:
 
 
 def test_trials_begin_when_the_chair_is_left(tmp_path: Path) -> None:
-    record = Record("sit-to-stand calibrate", {})
-    given = read(StandingCalibrateOptions(STUDY), record)
+    opened(Record("sit-to-stand calibrate", {}))
+    given = read(StandingCalibrateOptions(STUDY))
     assert [trial.name for trial in given.trials] == ["T1", "T2", "T3"]
     np.testing.assert_allclose([trial.time[-1] for trial in given.trials], [1.5, 1.3, 1.8])
     weight = given.subject.mass * 9.81
@@ -158,8 +159,8 @@ def test_one_shipped_trial_from_files_to_files(tmp_path: Path) -> None:
 def test_ctrl_c_keeps_the_last_iterate_and_says_so(tmp_path: Path) -> None:
     study = changed(tmp_path, trials=1)
     asked = StandingCalibrateOptions(study, nodes=12.0)
-    record = Record("sit-to-stand calibrate", {}, listener=Interrupting(4))
-    found = run(read(asked, record), asked, record)
+    opened(Record("sit-to-stand calibrate", {}, listener=Interrupting(4)))
+    found = run(read(asked), asked)
     assert not found.accepted and found.exit_code == 1
     assert any("interrupted; the last iterate is kept" in line for line in found.warnings)
     numbers = found.phases[0].numbers.numbers
@@ -192,9 +193,9 @@ def doubts(**other: object) -> tuple[list[str], list[str]]:
         "ends": (BEST,),
         "misfit": 0.8,
     }
-    record = Record("sit-to-stand calibrate", {})
+    record = opened(Record("sit-to-stand calibrate", {}))
     with unchecked():
-        doubt_phase(record, SimpleNamespace(**(one | other)))  # type: ignore[arg-type]
+        doubt_phase(SimpleNamespace(**(one | other)))  # type: ignore[arg-type]
     return list(record.sentences), list(record.warnings)
 
 

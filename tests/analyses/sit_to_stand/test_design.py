@@ -18,6 +18,7 @@ from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult,
 from geocontact.analyses.sit_to_stand.design.search import read
 from tests.analyses.sit_to_stand.ctrl_c import Interrupting
 from tests.cli.calls import MESHES
+from tests.recording import opened
 
 ALONE, HELD_OUT = (MESHES / f"standing_up{kind}" / "study.toml" for kind in ("", "_held_out"))
 TRUTH = HELD_OUT.parent / "truth.csv"
@@ -76,8 +77,8 @@ def test_what_is_not_certified_is_told_with_its_mesh(refined: StandingDesignResu
     assert trial.judged.certificate is not None
     failed = replace(trial.judged.certificate, converged=False, failed=("residual between the points 6.4 N",))
     spoilt = replace(worn, trials=(replace(trial, judged=replace(trial.judged, certificate=failed)),))
-    record = Record("sit-to-stand design", {})
-    doubt(replace(refined, record=record, designs=(spoilt, *refined.designs[1:])), stopped=False)
+    record = opened(Record("sit-to-stand design", {}))
+    doubt(replace(refined, designs=(spoilt, *refined.designs[1:])), stopped=False)
     (line,) = record.warnings
     assert line.startswith("P1 without help is not certified: residual between the points 6.4 N; on ")
     assert "each halved 4 times at most" in line
@@ -130,12 +131,12 @@ def _peak_without_help(found: StandingDesignResult) -> float:
 def test_ctrl_c_keeps_the_last_iterate_and_says_so(tmp_path: Path, at: int, names: list[str]) -> None:
     """At the fifth stage the share alone is sought; at the first there is nothing to keep."""
     asked = StandingDesignOptions(HELD_OUT, parameters=TRUTH, vary="share,place", nodes=8.0, front=2)
-    record = Record("sit-to-stand design", {}, listener=Interrupting(at))
+    opened(Record("sit-to-stand design", {}, listener=Interrupting(at)))
     if not names:
         with pytest.raises(KeyboardInterrupt):
-            run(read(asked, record), asked, record)
+            run(read(asked), asked)
         return
-    found = run(read(asked, record), asked, record)
+    found = run(read(asked), asked)
     assert [one.name for one in found.designs] == names and not found.front
     assert not found.accepted and found.exit_code == 1
     assert any("interrupted after share alone: the last iterate is kept" in line for line in found.warnings)

@@ -20,6 +20,7 @@ from geocontact.standing_up.trials import StandingTrial
 from geocontact.standing_up.trivial_trials import mean_trial
 from tests.analyses.sit_to_stand.ctrl_c import Interrupting
 from tests.cli.calls import MESHES
+from tests.recording import opened
 
 WORN, ALONE, HELD_OUT = (MESHES / f"standing_up{kind}" / "study.toml" for kind in ("_exoskeleton", "", "_held_out"))
 TRUTH = WORN.parent / "truth.csv"
@@ -98,8 +99,10 @@ def test_ctrl_c_keeps_what_there_is_and_a_trial_is_written_when_it_is_done(
                 yield watched
 
     o = StandingPredictOptions(study, parameters=TRUTH, against=WORN, nodes=12.0)
-    record = Record("sit-to-stand predict", {}, listener=Watching("trial 2 of 3, P2 all given, iteration 3"), out=out)
-    result = run(read(o, record), o, record)
+    record = opened(
+        Record("sit-to-stand predict", {}, listener=Watching("trial 2 of 3, P2 all given, iteration 3"), out=out)
+    )
+    result = run(read(o), o)
     assert {"errors.csv", "certificate.csv", "trial_P1.csv", "solution_P1.sto"} <= seen[0]
     assert "run.json" not in seen[0] and "trial_P2.csv" not in seen[0]
     assert [one.trial.recorded.name for one in result.predictions] == ["P1", "P2"]

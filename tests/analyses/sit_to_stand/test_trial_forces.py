@@ -15,6 +15,7 @@ from geocontact.data.wrench import Wrench
 from geocontact.io.mocap.force_plates import ForcePlate
 from geocontact.io.recordings.standing_study import read_standing_study
 from tests.cli.calls import MESHES
+from tests.recording import opened
 
 WORN = MESHES / "standing_up_exoskeleton"
 
@@ -43,8 +44,8 @@ def test_forces_of_mats_in_front_and_behind_add(tmp_path: Path) -> None:
     study = read_standing_study(study_with(tmp_path, '["front.csv", "behind.csv"]'))
     files, at = study.trials[0].strap, np.linspace(0.5, 1.5, 5)
     assert [each.name for each in files] == ["front.csv", "behind.csv"]
-    record = Record("sit-to-stand calibrate", {})
-    total = np.sum([strap_force(file, record, "strap", "thigh", at) for file in files], axis=0)
+    opened(Record("sit-to-stand calibrate", {}))
+    total = np.sum([strap_force(file, "strap", "thigh", at) for file in files], axis=0)
     np.testing.assert_allclose(total, 2.0 * at, atol=1e-12)
 
 
@@ -53,7 +54,7 @@ def test_a_trial_may_have_the_mats_of_some_sites_only(tmp_path: Path) -> None:
     study = study_with(tmp_path, '"T1_strap.csv"')
     text = study.read_text().replace('strap = "T2_strap.csv"', 'strap_pelvis = "T2_strap.csv"')
     study.write_text(text)
-    trials = standing_trials(study, "study", Record("sit-to-stand calibrate", {}))
+    trials = standing_trials(study, "study")
     assert [site.name for site in trials.sites] == ["thigh", "pelvis"]
     first, second, _ = trials.trials
     assert np.isfinite(first.strap).all() and np.isnan(first.elsewhere["pelvis"]).all()
@@ -67,7 +68,7 @@ def test_a_trial_may_begin_on_the_chair(tmp_path: Path) -> None:
     for each in (MESHES / "standing_up").iterdir():
         text = each.read_text().replace('chair = "chair_force"', 'chair = "chair_force"\nsitting = true', 1)
         (tmp_path / each.name).write_text(text)
-    trials = standing_trials(tmp_path / "study.toml", "study", Record("sit-to-stand calibrate", {}))
+    trials = standing_trials(tmp_path / "study.toml", "study")
     first, second, _ = trials.trials
     assert trials.seated and first.chair is not None and second.chair is not None
     np.testing.assert_allclose(first.chair[0], [0.0, 300.0, -0.3 * 300.0], atol=0.05)

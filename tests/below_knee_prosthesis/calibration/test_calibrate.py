@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.leg_and_foot import foot_with_law
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
 from geocontact.below_knee_prosthesis.calibration.known_numbers import knowledge
@@ -103,7 +102,7 @@ def test_command_writes_a_law_that_is_read_again(tmp_path: Path) -> None:
     """Zones of the finer foot that is the truth have 15 kN/m a sphere at heel and midfoot."""
     told = done(command(tmp_path / "out", "--starts", "0"))
     numbers = told.table("numbers.csv").set_index("number")
-    law = foot_with_law(Record("prosthesis simulate", {}), vsf_foot(), tmp_path / "out" / "law.toml").law
+    law = foot_with_law(vsf_foot(), tmp_path / "out" / "law.toml").law
     zones, _ = planted()
     np.testing.assert_allclose(zones.values_of(law), numbers.loc[list(zones.names), "value"], rtol=1e-10)
     heel = numbers.loc[["stiffness.heel_back", "stiffness.heel_middle", "stiffness.heel_front"]]

@@ -21,6 +21,7 @@ from geocontact.below_knee_prosthesis.both_sides.standing import standing_ampute
 from tests.analyses.prosthesis.test_simulate import GIVEN, TRIAL
 from tests.below_knee_prosthesis.model.legs import a_leg
 from tests.cli.calls import MESHES
+from tests.recording import opened
 
 
 def test_it_is_the_upper_part_of_de_leva_s_shank() -> None:
@@ -47,10 +48,11 @@ def test_one_person_has_one_residual_limb_in_both_commands() -> None:
     """1.915 kg in `simulate` and 1.801 kg in `scale` where each had a taper of its own."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        o, record = ProsthesisSimulateOptions(TRIAL / "walking.trc", **GIVEN), Record("simulate", {})
-        walk = fitted_walk(read_walk(o, record), o, record)
+        o = ProsthesisSimulateOptions(TRIAL / "walking.trc", **GIVEN)
+        opened(Record("simulate", {}))
+        walk = fitted_walk(read_walk(o), o)
         standing = MESHES / "amputee_P1" / "standing.trc"
-        stood = read_stood(ProsthesisScaleOptions(standing, mass=77.3), Record("scale", {}))
+        stood = read_stood(ProsthesisScaleOptions(standing, mass=77.3))
     made = standing_amputee(stood.seen, stood.person, stood.foot, stood.fulcrum, 0.03)
     tibia = next(body for body in amputee_tree(made).bodies if body.name == "tibia_r")
     assert tibia.mass == pytest.approx(walk.leg.residual_body()[0], rel=1e-12)

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.frame.collector import current, listener, note, reserve, say
 from geocontact.analyses.frame.folder import Scratch
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import Part, Result
 from geocontact.analyses.frame.workers import each
 from geocontact.analyses.gap.benchmark.case import Journal, Task, Worked, lost, worked
@@ -72,7 +72,7 @@ class BenchmarkResult(Result):
     def write_files(self, folder: Path) -> None:
         """Also figures as JSON and as text, and the cases if they are kept."""
         super().write_files(folder)
-        write_json(folder / "benchmark.json", content(self.record, self.outcome, self.when))
+        write_json(folder / "benchmark.json", content(self.outcome, self.when))
         text = "\n".join(self.sentences) + "\n"
         (folder / "benchmark.md").write_text(text, encoding="utf-8", newline="\n")
         if self.options.keep:
@@ -91,12 +91,12 @@ class Work:
     journal: Journal | None
 
 
-def read(o: BenchmarkOptions, record: Record) -> Work:
+def read(o: BenchmarkOptions) -> Work:
     """The lots of the options; a seed that was not given is drawn, and recorded as if it had been."""
     kinds = _kinds(o.kinds)
     seed = secrets.randbelow(SEEDS) if o.seed is None else o.seed
-    record.options, record.in_si = {**record.options, "seed": seed}, {**record.in_si, "seed": seed}
-    record.results["seed"] = seed
+    current().options, current().in_si = {**current().options, "seed": seed}, {**current().in_si, "seed": seed}
+    note("seed", seed)
     systems = SYSTEMS if o.system == "all" else (o.system,)
     laboratories = tuple(ABROAD) if o.laboratory == "abroad" else (o.laboratory,)
     journal = None if o.journal is None else Journal(o.journal)
@@ -111,31 +111,31 @@ def _kinds(text: str | None) -> tuple[str, ...]:
     return kinds
 
 
-def run(work: Work, o: BenchmarkOptions, record: Record) -> BenchmarkResult:
+def run(work: Work, o: BenchmarkOptions) -> BenchmarkResult:
     """Answers to every case, scored; those that there are when somebody interrupts."""
     scratch = Scratch()
-    done = _worked(record, work, scratch.folder, o)
+    done = _worked(work, scratch.folder, o)
     for one in done:
         for line in one.trouble:
-            record.warn(line)
+            reserve(line)
     outcome = BenchmarkOutcome(work.seed, work.systems, tuple(done))
     if not outcome.labels:
         raise RuntimeError("no case could be drawn; see the warnings")
-    record.results["cases"] = outcome.kinds
+    note("cases", outcome.kinds)
     when = datetime.now(UTC).isoformat(timespec="seconds")
     for line in page_lines(outcome, when):
-        record.say(line)
-    return BenchmarkResult(record=record, options=o, outcome=outcome, when=when, scratch=scratch)
+        say(line)
+    return BenchmarkResult(options=o, outcome=outcome, when=when, scratch=scratch)
 
 
-def _worked(record: Record, work: Work, folder: Path, o: BenchmarkOptions) -> list[Worked]:
+def _worked(work: Work, folder: Path, o: BenchmarkOptions) -> list[Worked]:
     """Outcomes in the order of the lots."""
     chosen, journal = work.lots, work.journal
     twice = {system: _spread([lot for lot in chosen if lot.system == system], o.again) for system in SYSTEMS}
     found = {} if journal is None else {lot: journal.done[lot] for lot in chosen if lot in journal.done}
     left = [lot for lot in mixed(chosen) if lot not in found]
     tasks = [Task(lot, folder, o.keep, lot in twice[lot.system]) for lot in left]
-    with record.listener.progress("cases", len(tasks)) as step:
+    with listener().progress("cases", len(tasks)) as step:
         try:
             for task, became in each(worked, tasks, o.jobs):
                 one = became if isinstance(became, Worked) else lost(task, became)
@@ -146,7 +146,7 @@ def _worked(record: Record, work: Work, folder: Path, o: BenchmarkOptions) -> li
         except KeyboardInterrupt:
             if not found:
                 raise
-            record.warn(f"interrupted after {len(found)} of {len(chosen)} cases, which are scored here")
+            reserve(f"interrupted after {len(found)} of {len(chosen)} cases, which are scored here")
     return [found[lot] for lot in chosen if lot in found]
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import geocontact.gap
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import current
 from geocontact.analyses.gap.benchmark.outcome import SLOW, BenchmarkOutcome, alarm_lines, alarms, mean
 from geocontact.gap import attribute
 from geocontact.gap.selection import verdict
@@ -49,12 +49,12 @@ def _stated(outcome: BenchmarkOutcome, who: str) -> Stated:
     )
 
 
-def content(record: Record, outcome: BenchmarkOutcome, when: str) -> dict[str, Any]:
+def content(outcome: BenchmarkOutcome, when: str) -> dict[str, Any]:
     """benchmark.json."""
     return {
         "date": when,
         "seed": outcome.seed,
-        "machine": _machine() | record.versions(),
+        "machine": _machine() | current().versions(),
         "cases": {name: one.kinds for name, one in outcome.scopes.items()},
         "bars": {row.figure: row.bar for row in ROWS if row.bar},
         "thresholds": {

@@ -18,6 +18,17 @@ from typing import Any
 
 import pandas as pd
 
+from geocontact.analyses.frame.collector import (
+    collecting,
+    current,
+    listener,
+    note,
+    reserve,
+    results,
+    results_place,
+    say,
+    spelled,
+)
 from geocontact.analyses.frame.folder import RUN, Scratch, digest, written_whole
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.record import Record
@@ -165,61 +176,62 @@ def row(d: Mapping[str, Any]) -> tuple[tuple[str, str | float], ...]:
     )
 
 
-def read_folders(o: ManyOptions, record: Record) -> list[Path]:
+def read_folders(o: ManyOptions) -> list[Path]:
     """Folders of the cases; what is in them is read case by case, so that a wrong one does not stop the others."""
     folders = gap_case_folders(o.case)
-    record.inputs += [{"role": "case", "file": str(folder), "folder": folder.name} for folder in folders]
+    current().inputs += [{"role": "case", "file": str(folder), "folder": folder.name} for folder in folders]
     return folders
 
 
-def run_many(folders: list[Path], o: ManyOptions, record: Record) -> ManyResult:
+def run_many(folders: list[Path], o: ManyOptions) -> ManyResult:
     """Diagnose every case; InputError where none can be."""
-    record.results["run"] = uuid.uuid4().hex
+    note("run", uuid.uuid4().hex)
     scratch = Scratch()
-    outcomes = _all(folders, scratch.folder, o, record)
+    outcomes = _all(folders, scratch.folder, o)
     for one in outcomes:
         for line in one.warnings:
-            record.warn(line)
+            reserve(line)
         if one.code:
-            record.listener.fail(one.line)
-    result = ManyResult(record=record, options=o, outcomes=tuple(outcomes), scratch=scratch)
+            listener().fail(one.line)
+    result = ManyResult(options=o, outcomes=tuple(outcomes), scratch=scratch)
     if not result.done:
         raise InputError(o.case, "", f"none of the {len(folders)} cases could be diagnosed", "see the lines above")
-    record.results["cases"] = {one.name: "done" if one.code == 0 else one.line for one in outcomes}
+    note("cases", {one.name: "done" if one.code == 0 else one.line for one in outcomes})
     for one in result.done:
-        record.say(f"{one.name}: {one.line}")
-    record.say(f"{len(result.done)} of {len(folders)} cases diagnosed")
+        say(f"{one.name}: {one.line}")
+    say(f"{len(result.done)} of {len(folders)} cases diagnosed")
     return result
 
 
-def _all(folders: list[Path], draft: Path, o: ManyOptions, record: Record) -> list[Outcome]:
+def _all(folders: list[Path], draft: Path, o: ManyOptions) -> list[Outcome]:
     """Outcomes in the order of the folders."""
     sources = sources_digest()
-    found = _finished(folders, draft, o, record, sources) if o.resume else {}
-    marks = {"run": str(record.results["run"]), SOURCES: sources}
-    work = partial(outcome, draft=draft, o=o, options=dict(record.options), marks=marks, forms=record.forms)
-    todo = [folder for folder in folders if folder.name not in found]
-    with record.listener.progress("cases", len(todo)) as step:
+    found = _finished(folders, draft, o, sources) if o.resume else {}
+    marks = {"run": str(results()["run"]), SOURCES: sources}
+    work = partial(outcome, draft=draft, o=o, options=dict(current().options), marks=marks, forms=current().forms)
+    todo, place = [folder for folder in folders if folder.name not in found], results_place()
+    with listener().progress("cases", len(todo)) as step:
         for folder, became in each(work, todo, o.workers):
-            found[folder.name] = one = _outcome_of(folder, became, draft, record)
-            if one.code == 0 and record.out is not None:
-                _keep(draft / one.name, record.out / one.name)
+            found[folder.name] = one = _outcome_of(folder, became, draft)
+            if one.code == 0 and place is not None:
+                _keep(draft / one.name, place / one.name)
             step()
     return [found[folder.name] for folder in folders]
 
 
-def _finished(folders: list[Path], draft: Path, o: ManyOptions, record: Record, sources: str) -> dict[str, Outcome]:
+def _finished(folders: list[Path], draft: Path, o: ManyOptions, sources: str) -> dict[str, Outcome]:
     """What an earlier run had finished, by name; InputError where nothing is written and there can be nothing."""
-    if record.out is None:
+    place = results_place()
+    if place is None:
         raise InputError("", "`resume`", "has no effect: nothing is written", "leave it out")
     found = {}
     for folder in folders:
-        one = kept(folder, record.out / folder.name, o, sources)
+        one = kept(folder, place / folder.name, o, sources)
         if one is not None:
-            shutil.copytree(record.out / folder.name, draft / folder.name)
+            shutil.copytree(place / folder.name, draft / folder.name)
             found[folder.name] = one
-            record.results["run"] = run_of(record.out / folder.name)  # this one goes on with it
-    record.say(f"{len(found)} of {counted(len(folders), 'case')} as an earlier run left them")
+            note("run", run_of(place / folder.name))  # this one goes on with it
+    say(f"{len(found)} of {counted(len(folders), 'case')} as an earlier run left them")
     return found
 
 
@@ -229,9 +241,9 @@ def _keep(done: Path, place: Path) -> None:
         shutil.copytree(done, draft, dirs_exist_ok=True)
 
 
-def _outcome_of(folder: Path, became: Outcome | BaseException, draft: Path, record: Record) -> Outcome:
+def _outcome_of(folder: Path, became: Outcome | BaseException, draft: Path) -> Outcome:
     if isinstance(became, Outcome):
-        return Outcome(became.name, became.code, record.spell(became.line), became.warnings, became.row)
+        return Outcome(became.name, became.code, spelled(became.line), became.warnings, became.row)
     shutil.rmtree(draft / folder.name, ignore_errors=True)  # a process that was killed leaves what it had written
     return Outcome(folder.name, FAILED, f"{folder}: {type(became).__name__}: {became}")
 
@@ -267,9 +279,9 @@ def outcome(
         if folder.name in (RUN, f"{SUMMARY}.csv"):
             raise InputError(folder, "", "has the name of a result", "rename the folder")
         place.mkdir()
-        with record.catching_warnings():
-            result = run(read(one, record), one, record)
-            record.results[SAID] = result.sentences[0]
+        with collecting(record):
+            result = run(read(one), one)
+            note(SAID, result.sentences[0])
             result.put(place)
     except InputError as error:
         return failed(WRONG, str(error))

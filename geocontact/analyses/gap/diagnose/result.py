@@ -27,9 +27,9 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import PARTS, REPORT, Part, Result
 from geocontact.analyses.gap.case import CaseWithModel, read_case
 from geocontact.analyses.gap.diagnose.answer import diagnosis_tables, untried_law, verdict_sentences
@@ -105,26 +105,29 @@ class DiagnoseResult(Result):
         write_json(folder / "diagnosis.json", self.diagnosis.as_dict())
 
 
-def read(o: DiagnoseOptions, record: Record) -> CaseWithModel:
+def read(o: DiagnoseOptions) -> CaseWithModel:
     """Case and base model."""
-    return read_case(o.case, o.run_simulator, record)
+    return read_case(o.case, o.run_simulator)
 
 
-def run(given: CaseWithModel, o: DiagnoseOptions, record: Record) -> DiagnoseResult:
+def run(given: CaseWithModel, o: DiagnoseOptions) -> DiagnoseResult:
     """Diagnosis, and what is found in words."""
-    with record.listener.stages(o.case.resolve().name) as at:
+    with listener().stages(o.case.resolve().name) as at:
         findings = findings_of(given.case, given.system, VERSION, at)
-    record.results["diagnosis"] = {
-        "verdict": findings.diagnosis.verdict,
-        "effects": list(findings.diagnosis.effects),
-        "seconds": round(findings.diagnosis.seconds, 3),
-    }
+    note(
+        "diagnosis",
+        {
+            "verdict": findings.diagnosis.verdict,
+            "effects": list(findings.diagnosis.effects),
+            "seconds": round(findings.diagnosis.seconds, 3),
+        },
+    )
     for sentence in verdict_sentences(findings.diagnosis, findings.cells):
-        record.say(sentence)
+        say(sentence)
     untried = untried_law(findings.diagnosis, given.system)
     if untried is not None:
-        record.warn(untried)
-    return DiagnoseResult(record=record, options=o, case=given.case, findings=findings)
+        reserve(untried)
+    return DiagnoseResult(options=o, case=given.case, findings=findings)
 
 
 diagnose = Job("gap diagnose", DiagnoseOptions, read, run)

@@ -27,9 +27,9 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.frame.collector import listener, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import PARTS, REPORT, Part, Result
 from geocontact.analyses.gap.case import CaseWithModel, read_case
 from geocontact.analyses.gap.discriminability.answer import (
@@ -110,9 +110,9 @@ class Question:
     effects: tuple[str, ...]
 
 
-def read(o: DiscriminabilityOptions, record: Record) -> Question:
+def read(o: DiscriminabilityOptions) -> Question:
     """Case, base model and effects."""
-    given = read_case(o.case, o.run_simulator, record)
+    given = read_case(o.case, o.run_simulator)
     return Question(given, asked(o.effects, given.system))
 
 
@@ -131,15 +131,15 @@ def asked(text: str | None, system: System) -> tuple[str, ...]:
     return names
 
 
-def run(question: Question, o: DiscriminabilityOptions, record: Record) -> DiscriminabilityResult:
+def run(question: Question, o: DiscriminabilityOptions) -> DiscriminabilityResult:
     """Every effect on top of the base model, and what is found in words."""
     case, system, names = question.given.case, question.given.system, question.effects
-    with record.listener.progress("effects", 2 * len(offered(system, names))) as step:
+    with listener().progress("effects", 2 * len(offered(system, names))) as step:
         found = compared(case, system, names, o.nats, step)
     for sentence in (*confusion_sentences(found), sizes_sentence(found)):
         if sentence:
-            record.say(sentence)
-    return DiscriminabilityResult(record=record, options=o, case=case, found=found)
+            say(sentence)
+    return DiscriminabilityResult(options=o, case=case, found=found)
 
 
 discriminability = Job("gap confuse", DiscriminabilityOptions, read, run)

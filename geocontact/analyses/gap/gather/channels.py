@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import reserve
 from geocontact.data.errors import InputError
 from geocontact.data.gap_cells import CellChannels, CellTrial
 from geocontact.io.cases.gathering import PlateSource
@@ -27,7 +27,7 @@ POSE = {"x": "m", "y": "m", "pitch": "rad"}
 SIDES = ("medial", "lateral")
 
 
-def alike_mats(record: Record, site: str, mats: Mapping[str, MatFolder]) -> dict[str, MatFolder]:
+def alike_mats(site: str, mats: Mapping[str, MatFolder]) -> dict[str, MatFolder]:
     """The mats with the cells that every trial has, in one order: force and cells are of the same ones everywhere."""
     first, *others = mats.values()
     common = tuple(cell for cell in first.cells if all(cell in other.cells for other in others))
@@ -42,18 +42,18 @@ def alike_mats(record: Record, site: str, mats: Mapping[str, MatFolder]) -> dict
         if len(own.cells) > len(common):
             lost = 1.0 - float(kept.force.sum()) / max(float(own.force.sum()), 1e-300)
             what = f"{len(own.cells) - len(common)} cells of {site} in {name} are not in every trial"
-            record.warn(f"{what} and left out, with {lost:.1%} of its force")
+            reserve(f"{what} and left out, with {lost:.1%} of its force")
     return found
 
 
-def cell_channels(record: Record, site: str, mats: Mapping[str, MatFolder]) -> CellChannels:
+def cell_channels(site: str, mats: Mapping[str, MatFolder]) -> CellChannels:
     """Cells that every trial has, where they lie on average."""
     places = np.array([own.place for own in mats.values()])
     area = np.mean([own.area for own in mats.values()], axis=0)
     off = np.linalg.norm(places - places.mean(axis=0), axis=2).max(axis=1)
     if off.max() > ELSEWHERE:
         worst = list(mats)[int(np.argmax(off))]
-        record.warn(f"the mat of {site} lies up to {off.max() * 1e3:.0f} mm elsewhere in {worst}; places are averages")
+        reserve(f"the mat of {site} lies up to {off.max() * 1e3:.0f} mm elsewhere in {worst}; places are averages")
     ids = tuple(f"r{row}c{column}" for row, column in next(iter(mats.values())).cells)
     trials = {name: CellTrial(own.time, own.pressure) for name, own in mats.items()}
     return CellChannels(f"{site}_force", ids, places.mean(axis=0), area, trials)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.gap.gather.channels import (
     alike_mats,
     cell_channels,
@@ -52,22 +52,22 @@ class Recordings:
     tables: Mapping[str, pd.DataFrame]
 
 
-def read(o: GatherOptions, record: Record) -> Recordings:
+def read(o: GatherOptions) -> Recordings:
     """Everything that gather.toml names."""
     path = o.settings
     plan = read_gathering(path)
-    record.add_input("settings", path)
+    add_input("settings", path)
     if plan.settings.mesh:
         raise InputError(path, "mesh", "a case with meshes is not gathered", "add them to the case by hand")
-    mats = {site: _mats(record, path, plan, site) for site in plan.sites}
-    trials = {name: _recording(record, plan, name, source, o.c3d_unit) for name, source in plan.sources.items()}
+    mats = {site: _mats(path, plan, site) for site in plan.sites}
+    trials = {name: _recording(plan, name, source, o.c3d_unit) for name, source in plan.sources.items()}
     tables = {key: read_side_table(path.parent / file) for key, file in plan.settings.tables.items()}
     return Recordings(plan, trials, mats, tables)
 
 
-def gathered(recordings: Recordings, o: GatherOptions, record: Record) -> GapCase:
+def gathered(recordings: Recordings, o: GatherOptions) -> GapCase:
     """Trials with all that was measured beside them, as one case."""
-    mats = {site: alike_mats(record, site, own) for site, own in recordings.mats.items()}
+    mats = {site: alike_mats(site, own) for site, own in recordings.mats.items()}
     trials = {}
     for name, one in recordings.trials.items():
         table = one.inputs
@@ -77,7 +77,7 @@ def gathered(recordings: Recordings, o: GatherOptions, record: Record) -> GapCas
     settings = recordings.plan.settings
     parameters = parameters_of(settings, o.settings)
     case = case_of(settings, parameters, o.settings, o.settings.stem, alike(trials), recordings.tables)
-    return replace(case, cells={site: cell_channels(record, site, own) for site, own in mats.items()})
+    return replace(case, cells={site: cell_channels(site, own) for site, own in mats.items()})
 
 
 def _with_loads(table: TrialTable, one: GatheredTrial) -> TrialTable:
@@ -91,45 +91,43 @@ def _with_loads(table: TrialTable, one: GatheredTrial) -> TrialTable:
     return table
 
 
-def _mats(record: Record, path: Path, plan: Gathering, site: str) -> dict[str, MatFolder]:
+def _mats(path: Path, plan: Gathering, site: str) -> dict[str, MatFolder]:
     """Mats of one site, by trial."""
     found = {}
     for name, source in plan.sources.items():
         if site not in source.mats:
             raise InputError(path, f"[from.{name}]", f"has no mat of {site}", "every trial needs every site")
         found[name] = own = read_mat_result(source.mats[site])
-        record.add_input(f"{name} {site}", own.folder / FRAMES, cells=len(own.cells))
+        add_input(f"{name} {site}", own.folder / FRAMES, cells=len(own.cells))
     return found
 
 
-def _recording(record: Record, plan: Gathering, name: str, source: Source, c3d_unit: str | None) -> GatheredTrial:
-    inputs, outputs = _inputs_and_outputs(record, plan, name, source)
+def _recording(plan: Gathering, name: str, source: Source, c3d_unit: str | None) -> GatheredTrial:
+    inputs, outputs = _inputs_and_outputs(plan, name, source)
     plate = areas = forces = None
     if source.plate is not None:
         there = read_force_plates(source.plate.file, c3d_unit)
         plate = plate_named(there, source.plate.plate, source.plate.file, "plate =")
-        record.add_input(f"{name} plates", source.plate.file, plate=plate.name)
+        add_input(f"{name} plates", source.plate.file, plate=plate.name)
     if source.sides is not None:
         if source.sides.areas is not None:
             areas = read_area_table([source.sides.areas])
-            record.add_input(f"{name} areas", source.sides.areas)
+            add_input(f"{name} areas", source.sides.areas)
         forces = read_force_curves(source.sides.forces, source.sides.unit, {})
-        record.add_input(f"{name} forces", source.sides.forces, unit=forces.unit)
+        add_input(f"{name} forces", source.sides.forces, unit=forces.unit)
     return GatheredTrial(source, inputs, outputs, plate, areas, forces)
 
 
-def _inputs_and_outputs(
-    record: Record, plan: Gathering, name: str, source: Source
-) -> tuple[TrialTable, TrialTable | None]:
+def _inputs_and_outputs(plan: Gathering, name: str, source: Source) -> tuple[TrialTable, TrialTable | None]:
     """Both files of a trial; together they have every column that the settings name."""
     storage = is_storage(source.inputs)
     inputs = read_storage_trial(source.inputs, plan.columns) if storage else read_trial(source.inputs)
-    record.add_input(name, source.inputs, samples=len(inputs.signals.time))
+    add_input(name, source.inputs, samples=len(inputs.signals.time))
     outputs = None
     if source.outputs is not None:
         own = is_storage(source.outputs)
         outputs = read_storage_trial(source.outputs, plan.columns) if own else read_trial(source.outputs)
-        record.add_input(f"{name} outputs", source.outputs, samples=len(outputs.signals.time))
+        add_input(f"{name} outputs", source.outputs, samples=len(outputs.signals.time))
     found = {*inputs.signals.channels, *(() if outputs is None else outputs.signals.channels)}
     missing = [one.label for one in plan.columns if one.channel.name not in found]
     if missing and (storage or outputs is not None):

@@ -26,9 +26,9 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.frame.collector import say
 from geocontact.analyses.frame.folder import Scratch
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Part, Result
 from geocontact.analyses.gap.gather.options import GatherOptions
 from geocontact.analyses.gap.gather.recordings import Recordings, gathered, read
@@ -81,15 +81,15 @@ class GatherResult(Result):
         super().write_files(folder)
 
 
-def run(recordings: Recordings, o: GatherOptions, record: Record) -> GatherResult:
+def run(recordings: Recordings, o: GatherOptions) -> GatherResult:
     """The case, which can be read again as it will be written."""
-    case = gathered(recordings, o, record)
+    case = gathered(recordings, o)
     scratch = Scratch()
     write_gap_case(case, scratch.folder)
     read_gap_case(scratch.folder)
     sites = "".join(f", {site} ({len(own.ids)} cells)" for site, own in case.cells.items())
-    record.say(f"{len(recordings.trials)} trials{sites}")
-    return GatherResult(record=record, options=o, case=case, scratch=scratch)
+    say(f"{len(recordings.trials)} trials{sites}")
+    return GatherResult(options=o, case=case, scratch=scratch)
 
 
 gather = Job("gap gather", GatherOptions, read, run)

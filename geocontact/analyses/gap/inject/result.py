@@ -27,6 +27,7 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.frame.collector import collecting, current, listener, note, reserve, say
 from geocontact.analyses.frame.folder import Scratch
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
@@ -120,49 +121,47 @@ class InjectResult(Result):
         self.diagnosed.write_page(file)
 
 
-def read(o: InjectOptions, record: Record) -> CaseWithModel:
+def read(o: InjectOptions) -> CaseWithModel:
     """Case and base model; results do not go into the folder that is copied."""
-    out = record.options.get("out")
+    out = current().options.get("out")
     if isinstance(out, Path) and o.case.resolve() in (out.resolve(), *out.resolve().parents):
         raise InputError(out, "", "lies inside the case that is copied there", "`out` names a folder beside the case")
-    return read_case(o.case, o.run_simulator, record)
+    return read_case(o.case, o.run_simulator)
 
 
-def run(given: CaseWithModel, o: InjectOptions, record: Record) -> InjectResult:
+def run(given: CaseWithModel, o: InjectOptions) -> InjectResult:
     """The case with the effect in it, and its diagnosis as from a folder, to the digits printed there.
 
     The case without it is diagnosed first: what it lacks anyway is not found because of what was injected.
     """
     one, made = planted(given, o)
-    with record.listener.stages("the case without it") as at:
+    with listener().stages("the case without it") as at:
         before = diagnose(given.case, given.system, at=at).diagnosis
     scratch = Scratch()
     shutil.copytree(given.folder, scratch.folder / CASE)
     write_trials(made.case, scratch.folder / CASE)
     if given.case.cells:
-        record.warn("cells of mats are left as they were: they do not show the effect")
-    found = _diagnosed(scratch.folder / CASE, o, record)
+        reserve("cells of mats are left as they were: they do not show the effect")
+    found = _diagnosed(scratch.folder / CASE, o)
     judgement = judged(one, made, before, found.diagnosis)
-    result = InjectResult(
-        record=record, options=o, effect=one, planted=made, diagnosed=found, judgement=judgement, scratch=scratch
-    )
-    record.results["planted"] = answer(one, made, found.diagnosis, judgement)
+    result = InjectResult(options=o, effect=one, planted=made, diagnosed=found, judgement=judgement, scratch=scratch)
+    note("planted", answer(one, made, found.diagnosis, judgement))
     for sentence in sentences(one, made, found.diagnosis, judgement):
-        record.say(sentence)
+        say(sentence)
     if made.size < LEAST * o.size and not (one.parameters and one.parameters[0].name in o.value):
-        record.warn("the amplitude is as large as its bounds admit; base parameters imitate the rest")
-    record.say(found.sentences[0])
+        reserve("the amplitude is as large as its bounds admit; base parameters imitate the rest")
+    say(found.sentences[0])
     return result
 
 
-def _diagnosed(home: Path, o: InjectOptions, record: Record) -> DiagnoseResult:
+def _diagnosed(home: Path, o: InjectOptions) -> DiagnoseResult:
     """Diagnosis with a record of its own, which names files as they will lie beside it."""
-    out = Path(str(record.options.get("out", "")))
+    out = Path(str(current().options.get("out", "")))
     options = DiagnoseOptions(home, bare=o.bare, run_simulator=o.run_simulator)
     typed = {"case": out / CASE, "out": out / DIAGNOSIS, "bare": o.bare}
-    own = Record("gap diagnose", typed, options.in_si() | {"case": out / CASE}, listener=record.listener)
-    with own.catching_warnings():
-        found = run_diagnosis(read_diagnosis(options, own), options, own)
+    own = Record("gap diagnose", typed, options.in_si() | {"case": out / CASE}, listener=listener())
+    with collecting(own):
+        found = run_diagnosis(read_diagnosis(options), options)
     for entry in own.inputs:
         entry["file"] = str(entry["file"]).replace(str(home), str(out / CASE), 1)
     return found

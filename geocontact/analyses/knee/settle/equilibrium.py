@@ -19,7 +19,7 @@ from geocontact.analyses.frame.bodies import (
     read_body,
     refuse_two_spaces,
 )
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.frame.shared_options import medial_side
 from geocontact.analyses.knee.settle.options import SettleOptions
 from geocontact.data.errors import InputError
@@ -104,33 +104,33 @@ class SettleInputs:
         return f"MOVING {self.bed.moving.name} at rest on FIXED {self.fixed.name}"
 
 
-def read(o: SettleOptions, record: Record) -> SettleInputs:
+def read(o: SettleOptions) -> SettleInputs:
     """Everything the options name."""
     if o.paraview:
         require_pyvista()
     closed = {body: o.assume_closed in (body, "both") for body in ("moving", "fixed")}
-    moving = read_body(record, "moving", o.moving, o.unit, o.place_moving, closed["moving"])
-    fixed = read_body(record, "fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
+    moving = read_body("moving", o.moving, o.unit, o.place_moving, closed["moving"])
+    fixed = read_body("fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
     refuse_two_spaces(moving, fixed)
     if not moving.closed:
         what = f"{moving.name} is open ({moving.topology.why_open}): it has no inside, so there is no depth"
         raise InputError("", "", what, "close it, or see `assume_closed` moving")
-    recorded = None if o.motion is None else _motion(record, o, o.motion)
-    bed = Bed(layer_of(record, fixed, o), moving, corner_normals(moving), _point(o, moving))
+    recorded = None if o.motion is None else _motion(o, o.motion)
+    bed = Bed(layer_of(fixed, o), moving, corner_normals(moving), _point(o, moving))
     motion = _swept(bed, fixed, o) if recorded is None else recorded
     springs = np.array([(o.springs or {}).get(name, 0.0) for name in NAMES])
     free = np.array([name in (*o.free, "axial") for name in NAMES])
-    return SettleInputs(fixed, bed, motion, _load(record, o, motion), springs, free)
+    return SettleInputs(fixed, bed, motion, _load(o, motion), springs, free)
 
 
-def layer_of(record: Record, fixed: Surface, o: SettleOptions) -> Layer:
+def layer_of(fixed: Surface, o: SettleOptions) -> Layer:
     """FIXED's layer in pieces, medial and lateral apart."""
-    faces = chosen_faces(record, "`region`", o.region, fixed, o.unit)
+    faces = chosen_faces("`region`", o.region, fixed, o.unit)
     try:
         pieces = surface_quadrature(fixed, PIECE if o.piece is None else o.piece, faces)
     except ValueError as error:
         raise InputError("", "`piece`", str(error), "give a longer edge") from error
-    thickness = measured_thickness(record, fixed, pieces.point, pieces.normal, o.thickness, "`thickness`")
+    thickness = measured_thickness(fixed, pieces.point, pieces.normal, o.thickness, "`thickness`")
     medial = medial_side(o.split, o.side, None)
     plane = quantities.splitting_plane(o.split, o.unit)
     on_it = plane.height(pieces.point) * medial.sign > 0.0
@@ -151,7 +151,7 @@ def _swept(bed: Bed, fixed: Surface, o: SettleOptions) -> Motion:
     return Motion(np.arange(len(angle), dtype=float), poses, f"sweep of {name}", coordinate=(name, angle))
 
 
-def _motion(record: Record, o: SettleOptions, file: Path) -> Motion:
+def _motion(o: SettleOptions, file: Path) -> Motion:
     """Poses; every frame is at rest, so that a cycle in per cent will do."""
     motion = read_motion(
         file,
@@ -167,9 +167,9 @@ def _motion(record: Record, o: SettleOptions, file: Path) -> Motion:
             raise InputError("", f"`{option}`", f"has no effect here: {file} is read without it", "leave it out")
     if o.forces is not None and motion.time_unit != "s":
         raise InputError(file, "", "time is in per cent of a cycle, that of `forces` in s", "give `load`")
-    record.add_input("motion", file, frames=len(motion), source=motion.source)
+    add_input("motion", file, frames=len(motion), source=motion.source)
     if o.osim is not None:
-        record.add_input("model", o.osim, joint=o.joint)
+        add_input("model", o.osim, joint=o.joint)
     return motion
 
 
@@ -186,12 +186,12 @@ def _point(o: SettleOptions, moving: Surface) -> Float[np.ndarray, " 3"]:
     return np.zeros(3)
 
 
-def _load(record: Record, o: SettleOptions, motion: Motion) -> Float[np.ndarray, " t"]:
+def _load(o: SettleOptions, motion: Motion) -> Float[np.ndarray, " t"]:
     """Axial load at the motion's times [N]."""
     if o.forces is None:
         return np.full(len(motion), o.load, float)
     curves = read_force_curves(o.forces, None, {})
-    record.add_input("`forces`", o.forces)
+    add_input("`forces`", o.forces)
     if "total" not in curves.forces:
         raise InputError(o.forces, "", "no column total, and not both sides", "give total [N] over time [s]")
     time, total = curves.time, curves.forces["total"]

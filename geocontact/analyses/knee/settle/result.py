@@ -22,10 +22,10 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.contact_pressures import PressureMap, pressure_figure, write_contact_loads
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import Thinned
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.shared_options import medial_side
 from geocontact.analyses.knee.settle.equilibrium import SIDES, Settled, SettleInputs, read
@@ -144,10 +144,10 @@ STRAINED = 0.2  # largest strain that the linear law is trusted to
 NAMED = 8  # frames that a warning names
 
 
-def run(i: SettleInputs, o: SettleOptions, record: Record) -> SettleResult:
+def run(i: SettleInputs, o: SettleOptions) -> SettleResult:
     """Every frame after the other, then the balance of energy in that with the largest load."""
     wanted = coordinates_of(i.motion.poses, i.bed.point)
-    with record.listener.progress("equilibrium", len(wanted)) as step:
+    with listener().progress("equilibrium", len(wanted)) as step:
 
         def each(frame: Frame) -> None:
             _refuse_indeterminate(i, frame)
@@ -156,13 +156,13 @@ def run(i: SettleInputs, o: SettleOptions, record: Record) -> SettleResult:
         frames = settle_along(i.bed, i.fixed, wanted, i.load, i.springs, i.free, each)
     settled = Settled(i, tuple(frames), o.side)
     _refuse_nowhere(i, settled)
-    _warn_of_lost(i, settled, record)
+    _warn_of_lost(i, settled)
     heaviest = settled.heaviest
     rest = frames[heaviest].rest
     balance = None if rest is None else energy_balance(i.bed, frames[heaviest].pull, rest, i.free)
-    _summarise(i, settled, balance, record)
-    record.say(f"medial is {medial_side(o.split, o.side, None).words} of {i.fixed.name}")
-    return SettleResult(record=record, options=o, settled=settled, balance=balance)
+    _summarise(i, settled, balance)
+    say(f"medial is {medial_side(o.split, o.side, None).words} of {i.fixed.name}")
+    return SettleResult(options=o, settled=settled, balance=balance)
 
 
 def _refuse_indeterminate(i: SettleInputs, frame: Frame) -> None:
@@ -187,14 +187,14 @@ def _refuse_nowhere(i: SettleInputs, s: Settled) -> None:
     raise InputError("", "`free`", what, "let fewer coordinates settle, or give `springs`")
 
 
-def _warn_of_lost(i: SettleInputs, s: Settled, record: Record) -> None:
+def _warn_of_lost(i: SettleInputs, s: Settled) -> None:
     missed = [k for k, frame in enumerate(s.frames) if frame.rest is None]
     stuck = [k for k, frame in enumerate(s.frames) if frame.rest is not None and not frame.converged]
     for frames, what in ((missed, "no contact found"), (stuck, "did not come to rest")):
         if frames:
             times = ", ".join(f"{i.motion.time[k]:g}" for k in frames[:NAMED])
             more = ", …" if len(frames) > NAMED else ""
-            record.warn(f"{len(frames)} of {len(s.frames)} frames: {what} (at {times}{more} s); their rows are empty")
+            reserve(f"{len(frames)} of {len(s.frames)} frames: {what} (at {times}{more} s); their rows are empty")
 
 
 def _between(values: Float[np.ndarray, " t"], form: str) -> str:
@@ -203,17 +203,17 @@ def _between(values: Float[np.ndarray, " t"], form: str) -> str:
     return low if low == high else f"{low} … {high}"
 
 
-def _summarise(i: SettleInputs, s: Settled, balance: EnergyBalance | None, record: Record) -> None:
+def _summarise(i: SettleInputs, s: Settled, balance: EnergyBalance | None) -> None:
     peak, area = s.peaks * 1e-6, s.areas * 1e6
     shares = s.forces("medial") / s.forces("total")
-    record.say(
+    say(
         f"{int(s.converged.sum())} of {len(s.frames)} frames at rest under {_between(i.load, '.0f')} N: "
         f"contact area {_between(area, '.1f')} mm^2, pressure up to {np.nanmax(peak):.2f} MPa, "
         f"{_between(100.0 * shares, '.0f')} % of the force medial"
     )
     strain = s.largest_strain
     if i.bed.layer.law == "linear" and strain > STRAINED:
-        record.warn(f"the layer is strained by up to {strain:.0%}: `foundation` logarithmic is for that")
+        reserve(f"the layer is strained by up to {strain:.0%}: `foundation` logarithmic is for that")
     found: dict[str, object] = {
         "frames": len(s.frames),
         "frames_at_rest": int(s.converged.sum()),
@@ -225,7 +225,7 @@ def _summarise(i: SettleInputs, s: Settled, balance: EnergyBalance | None, recor
         "newton_steps_per_frame": round(float(np.mean([f.rest.steps for f in s.frames if f.rest is not None])), 2),
     }
     if balance is None:
-        record.warn("the balance of energy was not checked: no equilibrium under smaller loads, not on the axial way")
+        reserve("the balance of energy was not checked: no equilibrium under smaller loads, not on the axial way")
     else:
         found |= {"work_of_load_J": balance.work, "stored_energy_J": balance.stored, "axial_way_alone": balance.alone}
         way = (
@@ -233,13 +233,13 @@ def _summarise(i: SettleInputs, s: Settled, balance: EnergyBalance | None, recor
             if balance.alone
             else ""
         )
-        record.say(
+        say(
             f"work of the load {balance.work * 1e3:.4g} mJ, energy stored {balance.stored * 1e3:.4g} mJ: "
             f"{balance.difference:.1e} apart{way}"
         )
         if balance.difference > BALANCED:
-            record.warn(f"work and stored energy differ by {balance.difference:.1%}; give a smaller `piece`")
-    record.results["equilibrium"] = found
+            reserve(f"work and stored energy differ by {balance.difference:.1%}; give a smaller `piece`")
+    note("equilibrium", found)
 
 
 settle = Job("knee settle", SettleOptions, read, run)

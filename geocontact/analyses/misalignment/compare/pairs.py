@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.misalignment.compare.options import CompareOptions
 from geocontact.analyses.misalignment.law_numbers import MMHG, PER_SI, key_of
 from geocontact.analyses.misalignment.page import CONSTRAINT
@@ -68,13 +68,13 @@ class Both:
     model: Sequence[ElbowRecording] | ComparedLaw
 
 
-def read(o: CompareOptions, record: Record) -> Both:
+def read(o: CompareOptions) -> Both:
     """Everything the options name."""
-    measured = recordings(record, "measured", o.recordings, o.map, o.angles, o.unit, o.cutoff)
+    measured = recordings("measured", o.recordings, o.map, o.angles, o.unit, o.cutoff)
     if o.fit is None:
-        return Both(measured, recordings(record, "simulated", o.simulated or (), None, o.angles, o.unit, None))
+        return Both(measured, recordings("simulated", o.simulated or (), None, o.angles, o.unit, None))
     law = _law(o.fit)
-    record.add_input("`fit`", o.fit)
+    add_input("`fit`", o.fit)
     return Both(measured, law)
 
 

@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.misalignment.compare.options import CompareOptions
 from geocontact.analyses.misalignment.compare.pairs import (
@@ -76,20 +76,20 @@ class CompareResult(Result):
         """The first trial over time, figures and errors."""
         shown = frame_table("Errors by trial and channel", self.table())
         drawn = {each: drawings[f"comparison_{each}"] for each in self.channels}
-        return {REPORT: comparison_page(self.pairs, drawn, [shown], self.record)}
+        return {REPORT: comparison_page(self.pairs, drawn, [shown])}
 
 
-def run(both: Both, o: CompareOptions, record: Record) -> CompareResult:
+def run(both: Both, o: CompareOptions) -> CompareResult:
     """Errors of every channel that a recording and its model have."""
     pairs = compared_pairs(both, o)
-    record.results["comparison"] = [{"trial": p.trial, "channel": p.channel, **asdict(p.agreement)} for p in pairs]
+    note("comparison", [{"trial": p.trial, "channel": p.channel, **asdict(p.agreement)} for p in pairs])
     for p in pairs:
         a, q = p.agreement, QUANTITIES[p.channel]
         if a.r2 < 0.0:
-            record.warn(f"{p.trial}, {p.channel}: R² is {a.r2:.2f}, a constant would do better: is a sign turned?")
+            reserve(f"{p.trial}, {p.channel}: R² is {a.r2:.2f}, a constant would do better: is a sign turned?")
         errors = f"MAE {q.per_si * a.mae:.3g}, RMSE {q.per_si * a.rmsd:.3g} {q.unit}"
-        record.say(f"{p.trial}, {p.channel}: {errors}, R² {a.r2:.3f}")
-    return CompareResult(record=record, options=o, pairs=pairs)
+        say(f"{p.trial}, {p.channel}: {errors}, R² {a.r2:.3f}")
+    return CompareResult(options=o, pairs=pairs)
 
 
 compare = Job("elbow compare", CompareOptions, read, run)

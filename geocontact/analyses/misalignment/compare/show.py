@@ -9,7 +9,6 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.misalignment.compare.pairs import QUANTITIES, Pair
 from geocontact.analyses.misalignment.page import ANGLE, FRAMES, NOT_IN_THE_NUMBERS, elbow_page
@@ -64,9 +63,7 @@ def comparison_figure(
 COMPARED = "Means over bins of the angle: measured as marks, the model as lines, a colour per trial."
 
 
-def comparison_page(
-    pairs: Sequence[Pair], drawings: Mapping[str, bytes], tables: Sequence[Table], record: Record
-) -> Page:
+def comparison_page(pairs: Sequence[Pair], drawings: Mapping[str, bytes], tables: Sequence[Table]) -> Page:
     """The page of a comparison, the trial with the largest error over time.
 
     `drawings` are the SVG of each channel's figure.
@@ -93,7 +90,7 @@ def comparison_page(
     subtitle = "Model and measurement of an elbow exoskeleton"
     facts = [(f"{p.trial}, {p.channel}", f"{_rmse(p)}, R² {p.agreement.r2:.3f}") for p in pairs]
     time = first.time[shown]
-    return elbow_page(title, subtitle, time, "time [s]", answer(pairs), facts, sections, record)
+    return elbow_page(title, subtitle, time, "time [s]", answer(pairs), facts, sections)
 
 
 def answer(pairs: Sequence[Pair]) -> list[str]:

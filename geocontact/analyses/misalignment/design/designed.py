@@ -10,7 +10,6 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.misalignment.design.options import DesignOptions
 from geocontact.analyses.misalignment.planar import STATES, WITHOUT_FORCE, axis_drift, rounded
 from geocontact.axis_misalignment.axis_drift import AxisDrift
@@ -31,9 +30,9 @@ from geocontact.axis_misalignment.planar_joint import grid
 from geocontact.data.errors import InputError
 
 
-def read(o: DesignOptions, record: Record) -> AxisDrift:
+def read(o: DesignOptions) -> AxisDrift:
     """How the joint's axis drifts."""
-    return axis_drift(record, o.drift, o.range)
+    return axis_drift(o.drift, o.range)
 
 
 MOST_POINTS = 1_000_000

@@ -20,10 +20,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.pages import drawing
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.misalignment.design.designed import (
     Designed,
@@ -90,39 +90,37 @@ class DesignResult(Result):
 MM = 1e3
 
 
-def run(drift: AxisDrift, o: DesignOptions, record: Record) -> DesignResult:
+def run(drift: AxisDrift, o: DesignOptions) -> DesignResult:
     """Map of the offsets, robust radius, stroke that is needed, sensitivities."""
     found = designed(drift, o)
-    _reserve(record, found)
-    _say(record, found)
+    _reserve(found)
+    _say(found)
     summary = described(found)
-    record.results["design"] = summary
-    return DesignResult(record=record, options=o, design=found, summary=summary)
+    note("design", summary)
+    return DesignResult(options=o, design=found, summary=summary)
 
 
-def _reserve(record: Record, d: Designed) -> None:
+def _reserve(d: Designed) -> None:
     for fate, words in FATES.items():
         count = int((d.map.fate == fate).sum())
         if count:
             x, y = d.map.offsets[int(np.argmax(d.map.fate == fate))] * MM
-            record.warn(f"{count} of {len(d.map.fate)} offsets of the map (x = {x:g} mm, y = {y:g} mm …): {words}")
+            reserve(f"{count} of {len(d.map.fate)} offsets of the map (x = {x:g} mm, y = {y:g} mm …): {words}")
     if d.boundary.least >= d.boundary.most:
-        record.warn("the limit is exceeded nowhere within the map: how far offsets may go is told up to its edge only")
+        reserve("the limit is exceeded nowhere within the map: how far offsets may go is told up to its edge only")
     if np.isnan(d.sensitivities[0].peak_slope):
-        record.warn("no sensitivities where there is no force: give another `offset` than what is aimed at")
+        reserve("no sensitivities where there is no force: give another `offset` than what is aimed at")
 
 
-def _say(record: Record, d: Designed) -> None:
+def _say(d: Designed) -> None:
     c = d.task.compensation
     state = "locked" if c.lower == c.upper == 0.0 else f"stroke {c.lower * MM:g} … {c.upper * MM:g} mm"
     x, y = d.offset[0] * MM, d.offset[1] * MM
     verdict = "keeps" if d.keeps_limit else "exceeds"
-    record.say(
-        f"{state}, x = {x:g} mm, y = {y:g} mm: |F| up to {d.peak:.2f} N {verdict} the limit of {d.task.limit:g} N"
-    )
+    say(f"{state}, x = {x:g} mm, y = {y:g} mm: |F| up to {d.peak:.2f} N {verdict} the limit of {d.task.limit:g} N")
     if d.keeps_limit:
-        record.say(f"offsets may go {d.boundary.least * MM:.2f} mm from there in any direction")
-    record.say(f"offsets within {d.uncertainty * MM:g} mm: {stroke_words(c, d.stroke)}")
+        say(f"offsets may go {d.boundary.least * MM:.2f} mm from there in any direction")
+    say(f"offsets within {d.uncertainty * MM:g} mm: {stroke_words(c, d.stroke)}")
 
 
 design = Job("elbow design", DesignOptions, read, run)

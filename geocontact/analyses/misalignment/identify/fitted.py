@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import reserve
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
@@ -48,7 +48,7 @@ LEAST_BINS = 8  # that a fit is made to
 MIRRORED = -0.5  # correlation of a trial with the others from which on its sign is turned
 
 
-def require_bins(record: Record, paths: Sequence[Path], data: Binned) -> None:
+def require_bins(paths: Sequence[Path], data: Binned) -> None:
     """Refuse too few bins, name those that are missing inside the range reached, and a trial of the other sign."""
     bins = len(data.visits.edges) - 1
     reached = np.bincount(data.cells.place, minlength=bins) > 0
@@ -64,7 +64,7 @@ def require_bins(record: Record, paths: Sequence[Path], data: Binned) -> None:
         runs = np.split(missing, np.flatnonzero(np.diff(missing) > 1) + 1)
         edges = np.degrees(data.visits.edges)
         told = ", ".join(f"{edges[run[0]]:.0f}…{edges[run[-1] + 1]:.0f}°" for run in runs)
-        record.warn(f"no sample in {len(missing)} bins inside the range reached: {told}")
+        reserve(f"no sample in {len(missing)} bins inside the range reached: {told}")
     _refuse_mirrored(paths, data)
 
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.misalignment.identify.fitted import require_bins
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
@@ -52,12 +51,12 @@ class Free:
     rotary_free: bool
 
 
-def free_joint(record: Record, o: IdentifyOptions, recordings: Sequence[ElbowRecording], locked: Binned) -> Free | None:
+def free_joint(o: IdentifyOptions, recordings: Sequence[ElbowRecording], locked: Binned) -> Free | None:
     """Ends of the stroke, stiffness and scale from trials with a free joint beside locked ones; None without any."""
     if not recordings or o.unlocked is None:
         return None
     data = binned(recordings, o.bin)
-    require_bins(record, o.unlocked, data)
+    require_bins(o.unlocked, data)
     stroke = recorded_stroke(bin_means(data))
     if stroke is None:
         what = "the compensation joint slides over fewer than three bins"

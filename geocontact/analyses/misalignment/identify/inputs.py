@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.law_numbers import MMHG, PER_SI, WRITTEN
 from geocontact.analyses.misalignment.recordings import recordings
@@ -111,24 +110,24 @@ class IdentifyInputs:
     unlocked: Sequence[ElbowRecording]
 
 
-def read(o: IdentifyOptions, record: Record) -> IdentifyInputs:
+def read(o: IdentifyOptions) -> IdentifyInputs:
     """Everything the options name."""
     parameters = unknowns(o.known or {}, o.prior or {}, o.bounds or {}, o.start or {}, o.free or ())
-    locked = _recordings(record, "locked", o.recordings, o)
+    locked = _recordings("locked", o.recordings, o)
     _require_locked(o.recordings, locked)
     if not all(p.fixed for p in parameters if p.name == "s"):
         _require_pressures(o.recordings[0], locked)
-    apart = _recordings(record, "held out", o.held_out or (), o)
+    apart = _recordings("held out", o.held_out or (), o)
     _require_locked(o.held_out or (), apart)
-    free = _recordings(record, "unlocked", o.unlocked or (), o, (FORCE, DISPLACEMENT))
+    free = _recordings("unlocked", o.unlocked or (), o, (FORCE, DISPLACEMENT))
     _require_free(o.unlocked or (), free)
     return IdentifyInputs(parameters, locked, apart, free)
 
 
 def _recordings(
-    record: Record, role: str, paths: Sequence[Path], o: IdentifyOptions, needed: tuple[str, ...] = (FORCE,)
+    role: str, paths: Sequence[Path], o: IdentifyOptions, needed: tuple[str, ...] = (FORCE,)
 ) -> list[ElbowRecording]:
-    return recordings(record, role, paths, o.map, o.angles, o.unit, o.cutoff, needed)
+    return recordings(role, paths, o.map, o.angles, o.unit, o.cutoff, needed)
 
 
 def _require_locked(paths: Sequence[Path], found: Sequence[ElbowRecording]) -> None:

@@ -21,16 +21,16 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import note, reserve
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.misalignment.identify.fitted import Fitted, ShownInterval, fitted, require_bins
 from geocontact.analyses.misalignment.identify.free_joint import Free, free_joint
 from geocontact.analyses.misalignment.identify.inputs import IdentifyInputs, read
 from geocontact.analyses.misalignment.identify.numbers import numbers_table
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
-from geocontact.analyses.misalignment.identify.sentences import described, reserve, say
+from geocontact.analyses.misalignment.identify.sentences import described, reserve_doubts, say_numbers
 from geocontact.analyses.misalignment.identify.show import (
     Boxes,
     Over,
@@ -244,7 +244,7 @@ class IdentifyResult(Result):
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Force over the angle, what the data tell, figures and tables."""
-        return {REPORT: fit_page(self.record, self.fit, self.free, self.tables(), drawings)}
+        return {REPORT: fit_page(self.fit, self.free, self.tables(), drawings)}
 
     def write_files(self, folder: Path) -> None:
         """elbow.json besides."""
@@ -269,29 +269,29 @@ def _over(f: Fitted) -> Over:
     return Over(law.beta, f.estimate.problem.force, law.beta[order], f.estimate.predicted[order])
 
 
-def run(recorded: IdentifyInputs, o: IdentifyOptions, record: Record) -> IdentifyResult:
+def run(recorded: IdentifyInputs, o: IdentifyOptions) -> IdentifyResult:
     """The best numbers, their intervals, and what the recordings do not tell."""
     data = binned(recorded.locked, o.bin)
-    require_bins(record, o.recordings, data)
-    free = free_joint(record, o, recorded.unlocked, data)
+    require_bins(o.recordings, data)
+    free = free_joint(o, recorded.unlocked, data)
     priors = {name: Prior(*pair) for name, pair in (o.prior or {}).items()}
     problem = problem_of(data, recorded.parameters, priors)
     if problem.scale_free and free is not None:
-        problem = _scaled_by(record, problem, free)
+        problem = _scaled_by(problem, free)
     found = fitted(recorded.locked, data, estimated(problem), recorded.held_out, o)
-    reserve(record, found, free)
-    say(record, found, free)
+    reserve_doubts(found, free)
+    say_numbers(found, free)
     summary = described(found, free)
-    record.results["elbow"] = summary
-    return IdentifyResult(record=record, options=o, fit=found, free=free, summary=summary)
+    note("elbow", summary)
+    return IdentifyResult(options=o, fit=found, free=free, summary=summary)
 
 
-def _scaled_by(record: Record, problem: ElbowProblem, free: Free) -> ElbowProblem:
+def _scaled_by(problem: ElbowProblem, free: Free) -> ElbowProblem:
     """The problem with the free joint's displacement beside it; as it was where that has no standard error."""
     if free.scale is None:
-        record.warn("the free joint's displacement sets no scale without a standard error, which takes two free trials")
+        reserve("the free joint's displacement sets no scale without a standard error, which takes two free trials")
         return problem
-    record.warn(
+    reserve(
         f"the scale is set by the free joint's displacement (SE {free.scale.error:.2%} over {free.scale.trials} "
         "trials), which supposes the same offsets while the joint was free"
         + ("" if free.rotary_free else ", and no other joint of the device free beside it (else `rotary_free`)")

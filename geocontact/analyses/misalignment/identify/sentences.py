@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from geocontact.analyses.frame.collector import reserve, say
 from geocontact.analyses.frame.json_file import finite
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.misalignment.identify.fitted import Fitted, ShownInterval
 from geocontact.analyses.misalignment.identify.free_joint import Free, stroke_stiffness
 from geocontact.analyses.misalignment.law_numbers import MMHG, with_units
@@ -30,32 +30,32 @@ SCALE_FREE = (
 )
 
 
-def reserve(record: Record, found: Fitted, free: Free | None) -> None:
-    """Tell the record what is open, rough or odd."""
-    _say_what_is_open(record, found)
+def reserve_doubts(found: Fitted, free: Free | None) -> None:
+    """Warn of what is open, rough or odd."""
+    _say_what_is_open(found)
     if free is not None:
-        _doubt_displacement(record, found, free)
+        _doubt_displacement(found, free)
     e, excess = found.estimate, found.residuals.excess
     if found.stretches < FEW_STRETCHES:
-        record.warn(f"{found.stretches} stretches of {found.data.stretch:.2g} s are few: intervals are rough")
+        reserve(f"{found.stretches} stretches of {found.data.stretch:.2g} s are few: intervals are rough")
     if not e.converged:
-        record.warn("the search did not end by itself; see `start` and `bounds`")
+        reserve("the search did not end by itself; see `start` and `bounds`")
     if excess.p < RARE and excess.ratio > MORE:
-        record.warn(
+        reserve(
             f"the fit leaves {excess.ratio:.2g} times what noise within the trials would: offsets that change "
             "from trial to trial, or something the law misses; intervals do not know of it and are too short"
         )
     if found.r2 < 0.0:
-        record.warn(f"R² is {found.r2:.2f}: a constant force would do better than the law")
+        reserve(f"R² is {found.r2:.2f}: a constant force would do better than the law")
     bad = [f"{each.name} ({each.r2:.2f})" for each in found.held if each.r2 < 0.0]
     if bad:
-        record.warn(f"R² of what was not used is below 0, a constant force would do better: {', '.join(bad)}")
+        reserve(f"R² of what was not used is below 0, a constant force would do better: {', '.join(bad)}")
     if found.mirrored_r2 > found.r2 + BETTER:
         told = f"the force turned over fits better (R² {found.mirrored_r2:.3f} instead of {found.r2:.3f})"
-        record.warn(f"{told}: is its sign turned? see `map` force=-…")
+        reserve(f"{told}: is its sign turned? see `map` force=-…")
 
 
-def _doubt_displacement(record: Record, found: Fitted, free: Free) -> None:
+def _doubt_displacement(found: Fitted, free: Free) -> None:
     """A stroke that is not that of the fitted geometry, where something else than the displacement sets its scale."""
     problem = found.estimate.problem
     if free.stiffness is None or problem.scale_free or problem.scale is not None or not free.stiffness.value > 0.0:
@@ -64,33 +64,33 @@ def _doubt_displacement(record: Record, found: Fitted, free: Free) -> None:
     if 1.0 / APART < times < APART:
         return
     stroke = f"the free joint slides by {1.0 / times:.3g} times what the fitted lengths ask for"
-    record.warn(
+    reserve(
         f"{stroke}, so that k by its displacement is {free.stiffness.value:.4g} N/m and not "
         f"{found.estimate.named['k']:.4g}: is the displacement in another unit than its header says?"
     )
 
 
-def _say_what_is_open(record: Record, found: Fitted) -> None:
+def _say_what_is_open(found: Fitted) -> None:
     """The scale, ends of intervals, signs."""
     if found.estimate.problem.scale_free:
-        record.warn(SCALE_FREE)
+        reserve(SCALE_FREE)
     apart, problem = found.separable, found.estimate.problem
     if "c" in problem.names and apart.from_all < OWN and not set(problem.priors) & {"k", "c"}:
         told = f"only {apart.from_all:.2%} of what c does to the force is its own" if apart.told else "not at all"
-        record.warn(
+        reserve(
             "angle and force hardly tell the compliance c of the upper arm's fixation from that of the cuff, which is "
             f"in series with it ({told}): know k or c (`known`), or give a prior (`prior`)"
         )
     driven = [r.name for r in found.recordings if r.torque is not None and r.torque.any()]
     if driven and found.estimate.named["c"] != 0.0:
         told = f"{', '.join(driven)}: an actuator's torque pushes a fixation that yields"
-        record.warn(f"{told}; the fit takes it as 0, as if nobody drove the exoskeleton")
+        reserve(f"{told}; the fit takes it as 0, as if nobody drove the exoskeleton")
     ends = [each.words for each in found.intervals if each.lower_open or each.upper_open]
     if ends:
-        record.warn(f"no limit within the bounds to {', '.join(ends)}, on one side or both")
+        reserve(f"no limit within the bounds to {', '.join(ends)}, on one side or both")
     signs = [each.words for each in found.intervals if each.key[0] in LENGTHS and each.sign_open]
     if signs:
-        record.warn(f"the sign of {', '.join(signs)} is not told: values of both signs fit within the interval")
+        reserve(f"the sign of {', '.join(signs)} is not told: values of both signs fit within the interval")
 
 
 def described(found: Fitted, free: Free | None) -> dict[str, Any]:
@@ -204,27 +204,27 @@ def _tested(test: BinTest | None, pairs: Sequence[BinPair], boxes: Binned) -> di
     }
 
 
-def say(record: Record, found: Fitted, free: Free | None) -> None:
-    """Tell the record each number, how well the force is predicted, and what the free joint does."""
+def say_numbers(found: Fitted, free: Free | None) -> None:
+    """Say each number, how well the force is predicted, and what the free joint does."""
     for each in found.intervals:
-        record.say(f"{each.words} {each.shown}")
+        say(f"{each.words} {each.shown}")
     told = [f"R² {found.r2:.3f} of {len(found.estimate.problem.force)} bin means"]
     if found.held:
         worst = min(each.r2 for each in found.held)
         told.append(f"not used: {worst:.3f} at least over {len(found.held)}")
-    record.say("; ".join(told))
-    record.say(f"residuals: {found.residuals.normality.words}")
+    say("; ".join(told))
+    say(f"residuals: {found.residuals.normality.words}")
     if free is None:
         return
     for stop in free.stroke.stops:
         span = f"{np.degrees(stop.first):.0f} … {np.degrees(stop.last):.0f}°"
-        record.say(
+        say(
             f"free joint: stands at its {stop.side} end, {stop.position * 1e3:.1f} mm, over {span} under "
             f"{stop.force:+.1f} N; it slides from {np.degrees(stop.leaves):.0f}°, and the force levels off"
         )
     if free.stiffness is not None:
         s = free.stiffness
-        record.say(f"k by the free joint's displacement: {s.value:.4g} N/m (SE {s.error:.2g}, {s.trials} trials)")
+        say(f"k by the free joint's displacement: {s.value:.4g} N/m (SE {s.error:.2g}, {s.trials} trials)")
 
 
 def answer(found: Fitted) -> list[str]:

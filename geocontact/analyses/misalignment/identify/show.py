@@ -12,8 +12,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import spelled
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.misalignment.identify.fitted import Fitted
 from geocontact.analyses.misalignment.identify.free_joint import Free
@@ -274,7 +274,6 @@ PICTURES = {
 
 
 def fit_page(
-    record: Record,
     found: Fitted,
     free: Free | None,
     tables: Mapping[str, pd.DataFrame],
@@ -295,7 +294,7 @@ def fit_page(
     sections: list[Section] = [
         arm_drawing(found, np.radians(angle)),
         Curves("Constraint force", "N", [Curve(name, values) for name, values in force.items()]),
-        Words("What the data tell", [record.spell(line) for line in explained(found, free)]),
+        Words("What the data tell", [spelled(line) for line in explained(found, free)]),
         *(Picture(*PICTURES[name], svg, wide=True) for name, svg in drawings.items()),
         frame_table("What was identified", tables["intervals"].dropna(axis="columns", how="all")),
         frame_table("Force that was not used", tables["held_out"]),
@@ -310,5 +309,5 @@ def fit_page(
     if found.held:
         facts.append(("R² of trials not used", f"{min(each.r2 for each in found.held):.3f} at least"))
     return elbow_page(
-        title, subtitle, angle, "angle [deg]", answer(found), facts, sections, record, start_frame=len(angle) // 2
+        title, subtitle, angle, "angle [deg]", answer(found), facts, sections, start_frame=len(angle) // 2
     )

@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float, Int
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.misalignment.law_numbers import NUMBERS
 from geocontact.analyses.misalignment.planar import STATES, WITHOUT_FORCE, axis_drift, rounded
 from geocontact.analyses.misalignment.population.options import PopulationOptions
@@ -50,18 +50,18 @@ class Population:
     drift: AxisDrift
 
 
-def read(o: PopulationOptions, record: Record) -> Population:
+def read(o: PopulationOptions) -> Population:
     """Everything the options name."""
-    drift = axis_drift(record, o.drift, o.range)
-    return Population(_sampling(record, o.description), drift)
+    drift = axis_drift(o.drift, o.range)
+    return Population(_sampling(o.description), drift)
 
 
-def _sampling(record: Record, description: Path) -> Sampling:
+def _sampling(description: Path) -> Sampling:
     told = read_population(description, UNITS)
-    record.add_input("description", description)
-    _check_sizes(record, description, told)
+    add_input("description", description)
+    _check_sizes(description, told)
     for file in told.tables:
-        record.add_input("table", file)
+        add_input("table", file)
     drawn = {name: one for name, one in told.quantities.items() if one.kind in ("normal", "uniform")}
     factors: list[Factor] = [_factor(name, one.kind, one.numbers) for name, one in drawn.items()]
     factors += [People(tuple(columns), np.column_stack(list(columns.values()))) for columns in told.tables.values()]
@@ -71,7 +71,7 @@ def _sampling(record: Record, description: Path) -> Sampling:
     return Sampling(factors, _correlation(description, told, factors), fixed)
 
 
-def _check_sizes(record: Record, description: Path, told: PopulationFile) -> None:
+def _check_sizes(description: Path, told: PopulationFile) -> None:
     """Refuse numbers that a quantity cannot have, and warn of unusual ones; lower ends and deviations may be small."""
     ranges = dict(NUMBERS.ranges)
     stated = [
@@ -85,7 +85,7 @@ def _check_sizes(record: Record, description: Path, told: PopulationFile) -> Non
             if refusal := known.refusal(number, written):
                 raise InputError(description, place, *refusal)
             if doubt := known.doubt(number, written):
-                record.warn(f"{description} {place}: {doubt}")
+                reserve(f"{description} {place}: {doubt}")
 
 
 def _factor(name: str, kind: str, numbers: Mapping[str, float]) -> Factor:

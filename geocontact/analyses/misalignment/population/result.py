@@ -21,9 +21,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.misalignment.population.drawn import (
     SHOWN,
@@ -85,36 +85,36 @@ class PopulationResult(Result):
         super().write_files(folder)
 
 
-def run(population: Population, o: PopulationOptions, record: Record) -> PopulationResult:
+def run(population: Population, o: PopulationOptions) -> PopulationResult:
     """Quantiles of the largest force, how often it is above the limit, and what that depends on."""
     found = drawn(population.sampling, population.drift, o)
-    _reserve(record, found)
-    _say(record, found)
+    _reserve(found)
+    _say(found)
     summary = described(found)
-    record.results["samples_per_second_of_one_core"] = found.rate
-    record.results["population"] = summary
-    return PopulationResult(record=record, options=o, drawn=found, summary=summary)
+    note("samples_per_second_of_one_core", found.rate)
+    note("population", summary)
+    return PopulationResult(options=o, drawn=found, summary=summary)
 
 
-def _reserve(record: Record, d: Drawn) -> None:
+def _reserve(d: Drawn) -> None:
     for fate, words in FATES.items():
         hit = d.fate == fate
         if hit.any():
             first = zip(SHOWN.items(), d.people[int(np.argmax(hit))], strict=True)
             told = ", ".join(f"{name} = {value * per_si:.4g} {unit}" for (name, (unit, per_si)), value in first)
             what = f"{int(hit.sum())} of {len(hit)} samples count as beyond every force: {words}"
-            record.warn(f"{what} (the first: {told})")
+            reserve(f"{what} (the first: {told})")
     if d.indices is None:
         why = "some samples have no force, or all the same" if d.sampling.independent else "factors are correlated"
-        record.warn(f"no shares of the variance, for {why}: the regression on ranks is all there is")
+        reserve(f"no shares of the variance, for {why}: the regression on ranks is all there is")
 
 
-def _say(record: Record, d: Drawn) -> None:
+def _say(d: Drawn) -> None:
     middle, high = d.quantiles[0.5], d.quantiles[0.95]
-    record.say(f"largest |F| of {len(d.peak)} synthetic people: median {_said(middle)}, 95 % below {_said(high)}")
+    say(f"largest |F| of {len(d.peak)} synthetic people: median {_said(middle)}, 95 % below {_said(high)}")
     b = d.beyond
-    record.say(f"above {d.limit:g} N: {b.value:.4%} ({b.lower:.4%} … {b.upper:.4%})")
-    record.say(f"{d.rate} samples per second of one core; grid of angles: error below {max(d.grid_error, 1e-9):.1e} N")
+    say(f"above {d.limit:g} N: {b.value:.4%} ({b.lower:.4%} … {b.upper:.4%})")
+    say(f"{d.rate} samples per second of one core; grid of angles: error below {max(d.grid_error, 1e-9):.1e} N")
 
 
 def _said(e: IntervalEstimate) -> str:

@@ -17,9 +17,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import note, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.misalignment.law_numbers import with_units
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
@@ -96,7 +96,7 @@ class SimulateResult(Result):
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The first trial over time, the true numbers, the surfaces."""
-        return {REPORT: simulation_page(self.made, self.numbers, drawings["surfaces"], self.record)}
+        return {REPORT: simulation_page(self.made, self.numbers, drawings["surfaces"])}
 
     def refers_to(self, table: str) -> Mapping[str, object] | None:
         """What a trial is: nobody was measured."""
@@ -115,7 +115,7 @@ TRIALS, SEED = 6, 0
 GRID = 181  # angles at which a pole is looked for
 
 
-def run(recordings: Sequence[ElbowRecording], o: SimulateOptions, record: Record) -> SimulateResult:
+def run(recordings: Sequence[ElbowRecording], o: SimulateOptions) -> SimulateResult:
     """Trials with the numbers asked for, or the paper's, and surfaces of the displacement."""
     numbers = {**PAPER, **(o.numbers or {})}
     design = None if recordings else _design(o)
@@ -124,10 +124,10 @@ def run(recordings: Sequence[ElbowRecording], o: SimulateOptions, record: Record
         each = trial.recording
         low, high = np.degrees([each.beta.min(), each.beta.max()])
         span = f"{each.force.min():.1f} … {each.force.max():.1f} N over {low:.0f} … {high:.0f}°"
-        record.say(f"{each.name}, synthetic: {span}, {each.time[-1] - each.time[0]:g} s{_said(trial, o)}")
+        say(f"{each.name}, synthetic: {span}, {each.time[-1] - each.time[0]:g} s{_said(trial, o)}")
     maps = surfaces(numbers["l"], numbers["z"])
-    result = SimulateResult(record=record, options=o, numbers=numbers, made=tuple(made), surfaces=maps, design=design)
-    record.results["truth"] = result.truth
+    result = SimulateResult(options=o, numbers=numbers, made=tuple(made), surfaces=maps, design=design)
+    note("truth", result.truth)
     return result
 
 

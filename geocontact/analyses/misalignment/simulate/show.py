@@ -9,7 +9,6 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.analyses.misalignment.page import ANGLE, FRAMES, NOT_IN_THE_NUMBERS, elbow_page
@@ -63,9 +62,7 @@ TURNS = "Moment on the forearm at the cuff, flexion positive"
 SYNTHETIC = "These recordings are synthetic: the explicit model with the numbers below, and noise. Nobody was measured."
 
 
-def simulation_page(
-    loaded: Sequence[LoadedTrial], numbers: Mapping[str, float], drawing: bytes, record: Record
-) -> Page:
+def simulation_page(loaded: Sequence[LoadedTrial], numbers: Mapping[str, float], drawing: bytes) -> Page:
     """The page of a simulation, its first trial over time."""
     made = [each.recording for each in loaded]
     first = made[0]
@@ -97,7 +94,7 @@ def simulation_page(
     facts = [(r.name, f"{r.force.min():.1f} … {r.force.max():.1f} N") for r in made]
     title, subtitle = "Synthetic recordings of an elbow exoskeleton", "Explicit model of constraint forces"
     time = first.time[shown]
-    return elbow_page(title, subtitle, time, "time [s]", answer(made, numbers), facts, sections, record)
+    return elbow_page(title, subtitle, time, "time [s]", answer(made, numbers), facts, sections)
 
 
 def answer(made: Sequence[ElbowRecording], numbers: Mapping[str, float]) -> list[str]:

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.misalignment.law_numbers import MMHG
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
 from geocontact.axis_misalignment.explicit import Offsets, displacement
@@ -25,13 +25,13 @@ from geocontact.io.recordings.elbow_recording import BETA, PRESSURE, TORQUE, rea
 from geocontact.io.text.columns import parse_map
 
 
-def read(o: SimulateOptions, record: Record) -> tuple[ElbowRecording, ...]:
+def read(o: SimulateOptions) -> tuple[ElbowRecording, ...]:
     """The recordings that the options name; their force does not matter."""
     mapping = {} if o.map is None else parse_map(o.map, (BETA, PRESSURE, TORQUE))
     found = []
     for path in o.recordings:
         r = read_elbow_recording(path, mapping, o.angles, needed=())
-        record.add_input("angle", path, samples=len(r.time))
+        add_input("angle", path, samples=len(r.time))
         if (o.numbers or {}).get("s", 0.0) != 0.0 and r.pressure is None:
             raise InputError(path, "", "s follows the cuff's pressure, which is not here", "add it, or leave s out")
         found.append(r)

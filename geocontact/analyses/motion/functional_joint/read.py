@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.motion.functional_joint.options import JointOptions
 from geocontact.analyses.motion.markers import markers_given
 from geocontact.data.errors import InputError
@@ -68,13 +68,13 @@ class MovedPair:
         return np.asarray(_means(self.shown, names, "`near`").mean(axis=0) - self.first.origin)
 
 
-def read(o: JointOptions, record: Record) -> MovedPair:
+def read(o: JointOptions) -> MovedPair:
     """Everything the options name."""
     seen = markers_given(o.trial, o.axes, o.time, o.c3d_unit)
-    record.add_input("trial", o.trial, frames=len(seen), markers=len(seen.names))
+    add_input("trial", o.trial, frames=len(seen), markers=len(seen.names))
     still = None if o.static is None else markers_given(o.static, o.axes, None, o.c3d_unit)
     if o.static is not None and still is not None:
-        record.add_input("`static`", o.static, frames=len(still), markers=len(still.names))
+        add_input("`static`", o.static, frames=len(still), markers=len(still.names))
     first, second = marker_list(o.first), marker_list(o.second)
     both = [name for name in first if name in second]
     if both:

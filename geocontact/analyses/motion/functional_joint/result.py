@@ -19,9 +19,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import reserve, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import finite, plain, write_json
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.functional_joint.options import JointOptions
@@ -102,7 +102,7 @@ FRAME = "axes of the markers as written, while standing or in the first whole fr
 MOVE = "move the joint through its range, a hip forward, sideways and round, with all markers in sight"
 
 
-def run(pair: MovedPair, o: JointOptions, record: Record) -> JointResult:
+def run(pair: MovedPair, o: JointOptions) -> JointResult:
     """Points in both segments, over the trial, and as markers."""
     near = pair.near(None if o.near is None else marker_list(o.near)) if o.axis else None
     try:
@@ -112,11 +112,10 @@ def run(pair: MovedPair, o: JointOptions, record: Record) -> JointResult:
         raise InputError(o.trial, "", str(error), MOVE if o.axis else f"{MOVE}; for a hinge give `axis`") from error
     halves = apart_in_halves(*poses, near)
     summary = _summary(o, pair, points, halves)
-    record.results.update(plain(summary))
-    _warn(record, o, pair, points)
-    _tell(record, o, pair, points, halves)
+    results().update(plain(summary))
+    _warn(o, pair, points)
+    _tell(o, pair, points, halves)
     return JointResult(
-        record=record,
         options=o,
         pair=pair,
         points=points,
@@ -161,25 +160,25 @@ def _direction(places: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, " 3"]:
     return np.asarray(along / np.linalg.norm(along))
 
 
-def _warn(record: Record, o: JointOptions, pair: MovedPair, points: JointPoints) -> None:
+def _warn(o: JointOptions, pair: MovedPair, points: JointPoints) -> None:
     for option, segment, off in (("`first`", pair.first, pair.off[0]), ("`second`", pair.second, pair.off[1])):
         if off > SKIN:
             what = f"{', '.join(segment.names)} are {1e3 * off:.0f} mm from a rigid segment, root mean square"
-            record.warn(f"{option}: {what}: skin that slides, or names exchanged")
+            reserve(f"{option}: {what}: skin that slides, or names exchanged")
     if points.looseness is not None and points.looseness > LOOSE:
-        record.warn(f"{o.trial}: a point fits as well as an axis (looseness {points.looseness:.2f}): is it a hinge?")
+        reserve(f"{o.trial}: a point fits as well as an axis (looseness {points.looseness:.2f}): is it a hinge?")
 
 
-def _tell(record: Record, o: JointOptions, pair: MovedPair, points: JointPoints, halves: float) -> None:
+def _tell(o: JointOptions, pair: MovedPair, points: JointPoints, halves: float) -> None:
     kind = "axis" if o.axis else "centre"
     both = "" if np.isnan(halves) else f"; halves of the trial give it {1e3 * halves:.1f} mm apart"
     off = f"the segments' {kind} is {1e3 * points.rms:.1f} mm off itself, root mean square"
-    record.say(f"{len(pair.time)} frames, {np.degrees(turned(pair)):.0f} deg of turn: {off}{both}")
+    say(f"{len(pair.time)} frames, {np.degrees(turned(pair)):.0f} deg of turn: {off}{both}")
     if np.isnan(halves):
-        record.warn(f"{o.trial}: half of the trial does not tell the {kind}: how far it can be trusted stays open")
+        reserve(f"{o.trial}: half of the trial does not tell the {kind}: how far it can be trusted stays open")
     elif halves > APART:
         what = f"two halves of the trial give the {kind} {1e3 * halves:.0f} mm apart"
-        record.warn(f"{o.trial}: {what}: {MOVE}")
+        reserve(f"{o.trial}: {what}: {MOVE}")
 
 
 def _beside(shown: MarkerTrajectories, o: JointOptions, first: Segment, points: JointPoints) -> MarkerTrajectories:

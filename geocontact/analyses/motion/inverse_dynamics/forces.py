@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import reserve
 from geocontact.analyses.motion.inverse_dynamics.loads import Loaded
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.printed import printed
@@ -136,18 +136,18 @@ def words(forces: Forces) -> str:
     )
 
 
-def warn_of_residuals(record: Record, forces: Forces) -> None:
+def warn_of_residuals(forces: Forces) -> None:
     """One line where more is left over than Hicks et al. allow, or where nothing tells."""
     if not forces.at_ground.any():
-        record.warn(f"no joint frees a body from the {GROUND} with six coordinates: nothing tells what is left over")
+        reserve(f"no joint frees a body from the {GROUND} with six coordinates: nothing tells what is left over")
     elif forces.peak == 0.0 and force_left(forces).too_large:
-        record.warn(
+        reserve(
             f"{words(forces)} ({force_left(forces).time:.3g} s): give `loads`, or `plates` with `plate`; moments are "
             "those of a body in the air"
         )
     elif force_left(forces).too_large or moment_left(forces).too_large:
         when = f"at {force_left(forces).time:.3g} and {moment_left(forces).time:.3g} s, limits of Hicks et al. 2015"
-        record.warn(
+        reserve(
             f"{words(forces)}, {when}: check which plate acts on which body, masses, whether plates and markers have "
             "one clock, and `cutoff`"
         )

@@ -10,8 +10,8 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.quantities import turned_axes
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.heel_strikes import Strikes, strikes_on_plates, strikes_typed
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.skeleton import upwards
@@ -32,7 +32,6 @@ REACH = 1.0  # m from the body's origin to the point that a plate's force acts a
 
 
 def loads_on_bodies(
-    record: Record,
     o: IdOptions,
     model: Multibody,
     time: Float[np.ndarray, " t"],
@@ -42,11 +41,11 @@ def loads_on_bodies(
 
     `values` are the coordinates at those times [rad, m].
     """
-    file, loads = _given(record, o)
+    file, loads = _given(o)
     if file is None:
         return {}
     plates = read_force_plates(file, o.c3d_unit)
-    record.add_input("plates", file, plates=len(plates))
+    add_input("plates", file, plates=len(plates))
     if o.axes is not None and all(load.moves for load in loads):
         raise InputError(file, "`axes`", "has no effect: all loads are expressed in bodies", "leave it out")
     found: dict[str, Wrench] = {}
@@ -62,7 +61,7 @@ def loads_on_bodies(
             wrench = _carried(file, plate, load, o.threshold, time, poses)
         else:
             wrench = _during(file, _loaded(_turned(plate, o, file, model), load, o.threshold), time)
-        _warn_of_far_points(record, file, load, wrench, poses[load.body].translation)
+        _warn_of_far_points(file, load, wrench, poses[load.body].translation)
         before = found.get(load.body)
         if before is not None:
             wrench = replace(wrench, force=wrench.force + before.force, moment=wrench.moment + before.moment)
@@ -70,11 +69,11 @@ def loads_on_bodies(
     return found
 
 
-def _given(record: Record, o: IdOptions) -> tuple[Path | None, tuple[ExternalLoad, ...]]:
+def _given(o: IdOptions) -> tuple[Path | None, tuple[ExternalLoad, ...]]:
     """The file of the plates, and which acts on what: by OpenSim's external loads or by `plates` and `plate`."""
     if o.loads is not None:
         file, loads = read_external_loads(o.loads)
-        record.add_input("`loads`", o.loads, forces=len(loads))
+        add_input("`loads`", o.loads, forces=len(loads))
         return file, loads
     chosen = []
     for text in o.plate:
@@ -162,27 +161,23 @@ def _carried(
     return Wrench(force, moment, point, OPENSIM_FRAME).moved_to(np.zeros(3))
 
 
-def _warn_of_far_points(
-    record: Record, file: Path, load: ExternalLoad, wrench: Wrench, origin: Float[np.ndarray, "t 3"]
-) -> None:
+def _warn_of_far_points(file: Path, load: ExternalLoad, wrench: Wrench, origin: Float[np.ndarray, "t 3"]) -> None:
     """A force whose line passes far from the body it is said to act on: exchanged plates, or noise of a small force."""
     size = np.linalg.norm(wrench.force, axis=1)
     on = size > 0.0
     if not on.any():
-        record.warn(f"{file}: {load.plate} carries nothing during the motion")
+        reserve(f"{file}: {load.plate} carries nothing during the motion")
         return
     arm = np.linalg.norm(wrench.moved_to(origin).moment[on], axis=1) / size[on]
     if arm.max() > REACH:
         what = f"a force of {size[on][np.argmax(arm)]:.3g} N passes {arm.max():.3g} m from the origin of {load.body}"
-        record.warn(f"{file}: {load.plate}: {what}: exchanged plates, or a higher `threshold`?")
+        reserve(f"{file}: {load.plate}: {what}: exchanged plates, or a higher `threshold`?")
 
 
 LOADED = 50.0  # N, from which a centre of pressure is exact to centimetres
 
 
-def warn_of_other_feet(
-    record: Record, model: Multibody, values: Float[np.ndarray, "t c"], loads: Mapping[str, Wrench]
-) -> None:
+def warn_of_other_feet(model: Multibody, values: Float[np.ndarray, "t c"], loads: Mapping[str, Wrench]) -> None:
     """A reservation where a load passes nearer another loaded body than its own, in most of the frames.
 
     Plates that are exchanged leave no residual at the ground: the sum of all loads is the same.
@@ -197,7 +192,7 @@ def warn_of_other_feet(
         typical = {name: float(np.median(distance[there])) for name, distance in away.items()}
         nearest = min(typical, key=lambda name: typical[name])
         if nearest != body:
-            record.warn(
+            reserve(
                 f"the load on {body} acts {typical[body]:.2f} m from it and {typical[nearest]:.2f} m from {nearest} "
                 "(median over its frames): are the loads of the two exchanged?"
             )
@@ -241,17 +236,17 @@ class Loaded:
         return self.values[first : first + len(self.time)]
 
 
-def read(o: IdOptions, record: Record) -> Loaded:
+def read(o: IdOptions) -> Loaded:
     """Everything the options name."""
     model = read_multibody(o.model)
-    record.add_input("`model`", o.model, bodies=len(model.bodies), coordinates=len(model.coordinates))
+    add_input("`model`", o.model, bodies=len(model.bodies), coordinates=len(model.coordinates))
     table = read_table(o.coordinates)
-    record.add_input("coordinates", o.coordinates, frames=len(table.time))
+    add_input("coordinates", o.coordinates, frames=len(table.time))
     unfiltered = motion_of(table, model, o.angles)
     values = _filtered(table, unfiltered, o.cutoff)
     shown = _shown(table, o.time)
     time = table.time[shown]
-    loads = loads_on_bodies(record, o, model, time, values[shown])
+    loads = loads_on_bodies(o, model, time, values[shown])
     strikes = strikes_typed(o.events) or strikes_on_plates(time, loads, upwards(model))
     passive = read_passive_forces(o.model, model, o.exclude)
     return Loaded(model, table.time, unfiltered, values, time, loads, strikes, passive)

@@ -18,9 +18,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import reserve, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain, write_json
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
@@ -103,23 +103,22 @@ class IdResult(Result):
         super().write_files(folder)
 
 
-def run(given: Loaded, o: IdOptions, record: Record) -> IdResult:
+def run(given: Loaded, o: IdOptions) -> IdResult:
     """Forces along all coordinates, and what motion, masses and plates leave over at the ground."""
     tree, passive = tree_of(given.model), given.passive
     found = forces_along(tree, given.recorded, given.values, given.time, given.loads, passive.acting)
     forces = Forces(given.time, given.model, found, _peak(given.loads), _height(given))
-    summary = {**_summary(forces), **_of_the_model(record, passive)}
+    summary = {**_summary(forces), **_of_the_model(passive)}
     cycles = _cycles(forces, given)
     if cycles:
         summary["gait_cycles"] = cycles.counts
-    record.results.update(plain(summary))
+    results().update(plain(summary))
     single = tuple(name for name in o.exclude if name in passive.excluded)
     if single:
-        record.warn(f"OpenSim leaves out groups of forces only: with setup_id.xml it lets {listed(single)} act")
-    warn_of_other_feet(record, given.model, given.shown, given.loads)
-    _tell(record, forces)
+        reserve(f"OpenSim leaves out groups of forces only: with setup_id.xml it lets {listed(single)} act")
+    warn_of_other_feet(given.model, given.shown, given.loads)
+    _tell(forces)
     return IdResult(
-        record=record,
         options=o,
         forces=forces,
         given=given,
@@ -130,14 +129,14 @@ def run(given: Loaded, o: IdOptions, record: Record) -> IdResult:
     )
 
 
-def _of_the_model(record: Record, passive: PassiveForces) -> dict[str, object]:
+def _of_the_model(passive: PassiveForces) -> dict[str, object]:
     """Names of passive forces that act and of those left out; a warning for kinds that are not read."""
     if passive.unread:
         names = listed(passive.unread)
-        record.warn(f"forces of the model of kinds that are not read do not act here, in OpenSim they do: {names}")
+        reserve(f"forces of the model of kinds that are not read do not act here, in OpenSim they do: {names}")
     acting = [force.name for force in passive.acting]
     if acting:
-        record.say(f"Passive forces of the model act beside muscles: {listed(tuple(acting))}.")
+        say(f"Passive forces of the model act beside muscles: {listed(tuple(acting))}.")
     return {"passive_forces": acting, "passive_forces_left_out": [*passive.excluded, *passive.unread]}
 
 
@@ -186,14 +185,14 @@ def _summary(forces: Forces) -> dict[str, object]:
     }
 
 
-def _tell(record: Record, forces: Forces) -> None:
-    warn_of_residuals(record, forces)
+def _tell(forces: Forces) -> None:
+    warn_of_residuals(forces)
     sizes = np.abs(np.where(forces.at_ground, 0.0, forces.values))
     frame, largest = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
     name = forces.names[int(largest)]
     unit = "N m" if name.endswith("_moment") else "N"
     said = f"{len(forces.time)} frames; most at {name}, {sizes[frame, largest]:.4g} {unit}"
-    record.say("; ".join(each for each in (said, words(forces)) if each))
+    say("; ".join(each for each in (said, words(forces)) if each))
 
 
 inverse_dynamics = Job("id", IdOptions, read, run)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.motion.heel_strikes import Strikes, strikes_marked, strikes_typed
 from geocontact.analyses.motion.inverse_kinematics.knees import Knee, knees_of
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
@@ -34,16 +34,16 @@ class KinematicsInputs:
     analog: TextTable | None = None
 
 
-def read(o: IkOptions, record: Record) -> KinematicsInputs:
+def read(o: IkOptions) -> KinematicsInputs:
     """Everything the options name."""
     model = read_multibody(o.model)
-    record.add_input("`model`", o.model, bodies=len(model.bodies), coordinates=len(model.coordinates))
-    model = with_marker_set(record, model, o.model, o.marker_set)
+    add_input("`model`", o.model, bodies=len(model.bodies), coordinates=len(model.coordinates))
+    model = with_marker_set(model, o.model, o.marker_set)
     knees = knees_of(o.knee, model)
-    seen = renamed(record, markers_given(o.markers, o.axes, o.time, o.c3d_unit), model, o.markers_map)
-    record.add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
+    seen = renamed(markers_given(o.markers, o.axes, o.time, o.c3d_unit), model, o.markers_map)
+    add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     strikes = strikes_typed(o.events) or strikes_marked(o.markers)
-    tasks = marker_tasks(record, model, seen, o.tasks, o.follow, o.weight, o.hold)
+    tasks = marker_tasks(model, seen, o.tasks, o.follow, o.weight, o.hold)
     return KinematicsInputs(model, seen, tasks, knees, strikes, _analog(o))
 
 

@@ -21,9 +21,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.frame.collector import listener, reserve, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain, write_json
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.exchanged_markers import exchanged_markers
 from geocontact.analyses.motion.figure import curves_figure
@@ -140,11 +140,11 @@ class IkResult(Result):
 UNTOLD = 1.0 / 3.0  # share of the coordinates beyond which the rest means little
 
 
-def run(seen: KinematicsInputs, o: IkOptions, record: Record) -> IkResult:
+def run(seen: KinematicsInputs, o: IkOptions) -> IkResult:
     """Coordinates of every frame, how far the markers are from the model, and what sums them up."""
     tree = tree_of(seen.model)
     began = time.perf_counter()
-    with record.listener.progress("frames", len(seen.markers)) as step:
+    with listener().progress("frames", len(seen.markers)) as step:
         try:
             found = kinematics_of(tree, seen.markers, seen.tasks, lambda _: step(), fill=o.fill)
         except ValueError as error:
@@ -153,17 +153,17 @@ def run(seen: KinematicsInputs, o: IkOptions, record: Record) -> IkResult:
     cycles = _cycles(seen, found)
     if cycles:
         summary["gait_cycles"] = cycles.counts
-    result = IkResult(record=record, options=o, seen=seen, poses=found, cycles=cycles, summary=summary)
-    record.results.update(plain(summary))
+    result = IkResult(options=o, seen=seen, poses=found, cycles=cycles, summary=summary)
+    results().update(plain(summary))
     errors = MarkerErrors.of(found)
     exchanged = exchanged_markers(tree, seen.markers, seen.tasks, found)
-    errors.warn(record, MOVING, "" if exchanged is None else exchanged.words)
+    errors.warn(MOVING, "" if exchanged is None else exchanged.words)
     if exchanged is None:
-        warn_of_tilt(record, seen.model, found.values, o.axes)
-    _warn(record, found)
+        warn_of_tilt(seen.model, found.values, o.axes)
+    _warn(found)
     told = "" if (free := _never(found)) <= UNTOLD * len(found.names) else f"{free} of {len(found.names)} coordinates "
     told = told and f"{told}are not determined; "
-    record.say(f"{told}{len(found.time)} frames, {len(found.markers)} markers: {errors.words(MOVING)}")
+    say(f"{told}{len(found.time)} frames, {len(found.markers)} markers: {errors.words(MOVING)}")
     return result
 
 
@@ -200,14 +200,14 @@ def _summary(found: Poses, seconds: float) -> dict[str, object]:
     }
 
 
-def _warn(record: Record, found: Poses) -> None:
+def _warn(found: Poses) -> None:
     if not found.settled.all():
         count = int((~found.settled).sum())
-        record.warn(f"{count} frames did not settle: markers and model may not belong together")
+        reserve(f"{count} frames did not settle: markers and model may not belong together")
     never = np.asarray(~found.determined.any(axis=0))
     if never.any():
         names = tuple(name for name, each in zip(found.names, never, strict=True) if each)
-        record.warn(f"no frame tells {listed(names)}: kept at the model's default")
+        reserve(f"no frame tells {listed(names)}: kept at the model's default")
     for lost, what in (
         (~found.determined & np.isfinite(found.values) & ~never, "filled between frames that tell them"),
         (~np.isfinite(found.values), "left empty, markers do not tell them"),
@@ -216,7 +216,7 @@ def _warn(record: Record, found: Poses) -> None:
         if names:
             frames = found.time[lost.any(axis=1)]
             span = f"{len(frames)} frames from {frames[0]:g} to {frames[-1]:g} s"
-            record.warn(f"{span}: {what}: {listed(names)}")
+            reserve(f"{span}: {what}: {listed(names)}")
 
 
 inverse_kinematics = Job("ik", IkOptions, read, run)

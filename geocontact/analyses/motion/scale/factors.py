@@ -9,7 +9,7 @@ from math import isfinite
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.motion.marker_names import names_told, renamed
 from geocontact.analyses.motion.marker_tasks import marker_tasks
 from geocontact.analyses.motion.markers import markers_given, with_marker_set
@@ -36,19 +36,19 @@ class Standing:
     tasks: MarkerTasks
 
 
-def read(o: ScaleOptions, record: Record) -> Standing:
+def read(o: ScaleOptions) -> Standing:
     """Everything the options name."""
     model = read_multibody(o.model)
-    record.add_input("`model`", o.model, bodies=len(model.bodies), markers=len(model.markers))
-    model = with_marker_set(record, model, o.model, o.marker_set)
-    whole = renamed(record, markers_given(o.static, o.axes, o.time, o.c3d_unit), model, o.markers_map)
-    seen = _standing(record, whole)
-    record.add_input("static", o.static, frames=len(whole), markers=len(seen.names))
-    factors = factors_told(model, _measured(o, record, model, whole), o.scale)
-    return Standing(model, whole, seen, factors, marker_tasks(record, model, seen, o.tasks))
+    add_input("`model`", o.model, bodies=len(model.bodies), markers=len(model.markers))
+    model = with_marker_set(model, o.model, o.marker_set)
+    whole = renamed(markers_given(o.static, o.axes, o.time, o.c3d_unit), model, o.markers_map)
+    seen = _standing(whole)
+    add_input("static", o.static, frames=len(whole), markers=len(seen.names))
+    factors = factors_told(model, _measured(o, model, whole), o.scale)
+    return Standing(model, whole, seen, factors, marker_tasks(model, seen, o.tasks))
 
 
-def _measured(o: ScaleOptions, record: Record, model: Multibody, standing: MarkerTrajectories) -> MarkerTrajectories:
+def _measured(o: ScaleOptions, model: Multibody, standing: MarkerTrajectories) -> MarkerTrajectories:
     """Trial and times of the distances of markers."""
     if o.sizes is None and o.sizes_time is None:
         return standing
@@ -56,13 +56,13 @@ def _measured(o: ScaleOptions, record: Record, model: Multibody, standing: Marke
         named = "`sizes`" if o.sizes is not None else "`sizes_time`"
         raise InputError("", named, "has no effect: no body is measured", "name pairs of markers with `scale`")
     file, time = o.sizes or o.static, o.sizes_time if o.sizes_time is not None or o.sizes is not None else o.time
-    seen = renamed(record, markers_given(file, o.axes, time, o.c3d_unit), model, o.markers_map)
+    seen = renamed(markers_given(file, o.axes, time, o.c3d_unit), model, o.markers_map)
     if o.sizes is not None:
-        record.add_input("`sizes`", o.sizes, frames=len(seen), markers=len(seen.names))
+        add_input("`sizes`", o.sizes, frames=len(seen), markers=len(seen.names))
     return seen
 
 
-def _standing(record: Record, seen: MarkerTrajectories) -> MarkerTrajectories:
+def _standing(seen: MarkerTrajectories) -> MarkerTrajectories:
     """One frame: the mean over the trial of each marker where it was seen."""
     there = np.isfinite(seen.positions).all(axis=2).any(axis=0)
     positions: Float[np.ndarray, "m 3"] = np.full(seen.positions.shape[1:], np.nan)
@@ -71,7 +71,7 @@ def _standing(record: Record, seen: MarkerTrajectories) -> MarkerTrajectories:
     moved = [(float(np.nanmax(off[:, k])), seen.names[k]) for k in np.flatnonzero(there)]
     far, name = max(moved)
     if far > MOVED:
-        record.warn(f"{seen.source}: {name} moves {1e3 * far:.0f} mm away from its mean: is this standing still?")
+        reserve(f"{seen.source}: {name} moves {1e3 * far:.0f} mm away from its mean: is this standing still?")
     return MarkerTrajectories(seen.time[:1], positions[None], seen.names, seen.source)
 
 

@@ -23,9 +23,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import reserve, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain, write_json
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.marker_errors import STANDING, MarkerErrors
 from geocontact.analyses.motion.printed import printed
@@ -118,7 +118,7 @@ class ScaleResult(Result):
         )
 
 
-def run(given: Standing, o: ScaleOptions, record: Record) -> ScaleResult:
+def run(given: Standing, o: ScaleOptions) -> ScaleResult:
     """Sizes and mass, the static pose, and markers where they were seen in it."""
     try:
         made = scaled(given.model, given.factors, o.mass, by_volume=o.mass_by_volume)
@@ -129,14 +129,13 @@ def run(given: Standing, o: ScaleOptions, record: Record) -> ScaleResult:
     except ValueError as error:
         raise InputError(o.static, "", str(error), "is it the right file?") from error
     if not pose.settled.all():
-        record.warn("the static pose did not settle: markers and model may not belong together")
+        reserve("the static pose did not settle: markers and model may not belong together")
     moved = made if o.keep_markers else _placed(made, given.markers, pose)
     summary = _summary(given, pose, moved)
-    record.results.update(plain(summary))
-    _tell(record, given, pose)
+    results().update(plain(summary))
+    _tell(given, pose)
     which = [[m.name for m in made.markers].index(name) for name in pose.markers]
     return ScaleResult(
-        record=record,
         options=o,
         standing=given,
         factors=given.factors,
@@ -175,11 +174,11 @@ def _summary(given: Standing, pose: Poses, made: Multibody) -> dict[str, object]
     }
 
 
-def _tell(record: Record, given: Standing, pose: Poses) -> None:
+def _tell(given: Standing, pose: Poses) -> None:
     errors = MarkerErrors.of(pose)
-    errors.warn(record, STANDING)
+    errors.warn(STANDING)
     sizes = ", ".join(f"{name} {by:.3f}" for name, by in labelled(given.factors).items()) or "no body"
-    record.say(f"scaled: {sizes}; markers {errors.words(STANDING)}")
+    say(f"scaled: {sizes}; markers {errors.words(STANDING)}")
 
 
 scale = Job("scale", ScaleOptions, read, run)

@@ -17,8 +17,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import add_input, results, say
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.virtual_markers.options import MarkersOptions
@@ -85,29 +85,29 @@ class Moved:
     table: TextTable
 
 
-def read(o: MarkersOptions, record: Record) -> Moved:
+def read(o: MarkersOptions) -> Moved:
     """Everything the options name."""
     model = read_multibody(o.model)
-    record.add_input("`model`", o.model, bodies=len(model.bodies), markers=len(model.markers))
+    add_input("`model`", o.model, bodies=len(model.bodies), markers=len(model.markers))
     if not model.markers:
         raise InputError(o.model, "", "has no markers", "give a model with a MarkerSet")
     table = read_table(o.coordinates)
-    record.add_input("coordinates", o.coordinates, frames=len(table.time))
+    add_input("coordinates", o.coordinates, frames=len(table.time))
     if table.time_unit != "s":
         raise InputError(o.coordinates, "", "time is in per cent of a cycle", "a .trc file needs seconds")
     return Moved(model, table)
 
 
-def run(moved: Moved, o: MarkersOptions, record: Record) -> MarkersResult:
+def run(moved: Moved, o: MarkersOptions) -> MarkersResult:
     """Places of all markers in every frame."""
     model, table = moved.model, moved.table
     names = tuple(m.name for m in model.markers)
     values = motion_of(table, model, o.angles)
     places = model.marker_places(values)
-    record.results.update(frames=len(table.time), markers=len(names))
-    record.say(f"{len(names)} markers in {len(table.time)} frames")
+    results().update(frames=len(table.time), markers=len(names))
+    say(f"{len(names)} markers in {len(table.time)} frames")
     markers = MarkerTrajectories(table.time, places, names)
-    return MarkersResult(record=record, options=o, markers=markers, model=model, values=values)
+    return MarkersResult(options=o, markers=markers, model=model, values=values)
 
 
 virtual_markers = Job("markers", MarkersOptions, read, run)

@@ -7,7 +7,7 @@ from typing import TypedDict
 
 import numpy as np
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import listener, reserve
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.leg_and_foot import counted_twice, foot_with_law
 from geocontact.analyses.prosthesis.ranges import TURNS
@@ -63,15 +63,15 @@ class FootOnPlate:
     walked: WalkedStance | None
 
 
-def read(o: ProsthesisCalibrateOptions, record: Record) -> FootOnPlate:
+def read(o: ProsthesisCalibrateOptions) -> FootOnPlate:
     """Everything the options name."""
-    with record.listener.preparing():
-        foot = foot_with_law(record, vsf_foot(), o.law)
+    with listener().preparing():
+        foot = foot_with_law(vsf_foot(), o.law)
     fulcrum = fulcrum_of(o.setting) if o.fulcrum is None else o.fulcrum
-    standing = right_markers(record, "`static`", o.static, o.side, o.axes, o.markers_map, o.c3d_unit)
+    standing = right_markers("`static`", o.static, o.side, o.axes, o.markers_map, o.c3d_unit)
     leg = standing_leg(standing, Person(o.mass), foot.keel, sole_numbers()["below"].value)
-    seen = right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map, o.c3d_unit)
-    plate, name = plate_under_foot(record, o.plates, o.plate, o.side, o.mass, o.c3d_unit)
+    seen = right_markers("markers", o.markers, o.side, o.axes, o.markers_map, o.c3d_unit)
+    plate, name = plate_under_foot(o.plates, o.plate, o.side, o.mass, o.c3d_unit)
     filtered: Filtered = {"cutoff": None if o.cutoff == 0.0 else o.cutoff, "gap_limit": o.gap_limit}
     stance = stance_from_markers(
         seen,
@@ -88,10 +88,10 @@ def read(o: ProsthesisCalibrateOptions, record: Record) -> FootOnPlate:
     if not o.full:
         return FootOnPlate(foot, stance, seen, None, None)
     fit = walked(seen, leg, cutoff=ANGLES_CUTOFF, gap_limit=o.gap_limit)
-    return FootOnPlate(foot, stance, seen, fit, _walked(o, record, fit, stance))
+    return FootOnPlate(foot, stance, seen, fit, _walked(o, fit, stance))
 
 
-def _walked(o: ProsthesisCalibrateOptions, record: Record, found: Walked, stance: RecordedStance) -> WalkedStance:
+def _walked(o: ProsthesisCalibrateOptions, found: Walked, stance: RecordedStance) -> WalkedStance:
     """The stance on the whole model; InputError where the markers, or the other plate, do not cover enough of it."""
     other = plate_named(read_force_plates(o.plates, o.c3d_unit), o.other_plate, o.plates, "`other_plate`")
     require_weight(o.plates, "`other_plate`", other.name, other.wrench.force[:, 1], o.mass * GRAVITY)
@@ -104,14 +104,14 @@ def _walked(o: ProsthesisCalibrateOptions, record: Record, found: Walked, stance
     if other.time[0] > motion.time[0] + LATE or other.time[-1] < motion.time[-1] - LATE:
         what = f"plates are from {other.time[0]:.2f} to {other.time[-1]:.2f} s, markers from {motion.time[0]:.2f} to"
         raise InputError(o.plates, "", f"{what} {motion.time[-1]:.2f} s", "both need one clock")
-    record.warn("the hip's centre is that of a regression")
+    reserve("the hip's centre is that of a regression")
     return WalkedStance(stance, motion, Push(other.time, of_side(np.nan_to_num(other.wrench.force), o.side)))
 
 
-def along_poses(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> SoleCalibration:
+def along_poses(given: FootOnPlate, o: ProsthesisCalibrateOptions) -> SoleCalibration:
     """The sole's numbers along the recorded poses; InputError where the keel finds no equilibrium."""
     try:
-        with record.listener.stages("calibrating"):
+        with listener().stages("calibrating"):
             return calibrate([given.stance], given.foot, starts=o.starts, seed=o.seed, level=o.level)
     except ArithmeticError as error:
         remedy = "check height and pitch of the foot; the sole must press and not sink"
@@ -119,7 +119,7 @@ def along_poses(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Recor
 
 
 def on_whole_model(
-    given: FootOnPlate, found: SoleCalibration, o: ProsthesisCalibrateOptions, record: Record
+    given: FootOnPlate, found: SoleCalibration, o: ProsthesisCalibrateOptions
 ) -> WholeCalibration | None:
     """The numbers sought on with the whole model; None where that is not asked for."""
     if given.walked is None or given.fit is None:
@@ -132,10 +132,10 @@ def on_whole_model(
         return simulate_stance(motion, found.foot, given.stance.fulcrum, push, span, machine_code=o.machine_code)
 
     try:
-        with record.listener.stages("calibrating on the whole model"):
+        with listener().stages("calibrating on the whole model"):
             limb = limb_in_socket(given.seen, fit, along, cutoff=ANGLES_CUTOFF, gap_limit=o.gap_limit, turns=TURNS)
             if not limb.settled:
-                record.warn(counted_twice(limb))
+                reserve(counted_twice(limb))
             stances = [replace(stance, motion=replace(limb.walked.motion, leg=given.fit.motion.leg))]
             return calibrate_whole(stances, given.foot, found.at, level=o.level, machine_code=o.machine_code)
     except ArithmeticError as error:

@@ -22,8 +22,8 @@ import pandas as pd
 from jaxtyping import Float
 from numpy import ndarray
 
+from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.prosthesis.calibrate.foot_on_plate import FootOnPlate, along_poses, on_whole_model, read
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
@@ -184,11 +184,11 @@ SHARE_OF_DEPTH = 1.0
 """Share of its radius that a sphere may sink before its centre is under the ground."""
 
 
-def run(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> ProsthesisCalibrateResult:
+def run(given: FootOnPlate, o: ProsthesisCalibrateOptions) -> ProsthesisCalibrateResult:
     """Numbers of the zones, their intervals, and the stance with them."""
     foot, stance = given.foot, given.stance
-    found = along_poses(given, o, record)
-    whole = on_whole_model(given, found, o, record)
+    found = along_poses(given, o)
+    whole = on_whole_model(given, found, o)
     motion, slip = found.residuals.motion(found.at, 0)
     predicted = found.residuals.stance(found.at, 0).predicted(found.foot.at(stance.fulcrum), motion)
     if whole is not None:
@@ -197,7 +197,6 @@ def run(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> Pr
     step = float(np.median(np.diff(stance.time)))
     model, measured = predicted / stance.weight, stance.measured / stance.weight
     result = ProsthesisCalibrateResult(
-        record=record,
         options=o,
         stance=stance,
         calibration=found,
@@ -208,21 +207,21 @@ def run(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> Pr
         centre=agreement(predicted[:, 3], stance.centre, step, 0.0),
     )
     if (motion.loads.depth > SHARE_OF_DEPTH * foot.sole.spheres.radius).any():
-        record.warn("a sphere sinks beyond its radius: the foot is recorded too low, or the sole is too soft")
+        reserve("a sphere sinks beyond its radius: the foot is recorded too low, or the sole is too soft")
     _summarise(result)
     return result
 
 
 def _summarise_fit(r: ProsthesisCalibrateResult) -> None:
     """How the foot stood, and what speaks against the fit."""
-    record, e = r.record, r.stance.errors
+    e = r.stance.errors
     offset = r.last.offsets[0]
-    record.say(
+    say(
         f"the foot is {offset.words} beside where its standing trial has it; prior {1e3 * e.standing:.1f} mm and "
         f"{np.degrees(e.pitch):.2f} degrees"
     )
     for words in doubts_of_fit(offset.height / e.standing, offset.pitch / e.pitch, r.residual, r.vertical.rmsd):
-        record.warn(words)
+        reserve(words)
 
 
 def doubts_of_fit(height: float, pitch: float, residual: float, vertical: float) -> list[str]:
@@ -252,50 +251,53 @@ def doubts_of_fit(height: float, pitch: float, residual: float, vertical: float)
 
 def _summarise(r: ProsthesisCalibrateResult) -> None:
     """Sentences, reservations and results of a calibration."""
-    record, found = r.record, r.last
+    found = r.last
     verdicts = Counter(number.verdict for number in found.knowledge.numbers)
     unknown = [number.name for number in found.knowledge.numbers if number.verdict == "unknown"]
     if unknown:
-        record.warn(f"never loaded, so that their usual values say nothing: {', '.join(unknown)}")
+        reserve(f"never loaded, so that their usual values say nothing: {', '.join(unknown)}")
     if not found.converged:
-        record.warn("the search stopped before it settled; give more `starts`")
+        reserve("the search stopped before it settled; give more `starts`")
     apart = found.knowledge.told_apart
     along = f"is met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s beside the recorded speed"
     if r.whole is not None:
         off = (r.predicted - r.stance.measured)[:, 0] / r.stance.weight
         along = f"fore and aft within {100.0 * float(np.sqrt(np.mean(off**2))):.1f} % of body weight"
-    record.say(
+    say(
         f"vertical force within {100.0 * r.vertical.rmsd:.1f} % of body weight (R² {r.vertical.r2:.3f}), centre of "
         f"pressure within {100.0 * r.centre.rmsd:.1f} % of the foot (R² {r.centre.r2:.2f}); the force along the floor "
         f"{along}"
     )
     _summarise_fit(r)
     if r.whole is not None:
-        record.say(
+        say(
             f"on the whole model the cost falls from {r.whole.begun:.0f}, at the numbers along the recorded poses, to "
             f"{r.whole.cost:.0f}"
         )
-    record.say(
+    say(
         f"{verdicts['known']} of {len(found.knowledge.numbers)} numbers are known, {verdicts['not identified']} not "
         f"identified, {verdicts['unknown']} unknown; {apart.verdict} (condition {apart.condition:.3g})"
     )
     factors = ", ".join(f"{kind} a factor {sd:g}" for kind, (sd, _) in PRIOR.items())
-    record.say(f"prior (invented), as one standard deviation about the usual number: {factors}")
+    say(f"prior (invented), as one standard deviation about the usual number: {factors}")
     offset = found.offsets[0]
-    record.results["calibrate"] = {
-        "height_m": offset.height,
-        "height_sd_m": offset.height_sd,
-        "pitch_rad": offset.pitch,
-        "pitch_sd_rad": offset.pitch_sd,
-        "residual_over_noise": r.residual,
-        "vertical_rmse_of_body_weight": r.vertical.rmsd,
-        "vertical_r2": r.vertical.r2,
-        "centre_rmse_of_foot": r.centre.rmsd,
-        "centre_r2": r.centre.r2,
-        "condition": apart.condition,
-        "solved": found.residuals.solved,
-        "numbers": {number.name: number.value for number in found.knowledge.numbers},
-    }
+    note(
+        "calibrate",
+        {
+            "height_m": offset.height,
+            "height_sd_m": offset.height_sd,
+            "pitch_rad": offset.pitch,
+            "pitch_sd_rad": offset.pitch_sd,
+            "residual_over_noise": r.residual,
+            "vertical_rmse_of_body_weight": r.vertical.rmsd,
+            "vertical_r2": r.vertical.r2,
+            "centre_rmse_of_foot": r.centre.rmsd,
+            "centre_r2": r.centre.r2,
+            "condition": apart.condition,
+            "solved": found.residuals.solved,
+            "numbers": {number.name: number.value for number in found.knowledge.numbers},
+        },
+    )
 
 
 calibrate = Job("prosthesis calibrate", ProsthesisCalibrateOptions, read, run)

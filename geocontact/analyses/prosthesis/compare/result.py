@@ -25,9 +25,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.workers import each
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
@@ -114,19 +114,19 @@ PLAIN = ("mean of the others rmse", "another rmse")
 """Columns of both predictors without a model."""
 
 
-def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions, record: Record) -> ProsthesisCompareResult:
+def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions) -> ProsthesisCompareResult:
     """Every stance that can be simulated; InputError where none can."""
     found: dict[str, Stance] = {}
-    with record.listener.progress("stances", len(given)) as step:
+    with listener().progress("stances", len(given)) as step:
         for one, became in each(simulated_stance, given, o.workers):
             if isinstance(became, BaseException):
                 raise became
             if isinstance(became, str):
-                record.warn(f"{one.trial.name} is left out: {became}")
+                reserve(f"{one.trial.name} is left out: {became}")
             else:
                 found[one.trial.name] = became.stance
                 if not became.settled:
-                    record.warn(f"{one.trial.name}: {counted_twice(became)}")
+                    reserve(f"{one.trial.name}: {counted_twice(became)}")
             step()
     if not found:
         raise InputError(o.study, "[[trials]]", "no stance could be simulated", "look at one with prosthesis simulate")
@@ -134,7 +134,6 @@ def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions, record: R
     transfer = [one for one in stances if not one.calibrated]
     odd = oddness({one.name: one.errors.table["resultant"][1] for one in transfer})
     result = ProsthesisCompareResult(
-        record=record,
         options=o,
         stances=stances,
         sides={one.trial.name: one.person.side for one in given},
@@ -146,11 +145,11 @@ def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions, record: R
 
 def _summarise(r: ProsthesisCompareResult) -> None:
     """Sentences, reservations and results of a comparison."""
-    record, stances = r.record, r.stances
+    stances = r.stances
     fitted = [one.name for one in stances if one.calibrated]
     transfer = len(stances) - len(fitted)
     persons, settings = (len({getattr(one, key) for one in stances}) for key in ("person", "setting"))
-    record.say(
+    say(
         f"{transfer} stances, {persons} person{'s'[: persons - 1]}, {settings} setting{'s'[: settings - 1]} of the foot"
         + (f", beside {len(fitted)} that a sole was fitted to: {', '.join(fitted)}" if fitted else "")
     )
@@ -158,29 +157,29 @@ def _summarise(r: ProsthesisCompareResult) -> None:
     rows = summary[summary["setting"] == ALL].set_index("quantity")
     for name in SAID:
         if name in rows.index:
-            record.say(_over_all(name, rows.loc[[name]].iloc[0]))
+            say(_over_all(name, rows.loc[[name]].iloc[0]))
     judged = list(dict.fromkeys(one.setting for one in stances if not one.calibrated))
     for setting in judged if len(judged) > 1 else ():
         own = summary[summary["setting"] == setting].set_index("quantity")
-        record.say(f"{setting}: {'; '.join(_of_setting(name, own.loc[[name]].iloc[0]) for name in SAID)}")
+        say(f"{setting}: {'; '.join(_of_setting(name, own.loc[[name]].iloc[0]) for name in SAID)}")
     late = [one.errors.stance[0] - one.errors.stance[1] for one in stances if not one.calibrated]
     late = [each for each in late if np.isfinite(each)]
     turned = [one.stance.motion.leg.offset.given for one in stances]
     if any(turned):
         count = f"{sum(turned)} of {len(stances)} stances"
-        record.say(f"height and pitch of the foot beside its standing trial are taken from the law on {count}")
+        say(f"height and pitch of the foot beside its standing trial are taken from the law on {count}")
     if late:
-        record.say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms)")
+        say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms)")
     for one in stances:
         if np.isnan(one.errors.stance[0]):
             what = f"is simulated over {one.errors.simulated:.0%} of its stance, and ends before toe-off"
-            record.warn(f"{one.name} {what}: no stance time of it, errors over that part")
+            reserve(f"{one.name} {what}: no stance time of it, errors over that part")
         if (oddness_of := r.odd.get(one.name)) is not None and oddness_of.outlier:
             seen = "; ".join(reasons(one)) or "nothing that is looked at tells why"
-            record.warn(f"{one.name} stands out with {one.errors.table['resultant'][1]:.1%} BW: {seen}")
+            reserve(f"{one.name} stands out with {one.errors.table['resultant'][1]:.1%} BW: {seen}")
     if transfer < FEWEST:
-        record.warn(f"with {transfer} stances none can stand out: {FEWEST} are needed")
-    record.results["compare"] = plain({one.name: _numbers(one) for one in stances})
+        reserve(f"with {transfer} stances none can stand out: {FEWEST} are needed")
+    note("compare", plain({one.name: _numbers(one) for one in stances}))
 
 
 def _of_setting(name: str, row: pd.Series) -> str:

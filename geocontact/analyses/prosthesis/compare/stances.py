@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import add_input, collecting, current, reserve
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
@@ -47,22 +48,22 @@ class StudiedStance:
     plate: PlateStance
 
 
-def read(o: ProsthesisCompareOptions, record: Record) -> tuple[StudiedStance, ...]:
+def read(o: ProsthesisCompareOptions) -> tuple[StudiedStance, ...]:
     """Every stance; what is warned of several is warned once."""
     study = read_gait_study(o.study)
-    record.add_input("study", o.study, trials=len(study.trials), persons=len(study.persons))
-    return tuple(_stance(each, study.persons[each.person], o, record) for each in study.trials)
+    add_input("study", o.study, trials=len(study.trials), persons=len(study.persons))
+    return tuple(_stance(each, study.persons[each.person], o) for each in study.trials)
 
 
-def _stance(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions, record: Record) -> StudiedStance:
+def _stance(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -> StudiedStance:
     asked = _asked(trial, person, o)
-    own = Record("prosthesis simulate", {})
-    walk = fitted_walk(read_walk(asked, own), asked, own)
+    with collecting(Record("prosthesis simulate", {})) as own:
+        walk = fitted_walk(read_walk(asked), asked)
     for entry in own.inputs:
-        record.inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
+        current().inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
     for line in own.warnings:
-        if not any(line in known for known in record.warnings):
-            record.warn(f"{trial.name}: {line}")
+        if not any(line in known for known in current().warnings):
+            reserve(f"{trial.name}: {line}")
     if walk.plate is None:  # every stance of a study names its plate
         raise ValueError(f"{trial.name}: no plate")
     return StudiedStance(trial, person, asked, walk, walk.plate)

@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.show import design_figure, design_page, stance_share
@@ -134,11 +134,11 @@ class ProsthesisDesignResult(Result):
         return pd.concat(frames, ignore_index=True)
 
 
-def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> ProsthesisDesignResult:
+def run(given: FootAndTrial, o: ProsthesisDesignOptions) -> ProsthesisDesignResult:
     """Bands of every outcome over the values, the best value for every aim."""
     trial = given.trial
     knob = Knob(o.vary, VALUES[o.vary], trial.fulcrum, Terrain(o.slope, o.edge))
-    varied = varied_foot(given, knob, o, record)
+    varied = varied_foot(given, knob, o)
     sweep = Sweep(knob, varied.drawn.drawn, varied.drawn.free, o.level)
     near = {} if given.intact is None else given.intact.outcomes()
     answers = tuple(
@@ -146,7 +146,6 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
     )
     beside = varied.drawn.beside
     result = ProsthesisDesignResult(
-        record=record,
         options=o,
         sweep=sweep,
         answers=answers,
@@ -162,24 +161,24 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
     _reserve(result, varied.drawn.lost)
     _summarise(result)
     if trial.offset.given:
-        record.say(offset_words(trial.offset))
+        say(offset_words(trial.offset))
     return result
 
 
 def _reserve(r: ProsthesisDesignResult, lost: int) -> None:
     """Reservations; `lost` draws have no equilibrium."""
-    record, knob = r.record, r.sweep.knob
+    knob = r.sweep.knob
     if lost:
-        record.warn(f"{lost} of {r.options.feet} drawn feet found no equilibrium and are left out")
-    record.warn(_words_of_torques(r))
+        reserve(f"{lost} of {r.options.feet} drawn feet found no equilibrium and are left out")
+    reserve(_words_of_torques(r))
     if r.intact is not None:
-        record.warn(OF_ONE_STEP)
-    record.warn("bands are of one trial: how a person differs from step to step is not in them")
+        reserve(OF_ONE_STEP)
+    reserve("bands are of one trial: how a person differs from step to step is not in them")
     if knob.vary != "alignment":
-        record.warn(f"the best {knob.vary} is sought with the recorded load; how the load changes is in the bands only")
+        reserve(f"the best {knob.vary} is sought with the recorded load; how the load changes is in the bands only")
     if knob.terrain != LEVEL:
         where = words(knob.terrain)
-        record.warn(f"judged {where}: the stance was recorded on a floor, its load and its turns are kept")
+        reserve(f"judged {where}: the stance was recorded on a floor, its load and its turns are kept")
 
 
 def wanted_now(aim: Aim, o: ProsthesisDesignOptions, task: FootTask, near: Mapping[Aim, float]) -> float | None:
@@ -197,7 +196,7 @@ def _answer(sweep: Sweep, target: float | None, of_intact: bool, k: int) -> AimA
 
 def _summarise(r: ProsthesisDesignResult) -> None:
     """Sentences and results of a choice."""
-    record, knob = r.record, r.sweep.knob
+    knob = r.sweep.knob
 
     def shown(value: float) -> str:
         return value_words(knob.vary, value)
@@ -207,39 +206,42 @@ def _summarise(r: ProsthesisDesignResult) -> None:
     place = words(knob.terrain)
     what = f"{f'{place}, ' if place else ''}{measure.words}, {chosen.wanted}"
     if not choice.told:
-        record.say(f"{what}: cannot tell which {knob.vary} is best: {choice.why}")
+        say(f"{what}: cannot tell which {knob.vary} is best: {choice.why}")
     else:
-        record.say(
+        say(
             f"{what}: {knob.vary} {shown(choice.best)} ({shown(choice.lower)} to {shown(choice.upper)}) is best, "
             f"{choice.why}"
         )
-        record.say(_beside_present(choice, measure.unit, shown(knob.present)))
+        say(_beside_present(choice, measure.unit, shown(knob.present)))
         other = choice.sides["joint torques kept"]
         own = f"{shown(other.best)} ({shown(other.lower)} to {shown(other.upper)})"
-        record.say(f"with the torques of hip and knee kept: {own if other.verdict == 'told' else other.verdict}")
+        say(f"with the torques of hip and knee kept: {own if other.verdict == 'told' else other.verdict}")
     if r.intact is not None:
-        record.say(intact_words(r.intact))
-        record.results["intact"] = plain(dict(r.intact))
+        say(intact_words(r.intact))
+        note("intact", plain(dict(r.intact)))
     if r.together is not None:
-        record.say(pair_words(knob.vary, chosen, r.together))
+        say(pair_words(knob.vary, chosen, r.together))
     for response, rows in r.sweep.differences().items():
-        record.say(f"{response}, {shown(knob.settings[-1])} in place of {shown(knob.settings[0])}: {'; '.join(rows)}")
+        say(f"{response}, {shown(knob.settings[-1])} in place of {shown(knob.settings[0])}: {'; '.join(rows)}")
     ends = r.sweep.ends
-    record.results["design_values"] = plain(r.sweep.shown.tolist())
-    record.results["torques_alone_hold_s"] = plain(r.held)
-    record.results["design"] = plain(
-        {
-            each.aim: {
-                "told": each.choice.told,
-                "best": each.choice.best,
-                "lower": each.choice.lower,
-                "upper": each.choice.upper,
-                "better_than_present": each.choice.better,
-                "least": ends[0, :, k].tolist(),
-                "most": ends[1, :, k].tolist(),
+    note("design_values", plain(r.sweep.shown.tolist()))
+    note("torques_alone_hold_s", plain(r.held))
+    note(
+        "design",
+        plain(
+            {
+                each.aim: {
+                    "told": each.choice.told,
+                    "best": each.choice.best,
+                    "lower": each.choice.lower,
+                    "upper": each.choice.upper,
+                    "better_than_present": each.choice.better,
+                    "least": ends[0, :, k].tolist(),
+                    "most": ends[1, :, k].tolist(),
+                }
+                for k, each in enumerate(r.answers)
             }
-            for k, each in enumerate(r.answers)
-        }
+        ),
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import listener
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.trial import FootAndTrial
 from geocontact.below_knee_prosthesis.design.choice import FootChoice, PairChoice, choose_pair
@@ -341,14 +341,14 @@ class VariedFoot:
     hangs_on: tuple[FootSensitivity, ...]
 
 
-def varied_foot(given: FootAndTrial, knob: Knob, o: ProsthesisDesignOptions, record: Record) -> VariedFoot:
+def varied_foot(given: FootAndTrial, knob: Knob, o: ProsthesisDesignOptions) -> VariedFoot:
     """Draws over the values, and both ends beside the present one; InputError where the foot finds no equilibrium."""
     trial, ends = given.trial, _ends(knob)
     pitch = min(o.pitch_error, trial.offset.pitch_sd) if trial.offset.pitch_sd > 0.0 else o.pitch_error
     errors = TrialErrors(marker=o.marker_error, pitch=pitch, force=o.force_noise)
     try:
         task = trial.task()
-        with record.listener.progress("feet", o.feet) as step:
+        with listener().progress("feet", o.feet) as step:
             drawn = draws(
                 knob,
                 given.foot,

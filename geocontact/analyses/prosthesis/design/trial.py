@@ -11,7 +11,7 @@ import pandas as pd
 from jaxtyping import Float
 from scipy.stats import norm
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, listener, reserve
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.leg_and_foot import foot_with_law, offset_of_law
 from geocontact.analyses.prosthesis.recorded_files import (
@@ -55,14 +55,14 @@ class FootAndTrial:
     intact: IntactStep | None = None
 
 
-def read(o: ProsthesisDesignOptions, record: Record) -> FootAndTrial:
+def read(o: ProsthesisDesignOptions) -> FootAndTrial:
     """Everything the options name."""
-    with record.listener.preparing():
-        foot = foot_with_law(record, vsf_foot(), o.law)
-    plate, name = plate_under_foot(record, o.plates, o.plate, o.side, o.mass, o.c3d_unit)
+    with listener().preparing():
+        foot = foot_with_law(vsf_foot(), o.law)
+    plate, name = plate_under_foot(o.plates, o.plate, o.side, o.mass, o.c3d_unit)
     trial = RecordedTrial(
-        standing=right_markers(record, "`static`", o.static, o.side, o.axes, o.markers_map, o.c3d_unit),
-        walking=right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map, o.c3d_unit),
+        standing=right_markers("`static`", o.static, o.side, o.axes, o.markers_map, o.c3d_unit),
+        walking=right_markers("markers", o.markers, o.side, o.axes, o.markers_map, o.c3d_unit),
         plate=plate,
         person=Person(o.mass),
         keel=foot.keel,
@@ -70,7 +70,7 @@ def read(o: ProsthesisDesignOptions, record: Record) -> FootAndTrial:
         below=sole_numbers()["below"].value,
         cutoff=None if o.cutoff == 0.0 else o.cutoff,
         gap_limit=o.gap_limit,
-        offset=offset_of_law(record, o.law, o.static),
+        offset=offset_of_law(o.law, o.static),
     )
     leg = trial.leg
     spheres = foot.sole.spheres
@@ -79,15 +79,15 @@ def read(o: ProsthesisDesignOptions, record: Record) -> FootAndTrial:
     given = (trial.walking, leg, plate, trial.fulcrum, foot.keel.length)
     stance = stance_from_markers(*given, cutoff=trial.cutoff, gap_limit=trial.gap_limit)
     require_under_foot(o.plates, name, stance.centre)
-    intact = intact_side(o, trial, record)
+    intact = intact_side(o, trial)
     zones = ZoneParameters(foot.sole, foot.law)
     if o.numbers is None:
-        record.warn("nothing is known of this sole but what is believed of any: give the `numbers` of a calibration")
+        reserve("nothing is known of this sole but what is believed of any: give the `numbers` of a calibration")
         return FootAndTrial(foot, trial, zones.sd, intact)
-    return FootAndTrial(foot, trial, _known(o.numbers, zones, record), intact)
+    return FootAndTrial(foot, trial, _known(o.numbers, zones), intact)
 
 
-def _known(file: Path, zones: ZoneParameters, record: Record) -> Float[np.ndarray, " p"]:
+def _known(file: Path, zones: ZoneParameters) -> Float[np.ndarray, " p"]:
     """From intervals of known numbers; any other keeps its prior."""
     try:
         table = pd.read_csv(file)
@@ -96,7 +96,7 @@ def _known(file: Path, zones: ZoneParameters, record: Record) -> Float[np.ndarra
     missing = [name for name in COLUMNS if name not in table.columns]
     if missing:
         raise InputError(file, "", f"no column {missing[0]!r}", "give numbers.csv of prosthesis calibrate")
-    record.add_input("`numbers`", file, rows=len(table))
+    add_input("`numbers`", file, rows=len(table))
     told = table.set_index("number")
     lost = [name for name in zones.names if name not in told.index]
     if lost:
@@ -122,7 +122,7 @@ OF_ONE_STEP = (
 )
 
 
-def intact_side(o: ProsthesisDesignOptions, trial: RecordedTrial, record: Record) -> IntactStep | None:
+def intact_side(o: ProsthesisDesignOptions, trial: RecordedTrial) -> IntactStep | None:
     """The step that is named; None where none is."""
     if o.intact is None:
         return None
@@ -130,9 +130,9 @@ def intact_side(o: ProsthesisDesignOptions, trial: RecordedTrial, record: Record
         what = f"`intact` tells already which {MEASURES[o.aim].words} is wanted"
         raise InputError("", "`target`", what, "give one of them")
     leg = standing_intact_leg(trial.standing, trial.person)
-    seen = right_markers(record, "`intact`", o.intact, o.side, o.axes, o.markers_map, o.c3d_unit)
+    seen = right_markers("`intact`", o.intact, o.side, o.axes, o.markers_map, o.c3d_unit)
     plates = o.plates if o.intact_plates is None else o.intact_plates
-    plate, name = plate_under_foot(record, plates, o.intact_plate, o.side, o.mass, o.c3d_unit, "intact_plate")
+    plate, name = plate_under_foot(plates, o.intact_plate, o.side, o.mass, o.c3d_unit, "intact_plate")
     step = intact_step(seen, leg, plate, cutoff=trial.cutoff, gap_limit=trial.gap_limit)
     foot = body_poses(seen, leg.markers, "intact_foot", seen.time, trial.cutoff, trial.gap_limit)
     height = lowest_sphere(foot, leg.spheres()[0])

@@ -22,10 +22,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.marker_errors import MOVING, MarkerErrors
@@ -191,7 +191,7 @@ class ProsthesisScaleResult(Result):
         return found
 
 
-def run(stood: Stood, o: ProsthesisScaleOptions, record: Record) -> ProsthesisScaleResult:
+def run(stood: Stood, o: ProsthesisScaleOptions) -> ProsthesisScaleResult:
     """The model, its joints and its standing pose."""
     below = sole_numbers()["below"].value
     made = standing_amputee(stood.seen, stood.person, stood.foot, stood.fulcrum, below, stood.joints, o.height)
@@ -204,31 +204,33 @@ def run(stood: Stood, o: ProsthesisScaleOptions, record: Record) -> ProsthesisSc
     moved = None if stood.moving is None else fitted_pose(held, as_right(stood.moving, o.side))
     joints = joint_centres(stood, made, held, pose, o)
     numbers = made.numbers()
-    warn_of_legs(made, stood, o, record)
+    warn_of_legs(made, stood, o)
     invented = sum(number.source == "invented" for number in numbers.values())
-    record.warn(f"{invented} of {len(numbers)} numbers of the segments are invented, see numbers.csv")
+    reserve(f"{invented} of {len(numbers)} numbers of the segments are invented, see numbers.csv")
     functional = [joint.how == "functional" for joint in joints]
-    record.say(
+    say(
         f"both legs of {made.mass:g} kg in {len(held.bodies)} bodies with {len(held.coordinates)} coordinates, "
         f"pelvis with all above it {mass:.1f} kg, residual limb {made.prosthetic.residual_body()[0]:.2f} kg"
     )
-    record.say(f"{sum(functional)} of {len(functional)} joint centres from the functional trial")
+    say(f"{sum(functional)} of {len(functional)} joint centres from the functional trial")
     if moved is not None:
         errors = MarkerErrors.of(moved)
-        errors.warn(record, MOVING)
-        record.say(f"markers of the functional trial {errors.words(MOVING)}")
-    record.results["scale"] = plain(
-        {
-            "mass_kg": held.mass,
-            "pelvis_kg": mass,
-            "residual_kg": made.prosthetic.residual_body()[0],
-            "density_kg_per_m3": made.intact.density,
-            "joints_off_themselves_mm": {joint.name: 1e3 * joint.rms for joint in joints if joint.rms is not None},
-            "functional_rms_mm": None if moved is None else 1e3 * float(np.sqrt(np.nanmean(moved.distances**2))),
-        }
+        errors.warn(MOVING)
+        say(f"markers of the functional trial {errors.words(MOVING)}")
+    note(
+        "scale",
+        plain(
+            {
+                "mass_kg": held.mass,
+                "pelvis_kg": mass,
+                "residual_kg": made.prosthetic.residual_body()[0],
+                "density_kg_per_m3": made.intact.density,
+                "joints_off_themselves_mm": {joint.name: 1e3 * joint.rms for joint in joints if joint.rms is not None},
+                "functional_rms_mm": None if moved is None else 1e3 * float(np.sqrt(np.nanmean(moved.distances**2))),
+            }
+        ),
     )
     return ProsthesisScaleResult(
-        record=record,
         options=o,
         amputee=made,
         model=as_standing(amputee_tree(made, o.side), pose),

@@ -8,7 +8,7 @@ from typing import cast
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import reserve
 from geocontact.analyses.prosthesis.recorded_files import right_markers
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
@@ -38,13 +38,13 @@ class Stood:
     fulcrum: float
 
 
-def read(o: ProsthesisScaleOptions, record: Record) -> Stood:
+def read(o: ProsthesisScaleOptions) -> Stood:
     """Everything the options name."""
-    seen = right_markers(record, "static", o.static, o.side, o.axes, o.markers_map, o.c3d_unit)
-    _warn_of_motion(seen, record)
+    seen = right_markers("static", o.static, o.side, o.axes, o.markers_map, o.c3d_unit)
+    _warn_of_motion(seen)
     moving = None
     if o.functional is not None:
-        moving = right_markers(record, "`functional`", o.functional, o.side, o.axes, o.markers_map, o.c3d_unit)
+        moving = right_markers("`functional`", o.functional, o.side, o.axes, o.markers_map, o.c3d_unit)
     joints = NO_JOINTS if moving is None else standing_joints(seen, moving)
     foot = vsf_foot()
     keel = foot.keel.posterior_mass + foot.keel.joints * foot.keel.segment_mass
@@ -59,13 +59,13 @@ def read(o: ProsthesisScaleOptions, record: Record) -> Stood:
     return Stood(seen, moving, joints, person, foot, fulcrum)
 
 
-def _warn_of_motion(seen: MarkerTrajectories, record: Record) -> None:
+def _warn_of_motion(seen: MarkerTrajectories) -> None:
     off = np.linalg.norm(seen.positions - np.nanmedian(seen.positions, axis=0), axis=2)
     far = np.nanmax(off, axis=0)
     if np.nanmax(far) > MOVED:
         name = seen.names[int(np.nanargmax(far))]
         what = f"{name} moves {1e3 * np.nanmax(far):.0f} mm away from its median: is this standing still?"
-        record.warn(f"{seen.source}: {what}")
+        reserve(f"{seen.source}: {what}")
 
 
 @dataclass(frozen=True)
@@ -158,7 +158,7 @@ def joint_centres(
     return tuple(found)
 
 
-def warn_of_legs(made: Amputee, stood: Stood, o: ProsthesisScaleOptions, record: Record) -> None:
+def warn_of_legs(made: Amputee, stood: Stood, o: ProsthesisScaleOptions) -> None:
     """Reservations on lengths and joints of the legs; InputError for legs that no person of that height has."""
     own, intact = made.prosthetic, made.intact
     if o.height is not None:
@@ -167,16 +167,16 @@ def warn_of_legs(made: Amputee, stood: Stood, o: ProsthesisScaleOptions, record:
             what = f"thigh and shank would be {share:.0%} of a height of {o.height:g} m"
             raise InputError(o.static, "`height`", what, "check `height` and the unit of the markers")
         if not USUAL[0] <= share <= USUAL[1]:
-            record.warn(f"thigh and shank are {share:.1%} of the height; {USUAL[0]:.0%} to {USUAL[1]:.0%} are usual")
+            reserve(f"thigh and shank are {share:.1%} of the height; {USUAL[0]:.0%} to {USUAL[1]:.0%} are usual")
     for name, one, two in (("thigh", own.thigh, intact.thigh), ("shank", own.shank, intact.shank)):
         if abs(one / two - 1.0) > EVEN:
-            record.warn(f"the {name} measures {one:.3f} m on the prosthetic and {two:.3f} m on the intact side")
+            reserve(f"the {name} measures {one:.3f} m on the prosthetic and {two:.3f} m on the intact side")
     if o.functional is None:
-        record.warn("hips by regression, knees and ankle by their markers; a `functional` trial tells them better")
+        reserve("hips by regression, knees and ankle by their markers; a `functional` trial tells them better")
     for name, why in stood.joints.untold.items():
-        record.warn(f"the functional trial does not tell the {JOINTS[name][0]}: {why}")
+        reserve(f"the functional trial does not tell the {JOINTS[name][0]}: {why}")
     points, lines = stood.joints.points, stood.joints.lines
     apart = {name: each.rms for name, each in points.items()} | {name: each.rms for name, each in lines.items()}
     for name, rms in apart.items():
         if rms > FAR:
-            record.warn(f"{JOINTS[name][0]}: both segments put it {1e3 * rms:.0f} mm apart: is the skin loose?")
+            reserve(f"{JOINTS[name][0]}: both segments put it {1e3 * rms:.0f} mm apart: is the skin loose?")

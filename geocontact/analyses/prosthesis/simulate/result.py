@@ -22,9 +22,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.prosthesis.leg_and_foot import all_numbers, counted_twice, numbers_table, offset_words
@@ -148,12 +148,12 @@ TURNED = np.radians(20.0)
 """rad; of the socket, beyond which its bushing is doubted."""
 
 
-def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisSimulateResult:
+def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimulateResult:
     """The walk, and its stance from before touch-down to after toe-off."""
-    walk = fitted_walk(recorded, o, record)
+    walk = fitted_walk(recorded, o)
     numbers = all_numbers(walk.leg, walk.foot, walk.fulcrum, bushing_of(o))
     invented = sum(number.source == "invented" for number in numbers.values())
-    record.warn(f"{invented} of {len(numbers)} numbers of leg and foot are invented, see numbers.csv")
+    reserve(f"{invented} of {len(numbers)} numbers of leg and foot are invented, see numbers.csv")
     limb = simulated(walk, o)
     found = limb.stance
     if not found.on.any():
@@ -161,19 +161,19 @@ def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions, record: Record) ->
             o.markers, "", "the foot never touches the floor", "is `ground` right, y = 0 without it, and `mass`?"
         )
     errors = None if walk.plate is None else stance_errors(found, walk.plate)
-    doubt(found, record)
+    doubt(found)
     if not limb.settled:
-        record.warn(counted_twice(limb))
+        reserve(counted_twice(limb))
     told = summary(found)
-    record.results["stance"] = plain(told)
-    record.results["socket"] = plain({"turns": limb.turns, "change_BW": limb.change, "settled": limb.settled})
-    record.say(found_words(found, told))
+    note("stance", plain(told))
+    note("socket", plain({"turns": limb.turns, "change_BW": limb.change, "settled": limb.settled}))
+    say(found_words(found, told))
     if errors is not None:
-        record.say(beside_words(errors))
-        record.results["errors"] = plain({name: {"r2": r2, "rmse": off} for name, (r2, off) in errors.table.items()})
+        say(beside_words(errors))
+        note("errors", plain({name: {"r2": r2, "rmse": off} for name, (r2, off) in errors.table.items()}))
     if walk.leg.offset.given:
-        record.say(offset_words(walk.leg.offset))
-    return ProsthesisSimulateResult(record=record, options=o, walk=walk, stance=found, errors=errors, numbers=numbers)
+        say(offset_words(walk.leg.offset))
+    return ProsthesisSimulateResult(options=o, walk=walk, stance=found, errors=errors, numbers=numbers)
 
 
 def found_words(found: Stance, told: Mapping[str, float]) -> str:
@@ -205,32 +205,32 @@ def _lasting(errors: StanceErrors) -> str:
     return f"over the first {errors.simulated:.0%} of the plate's stance, for the simulation ended before toe-off"
 
 
-def doubt(found: Stance, record: Record) -> None:
+def doubt(found: Stance) -> None:
     """Reservations on a simulated stance."""
     time, loads = found.time, found.loads
     if loads.pressing[0].sum() > GATE:
-        record.warn(f"the foot is on the floor at the start, with {loads.pressing[0].sum():.0f} N: begin earlier")
+        reserve(f"the foot is on the floor at the start, with {loads.pressing[0].sum():.0f} N: begin earlier")
     if found.on[-1]:
         what = f"the foot is still on the floor with {found.force[-1, 1]:.0f} N where the simulation ends"
-        record.warn(f"{what}, at {found.time[-1]:.2f} s: is `mass` right, and do the markers go on past toe-off?")
+        reserve(f"{what}, at {found.time[-1]:.2f} s: is `mass` right, and do the markers go on past toe-off?")
     far, fast = found.beyond
     if far.any():
         most, limit = 1e3 * np.abs(found.pistoning).max(), 1e3 * PISTONING.travel
-        record.warn(f"the socket pistons by {most:.0f} mm, past {limit:.0f} mm, first at {time[far][0]:.2f} s")
+        reserve(f"the socket pistons by {most:.0f} mm, past {limit:.0f} mm, first at {time[far][0]:.2f} s")
     if fast.any():
         limit = 1e3 * PISTONING.speed
-        record.warn(f"the socket pistons faster than {limit:.0f} mm/s, first at {time[fast][0]:.2f} s")
+        reserve(f"the socket pistons faster than {limit:.0f} mm/s, first at {time[fast][0]:.2f} s")
     turned = np.abs(found.found.q[:, 2:5]).max()
     if turned > TURNED:
-        record.warn(f"the socket turns by {np.degrees(turned):.0f} degrees on its bushing")
+        reserve(f"the socket turns by {np.degrees(turned):.0f} degrees on its bushing")
     sunk = loads.depth > found.foot.sole.spheres.radius
     if sunk.any():
-        record.warn(
+        reserve(
             f"{int(sunk.any(axis=0).sum())} spheres sink beyond their radius, up to {1e3 * loads.depth.max():.0f} mm"
         )
     idle = [zone for zone, of in found.foot.sole.spheres.zones.items() if not (loads.pressing[:, of] > 0.0).any()]
     if idle:
-        record.warn(f"never loaded: {', '.join(idle)}; its numbers stay unknown")
+        reserve(f"never loaded: {', '.join(idle)}; its numbers stay unknown")
 
 
 def summary(found: Stance) -> dict[str, float]:

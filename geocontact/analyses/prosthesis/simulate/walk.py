@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_errors import FAR, MOVING
 from geocontact.analyses.prosthesis.leg_and_foot import foot_with_law, offset_of_law
@@ -113,33 +113,33 @@ class Walk:
     seen: MarkerTrajectories
 
 
-def read(o: ProsthesisSimulateOptions, record: Record) -> RecordedWalk:
+def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
     """Everything the options name."""
     given = o.side, o.axes, o.markers_map, o.c3d_unit
     ground = _ground(o)
-    foot = foot_with_law(record, vsf_foot(), o.law)
-    standing = right_markers(record, "`static`", cast(Path, o.static), *given)
+    foot = foot_with_law(vsf_foot(), o.law)
+    standing = right_markers("`static`", cast(Path, o.static), *given)
     moving = None
     if o.functional is None:
-        record.warn("the hip's centre is that of a regression; a `functional` trial tells it better")
+        reserve("the hip's centre is that of a regression; a `functional` trial tells it better")
     else:
-        moving = right_markers(record, "`functional`", o.functional, *given)
-    offset = offset_of_law(record, o.law, cast(Path, o.static))
-    seen = right_markers(record, "markers", o.markers, *given, o.time)
+        moving = right_markers("`functional`", o.functional, *given)
+    offset = offset_of_law(o.law, cast(Path, o.static))
+    seen = right_markers("markers", o.markers, *given, o.time)
     plates = read_force_plates(cast(Path, o.plates), o.c3d_unit)
-    record.add_input("`plates`", cast(Path, o.plates), plates=len(plates))
+    add_input("`plates`", cast(Path, o.plates), plates=len(plates))
     return RecordedWalk(standing, moving, seen, plates, ground, foot, offset)
 
 
-def fitted_walk(recorded: RecordedWalk, o: ProsthesisSimulateOptions, record: Record) -> Walk:
+def fitted_walk(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
     """The leg by the standing trial, its motion by the walking one; InputError where plates and markers do not fit."""
     foot, seen, file = recorded.foot, recorded.seen, cast(Path, o.plates)
     person = Person(cast(float, o.mass), o.sex, o.residual)
-    stood = standing_leg(recorded.standing, person, foot.keel, sole_numbers()["below"].value, _hip(recorded, record))
+    stood = standing_leg(recorded.standing, person, foot.keel, sole_numbers()["below"].value, _hip(recorded))
     leg = stood.with_foot(recorded.offset)
     fit = walked(seen, leg, cutoff=None if o.cutoff == 0.0 else o.cutoff, gap_limit=o.gap_limit)
     other = plate_named(recorded.plates, o.other_plate, file, "`other_plate`")
-    _require_fit(seen, fit, record)
+    _require_fit(seen, fit)
     require_weight(file, "`other_plate`", other.name, other.wrench.force[:, 1], person.mass * GRAVITY)
     push = Push(other.time, of_side(np.nan_to_num(other.wrench.force), o.side))
     _require_clock(o, fit.motion.time, other)
@@ -149,7 +149,7 @@ def fitted_walk(recorded: RecordedWalk, o: ProsthesisSimulateOptions, record: Re
     return Walk(leg, fit, recorded.ground, foot, fulcrum, push, own, SeenFoot(seen.time, poses), seen)
 
 
-def _hip(recorded: RecordedWalk, record: Record) -> Float[np.ndarray, " 3"] | None:
+def _hip(recorded: RecordedWalk) -> Float[np.ndarray, " 3"] | None:
     """Centre by the functional trial in the pelvis' frame [m]; None without such a trial."""
     if recorded.moving is None:
         return None
@@ -157,17 +157,17 @@ def _hip(recorded: RecordedWalk, record: Record) -> Float[np.ndarray, " 3"] | No
     places = np.nanmedian(standing.of(PELVIS), axis=0)
     frame = pelvis_frame(dict(zip(PELVIS, places, strict=True)), standing.source)
     hip = functional_hip(recorded.moving, frame.inv().apply(places))
-    record.say(f"hip centre from the functional trial, {1e3 * hip.rms:.1f} mm off itself")
+    say(f"hip centre from the functional trial, {1e3 * hip.rms:.1f} mm off itself")
     return hip.first
 
 
-def _require_fit(seen: MarkerTrajectories, fit: Walked, record: Record) -> None:
+def _require_fit(seen: MarkerTrajectories, fit: Walked) -> None:
     off = float(np.nanmedian(fit.off))
     if off > FAR:
         what = f"markers are {1e3 * off:.0f} mm from the standing leg in the median"
         raise InputError(seen.source, "", what, "the same person and markers? are left and right exchanged?")
     if off > MOVING.rms:
-        record.warn(f"{seen.source}: markers are {1e3 * off:.0f} mm from the standing leg in the median")
+        reserve(f"{seen.source}: markers are {1e3 * off:.0f} mm from the standing leg in the median")
 
 
 def _ground(o: ProsthesisSimulateOptions) -> HalfSpace | Stairs:

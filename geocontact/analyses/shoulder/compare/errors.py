@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
 from geocontact.analyses.shoulder.recordings import (
     ELEVATION,
@@ -47,12 +47,12 @@ class ArmAndRecording:
     recorded: Channels
 
 
-def read(o: ShoulderCompareOptions, record: Record) -> ArmAndRecording:
+def read(o: ShoulderCompareOptions) -> ArmAndRecording:
     """Both files."""
     simulated, phase, out = _simulated(o.simulated)
-    record.add_input("simulated", o.simulated, frames=len(phase))
+    add_input("simulated", o.simulated, frames=len(phase))
     recorded = recorded_channels(o.recorded, o.map, o.angles, o.unit, o.delay)
-    record.add_input("recorded", o.recorded, samples=len(recorded.time))
+    add_input("recorded", o.recorded, samples=len(recorded.time))
     return ArmAndRecording(simulated, phase, out, recorded)
 
 
@@ -83,7 +83,7 @@ class ComparedChannel:
     errors: Mapping[str, Agreement]
 
 
-def compared(both: ArmAndRecording, o: ShoulderCompareOptions, record: Record) -> tuple[ComparedChannel, ...]:
+def compared(both: ArmAndRecording, o: ShoulderCompareOptions) -> tuple[ComparedChannel, ...]:
     """Every channel that was recorded, over the whole trial, over the work and in each phase."""
     time, step = even_times(both.simulated.time)
     recorded = both.recorded
@@ -92,7 +92,7 @@ def compared(both: ArmAndRecording, o: ShoulderCompareOptions, record: Record) -
         ours, theirs = (f"{each.time[0]:g} to {each.time[-1]:g} s" for each in (both.simulated, recorded))
         raise InputError(o.recorded, "", f"runs from {theirs}, the simulation from {ours}", "give `delay`")
     if not inside.all():
-        record.warn(f"{o.recorded.name}: {inside.mean():.0%} of the simulated time was recorded")
+        reserve(f"{o.recorded.name}: {inside.mean():.0%} of the simulated time was recorded")
     phase = np.array(both.phase)
     _, recorded_step = even_times(recorded.time)
     channels = []

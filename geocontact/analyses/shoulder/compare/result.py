@@ -21,10 +21,10 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.frame.collector import note, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.figure import curves_figure
@@ -108,19 +108,20 @@ class ShoulderCompareResult(Result):
         return {REPORT: comparison_page(self.options.recorded.name, self.channels, self.sentences)}
 
 
-def run(both: ArmAndRecording, o: ShoulderCompareOptions, record: Record) -> ShoulderCompareResult:
+def run(both: ArmAndRecording, o: ShoulderCompareOptions) -> ShoulderCompareResult:
     """Errors of every channel that was recorded, and what is to be said of them."""
-    channels = compared(both, o, record)
+    channels = compared(both, o)
     reserved = out_of_cuff_words(both.out_of_cuff)
     for one in channels:
         unit, factor = shown_in(one.channel)
         for name in (name for name in (ALL, WORK) if name in one.errors):
             a = one.errors[name]
-            record.say(f"{one.channel}, {name}: MAE {factor * a.mae:.3g}, RMSD {factor * a.rmsd:.3g} {unit}{reserved}")
-    record.results["comparison"] = plain(
-        {each.channel: {name: vars(error) for name, error in each.errors.items()} for each in channels}
+            say(f"{one.channel}, {name}: MAE {factor * a.mae:.3g}, RMSD {factor * a.rmsd:.3g} {unit}{reserved}")
+    note(
+        "comparison",
+        plain({each.channel: {name: vars(error) for name, error in each.errors.items()} for each in channels}),
     )
-    return ShoulderCompareResult(record=record, options=o, channels=channels)
+    return ShoulderCompareResult(options=o, channels=channels)
 
 
 compare = Job("shoulder compare", ShoulderCompareOptions, read, run)

@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.analyses.shoulder.devices import device_named, wearer_of_lengths
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
@@ -70,20 +70,20 @@ class WorkersAndDevice:
     unseen: Mapping[str, float] = field(default_factory=dict)
 
 
-def read(o: ShoulderOptimiseOptions, record: Record) -> WorkersAndDevice:
+def read(o: ShoulderOptimiseOptions) -> WorkersAndDevice:
     """Everything the options name."""
-    device = device_named(record, o.device)
+    device = device_named(o.device)
     if o.study is None:
-        record.warn(SYNTHETIC)
+        reserve(SYNTHETIC)
         arms = all_arms(dominant_share=o.dominant_share, cutoff=o.cutoff)
         return WorkersAndDevice(tuple(arms), device, support_of(device))
     study = read_overhead_study(o.study)
-    record.add_input("`study`", o.study, persons=len(study.persons), trials=len(study.trials))
+    add_input("`study`", o.study, persons=len(study.persons), trials=len(study.trials))
     bare = [trial for trial in study.trials if trial.level is None]
     if not bare:
-        record.warn("every trial was recorded in the device: the shoulder's torque is that of arms that it supported")
-    lengths = {name: wearer_of_lengths(record, o.study, each.lengths) for name, each in study.persons.items()}
-    arms = [arm for trial in bare or study.trials for arm in _arms(o, record, study, trial, lengths[trial.person])]
+        reserve("every trial was recorded in the device: the shoulder's torque is that of arms that it supported")
+    lengths = {name: wearer_of_lengths(o.study, each.lengths) for name, each in study.persons.items()}
+    arms = [arm for trial in bare or study.trials for arm in _arms(o, study, trial, lengths[trial.person])]
     unseen = {
         name: arm_moment(each.mass, each.sex, lengths[name].upper_arm)
         for name, each in study.persons.items()
@@ -102,14 +102,12 @@ def support_of(device: Device) -> Support:
     return Support(torque, device["lag"])
 
 
-def _arms(
-    o: ShoulderOptimiseOptions, record: Record, study: OverheadStudy, trial: StudyTrial, lengths: Wearer
-) -> list[ArmTrial]:
+def _arms(o: ShoulderOptimiseOptions, study: OverheadStudy, trial: StudyTrial, lengths: Wearer) -> list[ArmTrial]:
     person, task = study.persons[trial.person], study.tasks[trial.task]
-    recorded = renamed_as_told(record, markers_given(trial.markers, o.axes, None, o.c3d_unit), o.markers_map)
+    recorded = renamed_as_told(markers_given(trial.markers, o.axes, None, o.c3d_unit), o.markers_map)
     seen = _filled(recorded, o.gap_limit)
-    record.add_input(f"{trial.person} {trial.task}", trial.markers, frames=len(seen))
-    current = tool_current(record, trial.tool, seen.time)
+    add_input(f"{trial.person} {trial.task}", trial.markers, frames=len(seen))
+    current = tool_current(trial.tool, seen.time)
     share = o.dominant_share if task.dominant_share is None else task.dominant_share
     use = ToolUse(ToolWork(task.tool, task.push, dominant_share=share), current > Thresholds().on, current)
     dominant: Side = "right" if person.dominant == "right" else "left"
@@ -117,7 +115,7 @@ def _arms(
     settings = MarkerSettings(upright=trial.upright, gap_limit=o.gap_limit)
     arms, notes = recorded_arms(f"{trial.person}{trial.task}", worker, trial.task, seen, settings, use, o.cutoff)
     for note in notes:
-        record.warn(f"{trial.markers.name}: {note}")
+        reserve(f"{trial.markers.name}: {note}")
     return arms
 
 
@@ -235,12 +233,10 @@ def sound(o: ShoulderOptimiseOptions, what: Callable[[], T]) -> T:
         raise InputError(o.study or "", "", str(error), "check lengths, unit and names of markers") from error
 
 
-def judged_held_out(
-    given: WorkersAndDevice, loop: ClosedLoop, o: ShoulderOptimiseOptions, record: Record
-) -> dict[str, HeldOutSupport]:
+def judged_held_out(given: WorkersAndDevice, loop: ClosedLoop, o: ShoulderOptimiseOptions) -> dict[str, HeldOutSupport]:
     """How profiles of the others fare, by person; empty where there is one only."""
     if len({trial.person for trial in given.trials}) == 1:
-        record.warn("one person only: nobody can be held out, the profile is for this person")
+        reserve("one person only: nobody can be held out, the profile is for this person")
         return {}
     try:
         return held_out(

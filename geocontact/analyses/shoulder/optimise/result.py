@@ -18,9 +18,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import note
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.shoulder.devices import factors_written
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
@@ -181,18 +181,17 @@ def _told(found: SupportOutcome) -> dict[str, float]:
     }
 
 
-def run(workers: WorkersAndDevice, o: ShoulderOptimiseOptions, record: Record) -> ShoulderOptimiseResult:
+def run(workers: WorkersAndDevice, o: ShoulderOptimiseOptions) -> ShoulderOptimiseResult:
     """Profiles, what they do, their fronts, and how they fare with a person held out."""
     trials, loop = workers.trials, closed_loop(workers, o)
     made = sound(o, lambda: made_profiles(workers, loop, by_arm=o.scale == "arm"))
-    judged = sound(o, lambda: judged_held_out(workers, loop, o, record))
+    judged = sound(o, lambda: judged_held_out(workers, loop, o))
     corrected = tuple(support_case(each, workers.support, transfer=made.group.transfers[each.name]) for each in trials)
     persons = dict.fromkeys(each.person for each in trials)
     noisy = {GROUP: with_sensors(workers, dict.fromkeys(persons, made.group.profile.factors), o)}
     if judged:
         noisy[OTHERS] = with_sensors(workers, {person: each.factors for person, each in judged.items()}, o)
     result = ShoulderOptimiseResult(
-        record=record,
         options=o,
         cases=tuple(support_case(each, workers.support) for each in trials),
         corrected=corrected,
@@ -206,10 +205,10 @@ def run(workers: WorkersAndDevice, o: ShoulderOptimiseOptions, record: Record) -
         held_out=judged,
         front=front_points(corrected, loop),
     )
-    taken = say_profiles(record, made, loop, trials)
-    say_held_out(record, judged, noisy.get(OTHERS, {}))
-    left = say_simulated(record, noisy, loop.limits)
-    record.results["optimise"] = plain({"device": workers.device.name, **taken, "with sensors": left})
+    taken = say_profiles(made, loop, trials)
+    say_held_out(judged, noisy.get(OTHERS, {}))
+    left = say_simulated(noisy, loop.limits)
+    note("optimise", plain({"device": workers.device.name, **taken, "with sensors": left}))
     return result
 
 

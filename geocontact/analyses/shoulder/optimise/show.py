@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import reserve, say
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.shoulder.optimise.profiles import GROUP, MadeProfiles
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
@@ -108,23 +108,21 @@ def profile_page(figure: bytes, tables: Mapping[str, pd.DataFrame], sentences: S
     )
 
 
-def say_profiles(record: Record, made: MadeProfiles, loop: ClosedLoop, trials: Sequence[ArmTrial]) -> dict[str, float]:
+def say_profiles(made: MadeProfiles, loop: ClosedLoop, trials: Sequence[ArmTrial]) -> dict[str, float]:
     """Best and one factor by the aim, and by the mean over persons where that is another measure; all simulated."""
     whose = {
         "mean": "",
         "worst": " of the person who gains least",
         "cvar": f" in the mean of the worst {loop.worst_share:.0%} of the cases",
     }[loop.aim]
-    record.say(
+    say(
         f"{made.group.value:.1%} of the shoulders' torque is taken away{whose} in the simulation "
         f"({made.group.profile.value:.1%} planned){_kept(loop.limits)}; one factor for all tasks, hands and phases "
         f"takes {made.one.value:.1%}{_out(made.group, made.one)}"
     )
     best, one = (_by(trials, each, "mean") for each in (made.group, made.one))
     if loop.aim != "mean":
-        record.say(
-            f"in the mean over persons it is {best:.1%}, and {one:.1%} with one factor{_out(made.group, made.one)}"
-        )
+        say(f"in the mean over persons it is {best:.1%}, and {one:.1%} with one factor{_out(made.group, made.one)}")
     taken = {
         "taken away": best,
         "taken away by one factor": one,
@@ -134,13 +132,13 @@ def say_profiles(record: Record, made: MadeProfiles, loop: ClosedLoop, trials: S
     }
     if made.by_arm is not None and len(set(made.scales.values())) > 1:
         taken["taken away by arm weight, by the aim"] = made.by_arm.value
-        record.say(
+        say(
             f"with factors in proportion to the weight of each person's arm {made.by_arm.value:.1%} is taken "
             f"away{whose}{_out(made.by_arm)}"
         )
     for name, found in (("of all persons", made.group), ("of one factor", made.one), ("by arm weight", made.by_arm)):
         if found is not None and found.passed > SLACK:
-            record.warn(
+            reserve(
                 f"the profile {name} passes its limits by {found.passed:.2f} N m in the simulation, and none was found "
                 "that keeps them; `reserve` leaves room"
             )
@@ -163,7 +161,7 @@ def _by(trials: Sequence[ArmTrial], found: SettledProfile, aim: Aim) -> float:
     return measured([(each.person, found.runs[each.name].outcome.reduction) for each in trials], aim)
 
 
-def say_held_out(record: Record, judged: Mapping[str, HeldOutSupport], simulated: Mapping[str, SupportOutcome]) -> None:
+def say_held_out(judged: Mapping[str, HeldOutSupport], simulated: Mapping[str, SupportOutcome]) -> None:
     """Person by person; a gain that pushes the arm up, or may do so within the model's error, is none.
 
     `simulated` are the same profiles in the simulation, by trial.
@@ -176,20 +174,20 @@ def say_held_out(record: Record, judged: Mapping[str, HeldOutSupport], simulated
             beyond = "no gain, as it pushes the arm up"
         elif found.pushed_up[1] > 0.0:
             beyond = "no sure gain, as it may push the arm up"
-        record.say(
+        say(
             f"{person} held out: {found.reduction:.1%}, {100 * found.gain:+.1f} points over one factor of the others "
             f"({100 * low:.1f} to {100 * high:.1f}, {beyond}); pushed up {found.pushed_up[0]:.1%} of the time, by "
             f"{found.excess[0]:.1f} N m at most; in 95% of the draws of the model's errors up to "
             f"{found.pushed_up[1]:.1%}, by {found.excess[1]:.1f} N m{out}"
         )
         if found.pushed_up[0] > 0.0:
-            record.warn(
+            reserve(
                 f"{person}: the profile that the others make pushes an arm up {found.pushed_up[0]:.1%} of the time, by "
                 f"{found.excess[0]:.1f} N m at most; `reserve` leaves room"
             )
 
 
-def say_simulated(record: Record, noisy: Mapping[str, Mapping[str, SupportOutcome]], limits: Limits) -> float:
+def say_simulated(noisy: Mapping[str, Mapping[str, SupportOutcome]], limits: Limits) -> float:
     """What noisy, late sensors leave of it; the share that the group's profile takes away with them."""
     for name, found in noisy.items():
         ones = list(found.values())
@@ -199,10 +197,10 @@ def say_simulated(record: Record, noisy: Mapping[str, Mapping[str, SupportOutcom
         said = f"{share:.1%} taken away, pushed up {up:.1%} of the time, by {excess:.1f} N m at most, {force:.0f} N"
         if name == GROUP:
             out = out_of_cuff_words(*(each.out_of_cuff for each in ones))
-            record.say(f"simulated with noisy, late sensors: {said} in the cuff{out}")
+            say(f"simulated with noisy, late sensors: {said} in the cuff{out}")
         for value, limit, what in ((force, limits.force, f"{force:.0f} N"), (rate, limits.rate, f"{rate:.0f} N m/s")):
             if value > limit:
-                record.warn(f"the profile {name}, simulated, reaches {what} where the limit is {limit:g}")
+                reserve(f"the profile {name}, simulated, reaches {what} where the limit is {limit:g}")
         if up > 0.0:
-            record.warn(f"the profile {name}, simulated, pushes an arm up: {said} in the cuff; `reserve` leaves room")
+            reserve(f"the profile {name}, simulated, pushes an arm up: {said} in the cuff; `reserve` leaves room")
     return float(np.mean([each.reduction for each in noisy[GROUP].values()]))

@@ -11,7 +11,7 @@ import pandas as pd
 from jaxtyping import Bool, Float
 from scipy.spatial.transform import Rotation, Slerp
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, note, reserve, say
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.analyses.shoulder.devices import device_named, read_profiles, wearer_named
 from geocontact.analyses.shoulder.recordings import current_at, tool_runs
@@ -64,36 +64,32 @@ class Worn:
     controllers: Mapping[Side, Controller] | None
 
 
-def read(o: ShoulderSimulateOptions, record: Record) -> Worn:
+def read(o: ShoulderSimulateOptions) -> Worn:
     """Everything the options name."""
-    return worn_along(o, wearer_named(record, o.person), record)
+    return worn_along(o, wearer_named(o.person))
 
 
-def worn_along(o: ShoulderSimulateOptions, wearer: Wearer, record: Record) -> Worn:
+def worn_along(o: ShoulderSimulateOptions, wearer: Wearer) -> Worn:
     """The same on a wearer who is known."""
-    device = device_named(record, o.device)
-    seen = renamed_as_told(record, markers_given(o.markers, o.axes, o.time, o.c3d_unit), o.markers_map)
-    record.add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
+    device = device_named(o.device)
+    seen = renamed_as_told(markers_given(o.markers, o.axes, o.time, o.c3d_unit), o.markers_map)
+    add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     found = arm_motions(seen, MarkerSettings(upright=o.upright, gap_limit=o.gap_limit))
-    for note in found.notes:
-        record.warn(note)
+    for line in found.notes:
+        reserve(line)
     wanted = tuple(arm for arm in found.arms if o.side in ("both", arm.side))
     if not wanted:
         have = " and ".join(arm.side for arm in found.arms)
         raise InputError(o.markers, "`side`", f"the {o.side} arm was not recorded", f"recorded: {have}")
     if o.side == "both" and len(wanted) == 1:
-        record.warn(f"only the {wanted[0].side} arm was recorded")
+        reserve(f"only the {wanted[0].side} arm was recorded")
     arms = tuple(_smoothed(arm, o) for arm in wanted)
     time = arms[0].time
     frame = _frame_at(wanted[0].time, found.frame, time)
-    tool = (
-        None
-        if o.tool is None
-        else tool_runs(record, o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
-    )
+    tool = None if o.tool is None else tool_runs(o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
     nearest = np.clip(np.searchsorted(0.5 * (seen.time[1:] + seen.time[:-1]), time), 0, len(seen) - 1)
     places = np.stack([frame.points(each) for each in seen.positions[nearest].swapaxes(0, 1)], axis=1)
-    return Worn(arms, frame, places, device, wearer, tool, controllers(o, time, record))
+    return Worn(arms, frame, places, device, wearer, tool, controllers(o, time))
 
 
 def _smoothed(arm: ArmMotion, o: ShoulderSimulateOptions) -> ArmMotion:
@@ -112,20 +108,18 @@ def _frame_at(time: Float[np.ndarray, " t"], frame: DeviceFrame, wanted: Float[n
     return DeviceFrame(origin, turns.as_matrix())
 
 
-def controllers(
-    o: ShoulderSimulateOptions, time: Float[np.ndarray, " t"], record: Record
-) -> Mapping[Side, Controller] | None:
+def controllers(o: ShoulderSimulateOptions, time: Float[np.ndarray, " t"]) -> Mapping[Side, Controller] | None:
     """By side; None where the support is constant."""
     if o.profile is None or o.tool is None:
         return None
     profiles = read_profiles(o.profile)
-    record.add_input("`profile`", o.profile, profiles=len(profiles))
+    add_input("`profile`", o.profile, profiles=len(profiles))
     name = next(iter(profiles)) if o.profile_name is None else o.profile_name
     if name not in profiles:
         raise InputError(o.profile, "`profile_name`", f"no profile {name!r}", f"there are {', '.join(profiles)}")
     factors = profiles[name]
     task = _task(o.profile, factors, o.task)
-    record.results["profile"] = {"name": name, "task": task}
+    note("profile", {"name": name, "task": task})
     current = current_at(o.tool, time)
     found: dict[Side, Controller] = {}
     for side in SIDES if o.side == "both" else (o.side,):
@@ -146,7 +140,7 @@ def _task(file: Path, factors: Factors, named: str | None) -> str:
     return tasks[0] if named is None else named
 
 
-def simulated_along(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions, record: Record) -> SimulatedArm:
+def simulated_along(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions) -> SimulatedArm:
     """One arm along the human one, and what is to be said of it."""
     control = None if worn.controllers is None else worn.controllers[arm.side]
     detected, factor = None, None
@@ -165,10 +159,10 @@ def simulated_along(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions, reco
         phase = work_phases(arm.elevation, worn.tool)
     except ValueError as error:
         raise InputError(o.tool or o.markers, "`tool`", f"{arm.side} arm: {error}", "check its clock") from error
-    warn_of(found, record)
+    warn_of(found)
     one = SimulatedArm(found, phase, detected, factor)
     told = summary_of(one)
-    record.say(
+    say(
         f"{arm.side} arm: elevation up to {told['elevation_max_deg']:.1f} deg (shoulder "
         f"{told['shoulder_max_deg']:.1f}), supporting force {told['supporting_min_N']:.1f} … "
         f"{told['supporting_max_N']:.1f} N, slip {told['slip_mm']:.0f} mm{out_of_cuff_clause(found)}"
@@ -176,7 +170,7 @@ def simulated_along(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions, reco
     if control is not None and detected is not None:
         shares = ", ".join(f"{name} {share:.2f}" for name, share in zip(PHASES, control.factors, strict=True))
         changes = f"{np.count_nonzero(np.diff(detected))} changes"
-        record.say(f"{arm.side} arm: support by phase: {shares}; {changes}{out_of_cuff_clause(found)}")
+        say(f"{arm.side} arm: support by phase: {shares}; {changes}{out_of_cuff_clause(found)}")
     return one
 
 

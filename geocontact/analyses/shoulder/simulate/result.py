@@ -21,9 +21,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import note, reserve
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.shoulder.simulate.arms import (
     Worn,
@@ -102,23 +102,25 @@ class ShoulderSimulateResult(Result):
         super().write_files(folder)
 
 
-def run(worn: Worn, o: ShoulderSimulateOptions, record: Record) -> ShoulderSimulateResult:
+def run(worn: Worn, o: ShoulderSimulateOptions) -> ShoulderSimulateResult:
     """Each arm by itself; they share the device's frame only."""
     invented = sum(number.source == "invented" for number in worn.device.numbers.values())
-    record.warn(f"{worn.device.name}: {invented} of {len(worn.device.numbers)} numbers are invented, see numbers.csv")
-    record.results["device"] = {
-        "name": worn.device.name,
-        "peak_force_N": worn.device.peak_force,
-        "peak_torque_N_m": worn.device.peak_torque,
-    }
-    arms = tuple(simulated_along(worn, arm, o, record) for arm in worn.arms)
-    record.results["arms"] = plain({each.side: summary_of(each) for each in arms})
+    reserve(f"{worn.device.name}: {invented} of {len(worn.device.numbers)} numbers are invented, see numbers.csv")
+    note(
+        "device",
+        {
+            "name": worn.device.name,
+            "peak_force_N": worn.device.peak_force,
+            "peak_torque_N_m": worn.device.peak_torque,
+        },
+    )
+    arms = tuple(simulated_along(worn, arm, o) for arm in worn.arms)
+    note("arms", plain({each.side: summary_of(each) for each in arms}))
     found = {
         each.side: tuple(influences(each.simulation.motion, worn.device, worn.wearer, o.level, o.cuff, each.factor))
         for each in (arms if o.sensitivity else ())
     }
     return ShoulderSimulateResult(
-        record=record,
         options=o,
         arms=arms,
         frame=worn.frame,

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Bool, Float
 
+from geocontact.analyses.frame.collector import add_input, collecting, current, reserve
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.shoulder.devices import wearer_of_lengths
@@ -53,13 +54,11 @@ class StudyTrialInputs:
     recorded: Mapping[Side, Channels]
 
 
-def read(o: StudyOptions, record: Record) -> tuple[StudyTrialInputs, ...]:
+def read(o: StudyOptions) -> tuple[StudyTrialInputs, ...]:
     """Every trial with a level; InputError where there is none."""
     study = read_overhead_study(o.study)
-    record.add_input("study", o.study, trials=len(study.trials))
-    found = tuple(
-        _trial(study, each, share, o, record) for each in study.trials if (share := _level(each, o)) is not None
-    )
+    add_input("study", o.study, trials=len(study.trials))
+    found = tuple(_trial(study, each, share, o) for each in study.trials if (share := _level(each, o)) is not None)
     if not found:
         raise InputError(o.study, "[[trials]]", "none was recorded in the device", 'write level = "100%" into those')
     return found
@@ -74,10 +73,10 @@ def _level(trial: StudyTrial, o: StudyOptions) -> float | None:
     return share
 
 
-def _trial(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOptions, record: Record) -> StudyTrialInputs:
-    within = _worn(study, trial, share, o, record)
+def _trial(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOptions) -> StudyTrialInputs:
+    within = _worn(study, trial, share, o)
     bare = next((each for each in study.trials if each.name == trial.without), None)
-    without = None if bare is None else _worn(study, bare, share, o, record)
+    without = None if bare is None else _worn(study, bare, share, o)
     recorded: dict[Side, Channels] = {}
     for side, file in zip(_sides(study, trial), (trial.recorded, trial.recorded_other), strict=True):
         if file is None:
@@ -85,7 +84,7 @@ def _trial(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOption
         if side not in [arm.side for arm in within.arms]:
             raise InputError(file, "", f"the {side} arm has no markers in {trial.markers.name}", "leave it out")
         recorded[side] = recorded_channels(file)
-        record.add_input(f"{trial.name} recorded, {side}", file, samples=len(recorded[side].time))
+        add_input(f"{trial.name} recorded, {side}", file, samples=len(recorded[side].time))
     return StudyTrialInputs(trial, share, within, without, recorded)
 
 
@@ -94,7 +93,7 @@ def _sides(study: OverheadStudy, trial: StudyTrial) -> tuple[Side, Side]:
     return ("right", "left") if study.persons[trial.person].dominant == "right" else ("left", "right")
 
 
-def _worn(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOptions, record: Record) -> Worn:
+def _worn(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOptions) -> Worn:
     person = study.persons[trial.person]
     asked = ShoulderSimulateOptions(
         trial.markers,
@@ -108,13 +107,13 @@ def _worn(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOptions
         axes=o.axes,
         c3d_unit=unit_of_c3d(o.c3d_unit, trial.markers),
     )
-    own = Record("shoulder simulate", {})
-    found = worn_along(asked, wearer_of_lengths(own, o.study, person.lengths), own)
+    with collecting(Record("shoulder simulate", {})) as own:
+        found = worn_along(asked, wearer_of_lengths(o.study, person.lengths))
     for entry in own.inputs:
-        record.inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
+        current().inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
     for line in own.warnings:
-        if not any(line in known for known in record.warnings):
-            record.warn(f"{trial.name}: {line}")
+        if not any(line in known for known in current().warnings):
+            reserve(f"{trial.name}: {line}")
     return found
 
 
@@ -147,17 +146,17 @@ class StudyCase:
         return f"{self.trial.name}, {self.within.side} arm"
 
 
-def study_case(each: StudyTrialInputs, arm: ArmMotion, o: StudyOptions, record: Record) -> StudyCase:
+def study_case(each: StudyTrialInputs, arm: ArmMotion, o: StudyOptions) -> StudyCase:
     """One arm, simulated along both motions, and its errors beside logger and mat."""
     within = _simulated(each, each.within, arm, o)
     bare = () if each.without is None else each.without.arms
     same = next((one for one in bare if one.side == arm.side), None)
     without = None if each.without is None or same is None else _simulated(each, each.without, same, o)
-    warn_of(within.simulation, record, each.trial.name)
+    warn_of(within.simulation, each.trial.name)
     if without is not None:
-        warn_of(without.simulation, record, f"{each.trial.name} as {each.trial.without}")
+        warn_of(without.simulation, f"{each.trial.name} as {each.trial.without}")
     recorded = each.recorded.get(arm.side)
-    errors = {} if recorded is None else _errors(each, within, recorded, record)
+    errors = {} if recorded is None else _errors(each, within, recorded)
     return StudyCase(each.trial, within, without, recorded, errors)
 
 
@@ -175,9 +174,7 @@ def _simulated(each: StudyTrialInputs, worn: Worn, arm: ArmMotion, o: StudyOptio
         raise InputError(o.study, f"[[trials]] {each.trial.name}", what, remedy) from error
 
 
-def _errors(
-    each: StudyTrialInputs, within: SimulatedArm, recorded: Channels, record: Record
-) -> dict[str, dict[str, Agreement]]:
+def _errors(each: StudyTrialInputs, within: SimulatedArm, recorded: Channels) -> dict[str, dict[str, Agreement]]:
     s = within.simulation
     time, step = even_times(s.motion.time)
     inside = (time >= recorded.time[0] - 1e-9) & (time <= recorded.time[-1] + 1e-9)
@@ -186,7 +183,7 @@ def _errors(
         remedy = f"its markers are from {time[0]:g} to {time[-1]:g} s"
         raise InputError("", f"{each.trial.name}, {s.motion.side} arm", what, remedy)
     if not inside.all():
-        record.warn(f"{each.trial.name}, {s.motion.side} arm: {inside.mean():.0%} of the simulated time was recorded")
+        reserve(f"{each.trial.name}, {s.motion.side} arm: {inside.mean():.0%} of the simulated time was recorded")
     words = np.array(PHASES)[within.phase]
     _, recorded_step = even_times(recorded.time)
     models = {

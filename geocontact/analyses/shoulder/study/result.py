@@ -22,10 +22,10 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.shoulder.recordings import ELEVATION, FORCE
@@ -142,36 +142,37 @@ class StudyResult(Result):
         return {REPORT: page}
 
 
-def run(trials: tuple[StudyTrialInputs, ...], o: StudyOptions, record: Record) -> StudyResult:
+def run(trials: tuple[StudyTrialInputs, ...], o: StudyOptions) -> StudyResult:
     """Trial by trial, arm by arm; each is 0.03 s of work."""
     cases = []
-    with record.listener.progress("trials", len(trials)) as step:
+    with listener().progress("trials", len(trials)) as step:
         for each in trials:
-            cases += [study_case(each, arm, o, record) for arm in each.within.arms]
+            cases += [study_case(each, arm, o) for arm in each.within.arms]
             step()
     device = trials[0].within.device
     invented = sum(number.source == "invented" for number in device.numbers.values())
-    record.warn(f"{device.name}: {invented} of {len(device.numbers)} numbers are invented")
-    result = StudyResult(record=record, options=o, cases=tuple(cases), device=device)
+    reserve(f"{device.name}: {invented} of {len(device.numbers)} numbers are invented")
+    result = StudyResult(options=o, cases=tuple(cases), device=device)
     within = [case.within.simulation for case in cases]
     without = [case.without.simulation for case in cases if case.without is not None]
     out, out_of_both = out_of_cuff_clause(*within), out_of_cuff_clause(*within, *without)
     for row in summary_table(result.cases).to_dict("records"):
         if row["part"] in ("all", "work"):
-            record.say(
+            say(
                 f"{row['channel']}, {row['part']}: MAE {row['mae']:.3g}, RMSD {row['rmsd']:.3g} {row['unit']} "
                 f"over {row['arms']} arms in their trials{out}"
             )
     for row in difference_table(result.cases).to_dict("records"):
         if row["trial"] == "mean":
-            record.say(
+            say(
                 f"screw-in, motion in the device against without it, mean size over the arms: "
                 f"exoskeleton {row['exoskeleton [deg]']:.3g} deg, shoulder {row['shoulder [deg]']:.3g} deg, "
                 f"force {row['force [N]']:.3g} N; shoulder less exoskeleton "
                 f"{row['shoulder less exoskeleton [deg]']:.3g} deg{out_of_both}"
             )
-    record.results["study"] = plain(
-        {c.name: {ch: {part: vars(a) for part, a in e.items()} for ch, e in c.errors.items()} for c in cases}
+    note(
+        "study",
+        plain({c.name: {ch: {part: vars(a) for part, a in e.items()} for ch, e in c.errors.items()} for c in cases}),
     )
     return result
 

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import reserve, say
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
 from geocontact.analyses.sit_to_stand.trial_result import certificate_rows, not_certified, sizes_of
@@ -69,47 +69,47 @@ def phases_sought(
     return first, calibrated_phase("B", model, given.trials, given.noise, build_b, search, told("B"), known)
 
 
-def doubt_phase(record: Record, one: CalibratedPhase) -> None:
+def doubt_phase(one: CalibratedPhase) -> None:
     """Everything that changes how the numbers of a phase are to be read."""
     phase = f"phase {one.name}"
     if not one.found.solved:
-        record.warn(f"{phase} ended without an answer: {one.found.ending}; values are those of its last iterate")
+        reserve(f"{phase} ended without an answer: {one.found.ending}; values are those of its last iterate")
     if one.doubt:
-        record.warn(f"{phase} has no intervals: {one.doubt}")
+        reserve(f"{phase} has no intervals: {one.doubt}")
     for motion, seen in zip(one.found.motions, one.motions, strict=True):
         if seen.certificate is not None and not seen.certificate.converged:
-            record.warn(not_certified(f"{motion.name} in {phase}", seen.certificate))
+            reserve(not_certified(f"{motion.name} in {phase}", seen.certificate))
     at_bound, believed, apart = (
         ", ".join(n.name for n in one.numbers.numbers if n.verdict == verdict)
         for verdict in ("on its bound", "believed", "not separable")
     )
     if at_bound:
-        record.warn(f"on its bound, so that the value says where the bound is: {at_bound}")
+        reserve(f"on its bound, so that the value says where the bound is: {at_bound}")
     if apart:
         words = f"{phase} has another minimum that costs little more and has other values"
-        record.warn(f"{words}: not separable, with intervals that cover both: {apart}")
+        reserve(f"{words}: not separable, with intervals that cover both: {apart}")
     if one.found.solved and one.misfit > DOUBTFUL:
-        record.warn(
+        reserve(
             f"{phase} leaves {one.misfit:.1f} times the squares that the noise makes: "
             "the model lacks something, or the noise is larger than said"
         )
     if believed:
         words = f"these trials tell little more than what was believed of {believed}"
-        record.warn(f"{words}: their values are mostly the belief's")
+        reserve(f"{words}: their values are mostly the belief's")
     most = max(one.shares, key=lambda name: one.shares[name])
     if one.shares[most] > MOST_OF_IT:
-        record.warn(f"{100.0 * one.shares[most]:.1f} % of the cost are {most}: check the noise of the others")
-    _compare_starts(record, one)
+        reserve(f"{100.0 * one.shares[most]:.1f} % of the cost are {most}: check the noise of the others")
+    _compare_starts(one)
 
 
-def _compare_starts(record: Record, one: CalibratedPhase) -> None:
+def _compare_starts(one: CalibratedPhase) -> None:
     solved = sum(end.solved for end in one.ends)
     if len(one.ends) < 2 or not solved:
         return
     same = sum(end.same for end in one.ends)
-    record.say(f"phase {one.name}: {same} of {len(one.ends)} starts end in the best minimum, {solved} in one")
+    say(f"phase {one.name}: {same} of {len(one.ends)} starts end in the best minimum, {solved} in one")
     if not one.ends[0].same:
-        record.warn(f"phase {one.name} from where it starts by itself ends in a minimum that another start beats")
+        reserve(f"phase {one.name} from where it starts by itself ends in a minimum that another start beats")
 
 
 def parameters_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.frame.collector import listener, note, say
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
@@ -49,9 +49,9 @@ if TYPE_CHECKING:
     from geocontact.view.page.content import Page
 
 
-def read(o: StandingCalibrateOptions, record: Record) -> StandingUpTrials:
+def read(o: StandingCalibrateOptions) -> StandingUpTrials:
     """Everything in the study."""
-    return standing_trials(o.study, "study", record, o.c3d_unit)
+    return standing_trials(o.study, "study", o.c3d_unit)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -121,9 +121,9 @@ class StandingCalibrateResult(Result):
         super().write_files(folder)
 
 
-def run(given: StandingUpTrials, o: StandingCalibrateOptions, record: Record) -> StandingCalibrateResult:
+def run(given: StandingUpTrials, o: StandingCalibrateOptions) -> StandingCalibrateResult:
     """Parameters and motions of all trials."""
-    with record.listener.stages("calibrating") as stage:
+    with listener().stages("calibrating") as stage:
         phases = phases_sought(given, o, stage)
     last = phases[-1]
     n = last.model.count
@@ -137,15 +137,15 @@ def run(given: StandingUpTrials, o: StandingCalibrateOptions, record: Record) ->
         )
         for trial, motion, seen in zip(given.trials, last.found.motions, last.motions, strict=True)
     )
-    result = StandingCalibrateResult(record=record, options=o, given=given, phases=phases, trials=trials)
+    result = StandingCalibrateResult(options=o, given=given, phases=phases, trials=trials)
     for phase in phases:
-        doubt_phase(record, phase)
+        doubt_phase(phase)
     _say(result)
     return result
 
 
 def _say(r: StandingCalibrateResult) -> None:
-    record, errors = r.record, r.errors
+    errors = r.errors
     numbers = [number for phase in r.phases for number in phase.numbers.numbers if number.verdict != "held"]
     known = [number.name for number in numbers if number.verdict == "known"]
     worst = {}
@@ -155,7 +155,7 @@ def _say(r: StandingCalibrateResult) -> None:
     angle = errors[errors["unit"] == "deg"]["rmsd"].max()
     worn = errors[straps].groupby("quantity", sort=False)["rmsd"].max()
     also = "".join(f", {name} within {off:.1f} N" for name, off in worn.items())
-    record.say(
+    say(
         f"{counted(len(r.trials), 'trial')}: ground reaction within {worst['force']:.1f} N, centre of pressure within "
         f"{worst['centre']:.1f} mm, angles within {angle:.2f}°{also} (largest RMSD of a trial)"
     )
@@ -163,26 +163,29 @@ def _say(r: StandingCalibrateResult) -> None:
         seen = [each for phase in r.phases for each in phase.motions]
         passed = sum(each.certificate is not None and each.certificate.converged for each in seen)
         left = max(float(each.force.max()) for each in seen), max(float(each.moment.max()) for each in seen)
-        record.say(
+        say(
             f"{passed} of {counted(len(seen), 'motion')} certified: at most {left[0]:.2g} N and {left[1]:.2g} N m are "
             "left of the balance between the points"
         )
-    record.say(f"{len(known)} of {counted(len(numbers), 'parameter')} known: {', '.join(known) or 'none'}")
+    say(f"{len(known)} of {counted(len(numbers), 'parameter')} known: {', '.join(known) or 'none'}")
     for phase in r.phases:
         found = phase.found
-        record.results[f"phase {phase.name}"] = {
-            "solved": found.solved,
-            "ending": found.ending,
-            "iterations": found.iterations,
-            "cpu_seconds": round(found.seconds, 3),
-            "objective": found.objective,
-            "misfit": phase.misfit,
-            "starts": [{"objective": end.objective, "solved": end.solved, "same": end.same} for end in phase.ends],
-            "condition": None if phase.numbers.told_apart is None else phase.numbers.told_apart.condition,
-            "sharper_than_believed": phase.numbers.directions.tolist(),
-            "cost_shares": phase.shares,
-            "parameters": {n.name: n.value for n in phase.numbers.numbers},
-        }
+        note(
+            f"phase {phase.name}",
+            {
+                "solved": found.solved,
+                "ending": found.ending,
+                "iterations": found.iterations,
+                "cpu_seconds": round(found.seconds, 3),
+                "objective": found.objective,
+                "misfit": phase.misfit,
+                "starts": [{"objective": end.objective, "solved": end.solved, "same": end.same} for end in phase.ends],
+                "condition": None if phase.numbers.told_apart is None else phase.numbers.told_apart.condition,
+                "sharper_than_believed": phase.numbers.directions.tolist(),
+                "cost_shares": phase.shares,
+                "parameters": {n.name: n.value for n in phase.numbers.numbers},
+            },
+        )
 
 
 calibrate = Job("sit-to-stand calibrate", StandingCalibrateOptions, read, run)

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.analyses.frame.collector import note, results_place, say
 from geocontact.analyses.frame.folder import written_whole
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.compare.options import StandingCompareOptions
@@ -96,23 +96,22 @@ class StandingCompareResult(Result):
         return {REPORT: compared_page(self.sentences, subject, best, drawn, self.tables())}
 
 
-def run(given: HeldOutTrials, o: StandingCompareOptions, record: Record) -> StandingCompareResult:
+def run(given: HeldOutTrials, o: StandingCompareOptions) -> StandingCompareResult:
     """Predictions of phase C with all or parts of what is given, and two predictors without a model."""
 
     def keep(predictions: Sequence[PredictedTrial]) -> None:
-        if record.out is not None:
-            with written_whole(record.out) as draft:
+        place = results_place()
+        if place is not None:
+            with written_whole(place) as draft:
                 write_table(_compared(given, predictions, _trivial(given, predictions)), draft, "comparison")
 
-    predictions = predicted(given, o, record, keep)
+    predictions = predicted(given, o, keep)
     trivial = _trivial(given, predictions)
     for trial in trials_begun(predictions):
         near = nearest_trial(given.known.trials, trial)
-        record.say(f"{trial.name}: nearest by its first and last posture is {near.name}")
+        say(f"{trial.name}: nearest by its first and last posture is {near.name}")
     errors = _compared(given, predictions, trivial)
-    result = StandingCompareResult(
-        record=record, options=o, given=given, predictions=predictions, trivial=trivial, errors=errors
-    )
+    result = StandingCompareResult(options=o, given=given, predictions=predictions, trivial=trivial, errors=errors)
     _say(result)
     return result
 
@@ -154,20 +153,20 @@ def _rows(
 
 
 def _say(r: StandingCompareResult) -> None:
-    record, errors = r.record, r.errors
+    errors = r.errors
     for quantity in ("strap", "knee"):
         own = errors[errors["quantity"] == quantity]
         each = own.groupby("predictor", sort=False)["rmsd"].max()
         unit = str(own["unit"].iloc[0]).replace("deg", "°")
         words = ", ".join(f"{name} {value:.3g} {unit}" for name, value in each.items())
-        record.say(f"{quantity}, largest RMSD of {counted(len(r.trivial), 'trial')}: {words}")
-        record.results[quantity] = {str(name): float(value) for name, value in each.items()}
+        say(f"{quantity}, largest RMSD of {counted(len(r.trivial), 'trial')}: {words}")
+        note(quantity, {str(name): float(value) for name, value in each.items()})
     best = errors[errors["predictor"] == ALL].set_index(["trial", "quantity"])["rmsd"]
     others = errors[errors["predictor"].isin([MEAN, NEAREST])].groupby(["trial", "quantity"])["rmsd"].min()
     free = errors[(errors["predictor"] == ALL) & (errors["given"] == "no")].set_index(["trial", "quantity"]).index
     better = int((best[free] < others[free]).sum())
-    record.say(f"of {len(free)} channels that are not given, {better} are nearer than by either trivial predictor")
-    record.results["better than both"] = [better, len(free)]
+    say(f"of {len(free)} channels that are not given, {better} are nearer than by either trivial predictor")
+    note("better than both", [better, len(free)])
 
 
 compare = Job("sit-to-stand compare", StandingCompareOptions, read, run)

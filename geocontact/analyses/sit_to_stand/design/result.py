@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.design.designs import (
@@ -142,12 +142,12 @@ class StandingDesignResult(Result):
         super().write_files(folder)
 
 
-def run(given: TrialsToHelp, o: StandingDesignOptions, record: Record) -> StandingDesignResult:
+def run(given: TrialsToHelp, o: StandingDesignOptions) -> StandingDesignResult:
     """Every design; InputError where the person does not stand up with the given parameters.
 
     Ctrl-C ends the search: what was found until then is the result. KeyboardInterrupt where nothing was.
     """
-    with record.listener.stages("choosing") as stage:
+    with listener().stages("choosing") as stage:
         search = DesignSearch(given, o, stage)
         with stopped_by_ctrl_c(search):
             worn = search.worn()
@@ -155,7 +155,7 @@ def run(given: TrialsToHelp, o: StandingDesignOptions, record: Record) -> Standi
             front = search.front(worn, next(one for one in designs[::-1] if one.name != ROBUST))
             draws = search.drawn(designs)
     result = StandingDesignResult(
-        record=record, options=o, given=given, model=search.model, designs=tuple(designs), front=front, draws=draws
+        options=o, given=given, model=search.model, designs=tuple(designs), front=front, draws=draws
     )
     doubt(result, stopped=search.stop)
     _say(result, search.movements.solved, search.movements.seconds)
@@ -167,55 +167,57 @@ def doubt(r: StandingDesignResult, *, stopped: bool) -> None:
 
     `stopped` by Ctrl-C: what was not begun is missing.
     """
-    record = r.record
     if stopped:
-        record.warn(f"interrupted after {r.best.name}: the last iterate is kept, and what would come next is missing")
+        reserve(f"interrupted after {r.best.name}: the last iterate is kept, and what would come next is missing")
     for one in (*r.designs, *r.front):
         if one.design is not None and not one.design.met and not one.design.stopped:
-            record.warn(f"{one.name}: {one.design.ending}; the knee's limit may be out of reach of what varies")
+            reserve(f"{one.name}: {one.design.ending}; the knee's limit may be out of reach of what varies")
         for trial in one.trials:
             seen = trial.judged.certificate
             if seen is not None and not seen.converged:
-                record.warn(not_certified(f"{trial.recorded.name} {one.name}", seen))
+                reserve(not_certified(f"{trial.recorded.name} {one.name}", seen))
     best = r.best.design
     if best is not None and best.on_end.any():
         names = ", ".join(name for name, end in zip(best.task.vary, best.on_end, strict=True) if end)
-        record.warn(f"at the end of what can be built, so that the value says where that is: {names}")
+        reserve(f"at the end of what can be built, so that the value says where that is: {names}")
     if len(r.draws) < r.options.draws and not stopped:
-        record.warn(f"{r.options.draws - len(r.draws)} of {r.options.draws} draws have no movement and are left out")
+        reserve(f"{r.options.draws - len(r.draws)} of {r.options.draws} draws have no movement and are left out")
 
 
 def _say(r: StandingDesignResult, solved: int, seconds: float) -> None:
     """The aim and the knee by each design, what was chosen, the gain, and what it cost to find."""
-    record, aim, unit = r.record, MEASURES.index(r.options.aim), UNITS[r.options.aim]
+    aim, unit = MEASURES.index(r.options.aim), UNITS[r.options.aim]
     what, sought, beside = AIMS[r.options.aim]
     asked = {one.name: one.movement.asked for one in r.designs}
     for how, sizes in ((sought, "sizes"), (beside, "largest")):
         each = ", ".join(f"{name} {getattr(of, sizes)[aim]:.3g} {unit}" for name, of in asked.items())
-        record.say(f"{what}, {how}: {each}")
-    record.say(_of_knee(r))
+        say(f"{what}, {how}: {each}")
+    say(_of_knee(r))
     numbers = ", ".join(f"{name} {value:.3g} {PARTS.get(name, of)}" for name, value, of in in_units(r.best))
-    record.say(f"{r.best.name}: {numbers}")
+    say(f"{r.best.name}: {numbers}")
     gain, (low, high) = r.gain, gain_interval(r.draws)
     also = f", {low:.0%} to {high:.0%} over {counted(len(r.draws), 'draw')}" if np.isfinite(low) else ""
     both = f"{gain:.0%} ({sought}{also}), {r.true_gain:.0%} ({beside})"
-    record.say(f"gain over {r.reference.name}: {both}; shear of the strap is predicted, no mat sees it")
+    say(f"gain over {r.reference.name}: {both}; shear of the strap is predicted, no mat sees it")
     seen = [trial for one in (*r.designs, *r.front) for trial in one.trials]
     passed = sum(t.judged.certificate is not None and t.judged.certificate.converged for t in seen)
-    record.say(
-        f"{passed} of {counted(len(seen), 'motion')} certified; {counted(solved, 'movement')} in {seconds:.0f} s"
+    say(f"{passed} of {counted(len(seen), 'motion')} certified; {counted(solved, 'movement')} in {seconds:.0f} s")
+    note(
+        "design",
+        {
+            "aim": r.options.aim,
+            "values": {
+                one.name: dict(zip(MEASURES, one.movement.asked.sizes.tolist(), strict=True)) for one in r.designs
+            },
+            "largest": {name: dict(zip(MEASURES, of.largest.tolist(), strict=True)) for name, of in asked.items()},
+            "chosen": {name: value for name, value, _ in in_units(r.best)},
+            "price": None if r.best.design is None else r.best.design.price,
+            "gain": gain,
+            "gain_interval": None if not np.isfinite(low) else [low, high],
+            "movements": solved,
+            "cpu_seconds": round(seconds, 3),
+        },
     )
-    record.results["design"] = {
-        "aim": r.options.aim,
-        "values": {one.name: dict(zip(MEASURES, one.movement.asked.sizes.tolist(), strict=True)) for one in r.designs},
-        "largest": {name: dict(zip(MEASURES, of.largest.tolist(), strict=True)) for name, of in asked.items()},
-        "chosen": {name: value for name, value, _ in in_units(r.best)},
-        "price": None if r.best.design is None else r.best.design.price,
-        "gain": gain,
-        "gain_interval": None if not np.isfinite(low) else [low, high],
-        "movements": solved,
-        "cpu_seconds": round(seconds, 3),
-    }
 
 
 def _of_knee(r: StandingDesignResult) -> str:

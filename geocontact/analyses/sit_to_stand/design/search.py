@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.stats import norm
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.sit_to_stand.design.designs import ALONE, BEST, ROBUST, WORN, CertifiedDesign, DrawnGain
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, standing_trials
@@ -47,9 +47,9 @@ class TrialsToHelp:
     sd: Float[np.ndarray, " p"]
 
 
-def read(o: StandingDesignOptions, record: Record) -> TrialsToHelp:
+def read(o: StandingDesignOptions) -> TrialsToHelp:
     """Everything the options name; InputError where no exoskeleton is worn or draws lack intervals."""
-    trials = standing_trials(o.study, "study", record, o.c3d_unit)
+    trials = standing_trials(o.study, "study", o.c3d_unit)
     if not trials.exoskeleton:
         what, remedy = "is not of a person with an exoskeleton", "write exoskeleton = true, and torques and strap"
         raise InputError(o.study, "", what, remedy)
@@ -62,7 +62,7 @@ def read(o: StandingDesignOptions, record: Record) -> TrialsToHelp:
     bounds = {each.name: (each.least, each.most) for each in WORN_PARAMETERS}
     values = read_contact_parameters(o.parameters, {each.name: each.unit for each in WORN_PARAMETERS}, bounds)
     ends = read_contact_intervals(o.parameters, values)
-    record.add_input("`parameters`", o.parameters, parameters=len(values))
+    add_input("`parameters`", o.parameters, parameters=len(values))
     if o.draws and not ends:
         remedy = "give parameters.csv of a calibration, or no draws"
         raise InputError(o.parameters, "lower, upper", "has no intervals to draw from", remedy)

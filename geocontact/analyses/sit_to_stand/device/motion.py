@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.sit_to_stand.device.options import StandingDeviceOptions
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.filters import UNEVEN, zero_lag
@@ -81,28 +81,26 @@ class DeviceRecordings:
     together: Table | None
 
 
-def read(o: StandingDeviceOptions, record: Record) -> DeviceRecordings:
+def read(o: StandingDeviceOptions) -> DeviceRecordings:
     """Everything the options name; InputError where files are on different clocks or too short."""
     subject = Subject(height=o.height)
-    unloaded = _motion((o.unloaded, "unloaded"), (o.motors, "motors"), subject, o.cutoff, record)
+    unloaded = _motion((o.unloaded, "unloaded"), (o.motors, "motors"), subject, o.cutoff)
     used = int(unloaded.inner(o.cutoff).sum())
     if used < FEWEST:
         what = f"{used} samples are left without {MARGIN / o.cutoff:.2g} s at either end"
         raise InputError(o.unloaded, "", what, f"{FEWEST} are needed: record for longer")
     trial = together = None
     if o.trial is not None and o.trial_motors is not None:
-        trial = _motion((o.trial, "trial"), (o.trial_motors, "trial_motors"), subject, o.cutoff, record)
+        trial = _motion((o.trial, "trial"), (o.trial_motors, "trial_motors"), subject, o.cutoff)
         if o.together is not None:
-            together = _columns((o.together, "together"), [f"{n}_moment [N m]" for n in JOINTS], trial.time, record)
+            together = _columns((o.together, "together"), [f"{n}_moment [N m]" for n in JOINTS], trial.time)
     return DeviceRecordings(subject, unloaded, trial, together)
 
 
-def _motion(
-    angles: tuple[Path, str], motors: tuple[Path, str], subject: Subject, cutoff: float, record: Record
-) -> DeviceMotion:
+def _motion(angles: tuple[Path, str], motors: tuple[Path, str], subject: Subject, cutoff: float) -> DeviceMotion:
     file, role = angles
     table = read_table(file)
-    record.add_input(f"`{role}`", file, frames=len(table.time))
+    add_input(f"`{role}`", file, frames=len(table.time))
     joints = [joint for joint in two_chains(subject).joints if joint.name in EXO_JOINTS]
     known = columns_of(table, joints)
     lacking = [name for name in EXO_JOINTS if name not in known]
@@ -114,20 +112,18 @@ def _motion(
     if len(time) < FEWEST or np.abs(np.diff(time) - step).max() > UNEVEN * step:
         what = f"{len(time)} frames that are not {step:g} s apart everywhere"
         raise InputError(file, "", what, f"give at least {FEWEST} evenly spaced ones")
-    torque = _columns(motors, list(EXO_JOINTS), time, record)
+    torque = _columns(motors, list(EXO_JOINTS), time)
     try:
         return DeviceMotion.smoothed(time, raw, torque, cutoff)
     except ValueError as error:
         raise InputError(file, "", str(error), "give another `cutoff`") from error
 
 
-def _columns(
-    given: tuple[Path, str], names: list[str], time: Float[np.ndarray, " t"], record: Record
-) -> Float[np.ndarray, "t 3"]:
+def _columns(given: tuple[Path, str], names: list[str], time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t 3"]:
     """At times that the file must cover."""
     file, role = given
     table = read_table(file)
-    record.add_input(f"`{role}`", file, frames=len(table.time))
+    add_input(f"`{role}`", file, frames=len(table.time))
     bare = [name if name in table.channels else name.partition(" [")[0] for name in names]
     values = [table.needed(name) for name in bare]
     begin, end = table.time[[0, -1]]

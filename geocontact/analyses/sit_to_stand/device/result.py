@@ -18,8 +18,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.sit_to_stand.device.motion import MARGIN, DeviceMotion, DeviceRecordings, read
 from geocontact.analyses.sit_to_stand.device.options import StandingDeviceOptions
@@ -194,7 +194,7 @@ def _numbers(of: DeviceMotion, fit: ExoskeletonDynamics, o: StandingDeviceOption
     ]
 
 
-def run(given: DeviceRecordings, o: StandingDeviceOptions, record: Record) -> StandingDeviceResult:
+def run(given: DeviceRecordings, o: StandingDeviceOptions) -> StandingDeviceResult:
     """Fit, doubt, tell."""
     of = given.unloaded
     inner, part = of.inner(o.cutoff), of.independent(o.cutoff)
@@ -205,29 +205,32 @@ def run(given: DeviceRecordings, o: StandingDeviceOptions, record: Record) -> St
     dynamics = identified(given.subject, of.q, of.u, of.a, of.motors, through=through, independent=part)
     spread = float(np.std(of.motors, axis=0).max())
     if dynamics.residual > POORLY * spread:
-        record.warn(
+        reserve(
             f"{dynamics.residual:.2g} N m are left of the motors' torques, whose spread is {spread:.2g} N m: check the "
             "names of the hinges, the signs and that nobody wears it"
         )
     still = [name for name, rate in zip(EXO_JOINTS, np.abs(of.u).max(axis=0), strict=True) if rate < np.radians(5.0)]
     if still:
-        record.warn(f"{', '.join(still)} turned at less than 5 deg/s: its friction is hardly told")
-    result = StandingDeviceResult(record=record, options=o, given=given, dynamics=dynamics)
+        reserve(f"{', '.join(still)} turned at less than 5 deg/s: its friction is hardly told")
+    result = StandingDeviceResult(options=o, given=given, dynamics=dynamics)
     table = result.table("parameters")
     alone = table[table["told"] == "by itself"]
-    record.say(
+    say(
         f"{dynamics.rank} combinations of {len(table)} parameters told, {len(alone)} parameters by themselves; "
         f"{dynamics.residual:.2g} N m are left of the motors' torques (root mean square)"
     )
-    record.results["device"] = {
-        "rank": dynamics.rank,
-        "residual_Nm": dynamics.residual,
-        "parameters": dict(zip(table["parameter"], table["value"], strict=True)),
-    }
+    note(
+        "device",
+        {
+            "rank": dynamics.rank,
+            "residual_Nm": dynamics.residual,
+            "parameters": dict(zip(table["parameter"], table["value"], strict=True)),
+        },
+    )
     if given.trial is not None:
         own = result.trial_torque
         sizes = ", ".join(f"{n} {v:.1f}" for n, v in zip(EXO_JOINTS, np.abs(own).max(axis=0), strict=True))
-        record.say(f"largest torque of the exoskeleton in the trial [N m]: {sizes}")
+        say(f"largest torque of the exoskeleton in the trial [N m]: {sizes}")
     return result
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, listener, reserve
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, standing_trials
 from geocontact.analyses.sit_to_stand.trial_result import (
@@ -79,10 +79,10 @@ def _parameters(sites: Sequence[StrapSite]) -> tuple[ContactParameter, ...]:
     return (*FOOT_PARAMETERS, *(each for site in sites for each in site.parameters))
 
 
-def read(o: StandingPredictOptions, record: Record) -> HeldOutTrials:
+def read(o: StandingPredictOptions) -> HeldOutTrials:
     """Everything the options name; InputError where trials are not of one model."""
-    trials = standing_trials(o.study, "study", record, o.c3d_unit)
-    known = standing_trials(o.against, "`against`", record, o.c3d_unit)
+    trials = standing_trials(o.study, "study", o.c3d_unit)
+    known = standing_trials(o.against, "`against`", o.c3d_unit)
     for file, study in ((o.study, trials), (o.against, known)):
         if not study.exoskeleton or not {"force", "centre", "torque", "strap"} <= set(study.tracks):
             what = "is not of a person with an exoskeleton, with force, centre, torque and strap"
@@ -96,7 +96,7 @@ def read(o: StandingPredictOptions, record: Record) -> HeldOutTrials:
     every = _parameters(known.sites)
     bounds = {each.name: (each.least, each.most) for each in every}
     values = read_contact_parameters(o.parameters, {each.name: each.unit for each in every}, bounds)
-    record.add_input("`parameters`", o.parameters, parameters=len(values))
+    add_input("`parameters`", o.parameters, parameters=len(values))
     return HeldOutTrials(trials, searched(every, [values[each.name] for each in every]), known)
 
 
@@ -153,9 +153,7 @@ class _Asked:
     stop: bool = False
 
 
-def predicted(
-    given: HeldOutTrials, o: StandingPredictOptions, record: Record, keep: Keep
-) -> tuple[PredictedTrial, ...]:
+def predicted(given: HeldOutTrials, o: StandingPredictOptions, keep: Keep) -> tuple[PredictedTrial, ...]:
     """Trials outer, predictors inner; searches without an answer and motions without a certificate are warned of.
 
     Ctrl-C ends the search that is going on, keeps its last iterate and begins no other.
@@ -165,7 +163,7 @@ def predicted(
         list[PredictedTrial](),
     )
     trials, asked = given.trials.trials, _Asked()
-    with record.listener.stages("predicting") as stage, stopped_by_ctrl_c(asked):
+    with listener().stages("predicting") as stage, stopped_by_ctrl_c(asked):
         for k, trial in enumerate(trials, 1):
             for predictor in GIVEN.items():
                 where = f"trial {k} of {len(trials)}, {trial.name} {predictor[0]}"
@@ -177,7 +175,7 @@ def predicted(
             if asked.stop:
                 break
             keep(predictions)
-    _doubt(record, predictions, len(trials))
+    _doubt(predictions, len(trials))
     return tuple(predictions)
 
 
@@ -190,17 +188,17 @@ def complete(predictions: Sequence[PredictedTrial], trials: int) -> bool:
     return len(predictions) == trials * len(GIVEN) and all(one.certified for one in predictions)
 
 
-def _doubt(record: Record, predictions: Sequence[PredictedTrial], trials: int) -> None:
+def _doubt(predictions: Sequence[PredictedTrial], trials: int) -> None:
     for one in predictions:
         place = f"{one.trial.recorded.name} {one.name}"
         if not one.solved:
-            record.warn(f"{place} ended without an answer: {one.ending}; it is its last iterate")
+            reserve(f"{place} ended without an answer: {one.ending}; it is its last iterate")
         elif one.trial.judged.certificate is not None and not one.trial.judged.certificate.converged:
-            record.warn(not_certified(place, one.trial.judged.certificate))
+            reserve(not_certified(place, one.trial.judged.certificate))
     if len(predictions) < trials * len(GIVEN):
         last, ended = predictions[-1], [one for one in predictions if not one.ending.startswith(INTERRUPTED)]
         where = f"the last search was {last.trial.recorded.name} {last.name}"
-        record.warn(f"interrupted: {len(ended) // len(GIVEN)} of {trials} trials have every predictor; {where}")
+        reserve(f"interrupted: {len(ended) // len(GIVEN)} of {trials} trials have every predictor; {where}")
 
 
 def _predicted(

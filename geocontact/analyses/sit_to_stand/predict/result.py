@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.frame.collector import note, results_place, say
 from geocontact.analyses.frame.folder import written_whole
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.exports import write_motion
@@ -211,43 +211,47 @@ class StandingPredictResult(Result):
                 write_motion(folder, self.given.trials.subject, one.trial, self.given.values, one.solved)
 
 
-def run(given: HeldOutTrials, o: StandingPredictOptions, record: Record) -> StandingPredictResult:
+def run(given: HeldOutTrials, o: StandingPredictOptions) -> StandingPredictResult:
     """Every trial by every predictor; tables and motions of a trial are written as soon as it is done."""
 
     def result_of(predictions: Sequence[PredictedTrial]) -> StandingPredictResult:
         means = {t.name: mean_trial(given.known.trials, t.time) for t in trials_begun(predictions)}
-        return StandingPredictResult(record=record, options=o, given=given, predictions=tuple(predictions), means=means)
+        return StandingPredictResult(options=o, given=given, predictions=tuple(predictions), means=means)
 
     def keep(predictions: Sequence[PredictedTrial]) -> None:
-        if record.out is not None:
-            with written_whole(record.out) as draft:
+        place = results_place()
+        if place is not None:
+            with written_whole(place) as draft:
                 result_of(predictions).write_numbers(draft)
 
-    result = result_of(predicted(given, o, record, keep))
+    result = result_of(predicted(given, o, keep))
     _say(result)
     return result
 
 
 def _say(r: StandingPredictResult) -> None:
-    record, errors = r.record, r.errors
+    errors = r.errors
     strap = errors[errors["quantity"].str.endswith("strap")].groupby("predictor", sort=False)["rmsd"].max()
     turning = errors["quantity"].isin(COORDINATES) & (errors["unit"] == "deg")
     angles = errors[turning].groupby("predictor", sort=False)["rmsd"].max()
-    record.say(
+    say(
         f"{counted(len(r.means), 'trial')} predicted: strap within {strap[ALL]:.1f} N, the person's "
         f"angles within {angles[ALL]:.2f}° (largest RMSD)"
     )
     others = [f"{name} {strap[name]:.1f} N and {angles[name]:.2f}°" for name in strap.index if name != ALL]
-    record.say(f"beside it: {'; '.join(others)}")
+    say(f"beside it: {'; '.join(others)}")
     seen = [one.trial.judged.certificate for one in r.predictions]
     passed = sum(each is not None and each.converged for each in seen)
-    record.say(f"{passed} of {counted(len(seen), 'motion')} certified")
-    record.results["predict"] = {
-        "strap_rmsd_N": {str(name): float(value) for name, value in strap.items()},
-        "person_angle_rmsd_deg": {str(name): float(value) for name, value in angles.items()},
-        "cpu_seconds": [round(one.seconds, 3) for one in r.predictions],
-        "iterations": [one.iterations for one in r.predictions],
-    }
+    say(f"{passed} of {counted(len(seen), 'motion')} certified")
+    note(
+        "predict",
+        {
+            "strap_rmsd_N": {str(name): float(value) for name, value in strap.items()},
+            "person_angle_rmsd_deg": {str(name): float(value) for name, value in angles.items()},
+            "cpu_seconds": [round(one.seconds, 3) for one in r.predictions],
+            "iterations": [one.iterations for one in r.predictions],
+        },
+    )
 
 
 predict = Job("sit-to-stand predict", StandingPredictOptions, read, run)

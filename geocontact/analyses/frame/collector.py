@@ -1,0 +1,91 @@
+"""Where an analysis puts what it has to say beside its numbers: warnings, sentences, inputs, figures of `run.json`.
+
+The frame opens a collector around reading, computing and writing; whatever runs inside reaches it by the functions
+below, without passing it along. Where none is open, in a script that calls a part of an analysis by itself, `reserve`
+raises an `InputWarning` and the others do nothing. A thread begins without the collector of the one that starts it:
+start it in `contextvars.copy_context()`.
+
+>>> import warnings
+>>> from geocontact.analyses.frame.record import Record
+>>> with collecting(Record("area", {})) as record:
+...     reserve("the surface is open")
+...     say("two bodies")
+>>> record.warnings, record.sentences
+(['the surface is open'], ['two bodies'])
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from os import PathLike
+from pathlib import Path
+
+from geocontact.analyses.frame.record import Listener, Record
+from geocontact.data.errors import InputWarning
+
+OPEN: ContextVar[Record | None] = ContextVar("record of the run", default=None)
+"""The record that is open; None where nobody collects."""
+
+
+@contextmanager
+def collecting(record: Record) -> Iterator[Record]:
+    """A block whose warnings, sentences, inputs and figures go into `record`."""
+    before = OPEN.set(record)
+    try:
+        with record.catching_warnings():
+            yield record
+    finally:
+        OPEN.reset(before)
+
+
+def current() -> Record:
+    """The record that is open; else an empty one."""
+    return OPEN.get() or Record("", {})
+
+
+def reserve(line: str) -> None:
+    """Keep a warning of the result, once; an `InputWarning` where no collector is open."""
+    record = OPEN.get()
+    if record is None:
+        warnings.warn(line, InputWarning, stacklevel=2)
+    else:
+        record.warn(line)
+
+
+def say(text: str) -> None:
+    """Keep a sentence of the result."""
+    current().say(text)
+
+
+def note(key: str, value: object) -> None:
+    """Keep a figure of the result for `run.json`."""
+    current().results[key] = value
+
+
+def results() -> dict[str, object]:
+    """Figures of the result for `run.json`, by name."""
+    return current().results
+
+
+def add_input(role: str, path: str | PathLike[str], **facts: object) -> None:
+    """Keep a file that was read, with its SHA-256 and what is known of it."""
+    if OPEN.get() is not None:
+        current().add_input(role, path, **facts)
+
+
+def spelled(text: str) -> str:
+    """Options in backticks as the user wrote them."""
+    return current().spell(text)
+
+
+def listener() -> Listener:
+    """Who is shown the progress of the work."""
+    return current().listener
+
+
+def results_place() -> Path | None:
+    """Folder of the results; None where nothing is written."""
+    return current().out
