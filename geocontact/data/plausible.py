@@ -11,17 +11,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from numbers import Real
 
-import numpy as np
-from jaxtyping import Bool, Float
-
 from geocontact.data.errors import InputError
 from geocontact.data.units import UNITS, MPa, Unit, deg, kPa, mm, mmHg, percent
-
-
-def too_large(values: Float[np.ndarray, "*shape"]) -> Bool[np.ndarray, "*shape"]:
-    """Which of the finite values are; NaN and infinity are told of where a value is used."""
-    return np.asarray(np.isfinite(values) & (np.abs(values) > LARGEST_MEANT))
-
 
 PLAIN = Unit("", "1", 1.0)
 N, HZ, S, KG = Unit("N", "N", 1.0), Unit("Hz", "Hz", 1.0), Unit("s", "s", 1.0), Unit("kg", "kg", 1.0)

@@ -3,7 +3,7 @@
     class Trial(Document):
         name: FileName
         motion: File
-        mass: Annotated[float, Quantity("kg")]
+        mass: Annotated[float, WithUnit("kg")]
         seated: bool = False
 
     class Study(Document):
@@ -108,12 +108,12 @@ def _require(name: str, field: FieldInfo, value: object) -> None:
         if not value or not isinstance(value, kind):
             raise refusal(f"no {heading}", f"write one for each, with {', '.join(table.model_fields)}", at=("",))
     if value is None:
-        example = next((each.example for each in field.metadata if isinstance(each, Quantity)), "")
+        example = next((each.example for each in field.metadata if isinstance(each, WithUnit)), "")
         raise refusal(f"no {name}", f"add it: {name} = {example}" if example else "add it", at=("",))
 
 
 @dataclass(frozen=True)
-class Quantity:
+class WithUnit:
     """A number with its unit, `{ value = 32, unit = "mm" }`, as a float in SI.
 
     Parameters

@@ -17,7 +17,8 @@ from geocontact.analyses.frame.quantities import axis
 from geocontact.analyses.frame.rerun import read_run
 from geocontact.analyses.misalignment.compare.pairs import _law
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import LARGEST_MEANT, too_large
+from geocontact.data.magnitude import too_large
+from geocontact.data.plausible import LARGEST_MEANT
 from geocontact.io.mesh.particles import read_particles
 from geocontact.io.mocap.force_plates import read_force_plates
 from geocontact.io.mocap.markers import read_markers

@@ -18,8 +18,8 @@ from geocontact.io.documents import (
     Files,
     Listed,
     Names,
-    Quantity,
     Some,
+    WithUnit,
     Word,
     checked,
     doubled,
@@ -28,9 +28,9 @@ from geocontact.io.documents import (
 
 
 class Person(Document):
-    mass: Annotated[float, Quantity(Plausible("the mass of a person", KG, (20.0, 300.0)))]
+    mass: Annotated[float, WithUnit(Plausible("the mass of a person", KG, (20.0, 300.0)))]
     side: Literal["right", "left"] = "right"
-    share: Annotated[float, Quantity("-"), Field(gt=0.0, lt=1.0)] | None = None
+    share: Annotated[float, WithUnit("-"), Field(gt=0.0, lt=1.0)] | None = None
 
 
 class Trial(Document):
@@ -38,14 +38,14 @@ class Trial(Document):
     motion: File
     more: Files = ()
     plate: Word | None = None
-    start: Annotated[float, Quantity("s", bare=True)] | None = None
+    start: Annotated[float, WithUnit("s", bare=True)] | None = None
     seated: bool = False
 
 
 class Study(Document):
-    height: Annotated[float, Quantity("m")]
+    height: Annotated[float, WithUnit("m")]
     tracks: Names | None = None
-    noise: Annotated[dict[str, float], Some({"angle": Annotated[float, Quantity("rad"), Field(gt=0.0)]})] = Field({})
+    noise: Annotated[dict[str, float], Some({"angle": Annotated[float, WithUnit("rad"), Field(gt=0.0)]})] = Field({})
     persons: dict[str, Person]
     trials: Annotated[tuple[Trial, ...], Listed("T{number}", same_place)]
 

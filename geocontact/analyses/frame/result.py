@@ -15,7 +15,6 @@ from geocontact.analyses.frame.collector import collecting, current
 from geocontact.analyses.frame.folder import written_whole
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.table_forms import TableForms
-from geocontact.view.curves.sheet import png_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -237,6 +236,8 @@ class Result(ABC):
         figure = self.figure()
         if figure is None:
             return text
+        from geocontact.view.curves.sheet import png_of
+
         drawn, words = b64encode(png_of(figure)).decode("ascii"), escape("Figure: " + "".join(self.sentences[:1]))
         return f'{text}<img src="data:image/png;base64,{drawn}" alt="{words}"/>'
 

@@ -13,7 +13,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import TOO_LARGE, too_large
+from geocontact.data.magnitude import too_large
+from geocontact.data.plausible import TOO_LARGE
 from geocontact.io.text.file_preflight import BYTE_ORDER_MARK, is_number, lines, read_bytes, shown
 from geocontact.io.text.units import LENGTH
 

@@ -66,7 +66,7 @@ class Piece:
 
 
 @dataclass(frozen=True)
-class Document:
+class VtpDocument:
     """The parsed XML without its appended raw bytes, which come along unparsed.
 
     `appended` are the bytes after the underscore, raw or still base64 text (`base64`); `offsets` are where arrays
@@ -89,7 +89,7 @@ class Document:
         return self.appended[offset:stop]
 
 
-def read_document(data: bytes, file: str) -> Document:
+def read_document(data: bytes, file: str) -> VtpDocument:
     """Structure of a VTP file; refuses other VTK types, entities and document types, triangle strips, no polygons."""
     if b"<VTKFile" not in data:
         raise not_a("a VTP file", data, file)
@@ -110,10 +110,10 @@ def read_document(data: bytes, file: str) -> Document:
     in_base64 = raw is None
     text = (appended.text or "").strip().encode().removeprefix(b"_") if appended is not None else b""
     offsets = sorted({_whole(a.get("offset", "0"), file) for a in root.iter("DataArray") if a.get("offset")})
-    return Document(_encoding(root, file), pieces, text if raw is None else raw, in_base64, offsets)
+    return VtpDocument(_encoding(root, file), pieces, text if raw is None else raw, in_base64, offsets)
 
 
-def plain_document(document: Document, piece: Piece, arrays: dict[str, Element]) -> bytes:
+def plain_document(document: VtpDocument, piece: Piece, arrays: dict[str, Element]) -> bytes:
     """A file with nothing in it but one piece and its arrays `Points`, `connectivity` and `offsets`.
 
     One piece, because VTK 9.7 numbers the vertices wrongly behind a piece without polygons.
@@ -177,7 +177,7 @@ _TYPES = {f"{kind}{8 * size}": f"{kind[0].lower()}{size}" for kind in ("Int", "U
 _TYPES = {name: code for name, code in _TYPES.items() if code not in ("f1", "f2")}
 
 
-def require_values(element: Element, count: int, document: Document) -> bytes:
+def require_values(element: Element, count: int, document: VtpDocument) -> bytes:
     """Refuse (ValueError) a `<DataArray>` that cannot be decoded or does not hold `count` numbers; its text or bytes.
 
     `count` is what the rest of the file asks for; nothing larger than `count` numbers is decompressed.
@@ -201,7 +201,7 @@ def require_values(element: Element, count: int, document: Document) -> bytes:
     return decode(stored, count * dtype.itemsize, document.encoding)
 
 
-def require_integers(element: Element, count: int, document: Document) -> Int[np.ndarray, " n"]:
+def require_integers(element: Element, count: int, document: VtpDocument) -> Int[np.ndarray, " n"]:
     """The `count` integers of a `<DataArray>`; ValueError as in `require_values`, and when it is one of decimals."""
     stored, dtype = require_values(element, count, document), _dtype(element, document)
     if dtype.kind == "f":
@@ -211,7 +211,7 @@ def require_integers(element: Element, count: int, document: Document) -> Int[np
     return np.frombuffer(stored, dtype).astype(np.int64)
 
 
-def _dtype(element: Element, document: Document) -> np.dtype[np.generic]:
+def _dtype(element: Element, document: VtpDocument) -> np.dtype[np.generic]:
     declared = element.get("type", "")
     if declared not in _TYPES:
         raise ValueError(f"numbers of type {declared or 'unknown'} are not read")
@@ -293,7 +293,7 @@ def read_vtp(data: bytes, file: str) -> tuple[Float[np.ndarray, "n 3"], Int[np.n
     return vertices, triangles(np.concatenate(corners), np.concatenate(sizes), len(vertices), file)
 
 
-def _checked_arrays(piece: Piece, document: Document, file: str) -> dict[str, Element]:
+def _checked_arrays(piece: Piece, document: VtpDocument, file: str) -> dict[str, Element]:
     """The arrays of a surface, each of which holds as many numbers as the others ask for."""
     arrays = {}
     if piece.points:
@@ -309,12 +309,12 @@ def _checked_arrays(piece: Piece, document: Document, file: str) -> dict[str, El
 
 
 def _checked(
-    check: Callable[[Element, int, Document], _Checked],
+    check: Callable[[Element, int, VtpDocument], _Checked],
     piece: Piece,
     group: str,
     name: str | None,
     count: int,
-    document: Document,
+    document: VtpDocument,
     file: str,
 ) -> tuple[Element, _Checked]:
     place = " ".join(part for part in (group, name) if part)

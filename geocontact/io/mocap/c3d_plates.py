@@ -23,7 +23,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.plausible import TOO_LARGE, too_large
+from geocontact.data.magnitude import too_large
+from geocontact.data.plausible import TOO_LARGE
 from geocontact.io.mocap.c3d_parameters import MIPS, as_intel, processor, with_real_numbers, with_whole_counts
 from geocontact.io.text.file_preflight import read_bytes
 from geocontact.io.text.units import LENGTH, length_unit, si_unit

@@ -37,7 +37,7 @@ from pydantic import Field, model_validator
 from geocontact.data.body_segments import Sex
 from geocontact.data.plausible import KG, Plausible
 from geocontact.data.units import mm
-from geocontact.io.documents import Document, File, Listed, Quantity, Word, doubled, read_document, refusal
+from geocontact.io.documents import Document, File, Listed, WithUnit, Word, doubled, read_document, refusal
 
 WALKER = Plausible("the mass of a walking person", KG, (20.0, 300.0))
 FULCRUM = Plausible("the place of a fulcrum", mm, (66.0, 151.0))
@@ -48,11 +48,11 @@ Setting = Literal["low", "medium", "high"]
 class GaitPerson(Document):
     """Mass with the prosthesis [kg], files, side of the prosthesis, row of the segment table, share of the shank."""
 
-    mass: Annotated[float, Quantity(WALKER)]
+    mass: Annotated[float, WithUnit(WALKER)]
     static: File
     side: Side = "right"
     sex: Sex = "male"
-    residual: Annotated[float, Quantity("-"), Field(gt=0.0, lt=1.0)] | None = None
+    residual: Annotated[float, WithUnit("-"), Field(gt=0.0, lt=1.0)] | None = None
     functional: File | None = None
     law: File | None = None
 
@@ -81,7 +81,7 @@ class GaitStance(Document):
     plate: Word
     other_plate: Word
     setting: Setting | None = None
-    fulcrum: Annotated[float, Quantity(FULCRUM)] | None = None
+    fulcrum: Annotated[float, WithUnit(FULCRUM)] | None = None
     calibrated: bool = False
     law: File | None = None
     ground: Word | None = None

@@ -46,12 +46,12 @@ from pydantic import Field, PlainValidator, model_validator
 
 from geocontact.data.body_segments import Sex
 from geocontact.data.plausible import KG, Plausible
-from geocontact.io.documents import Document, File, Listed, Quantity, Word, doubled, read_document, refusal
+from geocontact.io.documents import Document, File, Listed, WithUnit, Word, doubled, read_document, refusal
 
 WORKER = Plausible("the mass of a person", KG, (20.0, 300.0))
 LENGTHS = ("upper_arm", "shoulder_width", "torso")
 """Lengths of a person, to which a device is adjusted."""
-Length = Annotated[float, Quantity("m")]
+Length = Annotated[float, WithUnit("m")]
 
 
 def _span(value: object) -> tuple[float, float]:
@@ -63,15 +63,15 @@ def _span(value: object) -> tuple[float, float]:
 class StudyTask(Document):
     """Tool [kg], push [N], upwards, and the dominant hand's share of it."""
 
-    tool: Annotated[float, Quantity("kg"), Field(ge=0.0)]
-    push: Annotated[float, Quantity("N"), Field(ge=0.0)]
+    tool: Annotated[float, WithUnit("kg"), Field(ge=0.0)]
+    push: Annotated[float, WithUnit("N"), Field(ge=0.0)]
     dominant_share: Annotated[float, Field(ge=0.0, le=1.0)] | None = None
 
 
 class StudyPerson(Document):
     """Mass [kg], sex, the side of the dominant hand, and lengths [m]."""
 
-    mass: Annotated[float, Quantity(WORKER)]
+    mass: Annotated[float, WithUnit(WORKER)]
     sex: Sex
     dominant: Literal["right", "left"]
     upper_arm: Length | None = None

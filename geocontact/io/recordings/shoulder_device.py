@@ -11,7 +11,7 @@ from pydantic import GetCoreSchemaHandler, create_model
 from pydantic_core import CoreSchema, core_schema
 
 from geocontact.data.errors import InputError
-from geocontact.io.documents import Document, Quantity, Some, Word, checked, refusal
+from geocontact.io.documents import Document, Some, WithUnit, Word, checked, refusal
 from geocontact.io.text.toml_text import toml_of
 
 LARGEST = 100_000
@@ -28,7 +28,7 @@ class StatedNumber:
 
 
 @dataclass(frozen=True)
-class SourcedQuantity(Quantity):
+class SourcedQuantity(WithUnit):
     """A quantity that may say where it is from, in one of the words of `sources`."""
 
     sources: tuple[str, ...] = ()
@@ -84,7 +84,7 @@ def read_device_file(path: Path, units: Mapping[str, str], sources: tuple[str, .
 
 def read_person_file(path: Path, names: tuple[str, ...]) -> dict[str, float]:
     """Lengths of a person [m] from a TOML file, `upper_arm = { value = 300, unit = "mm" }`; any may be missing."""
-    length = Quantity("m")
+    length = WithUnit("m")
     content = {name: each for name, each in toml_of(path, LARGEST).items() if name in names}
     if not content:
         raise InputError(path, "", f"none of {', '.join(names)}", f"write upper_arm = {length.example}")

@@ -18,7 +18,8 @@ from jaxtyping import Bool, Float
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.plausible import LARGEST_MEANT, TOO_LARGE, too_large
+from geocontact.data.magnitude import too_large
+from geocontact.data.plausible import LARGEST_MEANT, TOO_LARGE
 from geocontact.io.text.column_names import spelled_as
 from geocontact.io.text.csv_text import text_of
 from geocontact.io.text.file_preflight import read_bytes

@@ -46,8 +46,8 @@ from geocontact.io.documents import (
     Files,
     Listed,
     Names,
-    Quantity,
     Some,
+    WithUnit,
     Word,
     read_document,
     refusal,
@@ -57,8 +57,8 @@ BODY = Plausible("the mass of a person", KG, (20.0, 300.0))
 TALL = Plausible("the height of a person", m, (0.8, 2.5))
 NOISE = {"length": "m", "angle": "rad", "rate": "rad/s", "force": "N", "centre": "m", "torque": "N m", "strap": "N"}
 """SI units of the standard deviations."""
-Deviation = {name: Annotated[float, Quantity(unit), Field(gt=0.0)] for name, unit in NOISE.items()}
-Time = Annotated[float, Quantity("s", bare=True)]
+Deviation = {name: Annotated[float, WithUnit(unit), Field(gt=0.0)] for name, unit in NOISE.items()}
+Time = Annotated[float, WithUnit("s", bare=True)]
 
 
 class StandingTrialFiles(Document):
@@ -120,8 +120,8 @@ class StandingStudy(Document):
         Names as written; None where nothing is.
     """
 
-    mass: Annotated[float, Quantity(BODY)]
-    height: Annotated[float, Quantity(TALL)]
+    mass: Annotated[float, WithUnit(BODY)]
+    height: Annotated[float, WithUnit(TALL)]
     exoskeleton: bool = False
     noise: Annotated[Mapping[str, float], Some(Deviation)] = {}
     free: Names | None = None

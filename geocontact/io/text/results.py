@@ -13,7 +13,8 @@ import pandas as pd
 from pandas.api.types import is_float_dtype
 
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import TOO_LARGE, too_large
+from geocontact.data.magnitude import too_large
+from geocontact.data.plausible import TOO_LARGE
 from geocontact.data.text import is_late, seconds
 from geocontact.io.text.column_names import spelled_as
 from geocontact.io.text.plain_table import open_plain

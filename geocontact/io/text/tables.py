@@ -15,8 +15,9 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.magnitude import too_large
 from geocontact.data.motion import Signals
-from geocontact.data.plausible import TOO_LARGE, too_large
+from geocontact.data.plausible import TOO_LARGE
 from geocontact.io.text.column_names import ColumnNames
 from geocontact.io.text.file_preflight import UTF8, encoding_of
 from geocontact.io.text.plain_table import SHEET, open_plain

@@ -44,16 +44,16 @@ def record() -> Record:
 
 
 def test_a_law_without_it_has_the_foot_as_it_stood(tmp_path: Path) -> None:
-    assert offset_of_law(record(), None, TRIAL / "standing.trc") == AS_STOOD
-    assert offset_of_law(record(), law(tmp_path, "n = 1.3\n"), TRIAL / "standing.trc") == AS_STOOD
-    assert offset_of_law(record(), law(tmp_path, FOOT), TRIAL / "standing.trc") == OFFSET
+    assert offset_of_law(None, TRIAL / "standing.trc") == AS_STOOD
+    assert offset_of_law(law(tmp_path, "n = 1.3\n"), TRIAL / "standing.trc") == AS_STOOD
+    assert offset_of_law(law(tmp_path, FOOT), TRIAL / "standing.trc") == OFFSET
 
 
 def test_it_holds_for_its_own_standing_trial_only(tmp_path: Path) -> None:
     own = hashlib.sha256((TRIAL / "standing.trc").read_bytes()).hexdigest()
     file, heard = law(tmp_path, f'{FOOT}standing = "{own}"\n'), record()
-    assert offset_of_law(heard, file, TRIAL / "standing.trc") == OFFSET and not heard.warnings
-    assert offset_of_law(heard, file, out_of_flat(tmp_path, 0.01)) == AS_STOOD
+    assert offset_of_law(file, TRIAL / "standing.trc") == OFFSET and not heard.warnings
+    assert offset_of_law(file, out_of_flat(tmp_path, 0.01)) == AS_STOOD
     assert "found beside another standing trial" in heard.warnings[0]
 
 
@@ -70,7 +70,7 @@ def test_it_holds_for_its_own_standing_trial_only(tmp_path: Path) -> None:
 )
 def test_what_it_cannot_be_is_refused(tmp_path: Path, line: str, words: str) -> None:
     with pytest.raises(gc.InputError, match=words):
-        offset_of_law(record(), law(tmp_path, f"[foot]\n{line}\n"), TRIAL / "standing.trc")
+        offset_of_law(law(tmp_path, f"[foot]\n{line}\n"), TRIAL / "standing.trc")
 
 
 def test_centre_of_pressure_of_other_feet_says_that_it_is_not_used(tmp_path: Path) -> None:
@@ -78,7 +78,7 @@ def test_centre_of_pressure_of_other_feet_says_that_it_is_not_used(tmp_path: Pat
     table = SphereTable(np.zeros((1, 3)), 0.01 * one, ("foot",), None, None, None)
     heard = record()
     options = CopOptions(TRIAL / "walking.trc", motion=tmp_path, law=law(tmp_path, f"k = 1e4\n{FOOT}"))
-    sole_law(heard, table, options)
+    sole_law(table, options)
     assert any("[foot]" in line and "no effect here" in line for line in heard.warnings)
 
 
@@ -91,10 +91,10 @@ def test_simulate_compare_and_design_start_from_it(tmp_path: Path) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
         asked = [ProsthesisSimulateOptions(TRIAL / "walking.trc", **GIVEN, **own) for own in ({}, {"law": file})]
-        without, walk = (fitted_walk(read_walk(o, record()), o, record()) for o in asked)
+        without, walk = (fitted_walk(read_walk(o), o) for o in asked)
         plain = without.leg
-        (stance,) = read_study(ProsthesisCompareOptions(study), record())
-        trial = read_design(ProsthesisDesignOptions(TRIAL / "walking.trc", **given, law=file), record()).trial
+        (stance,) = read_study(ProsthesisCompareOptions(study))
+        trial = read_design(ProsthesisDesignOptions(TRIAL / "walking.trc", **given, law=file)).trial
     for leg in (walk.leg, walk.walked.motion.leg, stance.walk.leg, trial.leg):
         turned = plain.turn.inv() * leg.turn
         np.testing.assert_allclose(turned.as_rotvec(), [0.0, 0.0, -0.012], atol=1e-12)
