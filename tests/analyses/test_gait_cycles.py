@@ -8,8 +8,13 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.motion.gait_cycles import cycles_figure, gait_cycles
-from geocontact.analyses.motion.heel_strikes import strikes_marked, strikes_on_plates, strikes_typed
+from geocontact.analyses.motion.gait_cycles import (
+    cycles_figure,
+    gait_cycles,
+    strikes_marked,
+    strikes_on_plates,
+    strikes_typed,
+)
 from geocontact.data.errors import InputError
 from geocontact.data.wrench import Wrench
 from tests import legs

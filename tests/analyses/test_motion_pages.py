@@ -9,8 +9,8 @@ import pytest
 
 from geocontact.analyses.motion.inverse_dynamics import show as id_page
 from geocontact.analyses.motion.inverse_dynamics.forces import Forces
+from geocontact.analyses.motion.markers import stem_and_side
 from geocontact.analyses.motion.panels import panels_of
-from geocontact.analyses.motion.sides import stem_and_side
 from geocontact.analyses.motion.skeleton import forces_on, markers_beside, scene_of, skeleton
 from geocontact.data.multibody.joint import gimbal, revolute
 from geocontact.data.multibody.model import GROUND, Multibody

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 import geocontact as gc
 from geocontact.analyses.motion import exchanged_markers
-from geocontact.analyses.motion.upright import axes_upright
+from geocontact.analyses.motion.markers import axes_upright
 from tests import legs
 
 UP = np.array([0.0, 1.0, 0.0])

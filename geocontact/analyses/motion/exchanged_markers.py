@@ -7,7 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
-from geocontact.analyses.motion.marker_errors import MOVING, MarkerErrors
+from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
 from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
 from geocontact.dynamics.inverse_kinematics import Poses, inverse_kinematics
 from geocontact.dynamics.tree import Tree

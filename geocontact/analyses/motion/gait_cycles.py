@@ -1,25 +1,79 @@
-"""Coordinates or moments from one heel strike of a side to its next: every cycle at 0 … 100 %."""
+"""Cycles of a walk: heel strikes from events, markers or plates, and curves over the cycle."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.motion.heel_strikes import Strikes
-from geocontact.analyses.motion.sides import LEFT, RIGHT, stem_and_side
+from geocontact.analyses.frame.pages import drawing
+from geocontact.analyses.frame.quantities import number
+from geocontact.analyses.motion.markers import LEFT, RIGHT, stem_and_side
+from geocontact.data.errors import InputError
 from geocontact.data.trial import mean_and_sd
-from geocontact.identify.signals.cycles import STEPS, cut
+from geocontact.data.wrench import Wrench
+from geocontact.identify.signals.cycles import STEPS, cut, strides
+from geocontact.io.mocap.c3d_events import read_c3d_strikes
 from geocontact.view.curves.over_cycle import mean_over_cycle
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.curves.style import DOUBLE, in_style, panels
+from geocontact.view.page.content import Picture, Section
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+Strikes = dict[str, Float[np.ndarray, " k"]]
+"""Times [s], increasing, by side: "right", "left"."""
+
+ONSET = 20.0
+"""N at which a foot is on the ground; gait laboratories use 10 to 30 N."""
+EXAMPLE = "right=0.63,1.86"
+
+
+def strikes_typed(texts: tuple[str, ...]) -> Strikes:
+    """`right=0.63,1.86`, a text for each side."""
+    found: Strikes = {}
+    for text in texts:
+        side, equals, times = text.partition("=")
+        side = side.strip().lower()
+        if not equals or side not in (RIGHT, LEFT) or side in found:
+            raise InputError(
+                "", "`events`", f"'{text}' is not a side and its times", f"write {EXAMPLE}, each side once"
+            )
+        found[side] = np.array([number(part, "`events`", EXAMPLE) for part in times.split(",")])
+        if len(found[side]) < 2 or not (np.diff(found[side]) > 0.0).all():
+            raise InputError("", "`events`", f"'{text}' are not two or more increasing times", f"write {EXAMPLE}")
+    return found
+
+
+def strikes_marked(file: Path) -> Strikes:
+    """Those that a .c3d file holds; none in other files."""
+    return read_c3d_strikes(file) if file.suffix.lower() == ".c3d" else {}
+
+
+def strikes_on_plates(
+    time: Float[np.ndarray, " t"], loads: Mapping[str, Wrench], up: Float[np.ndarray, " 3"]
+) -> Strikes:
+    """Where the load of the bodies of one side sets in; a foot that stands on a plate at the start has no strike."""
+    pressing: dict[str, Float[np.ndarray, " t"]] = {}
+    for body, wrench in loads.items():
+        side = stem_and_side(body)[1]
+        if side:
+            pressing[side] = pressing.get(side, np.zeros(len(time))) + wrench.force @ up
+    return {side: _onsets(time, load) for side, load in pressing.items()}
+
+
+def _onsets(time: Float[np.ndarray, " t"], load: Float[np.ndarray, " t"]) -> Float[np.ndarray, " k"]:
+    """Onsets where there are two or more, the ends of strides; else none."""
+    spans = strides(time, load, ONSET)
+    return np.array([*(span.start for span in spans), *(span.end for span in spans[-1:])])
+
 
 ACROSS, TALL = 3, 0.048  # panels in a row, and their height [m]
 
@@ -100,3 +154,15 @@ def cycles_figure(cycles: GaitCycles) -> Figure:
         for letter in spare.texts:
             letter.set_visible(False)
     return figure
+
+
+def cycles_pictured(cycles: GaitCycles) -> list[Section]:
+    """Mean and SD over the cycles of both sides; nothing without cycles."""
+    if not cycles:
+        return []
+    counts = " and ".join(f"{count} of the {side} side" for side, count in cycles.counts.items())
+    words = (
+        f"From one heel strike of a side to its next: mean as a line, mean ± SD as a band, {counts}. What has no side "
+        f"is cut at the heel strikes of the {next(iter(cycles.starts))} side."
+    )
+    return [Picture("Over the gait cycle", words, drawing(cycles_figure(cycles)), wide=True)]

@@ -1,22 +1,133 @@
-"""What counts in inverse kinematics and how much, as typed."""
+"""Which markers of a recording and a model count, by how much, and how far they are from each other after a fit.
+
+Limits are those of OpenSim's documentation, "Checklist - Evaluating your simulation": in inverse kinematics root mean
+squares below about 2 cm and a largest error below 4 cm; in scaling 1 cm and 2 cm.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from geocontact.analyses.frame.collector import add_input, current, reserve
-from geocontact.analyses.frame.quantities import number
-from geocontact.analyses.motion.marker_names import map_hint, names_told
+from geocontact.analyses.frame.quantities import named_file, number
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import Followed, MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
-from geocontact.dynamics.inverse_kinematics import FEWEST
+from geocontact.dynamics.inverse_kinematics import FEWEST, Poses
+from geocontact.io.mocap.markers import marker_map_typed, read_marker_map
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of
 from geocontact.io.opensim.marker_weights import read_marker_weights, tasks_file
+from geocontact.io.text.column_names import near_names
 from geocontact.io.text.tables import listed, read_table
+
+MANY = 80  # names that a message still lists: marker sets of whole bodies
+
+
+def renamed(seen: MarkerTrajectories, model: Multibody, given: str | None) -> MarkerTrajectories:
+    """Recorded markers by the model's names, as `markers_map` says; others keep theirs."""
+    if given is None:
+        return seen
+    file = named_file(given)
+    names = marker_map_typed(given, "`markers_map`") if file is None else read_marker_map(file)
+    if file is not None:
+        add_input("`markers_map`", file, markers=len(names))
+    own = {m.name for m in model.markers}
+    usable = {lab: name for lab, name in names.items() if lab in seen.names and name in own}
+    if not usable:
+        what = f"names no recorded marker and one of the model together ({_pairs(names)})"
+        raise InputError(file or "", "`markers_map`", what, names_told(seen, model))
+    lost, foreign = [lab for lab in names if lab not in seen.names], [n for n in names.values() if n not in own]
+    for what, which, there in (("was not recorded", lost, seen.names), ("is not in the model", foreign, tuple(own))):
+        if which:
+            near = near_names(which, there)
+            hint = f"; perhaps {', '.join(near.values())}" if near else ""
+            reserve(f"`markers_map`: {listed(tuple(which))} {what}{hint}")
+    try:
+        return seen.renamed(usable)
+    except ValueError as error:
+        raise InputError(file or "", "`markers_map`", str(error), "map that one too, or leave it out") from error
+
+
+def names_told(seen: MarkerTrajectories, model: Multibody) -> str:
+    """The names of both sides, and a map where they are nearly alike."""
+    own = tuple(m.name for m in model.markers)
+    both = f"recorded are: {listed(seen.names, MANY)}; the model's are: {listed(own, MANY)}"
+    hint = map_hint(seen, [name for name in own if name not in seen.names])
+    return f"{both}; {hint}" if hint else both
+
+
+def map_hint(seen: MarkerTrajectories, wanted: Sequence[str]) -> str:
+    """What to pass where wanted markers are nearly called like recorded ones; empty where none is."""
+    near = near_names(wanted, [name for name in seen.names if name not in wanted])
+    return f"perhaps `markers_map` {_pairs({lab: name for name, lab in near.items()})}" if near else ""
+
+
+def _pairs(names: dict[str, str]) -> str:
+    text = ",".join(f"{lab}={name}" for lab, name in names.items())
+    return f'"{text}"' if " " in text else text
+
+
+FAR = 0.05
+"""m of root mean square that no subject has who stood model for it."""
+
+
+@dataclass(frozen=True)
+class MarkerLimits:
+    """Largest root mean square and largest distance of markers from a model that are good enough [m]."""
+
+    rms: float
+    largest: float
+
+    @property
+    def words(self) -> str:
+        """The two, in mm."""
+        return f"{1e3 * self.rms:g} and {1e3 * self.largest:g} mm"
+
+
+MOVING, STANDING = MarkerLimits(0.02, 0.04), MarkerLimits(0.01, 0.02)
+
+
+@dataclass(frozen=True)
+class MarkerErrors:
+    """Distances of markers from a model over all frames and markers [m], and where the largest is [s]."""
+
+    rms: float
+    largest: float
+    marker: str
+    time: float
+
+    @classmethod
+    def of(cls, poses: Poses) -> MarkerErrors:
+        """Errors of the markers that were seen and count."""
+        frame, which = np.unravel_index(int(np.nanargmax(poses.distances)), poses.distances.shape)
+        rms = float(np.sqrt(np.nanmean(poses.distances**2)))
+        largest = float(poses.distances[frame, which])
+        return cls(rms, largest, poses.markers[int(which)], float(poses.time[frame]))
+
+    def within(self, limits: MarkerLimits) -> bool:
+        """Whether they are good enough."""
+        return self.rms <= limits.rms and self.largest <= limits.largest
+
+    def words(self, limits: MarkerLimits) -> str:
+        """The numbers in one clause."""
+        return (
+            f"{1e3 * self.rms:.1f} mm from the model, root mean square, and {1e3 * self.largest:.1f} mm at most, "
+            f"{self.marker} at {self.time:.3g} s (OpenSim advises less than {limits.words})"
+        )
+
+    def warn(self, limits: MarkerLimits, why: str = "") -> None:
+        """One line where they are beyond the limits; `why` is the cause that was found."""
+        if self.within(limits):
+            return
+        check = f"check where {self.marker} is on the model and in the recording, the scaling, and exchanged markers"
+        if self.rms > FAR:
+            check = "another subject's size, axes (`axes`) or unit?"
+        reserve(f"markers are {self.words(limits)}: {why or check}")
+
 
 HELD = 1e3  # weight of a coordinate that is held, against 1 of a marker: a radian as dear as 30 m of a marker
 

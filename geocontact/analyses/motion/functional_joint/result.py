@@ -23,10 +23,10 @@ from geocontact.analyses.frame.collector import reserve, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import finite, plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.functional_joint.options import JointOptions
 from geocontact.analyses.motion.functional_joint.read import MovedPair, Segment, marker_list, read
 from geocontact.analyses.motion.functional_joint.show import joint_page
+from geocontact.analyses.motion.panels import curves_figure
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.functional_joint import JointPoints, apart_in_halves, axis_points, centre_points, segment_poses

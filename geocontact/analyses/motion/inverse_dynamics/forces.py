@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float
 from geocontact.analyses.frame.collector import reserve
 from geocontact.analyses.motion.inverse_dynamics.loads import Loaded
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
-from geocontact.analyses.motion.printed import printed
+from geocontact.analyses.motion.panels import printed
 from geocontact.data.multibody.model import GROUND, Multibody
 from geocontact.io.opensim.external_loads import write_external_loads
 from geocontact.io.opensim.storage_writer import write_storage

@@ -12,7 +12,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.quantities import turned_axes
-from geocontact.analyses.motion.heel_strikes import Strikes, strikes_on_plates, strikes_typed
+from geocontact.analyses.motion.gait_cycles import Strikes, strikes_on_plates, strikes_typed
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.skeleton import upwards
 from geocontact.data.errors import InputError

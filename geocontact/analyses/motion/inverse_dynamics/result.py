@@ -22,12 +22,12 @@ from geocontact.analyses.frame.collector import reserve, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
 from geocontact.analyses.motion.inverse_dynamics.forces import Forces, warn_of_residuals, words, write_setup
 from geocontact.analyses.motion.inverse_dynamics.loads import Loaded, read, warn_of_other_feet
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.inverse_dynamics.show import forces_page
+from geocontact.analyses.motion.panels import curves_figure
 from geocontact.data.multibody.model import PassiveForces
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.inverse_dynamics import forces_along

@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from geocontact.analyses.frame.collector import add_input
-from geocontact.analyses.motion.heel_strikes import Strikes, strikes_marked, strikes_typed
+from geocontact.analyses.motion.gait_cycles import Strikes, strikes_marked, strikes_typed
 from geocontact.analyses.motion.inverse_kinematics.knees import Knee, knees_of
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
-from geocontact.analyses.motion.marker_names import renamed
-from geocontact.analyses.motion.marker_tasks import marker_tasks
+from geocontact.analyses.motion.marker_tasks import marker_tasks, renamed
 from geocontact.analyses.motion.markers import markers_given, with_marker_set
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories

@@ -26,15 +26,14 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.exchanged_markers import exchanged_markers
-from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
 from geocontact.analyses.motion.inverse_kinematics.knees import knee_table
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.inverse_kinematics.read import KinematicsInputs, read
 from geocontact.analyses.motion.inverse_kinematics.show import kinematics_page
-from geocontact.analyses.motion.marker_errors import MOVING, MarkerErrors
-from geocontact.analyses.motion.printed import printed
-from geocontact.analyses.motion.upright import warn_of_tilt
+from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
+from geocontact.analyses.motion.markers import warn_of_tilt
+from geocontact.analyses.motion.panels import curves_figure, printed
 from geocontact.data.errors import InputError
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics as kinematics_of

@@ -9,8 +9,7 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.motion.cycles_picture import cycles_pictured
-from geocontact.analyses.motion.gait_cycles import GaitCycles
+from geocontact.analyses.motion.gait_cycles import GaitCycles, cycles_pictured
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
 from geocontact.data.multibody.markers import MarkerTrajectories

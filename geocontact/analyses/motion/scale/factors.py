@@ -10,8 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, reserve
-from geocontact.analyses.motion.marker_names import names_told, renamed
-from geocontact.analyses.motion.marker_tasks import marker_tasks
+from geocontact.analyses.motion.marker_tasks import marker_tasks, names_told, renamed
 from geocontact.analyses.motion.markers import markers_given, with_marker_set
 from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.data.errors import InputError

@@ -27,8 +27,8 @@ from geocontact.analyses.frame.collector import reserve, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.motion.marker_errors import STANDING, MarkerErrors
-from geocontact.analyses.motion.printed import printed
+from geocontact.analyses.motion.marker_tasks import STANDING, MarkerErrors
+from geocontact.analyses.motion.panels import printed
 from geocontact.analyses.motion.scale.factors import Standing, labelled, read
 from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.analyses.motion.scale.show import scaling_page

@@ -9,7 +9,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE
-from geocontact.analyses.motion.marker_errors import STANDING, MarkerErrors
+from geocontact.analyses.motion.marker_tasks import STANDING, MarkerErrors
 from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses

@@ -20,7 +20,7 @@ from jaxtyping import Float
 from geocontact.analyses.frame.collector import add_input, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.motion.figure import curves_figure
+from geocontact.analyses.motion.panels import curves_figure
 from geocontact.analyses.motion.virtual_markers.options import MarkersOptions
 from geocontact.analyses.motion.virtual_markers.show import markers_page
 from geocontact.data.errors import InputError

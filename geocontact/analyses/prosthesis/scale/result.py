@@ -28,7 +28,7 @@ from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.motion.marker_errors import MOVING, MarkerErrors
+from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
 from geocontact.analyses.motion.skeleton import MARKER, scene_of, skeleton
 from geocontact.analyses.prosthesis.leg_and_foot import numbers_table
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions

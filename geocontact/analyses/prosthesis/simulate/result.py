@@ -26,7 +26,7 @@ from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.motion.figure import curves_figure
+from geocontact.analyses.motion.panels import curves_figure
 from geocontact.analyses.prosthesis.leg_and_foot import all_numbers, counted_twice, numbers_table, offset_words
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.show import stance_page

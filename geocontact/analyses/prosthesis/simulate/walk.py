@@ -12,7 +12,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
-from geocontact.analyses.motion.marker_errors import FAR, MOVING
+from geocontact.analyses.motion.marker_tasks import FAR, MOVING
 from geocontact.analyses.prosthesis.leg_and_foot import foot_with_law, offset_of_law
 from geocontact.analyses.prosthesis.recorded_files import require_one_clock, require_weight, right_markers
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions

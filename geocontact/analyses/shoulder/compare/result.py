@@ -27,7 +27,7 @@ from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.motion.figure import curves_figure
+from geocontact.analyses.motion.panels import curves_figure
 from geocontact.analyses.shoulder.compare.errors import (
     ArmAndRecording,
     ComparedChannel,
