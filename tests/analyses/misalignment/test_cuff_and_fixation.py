@@ -14,7 +14,7 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.misalignment.identify.fitted import Fitted
-from geocontact.analyses.misalignment.identify.sentences import fixation_words, reserve
+from geocontact.analyses.misalignment.identify.sentences import fixation_words, reserve_doubts
 from geocontact.axis_misalignment.least_squares import Prior
 from geocontact.axis_misalignment.uncertainty import Separability
 from tests.analyses.misalignment.test_compare import law
@@ -105,7 +105,7 @@ def hardly_told(found: Fitted) -> str:
     record = opened(Record("elbow fit", {}))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        reserve(found, None)
+        reserve_doubts(found, None)
     return next((line for line in record.warnings if "hardly tell the compliance c" in line), "")
 
 
