@@ -102,7 +102,7 @@ from geocontact.analyses.edges.options import EdgeOptions
 from geocontact.analyses.edges.show import edges_figure
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import Result
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.collector import add_input, say
 from geocontact.data.mesh import Mesh
 from geocontact.io.mesh.meshes import read_mesh
 
@@ -125,20 +125,20 @@ class EdgeResult(Result):
         return {"edges": edges_figure(self.lengths)}
 
 
-def read(o: EdgeOptions, record: Record) -> Mesh:
+def read(o: EdgeOptions) -> Mesh:
     """The mesh."""
     mesh = read_mesh(o.mesh, o.unit)
-    record.add_input("mesh", o.mesh, sha256=mesh.sha256, unit=o.unit)
+    add_input("mesh", o.mesh, sha256=mesh.sha256, unit=o.unit)
     return mesh
 
 
-def run(mesh: Mesh, o: EdgeOptions, record: Record) -> EdgeResult:
+def run(mesh: Mesh, o: EdgeOptions) -> EdgeResult:
     """Every edge once."""
     pairs = mesh.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     ends = mesh.vertices[np.unique(np.sort(pairs, axis=1), axis=0)]
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    record.say(f"{len(lengths)} edges, {1e3 * np.mean(lengths):.2g} mm on average")
-    return EdgeResult(record=record, lengths=lengths)
+    say(f"{len(lengths)} edges, {1e3 * np.mean(lengths):.2g} mm on average")
+    return EdgeResult(lengths=lengths)
 
 
 edge_lengths = Job("edges", EdgeOptions, read, run)
