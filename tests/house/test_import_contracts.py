@@ -74,7 +74,7 @@ BREAKS = [
     ("analyses/frame/bodies.py", "import geocontact.analyses.shape.result", APART),
     ("analyses/motion/scale/result.py", "import geocontact.analyses.motion.inverse_dynamics.result", GROUP),
     ("analyses/area/options.py", "import geocontact.analyses.area.result", CIRCLES),
-    ("chain/effect.py", "import geocontact.chain.effect", CIRCLES),
+    ("chain/system.py", "import geocontact.chain.effect", CIRCLES),
     ("analyses/cop/foot.py", "import cyclopts", TYPED),
     ("gap/diagnose.py", "import rich", TYPED),
     ("geometry/plane.py", "import geocontact.io.mesh.meshes", IO),
