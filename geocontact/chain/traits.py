@@ -40,6 +40,12 @@ class Way:
         the unit of the input that gives way [m or rad].
     load
         Output that pushes it; the largest of the law's loads where it is "".
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> gc.chain.Way(most=0.01, of="unit", load="force")
+    Way(most=0.01, of='unit', load='force')
     """
 
     most: float = 1.0
@@ -57,6 +63,12 @@ class Migration:
         Per radian at the most, over the length of the device [1/rad].
     centre
         Angle at which the length is what the model says [rad]; the middle of the measured range where it is None.
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> gc.chain.Migration(most=0.1)
+    Migration(most=0.1, centre=None)
     """
 
     most: float = 0.3
@@ -76,6 +88,12 @@ class Mass:
         and y are the first two; none where it moves with the deflection.
     lever
         Name of the number that is its distance from the axis [m].
+
+    Examples
+    --------
+    >>> import geocontact as gc
+    >>> gc.chain.Mass("tip", moved=("angle",), lever="L")
+    Mass(variant='tip', moved=('angle',), lever='L')
     """
 
     variant: str = ""

@@ -622,7 +622,7 @@ def test_what_is_attainable() -> None:
     """Of cases and answers of one run of the diagnosis, which the page names."""
     told, systems = results("gap_attainable"), ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
     page = (ROOT / "docs" / "reference/gap_benchmark.md").read_text(encoding="utf-8")
-    assert f"gap_attainable --seed {told['seed']} " in page and f"seed {told['seed']}, commit" in page
+    assert f"benchmarks.gap.attainable --seed {told['seed']} " in page and f"seed {told['seed']}, commit" in page
     shares = [told["all"], *(told["systems"][system] for system in systems)]
     cells = row("reference/gap_benchmark.md", "attainable for who knows the noise")
     assert cells == [f"{100.0 * s['attainable']:.0f} %" for s in shares]

@@ -81,7 +81,7 @@ def alone(*command: object) -> str:
 PROGRAM = """
 import json, sys
 from pathlib import Path
-from benchmarks import knee_chain
+from benchmarks.knee import chain as knee_chain
 knee, samples = knee_chain.sample_knee(), int(sys.argv[2])
 found = knee_chain.run(knee, Path(sys.argv[1]), (sys.argv[3],), trials=(2, 1, 0), samples=samples)
 print(json.dumps(found[sys.argv[3]]))

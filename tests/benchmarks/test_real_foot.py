@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks import real_foot
+from benchmarks.prosthesis import real_foot
 from benchmarks.prosthesis.real_foot import Standing, Step
 
 TIME = np.linspace(0.0, 0.8, 81)

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import geocontact as gc
+from benchmarks.shoulder import gap as shoulder_gap
 from benchmarks.shoulder.gap import left_out
 from benchmarks.shoulder.planted import HELD, PLANTED, STEP, motion_of, trial_of
 from benchmarks.shoulder.refit import ADDED, MEANS, NAMED, Seen, fitted, offs, rms
-from benchmarks.shoulder.shipped_trial import gap as shoulder_gap
 from benchmarks.shoulder.trials import dominant_arm, wearer_of
 from benchmarks.shoulder.truth import MAT, Measured
 from geocontact.shoulder_exoskeleton.device import Device

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from benchmarks import desr
+from benchmarks.devices import desr
 from benchmarks.devices.desr_keel import compared
 
 BETWEEN, BEYOND = ("x10", "x25", "x35"), "x45"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import friction_damper
+from benchmarks.devices import friction_damper
 
 
 def test_friction_withheld_is_named(data_dir: Path) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from benchmarks import desr
+from benchmarks.devices import desr
 
 ROOT = Path(__file__).resolve().parents[2]
 PRACTICE = ROOT.parent / "shared" / "gap" / "practice"

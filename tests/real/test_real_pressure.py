@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks import pressure
+from benchmarks.area import pressure
 from benchmarks.pairs import PAIRS
 from tests.cli.calls import Call, area, done
 
