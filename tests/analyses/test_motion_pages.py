@@ -5,16 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from geocontact.analyses.motion.inverse_dynamics import show as id_page
-from geocontact.analyses.motion.inverse_dynamics.forces import Forces
-from geocontact.analyses.motion.markers import stem_and_side
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import forces_on, markers_beside, scene_of, skeleton
 from geocontact.data.multibody.joint import gimbal, revolute
 from geocontact.data.multibody.model import GROUND, Multibody
 from geocontact.data.wrench import Wrench
+from geocontact.dynamics.residuals import GeneralisedForces
 from geocontact.view.page.content import Curves, Scale
 from tests import legs
 
@@ -74,20 +72,6 @@ def test_right_and_left_share_a_panel() -> None:
     assert isinstance(alone, Curves) and alone.title == "knee_r"
 
 
-@pytest.mark.parametrize(
-    ("name", "stem", "side"),
-    [
-        ("hip_flexion_r", "hip_flexion", "right"),
-        ("knee_left", "knee", "left"),
-        ("l_elbow", "elbow", "left"),
-        ("pelvis_tilt", "pelvis_tilt", ""),
-        ("r", "r", ""),
-    ],
-)
-def test_sides_of_names(name: str, stem: str, side: str) -> None:
-    assert stem_and_side(name) == (stem, side)
-
-
 def test_the_page_of_moments_opens_at_the_largest_and_says_it(tmp_path: Path) -> None:
     """Of 2001 frames every second is shown: the 1401st is the 701st of them."""
     _, model, _, _ = legs.planted(tmp_path)
@@ -95,7 +79,7 @@ def test_the_page_of_moments_opens_at_the_largest_and_says_it(tmp_path: Path) ->
     values = np.zeros((2001, len(names)))
     values[1400, names.index("knee")] = -55.0
     values[:, names.index("ty")] = 40.0
-    forces = Forces(np.arange(2001) / 100.0, model, values, 800.0, 0.9)
+    forces = GeneralisedForces(np.arange(2001) / 100.0, model, values, 800.0, 0.9)
     turning = np.array([c.kind == "rotational" for c in model.coordinates]) & ~forces.at_ground
     assert id_page.answer(forces, turning) == [
         "knee needs the largest moment, 55.0 N m at 14 s.",

@@ -10,7 +10,6 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import geocontact as gc
-from geocontact.analyses.motion import exchanged_markers
 from geocontact.analyses.motion.markers import axes_upright
 from tests import legs
 
@@ -87,20 +86,3 @@ def test_markers_far_away_for_another_reason_are_not_called_exchanged(tmp_path: 
     told = solved(tmp_path, markers)
     assert any("mm from the model" in w for w in told)
     assert not any("exchanged?" in w for w in told)
-
-
-@pytest.mark.parametrize(
-    ("one", "other", "sides"),
-    [
-        ("R.ASIS", "L.ASIS", True),
-        ("knee_l", "knee_r", True),
-        ("LeftHeel", "RightHeel", True),
-        ("heel.right", "heel.left", True),
-        ("RKNE", "LANK", False),
-        ("R.Toe.Lat", "L.Toe.Med", False),
-        ("R.Toe", "R.Toe2", False),
-        ("toe1", "toe2", False),
-    ],
-)
-def test_names_that_differ_by_the_side_alone(one: str, other: str, sides: bool) -> None:
-    assert exchanged_markers._sides((one, other)) == (((one, other),) if sides else ())

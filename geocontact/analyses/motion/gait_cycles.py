@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,11 +11,11 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.pages import drawing
 from geocontact.analyses.frame.quantities import number
-from geocontact.analyses.motion.markers import LEFT, RIGHT, stem_and_side
 from geocontact.data.errors import InputError
+from geocontact.data.sides import LEFT, RIGHT, stem_and_side
 from geocontact.data.trial import mean_and_sd
-from geocontact.data.wrench import Wrench
-from geocontact.identify.signals.cycles import STEPS, cut, strides
+from geocontact.identify.signals.cycles import STEPS
+from geocontact.identify.signals.gait_cycles import GaitCycles, Strikes
 from geocontact.io.mocap.c3d_events import read_c3d_strikes
 from geocontact.view.curves.over_cycle import mean_over_cycle
 from geocontact.view.curves.quantity import Quantity
@@ -26,10 +24,6 @@ from geocontact.view.page.content import Picture, Section
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-
-Strikes = dict[str, Float[np.ndarray, " k"]]
-"""Times [s], increasing, by side: "right", "left"."""
 
 ONSET = 20.0
 """N at which a foot is on the ground; gait laboratories use 10 to 30 N."""
@@ -57,81 +51,17 @@ def strikes_marked(file: Path) -> Strikes:
     return read_c3d_strikes(file) if file.suffix.lower() == ".c3d" else {}
 
 
-def strikes_on_plates(
-    time: Float[np.ndarray, " t"], loads: Mapping[str, Wrench], up: Float[np.ndarray, " 3"]
-) -> Strikes:
-    """Where the load of the bodies of one side sets in; a foot that stands on a plate at the start has no strike."""
-    pressing: dict[str, Float[np.ndarray, " t"]] = {}
-    for body, wrench in loads.items():
-        side = stem_and_side(body)[1]
-        if side:
-            pressing[side] = pressing.get(side, np.zeros(len(time))) + wrench.force @ up
-    return {side: _onsets(time, load) for side, load in pressing.items()}
-
-
-def _onsets(time: Float[np.ndarray, " t"], load: Float[np.ndarray, " t"]) -> Float[np.ndarray, " k"]:
-    """Onsets where there are two or more, the ends of strides; else none."""
-    spans = strides(time, load, ONSET)
-    return np.array([*(span.start for span in spans), *(span.end for span in spans[-1:])])
-
-
 ACROSS, TALL = 3, 0.048  # panels in a row, and their height [m]
 
 
-@dataclass(frozen=True)
-class GaitCycles:
-    """Cycles of many curves.
-
-    Parameters
-    ----------
-    starts
-        Heel strikes [s] that lie in the recording, by side; each but the last begins a cycle.
-    curves
-        By coordinate, a row for each cycle of its own side; of the right, where it has none, else of the left.
-    units
-        Of the curves, by coordinate.
-    """
-
-    starts: Strikes
-    curves: Mapping[str, Float[np.ndarray, "_ 101"]]
-    units: Mapping[str, str]
-
-    def __bool__(self) -> bool:
-        return bool(self.curves)
-
-    @property
-    def counts(self) -> dict[str, int]:
-        """Cycles by side."""
-        return {side: len(starts) - 1 for side, starts in self.starts.items()}
-
-    def table(self) -> pd.DataFrame:
-        """Mean and SD of every coordinate at each per cent, lengths in mm; the SD is empty where there is one cycle."""
-        columns: dict[str, object] = {"cycle [%]": STEPS}
-        for name, trials in self.curves.items():
-            unit, factor = ("mm", 1e3) if self.units[name] == "m" else (self.units[name], 1.0)
-            mean, sd = (factor * each for each in mean_and_sd(trials))
-            columns |= {f"{name}_mean [{unit}]": mean, f"{name}_sd [{unit}]": sd}
-        return pd.DataFrame(columns)
-
-
-def gait_cycles(
-    time: Float[np.ndarray, " t"],
-    names: Sequence[str],
-    units: Sequence[str],
-    values: Float[np.ndarray, "t n"],
-    strikes: Strikes,
-) -> GaitCycles:
-    """Cut curves at the strikes within the recording; without two strikes of a side there are none."""
-    inside = {side: at[(at >= time[0]) & (at <= time[-1])] for side, at in strikes.items()}
-    starts = {side: at for side, at in sorted(inside.items(), reverse=True) if len(at) > 1}  # right first
-    curves: dict[str, Float[np.ndarray, "_ 101"]] = {}
-    for name, column in zip(names, values.T, strict=True):
-        own = stem_and_side(name)[1] or next(iter(starts), "")
-        trials = cut(time, column, starts[own]) if own in starts else np.zeros((0, len(STEPS)))
-        known = trials[np.isfinite(trials)]
-        if known.size and np.ptp(known) > 0.0:  # a locked coordinate has no cycle
-            curves[name] = trials
-    return GaitCycles(starts, curves, {name: unit for name, unit in zip(names, units, strict=True) if name in curves})
+def cycles_table(cycles: GaitCycles) -> pd.DataFrame:
+    """Mean and SD of every coordinate at each per cent, lengths in mm; the SD is empty where there is one cycle."""
+    columns: dict[str, object] = {"cycle [%]": STEPS}
+    for name, trials in cycles.curves.items():
+        unit, factor = ("mm", 1e3) if cycles.units[name] == "m" else (cycles.units[name], 1.0)
+        mean, sd = (factor * each for each in mean_and_sd(trials))
+        columns |= {f"{name}_mean [{unit}]": mean, f"{name}_sd [{unit}]": sd}
+    return pd.DataFrame(columns)
 
 
 @in_style

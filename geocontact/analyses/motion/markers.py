@@ -1,8 +1,7 @@
-"""Recorded markers as the analyses of motion take them: read, with y up, and of which side."""
+"""Recorded markers as the analyses of motion take them: read, with y up, and under their own names."""
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,61 +12,39 @@ from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.options import LengthUnit
 from geocontact.analyses.frame.quantities import named_file, turned_axes
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.joint import JointModel
 from geocontact.data.multibody.markers import MarkerTrajectories
-from geocontact.data.multibody.model import GROUND, Multibody
+from geocontact.data.multibody.model import Multibody
+from geocontact.dynamics.exchanged_markers import Exchanged
+from geocontact.dynamics.tilt import root_tilt, shortest_turn
 from geocontact.io.mocap.markers import marker_map_typed, read_marker_map, read_markers
 from geocontact.io.opensim.osim_multibody import read_marker_set
-
-RIGHT, LEFT = "right", "left"
-_SIDED = re.compile(r"(?P<stem>.+)_(?P<end>r|l|right|left)|(?P<begin>r|l|right|left)_(?P<rest>.+)", re.IGNORECASE)
-
-
-def stem_and_side(name: str) -> tuple[str, str]:
-    """`hip_flexion_r` to `hip_flexion` and "right"; "" for a name without a side."""
-    found = _SIDED.fullmatch(name)
-    if found is None:
-        return name, ""
-    side = (found["end"] or found["begin"]).lower()
-    return found["stem"] or found["rest"], RIGHT if side.startswith("r") else LEFT
-
 
 TILTED = np.radians(60.0)
 """From upright, in half of the frames: who stands, walks or sits stays below; who lies or has other axes does not."""
 
-FREE = 6
-"""Coordinates of a joint that leaves a body free of the ground."""
+NAMED = 3
+"""Exchanged pairs that a question names; the map has all of them."""
+
+
+def exchange_question(exchanged: Exchanged) -> str:
+    """A question to whoever named the markers."""
+    named = ", ".join(f"{one} and {other}" for one, other in exchanged.pairs[:NAMED])
+    named += f" and {len(exchanged.pairs) - NAMED} more pairs" if len(exchanged.pairs) > NAMED else ""
+    number = f"{1e3 * exchanged.after:.1f} mm in place of {1e3 * exchanged.before:.1f} mm"
+    mapped = ",".join(f"{one}={other},{other}={one}" for one, other in exchanged.pairs)
+    return f"are markers {named} exchanged? That would leave {number}: try `markers_map` {mapped}"
 
 
 def warn_of_tilt(model: Multibody, values: Float[np.ndarray, "t n"], axes: str | None) -> None:
     """A warning where the root body is far from how the model stands by default, with the axes that would mend it."""
-    root = next((j for j in model.joints if j.parent == GROUND and len(j.coordinates) == FREE), None)
-    if root is None or not np.any(model.gravity):
+    tilt = root_tilt(model, values)
+    if tilt is None or tilt.angle <= TILTED:
         return
-    up, ups = -model.gravity / np.linalg.norm(model.gravity), _ups(model, root, values)
-    tilt = np.arccos(np.clip(ups @ up, -1.0, 1.0))
-    if not len(tilt) or np.median(tilt) <= TILTED:
-        return
-    meant = axes_upright(ups.mean(axis=0), up, axes)
     reserve(
-        f"{root.child} is {np.degrees(np.median(tilt)):.0f} degrees from upright in half of the frames: gravity of "
-        f"{model.name} does not point down in the recording; unless the subject lies, try `axes` {meant}"
+        f"{tilt.body} is {np.degrees(tilt.angle):.0f} degrees from upright in half of the frames: gravity of "
+        f"{model.name} does not point down in the recording; unless the subject lies, try `axes` "
+        f"{axes_upright(tilt.up, model.up, axes)}"
     )
-
-
-def _ups(model: Multibody, root: JointModel, values: Float[np.ndarray, "t n"]) -> Float[np.ndarray, "s 3"]:
-    """Where what is up in the body by default points, in the frames that tell the root's coordinates."""
-    names = [c.name for c in model.coordinates]
-    own = [names.index(c.name) for c in root.coordinates]
-    known = values[np.isfinite(values[:, own]).all(axis=1)][:, own]
-    default = np.array([[c.default for c in root.coordinates]])
-    first, *rest = (
-        root.pose(dict(zip((c.name for c in root.coordinates), rows.T, strict=True)), len(rows))
-        for rows in (default, known)
-    )
-    up = -model.gravity / np.linalg.norm(model.gravity)
-    inner = first.rotation.inv().apply(up)
-    return np.asarray(rest[0].rotation.apply(inner)).reshape(-1, 3)
 
 
 def axes_upright(found: Float[np.ndarray, " 3"], up: Float[np.ndarray, " 3"], axes: str | None) -> str:
@@ -75,25 +52,9 @@ def axes_upright(found: Float[np.ndarray, " 3"], up: Float[np.ndarray, " 3"], ax
 
     The shortest turn, after the one that was asked for: which way the subject faces is not known from this.
     """
-    start, end = _nearest_axis(found), _nearest_axis(up)
-    turn = np.eye(3)
-    if np.array_equal(start, -end):  # half a turn about any axis across it
-        across = np.roll(np.abs(end), 1)
-        turn = 2.0 * np.outer(across, across) - np.eye(3)
-    elif not np.array_equal(start, end):
-        pivot = np.cross(start, end)
-        turn = np.outer(end, start) - np.outer(start, end) + np.outer(pivot, pivot)
     given = np.eye(3) if axes is None else turned_axes(axes, "`axes`").as_matrix()
-    rows = np.rint(turn @ given).astype(int)
+    rows = np.rint(shortest_turn(found, up) @ given).astype(int)
     return ",".join(f"{'-' if row.min() < 0 else ''}{'xyz'[int(np.argmax(np.abs(row)))]}" for row in rows)
-
-
-def _nearest_axis(direction: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " 3"]:
-    """Unit vector along the coordinate axis that a direction is nearest to."""
-    found = np.zeros(3)
-    largest = int(np.argmax(np.abs(direction)))
-    found[largest] = np.sign(direction[largest]) or 1.0
-    return found
 
 
 LARGEST, SMALLEST, FEW = 20.0, 0.05, 5

@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Bool, Float
 
-from geocontact.analyses.motion.markers import RIGHT, stem_and_side
 from geocontact.data.multibody.joint import Coordinate
 from geocontact.data.multibody.model import Multibody
+from geocontact.data.sides import RIGHT, stem_and_side
 from geocontact.view.curves.quantity import TIME
 from geocontact.view.curves.sheet import plain
 from geocontact.view.curves.style import DOUBLE, LINES, PALETTE, in_style, legend, panels

@@ -80,7 +80,7 @@ def markers_beside(seen: Float[np.ndarray, "t m 3"], modelled: Float[np.ndarray,
 
 def forces_on(model: Multibody, loads: Mapping[str, Wrench], shown: Int[np.ndarray, " k"]) -> list[Linkage]:
     """Measured forces from the centre of pressure on the floor upwards, 1 m for 1000 N; none below 20 N."""
-    up = upwards(model)
+    up = model.up
     ends = []
     for wrench in loads.values():
         foot = wrench.centre_of_pressure(np.zeros(3), up, LOADED)
@@ -91,15 +91,9 @@ def forces_on(model: Multibody, loads: Mapping[str, Wrench], shown: Int[np.ndarr
     return [Linkage("measured forces, 1 m for 1000 N", np.stack(ends, axis=1), lines, "force", 0.0, ROD)]
 
 
-def upwards(model: Multibody) -> Float[np.ndarray, " 3"]:
-    """Unit vector against gravity in the ground's frame; y where there is no gravity."""
-    size = float(np.linalg.norm(model.gravity))
-    return np.array([0.0, 1.0, 0.0]) if size == 0.0 else np.asarray(0.0 - model.gravity / size)
-
-
 def scene_of(model: Multibody, linkages: Sequence[Linkage]) -> Scene:
     """The picture: linkages over a floor through the ground's origin, seen from a little above and the right."""
-    return scene_over(upwards(model), linkages)
+    return scene_over(model.up, linkages)
 
 
 def scene_over(up: Float[np.ndarray, " 3"], linkages: Sequence[Linkage]) -> Scene:

@@ -236,6 +236,17 @@ class Multibody:
         """Mass of all bodies [kg]."""
         return sum(body.mass for body in self.bodies)
 
+    @property
+    def weight(self) -> float:
+        """Weight of all bodies [N]."""
+        return self.mass * float(np.linalg.norm(self.gravity))
+
+    @property
+    def up(self) -> Float[np.ndarray, " 3"]:
+        """Unit vector against gravity in the ground's frame; y where there is no gravity."""
+        size = float(np.linalg.norm(self.gravity))
+        return np.array([0.0, 1.0, 0.0]) if size == 0.0 else np.asarray(0.0 - self.gravity / size)
+
     def poses(self, values: Float[np.ndarray, "t n"]) -> dict[str, RigidTransform]:
         """Poses of the bodies in the ground, one for each row of coordinates [rad, m]; the ground's own among them."""
         frames = len(values)

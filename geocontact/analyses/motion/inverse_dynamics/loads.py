@@ -12,14 +12,23 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.quantities import turned_axes
-from geocontact.analyses.motion.gait_cycles import Strikes, strikes_on_plates, strikes_typed
+from geocontact.analyses.motion.gait_cycles import ONSET, strikes_typed
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
-from geocontact.analyses.motion.skeleton import upwards
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import Multibody, PassiveForces
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.inverse_dynamics import SMOOTH
+from geocontact.dynamics.loads_on_bodies import (
+    added,
+    farthest_line,
+    from_bodies,
+    misplaced_loads,
+    without_torque,
+    without_unloaded,
+    zero_unloaded,
+)
 from geocontact.identify.signals.filters import UNEVEN, as_opensim
+from geocontact.identify.signals.gait_cycles import Strikes, strikes_on_plates
 from geocontact.io.mocap.force_plates import OPENSIM_FRAME, ForcePlate, plate_named, read_force_plates
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.external_loads import ExternalLoad, read_external_loads
@@ -55,17 +64,16 @@ def loads_on_bodies(
             if body and body not in names:
                 raise InputError(o.loads or "", load.plate, f"no body '{body}'", f"bodies are: {listed(names)}")
         named = "`plate`" if o.loads is None else f"{o.loads} <force_identifier>"
-        plate = plate_named(plates, load.plate, file, named, _weight(model), not load.force_frame)
+        plate = plate_named(plates, load.plate, file, named, model.weight, not load.force_frame)
         poses = model.poses(values)
         if load.moves:
             wrench = _carried(file, plate, load, o.threshold, time, poses)
         else:
-            wrench = _during(file, _loaded(_turned(plate, o, file, model), load, o.threshold), time)
+            turned = _turned(plate, o, file, model)
+            acting = turned.wrench if load.torque else without_torque(turned.wrench)
+            wrench = _during(file, replace(turned, wrench=without_unloaded(acting, o.threshold)), time)
         _warn_of_far_points(file, load, wrench, poses[load.body].translation)
-        before = found.get(load.body)
-        if before is not None:
-            wrench = replace(wrench, force=wrench.force + before.force, moment=wrench.moment + before.moment)
-        found[load.body] = wrench
+        found[load.body] = added(wrench, found[load.body]) if load.body in found else wrench
     return found
 
 
@@ -82,11 +90,6 @@ def _given(o: IdOptions) -> tuple[Path | None, tuple[ExternalLoad, ...]]:
             raise InputError("", "`plate`", f"'{text}' is not a plate and a body", "write 1=calcn_r")
         chosen.append(ExternalLoad(plate, body))
     return o.plates, tuple(chosen)
-
-
-def _weight(model: Multibody) -> float:
-    """Weight of all bodies [N]."""
-    return model.mass * float(np.linalg.norm(model.gravity))
 
 
 def _turned(plate: ForcePlate, o: IdOptions, file: Path, model: Multibody) -> ForcePlate:
@@ -106,18 +109,6 @@ def _turned(plate: ForcePlate, o: IdOptions, file: Path, model: Multibody) -> Fo
         what = f"its floor's normal is {normal}, the model's gravity pulls along {' '.join(f'{x:.2g}' for x in down)}"
         raise InputError(file, plate.name, what, "say which axes are the model's: `axes` x,z,-y where z is up")
     return plate
-
-
-def _loaded(plate: ForcePlate, load: ExternalLoad, threshold: float) -> ForcePlate:
-    """The plate without what it shows below the threshold, where its point means nothing, or without its torque."""
-    wrench = plate.wrench
-    if not load.torque:
-        wrench = replace(wrench, moment=np.zeros_like(wrench.moment))
-    about = wrench.moved_to(np.zeros(3))
-    size = np.linalg.norm(wrench.force, axis=1)
-    idle = (size < threshold) | (size == 0.0)  # a force that is missing is not small
-    force, moment = (np.where(idle[:, None], 0.0, each) for each in (about.force, about.moment))
-    return replace(plate, wrench=Wrench(force, moment, np.zeros_like(force), wrench.frame))
 
 
 def _during(file: Path, plate: ForcePlate, time: Float[np.ndarray, " t"]) -> Wrench:
@@ -143,63 +134,34 @@ def _carried(
     poses: Mapping[str, RigidTransform],
 ) -> Wrench:
     """The wrench of a force, torque and point that are expressed in bodies, about the ground's origin."""
-    wrench = plate.wrench
-    torque = wrench.moment if load.torque else np.zeros_like(wrench.moment)
-    size = np.linalg.norm(wrench.force, axis=1)
-    idle = ((size < threshold) | (size == 0.0))[:, None]
-    own = [np.where(idle, 0.0, each) for each in (wrench.force, torque, wrench.origin)]
-    still = replace(plate, wrench=Wrench(own[0], np.zeros_like(torque), np.zeros_like(torque), wrench.frame))
-    _during(file, still, time)  # refuses gaps and other clocks
-    force, moment, point = (np.column_stack([np.interp(time, plate.time, column) for column in each.T]) for each in own)
-    if load.force_frame:
-        turn = poses[load.force_frame].rotation
-        force, moment = turn.apply(force), turn.apply(moment)
-    point = poses[load.point_frame].apply(point) if load.point_frame else point
-    lost = ~np.isfinite(np.column_stack([moment, point])).all(axis=1)
+    own = zero_unloaded(plate.wrench if load.torque else without_torque(plate.wrench), threshold)
+    still = replace(without_torque(own), origin=np.zeros_like(own.origin))
+    _during(file, replace(plate, wrench=still), time)  # refuses gaps and other clocks
+    turning, carrying = poses.get(load.force_frame), poses.get(load.point_frame)
+    wrench = from_bodies(plate.time, own, time, turning, carrying, OPENSIM_FRAME)
+    lost = ~np.isfinite(wrench.moment).all(axis=1)
     if lost.any():
         raise InputError(file, plate.name, f"point or torque is missing at {time[np.argmax(lost)]:g} s", "fill the gap")
-    return Wrench(force, moment, point, OPENSIM_FRAME).moved_to(np.zeros(3))
+    return wrench
 
 
 def _warn_of_far_points(file: Path, load: ExternalLoad, wrench: Wrench, origin: Float[np.ndarray, "t 3"]) -> None:
     """A force whose line passes far from the body it is said to act on: exchanged plates, or noise of a small force."""
-    size = np.linalg.norm(wrench.force, axis=1)
-    on = size > 0.0
-    if not on.any():
+    line = farthest_line(wrench, origin)
+    if line is None:
         reserve(f"{file}: {load.plate} carries nothing during the motion")
-        return
-    arm = np.linalg.norm(wrench.moved_to(origin).moment[on], axis=1) / size[on]
-    if arm.max() > REACH:
-        what = f"a force of {size[on][np.argmax(arm)]:.3g} N passes {arm.max():.3g} m from the origin of {load.body}"
+    elif line.distance > REACH:
+        what = f"a force of {line.force:.3g} N passes {line.distance:.3g} m from the origin of {load.body}"
         reserve(f"{file}: {load.plate}: {what}: exchanged plates, or a higher `threshold`?")
 
 
-LOADED = 50.0  # N, from which a centre of pressure is exact to centimetres
-
-
 def warn_of_other_feet(model: Multibody, values: Float[np.ndarray, "t c"], loads: Mapping[str, Wrench]) -> None:
-    """A reservation where a load passes nearer another loaded body than its own, in most of the frames.
-
-    Plates that are exchanged leave no residual at the ground: the sum of all loads is the same.
-    """
-    up, poses = upwards(model), model.poses(values)
-    for body, load in loads.items():
-        centre = load.centre_of_pressure(np.zeros(3), up, LOADED)
-        away = {name: _across(poses[name].translation - centre, up) for name in loads if name in poses}
-        there = np.isfinite(centre).all(axis=1)
-        if body not in away or not there.any():
-            continue
-        typical = {name: float(np.median(distance[there])) for name, distance in away.items()}
-        nearest = min(typical, key=lambda name: typical[name])
-        if nearest != body:
-            reserve(
-                f"the load on {body} acts {typical[body]:.2f} m from it and {typical[nearest]:.2f} m from {nearest} "
-                "(median over its frames): are the loads of the two exchanged?"
-            )
-
-
-def _across(offset: Float[np.ndarray, "t 3"], up: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " t"]:
-    return np.asarray(np.linalg.norm(offset - (offset @ up)[:, None] * up, axis=1))
+    """A reservation for each load that passes nearer another loaded body than its own, in most of the frames."""
+    for load in misplaced_loads(model, values, loads):
+        reserve(
+            f"the load on {load.body} acts {load.distance:.2f} m from it and {load.nearest_distance:.2f} m from "
+            f"{load.nearest} (median over its frames): are the loads of the two exchanged?"
+        )
 
 
 @dataclass(frozen=True)
@@ -247,7 +209,7 @@ def read(o: IdOptions) -> Loaded:
     shown = _shown(table, o.time)
     time = table.time[shown]
     loads = loads_on_bodies(o, model, time, values[shown])
-    strikes = strikes_typed(o.events) or strikes_on_plates(time, loads, upwards(model))
+    strikes = strikes_typed(o.events) or strikes_on_plates(time, loads, model.up, ONSET)
     passive = read_passive_forces(o.model, model, o.exclude)
     return Loaded(model, table.time, unfiltered, values, time, loads, strikes, passive)
 

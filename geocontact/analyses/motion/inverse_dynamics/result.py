@@ -22,8 +22,8 @@ from geocontact.analyses.frame.collector import reserve, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
-from geocontact.analyses.motion.inverse_dynamics.forces import Forces, warn_of_residuals, words, write_setup
+from geocontact.analyses.motion.gait_cycles import cycles_table
+from geocontact.analyses.motion.inverse_dynamics.forces import warn_of_residuals, words, write_setup
 from geocontact.analyses.motion.inverse_dynamics.loads import Loaded, read, warn_of_other_feet
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.inverse_dynamics.show import forces_page
@@ -31,7 +31,9 @@ from geocontact.analyses.motion.panels import curves_figure
 from geocontact.data.multibody.model import PassiveForces
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.inverse_dynamics import forces_along
+from geocontact.dynamics.residuals import GeneralisedForces, largest_net_force, mean_height
 from geocontact.dynamics.tree import tree_of
+from geocontact.identify.signals.gait_cycles import GaitCycles, gait_cycles
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.text.tables import listed
 
@@ -64,7 +66,7 @@ class IdResult(Result):
     elsewhere: ClassVar[frozenset[str]] = frozenset({"forces"})
 
     options: IdOptions
-    forces: Forces
+    forces: GeneralisedForces
     given: Loaded
     coordinates: Float[np.ndarray, "t n"]
     loads: Mapping[str, Wrench]
@@ -77,7 +79,7 @@ class IdResult(Result):
         units = ["N m" if name.endswith("_moment") else "N" for name in f.names]
         columns = {f"{n} [{unit}]": v for n, unit, v in zip(f.names, units, np.asarray(f.values).T, strict=True)}
         found = {"forces": pd.DataFrame({"time [s]": f.time, **columns})}
-        return {**found, "cycles": self.cycles.table()} if self.cycles else found
+        return {**found, "cycles": cycles_table(self.cycles)} if self.cycles else found
 
     def figure(self) -> Figure:
         """Moments and forces over time, without those at the ground."""
@@ -107,7 +109,8 @@ def run(given: Loaded, o: IdOptions) -> IdResult:
     """Forces along all coordinates, and what motion, masses and plates leave over at the ground."""
     tree, passive = tree_of(given.model), given.passive
     found = forces_along(tree, given.recorded, given.values, given.time, given.loads, passive.acting)
-    forces = Forces(given.time, given.model, found, _peak(given.loads), _height(given))
+    peak, height = largest_net_force(given.loads), mean_height(given.model, given.values)
+    forces = GeneralisedForces(given.time, given.model, found, peak, height)
     summary = {**_summary(forces), **_of_the_model(passive)}
     cycles = _cycles(forces, given)
     if cycles:
@@ -140,7 +143,7 @@ def _of_the_model(passive: PassiveForces) -> dict[str, object]:
     return {"passive_forces": acting, "passive_forces_left_out": [*passive.excluded, *passive.unread]}
 
 
-def _cycles(forces: Forces, given: Loaded) -> GaitCycles:
+def _cycles(forces: GeneralisedForces, given: Loaded) -> GaitCycles:
     """Cycles of all but the residuals, by the mass of the model."""
     model = forces.model
     if not model.mass > 0.0:
@@ -152,20 +155,7 @@ def _cycles(forces: Forces, given: Loaded) -> GaitCycles:
     return gait_cycles(forces.time, [c.name for c in coordinates], units, values, given.strikes)
 
 
-def _peak(loads: dict[str, Wrench]) -> float:
-    """Peak of the net force: all loads together."""
-    net = sum((wrench.force for wrench in loads.values()), start=np.zeros((1, 3)))
-    return float(np.linalg.norm(net, axis=1).max())
-
-
-def _height(given: Loaded) -> float:
-    """Height of the mass centre above the ground's origin, mean over the whole recording [m]; 0 without gravity."""
-    size = float(np.linalg.norm(given.model.gravity))
-    up = -given.model.gravity / size if size > 0.0 else np.zeros(3)
-    return float(np.mean(given.model.mass_centre(given.values) @ up))
-
-
-def _summary(forces: Forces) -> dict[str, object]:
+def _summary(forces: GeneralisedForces) -> dict[str, object]:
     """Numbers of the whole motion, as `id.json` holds them."""
     units = ["N_m" if name.endswith("_moment") else "N" for name in forces.names]
     left = {
@@ -185,13 +175,12 @@ def _summary(forces: Forces) -> dict[str, object]:
     }
 
 
-def _tell(forces: Forces) -> None:
+def _tell(forces: GeneralisedForces) -> None:
     warn_of_residuals(forces)
-    sizes = np.abs(np.where(forces.at_ground, 0.0, forces.values))
-    frame, largest = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
-    name = forces.names[int(largest)]
+    frame, largest = forces.largest(~forces.at_ground)
+    name = forces.names[largest]
     unit = "N m" if name.endswith("_moment") else "N"
-    said = f"{len(forces.time)} frames; most at {name}, {sizes[frame, largest]:.4g} {unit}"
+    said = f"{len(forces.time)} frames; most at {name}, {abs(np.asarray(forces.values)[frame, largest]):.4g} {unit}"
     say("; ".join(each for each in (said, words(forces)) if each))
 
 

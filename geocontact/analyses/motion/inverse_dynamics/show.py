@@ -9,11 +9,12 @@ from jaxtyping import Bool, Float, Int
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.motion.gait_cycles import GaitCycles, cycles_pictured
-from geocontact.analyses.motion.inverse_dynamics.forces import Forces, force_left, moment_left, verdict
+from geocontact.analyses.motion.gait_cycles import cycles_pictured
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import forces_on, scene_of, skeleton
 from geocontact.data.wrench import Wrench
+from geocontact.dynamics.residuals import GeneralisedForces, force_residual, moment_residual, verdict
+from geocontact.identify.signals.gait_cycles import GaitCycles
 from geocontact.view.page.content import Curve, Curves, Page, Scale, Section, Table, Words
 
 LEFT = (
@@ -30,7 +31,7 @@ FILTERED = (
 
 def forces_page(
     title: str,
-    forces: Forces,
+    forces: GeneralisedForces,
     coordinates: Float[np.ndarray, "t n"],
     loads: Mapping[str, Wrench],
     cycles: GaitCycles,
@@ -68,53 +69,46 @@ def forces_page(
     )
 
 
-def answer(forces: Forces, turning: Bool[np.ndarray, " n"]) -> list[str]:
+def answer(forces: GeneralisedForces, turning: Bool[np.ndarray, " n"]) -> list[str]:
     """The largest moment, and what is left over at the ground; nothing where no joint turns."""
     if not turning.any():
         return []
-    frame, which = _largest(forces, turning)
+    frame, which = forces.largest(turning)
     name, size = forces.model.coordinates[which].name, abs(forces.values[frame, which])
     told = [f"{name} needs the largest moment, {size:.1f} N m at {forces.time[frame]:.3g} s."]
     if forces.at_ground.any():
-        left = force_left(forces)
+        left = force_residual(forces)
         of = "largest measured force" if forces.peak > 0.0 else "weight, as nothing but gravity acts"
         told.append(f"Up to {left.size:.0f} N are left over at the ground: {left.share:.1%} of the {of}.")
     return told
 
 
-def _largest(forces: Forces, turning: Bool[np.ndarray, " n"]) -> tuple[int, int]:
-    """Frame and coordinate of the largest moment."""
-    sizes = np.abs(np.where(turning, forces.values, 0.0))
-    frame, which = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
-    return int(frame), int(which)
-
-
-def _start(forces: Forces, turning: Bool[np.ndarray, " n"], shown: Int[np.ndarray, " k"]) -> int:
+def _start(forces: GeneralisedForces, turning: Bool[np.ndarray, " n"], shown: Int[np.ndarray, " k"]) -> int:
     """The frame shown that is next to the largest moment."""
-    return int(np.argmin(np.abs(shown - _largest(forces, turning)[0]))) if turning.any() else 0
+    return int(np.argmin(np.abs(shown - forces.largest(turning)[0]))) if turning.any() else 0
 
 
-def _facts(forces: Forces, turning: Bool[np.ndarray, " n"]) -> list[tuple[str, str]]:
+def _facts(forces: GeneralisedForces, turning: Bool[np.ndarray, " n"]) -> list[tuple[str, str]]:
     told = []
     if turning.any():
-        frame, which = _largest(forces, turning)
+        frame, which = forces.largest(turning)
         where = f"{forces.model.coordinates[which].name} at {forces.time[frame]:.3g} s"
         told.append(("Largest moment", f"{abs(forces.values[frame, which]):.1f} N m, {where}"))
     if forces.at_ground.any():
-        left = force_left(forces)
+        left = force_residual(forces)
         of = "the largest measured force" if forces.peak > 0.0 else "the weight, as nothing but gravity acts"
         told.append(("Left over at the ground, at most", f"{left.size:.1f} N ({left.share:.1%} of {of})"))
     return told
 
 
-def _residuals(forces: Forces) -> list[Section]:
+def _residuals(forces: GeneralisedForces) -> list[Section]:
     """Sizes beside what they should be below; nothing where no body is free."""
     if not forces.at_ground.any():
         return []
     rows = []
     for name, unit, sizes, peak in (
-        ("force", "N", forces.residual_forces, force_left(forces)),
-        ("moment", "N m", forces.residual_moments, moment_left(forces)),
+        ("force", "N", forces.residual_forces, force_residual(forces)),
+        ("moment", "N m", forces.residual_moments, moment_residual(forces)),
     ):
         limit = f"{peak.allowed * peak.whole:.1f}" if peak.whole > 0.0 else "-"
         mean = float(np.sqrt(np.mean(sizes**2)))
@@ -125,7 +119,10 @@ def _residuals(forces: Forces) -> list[Section]:
 
 
 def _left_over(
-    forces: Forces, values: Float[np.ndarray, "t n"], turning: Bool[np.ndarray, " n"], base: Bool[np.ndarray, " n"]
+    forces: GeneralisedForces,
+    values: Float[np.ndarray, "t n"],
+    turning: Bool[np.ndarray, " n"],
+    base: Bool[np.ndarray, " n"],
 ) -> list[Section]:
     found: list[Section] = []
     for title, unit, which in (("forces", "N", ~turning & base), ("moments", "N m", turning & base)):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from geocontact.analyses.frame.collector import add_input
-from geocontact.analyses.motion.gait_cycles import Strikes, strikes_marked, strikes_typed
+from geocontact.analyses.motion.gait_cycles import strikes_marked, strikes_typed
 from geocontact.analyses.motion.inverse_kinematics.knees import Knee, knees_of
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.marker_tasks import marker_tasks, renamed
@@ -13,6 +13,7 @@ from geocontact.analyses.motion.markers import markers_given, with_marker_set
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
+from geocontact.identify.signals.gait_cycles import Strikes
 from geocontact.io.mocap.c3d_analogs import read_c3d_analogs
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import TextTable

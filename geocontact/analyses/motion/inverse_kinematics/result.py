@@ -25,19 +25,20 @@ from geocontact.analyses.frame.collector import listener, reserve, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.motion.exchanged_markers import exchanged_markers
-from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
+from geocontact.analyses.motion.gait_cycles import cycles_table
 from geocontact.analyses.motion.inverse_kinematics.knees import knee_table
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.inverse_kinematics.read import KinematicsInputs, read
 from geocontact.analyses.motion.inverse_kinematics.show import kinematics_page
 from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
-from geocontact.analyses.motion.markers import warn_of_tilt
+from geocontact.analyses.motion.markers import exchange_question, warn_of_tilt
 from geocontact.analyses.motion.panels import curves_figure, printed
 from geocontact.data.errors import InputError
+from geocontact.dynamics.exchanged_markers import exchanged_markers
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics as kinematics_of
 from geocontact.dynamics.tree import tree_of
+from geocontact.identify.signals.gait_cycles import GaitCycles, gait_cycles
 from geocontact.io.mocap.trc import write_trc
 from geocontact.io.opensim.osim_scaler import write_scaled_model
 from geocontact.io.opensim.storage_writer import write_storage
@@ -93,7 +94,7 @@ class IkResult(Result):
         found = {"coordinates": pd.DataFrame({"time [s]": p.time, **angles}), "markers": self._distances()}
         if self.seen.knees:
             found["knees"] = knee_table(self.seen.model, p, self.seen.knees)
-        return {**found, "cycles": self.cycles.table()} if self.cycles else found
+        return {**found, "cycles": cycles_table(self.cycles)} if self.cycles else found
 
     def figure(self) -> Figure:
         """Angles of all joints over time, and how far the markers are from the model."""
@@ -155,8 +156,8 @@ def run(seen: KinematicsInputs, o: IkOptions) -> IkResult:
     result = IkResult(options=o, seen=seen, poses=found, cycles=cycles, summary=summary)
     results().update(plain(summary))
     errors = MarkerErrors.of(found)
-    exchanged = exchanged_markers(tree, seen.markers, seen.tasks, found)
-    errors.warn(MOVING, "" if exchanged is None else exchanged.words)
+    exchanged = exchanged_markers(tree, seen.markers, seen.tasks, found, MOVING.rms, MOVING.largest)
+    errors.warn(MOVING, "" if exchanged is None else exchange_question(exchanged))
     if exchanged is None:
         warn_of_tilt(seen.model, found.values, o.axes)
     _warn(found)

@@ -9,12 +9,13 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.motion.gait_cycles import GaitCycles, cycles_pictured
+from geocontact.analyses.motion.gait_cycles import cycles_pictured
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
+from geocontact.identify.signals.gait_cycles import GaitCycles
 from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Scene, Section, Table, Words
 
 SKIN = (

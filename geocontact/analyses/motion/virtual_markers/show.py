@@ -7,7 +7,7 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
-from geocontact.analyses.motion.skeleton import JOINT, MARKER, scene_of, skeleton, upwards
+from geocontact.analyses.motion.skeleton import JOINT, MARKER, scene_of, skeleton
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.view.page.content import Curve, Curves, Linkage, Page, Scene, Section, Words
@@ -51,7 +51,7 @@ def answer(model: Multibody, markers: MarkerTrajectories) -> list[str]:
     """How long the markers were followed, and which one moves farthest and which comes lowest."""
     time, places = markers.time, markers.positions
     reach = np.linalg.norm(np.nanmax(places, axis=0) - np.nanmin(places, axis=0), axis=1)
-    heights = places @ upwards(model)
+    heights = places @ model.up
     far, low = int(np.nanargmax(reach)), int(np.nanargmin(np.nanmin(heights, axis=0)))
     told = f"{counted(len(markers.names), 'marker')} over {time[-1] - time[0]:.3g} s in {counted(len(time), 'frame')}"
     return [

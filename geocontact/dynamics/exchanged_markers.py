@@ -7,8 +7,8 @@ from itertools import combinations
 
 import numpy as np
 
-from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
 from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
+from geocontact.data.sides import differ_by_side
 from geocontact.dynamics.inverse_kinematics import Poses, inverse_kinematics
 from geocontact.dynamics.tree import Tree
 
@@ -18,36 +18,47 @@ FRAMES = 2  # that exchanges are tried in
 NEAR = 6  # pairs tried besides right and left, those that gain most where the model stands
 MOST = 6  # exchanges of one recording
 BETTER = 0.6  # of the root mean square before, that an exchange has to leave less of
-NAMED = 3  # pairs; the map has all of them
 EXPLAINED = 0.5  # of the first root mean square, that all of them have to leave less of
 
 
 @dataclass(frozen=True)
 class Exchanged:
-    """Pairs of markers, and root mean square distances of all from the model before and after [m]."""
+    """Pairs of markers, and the root mean square of all distances from the model in the frames tried.
+
+    Parameters
+    ----------
+    pairs
+        Names, of which each has the place of the other.
+    before, after
+        Distances with the names as they are and exchanged [m].
+    """
 
     pairs: Pairs
     before: float
     after: float
 
-    @property
-    def words(self) -> str:
-        """A question to whoever named the markers."""
-        named = ", ".join(f"{one} and {other}" for one, other in self.pairs[:NAMED])
-        named += f" and {len(self.pairs) - NAMED} more pairs" if len(self.pairs) > NAMED else ""
-        number = f"{1e3 * self.after:.1f} mm in place of {1e3 * self.before:.1f} mm"
-        mapped = ",".join(f"{one}={other},{other}={one}" for one, other in self.pairs)
-        return f"are markers {named} exchanged? That would leave {number}: try `markers_map` {mapped}"
 
-
-def exchanged_markers(tree: Tree, seen: MarkerTrajectories, tasks: MarkerTasks, found: Poses) -> Exchanged | None:
+def exchanged_markers(
+    tree: Tree, seen: MarkerTrajectories, tasks: MarkerTasks, found: Poses, rms: float, largest: float
+) -> Exchanged | None:
     """Pairs whose exchange explains most of large distances, one after the other; None where there are none.
 
-    Tried in a few frames, each beginning at the model's default pose: right for left in all names, right for left in
-    one, and the pairs that gain most where the model stands.
+    Tried in two frames, each beginning at the model's default pose: right for left in all names, right for left in
+    one, and the six pairs that gain most where the model stands. An exchange has to leave less than 0.6 of the root
+    mean square before it, all of them less than half of the first.
+
+    Parameters
+    ----------
+    tree
+        Of the model that has the markers.
+    seen, tasks
+        Markers as they were recorded, and their weights.
+    found
+        Inverse kinematics of all frames with the names as they are.
+    rms, largest
+        Root mean square and largest distance of markers from a model [m] up to which nothing is searched.
     """
-    errors = MarkerErrors.of(found)
-    if errors.within(MOVING):
+    if _within(found, rms, largest):
         return None
     frames = _telling(found)
     part = MarkerTrajectories(seen.time[frames], seen.positions[frames], seen.names, seen.source)
@@ -58,7 +69,7 @@ def exchanged_markers(tree: Tree, seen: MarkerTrajectories, tasks: MarkerTasks, 
     for _ in range(MOST):
         tried: list[Pairs] = [(pair,) for pair in dict.fromkeys((*sides, *_gaining(tree, part, poses)))]
         tried += [sides] if not exchanged and len(sides) > 1 else []
-        if MarkerErrors.of(poses).within(MOVING) or not tried:
+        if _within(poses, rms, largest) or not tried:
             break
         each = [inverse_kinematics(tree, _with(part, pairs), tasks) for pairs in tried]
         best = int(np.argmin([_rms(one) for one in each]))
@@ -78,15 +89,7 @@ def _telling(found: Poses) -> list[int]:
 
 def _sides(names: tuple[str, ...]) -> Pairs:
     """Names that differ by right and left alone: RASI and LASI, knee_r and knee_l."""
-    return tuple((one, other) for one, other in combinations(names, 2) if _other_side(one, other))
-
-
-def _other_side(one: str, other: str) -> bool:
-    a, b = one.lower().replace("right", "r"), other.lower().replace("left", "l")
-    if "left" in one.lower() or "right" in other.lower():
-        a, b = other.lower().replace("right", "r"), one.lower().replace("left", "l")
-    differing = [{x, y} for x, y in zip(a, b, strict=False) if x != y]
-    return len(a) == len(b) and differing == [{"r", "l"}]
+    return tuple((one, other) for one, other in combinations(names, 2) if differ_by_side(one, other))
 
 
 def _gaining(tree: Tree, seen: MarkerTrajectories, poses: Poses) -> Pairs:
@@ -106,6 +109,10 @@ def _with(seen: MarkerTrajectories, pairs: Pairs) -> MarkerTrajectories:
     """Each marker of a pair at the place of the other."""
     names = {a: b for one, other in pairs for a, b in ((one, other), (other, one))}
     return MarkerTrajectories(seen.time, seen.renamed(names).of(seen.names), seen.names, seen.source)
+
+
+def _within(poses: Poses, rms: float, largest: float) -> bool:
+    return _rms(poses) <= rms and float(np.nanmax(poses.distances)) <= largest
 
 
 def _rms(poses: Poses) -> float:
