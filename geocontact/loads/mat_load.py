@@ -219,7 +219,7 @@ def wrench_covariance(
     placed: MatMap, pressure: Float[np.ndarray, "t n"], wrench: Wrench, errors: MatErrors
 ) -> Float[np.ndarray, "t six six"]:
     """Covariance of force [N] and moment [N m] about the wrench's origin, frame by frame."""
-    middle = (placed.area @ placed.centre) / placed.area.sum()
+    middle = placed.middle
     origin = wrench.origin[0]
     own = np.concatenate([placed.force, placed.moment - np.cross(origin, placed.force)], axis=1)
     total = np.einsum("tn,ni,nj->tij", (errors.cell * pressure) ** 2, own, own, optimize=True)

@@ -54,6 +54,15 @@ class MatMap:
     share: csr_array
     left_out: Bool[np.ndarray, "r c"]
 
+    @property
+    def middle(self) -> Float[np.ndarray, " 3"]:
+        """Where equal pressures act: mean of the centres, weighted with the areas [m]."""
+        return np.asarray((self.area @ self.centre) / self.area.sum())
+
+    def lying_on(self, faces: Bool[np.ndarray, " f"]) -> Bool[np.ndarray, " n"]:
+        """Cells that press on these faces of the surface with half of their load or more."""
+        return np.asarray(self.share.T @ np.asarray(faces, float) >= 0.5)
+
     def of(self, pressure: Float[np.ndarray, "t r c"]) -> Float[np.ndarray, "t n"]:
         """Pressures of these cells [Pa]; what reads below zero stays, so that noise of unloaded cells averages out."""
         return np.asarray(pressure[:, self.cell[:, 0], self.cell[:, 1]])

@@ -5,7 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.identify.signals.agreement import agreement, over_stretches, per_phase
+from geocontact.identify.signals.agreement import (
+    agreement,
+    by_phase,
+    over_stretches,
+    overlap,
+    per_phase,
+    samples_within,
+)
 from geocontact.identify.signals.filters import zero_lag
 
 STEP = 0.02
@@ -116,3 +123,25 @@ def test_a_steady_rise_tells_no_lag() -> None:
     assert np.isnan(over_stretches(np.ones(400), curve(), STEP, [(50, 150)]).lag)
     late = over_stretches(curve(0.9), curve(), STEP, [(50, 150)])
     assert np.isnan(late.lag), "a lag beyond the range that is looked at is not one at its end"
+
+
+def test_samples_of_a_phase_include_its_ends_though_they_are_rounded() -> None:
+    time = np.array([0.0, 0.1, 0.2, 0.3, 0.4])
+    assert samples_within(time, 0.1, 0.3) == (1, 4)
+    assert samples_within(time, 0.1 + 5e-7, 0.3 - 5e-7) == (1, 4)
+    assert samples_within(time, 0.11, 0.19) == (2, 2)
+
+
+def test_stretches_overlap_where_they_share_a_sample() -> None:
+    assert not overlap([(5, 9), (0, 5)])
+    assert overlap([(5, 9), (0, 6)])
+
+
+def test_phases_that_are_named_are_taken_together_and_else_parts() -> None:
+    model = curve() + np.where(np.arange(len(TIME)) < 100, 1.0, 0.0)
+    named = by_phase(model, curve(), STEP, {"early": [(0, 50), (50, 100)], "mixed": [(0, 100), (200, 300)]})
+    assert list(named) == ["all", "early", "mixed"]
+    assert [each.mae for each in named.values()] == pytest.approx([0.25, 1.0, 0.5])
+    parts = by_phase(model, curve(), STEP, parts=4)
+    assert list(parts) == ["all", "0-25 %", "25-50 %", "50-75 %", "75-100 %"]
+    assert [each.mae for each in parts.values()] == pytest.approx([0.25, 1.0, 0.0, 0.0, 0.0])

@@ -261,3 +261,27 @@ def test_covariance_of_a_registration_is_carried_to_the_wrench() -> None:
     seen = np.cov(np.array(drawn).T)
     scale = np.repeat([np.sqrt(np.diag(seen)[:3].max()), np.sqrt(np.diag(seen)[3:].max())], 3)
     np.testing.assert_allclose(told[0] / np.outer(scale, scale), seen / np.outer(scale, scale), atol=0.06)
+
+
+def two_cells() -> MatMap:
+    """Cells of 0.1 x 0.1 m and 0.1 x 0.2 m side by side along y on a plane of faces 0.05 m wide."""
+    flat = sheet(np.linspace(0.0, 0.2, 5), np.linspace(0.0, 0.4, 9), lambda a, b: np.stack([a, b, 0.0 * a], -1), "p")
+    x, y = np.meshgrid([0.05, 0.15], [0.05, 0.15, 0.35], indexing="ij")
+    nodes = np.stack([x, y, 0.0 * x], -1)
+    return mat_map(flat, nodes, np.ones((1, 2), bool), np.array([[0.01, 0.02]]))
+
+
+def test_the_middle_of_a_mat_weighs_cells_with_their_area() -> None:
+    # centres at y = 0.1 and 0.25
+    np.testing.assert_allclose(two_cells().middle, [0.1, (0.01 * 0.1 + 0.02 * 0.25) / 0.03, 0.0], atol=1e-12)
+
+
+def test_cells_lie_on_the_faces_that_carry_half_of_them() -> None:
+    # by y: the first cell lies below 0.15; of the second one a quarter lies below 0.2, and half below 0.25
+    flat = sheet(np.linspace(0.0, 0.2, 5), np.linspace(0.0, 0.4, 9), lambda a, b: np.stack([a, b, 0.0 * a], -1), "p")
+    y = flat.vertices[flat.faces, 1].mean(axis=1)
+    placed = two_cells()
+    assert placed.lying_on(y < 0.15).tolist() == [True, False]
+    assert placed.lying_on(y < 0.2).tolist() == [True, False]
+    assert placed.lying_on(y < 0.3).tolist() == [True, True]
+    assert placed.lying_on(y > 0.2).tolist() == [False, True]

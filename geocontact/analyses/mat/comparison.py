@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +14,7 @@ from geocontact.analyses.frame.collector import add_input, note, reserve, say
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.data.wrench import Wrench
-from geocontact.identify.signals.agreement import FEWEST, Agreement, agreement, over_stretches, per_phase
+from geocontact.identify.signals.agreement import FEWEST, ROUNDED, by_phase, overlap, samples_within
 from geocontact.identify.signals.filters import at_times, even_times
 from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.tables import TextTable, read_table
@@ -46,9 +45,6 @@ def load_table(load: MatLoad, time: Float[np.ndarray, " t"]) -> pd.DataFrame:
 
 
 COLUMNS = ("name", "start [s]", "end [s]")
-ROUNDED = 1e-6
-"""s; a frame that close to a start or an end belongs to the phase."""
-
 Stretches = list[tuple[int, int]]
 """First frame of each and the one after its last."""
 
@@ -79,8 +75,7 @@ def frames_of(phases: tuple[Phase, ...], time: Float[np.ndarray, " t"], o: MatOp
     file = o.phases or Path()
     found: dict[str, Stretches] = {}
     for k, phase in enumerate(phases, 1):
-        first = int(np.searchsorted(time, phase.start - ROUNDED))
-        last = int(np.searchsorted(time, phase.end + ROUNDED, side="right"))
+        first, last = samples_within(time, phase.start, phase.end)
         within = phase.start >= time[0] - ROUNDED and phase.end <= time[-1] + ROUNDED
         if not phase.end > phase.start or last - first < FEWEST or not within:
             what = f"phase '{phase.name}' from {phase.start:g} to {phase.end:g} s holds {max(last - first, 0)} frames"
@@ -88,7 +83,7 @@ def frames_of(phases: tuple[Phase, ...], time: Float[np.ndarray, " t"], o: MatOp
             raise InputError(file, f"row {k}", what, remedy)
         found.setdefault(phase.name, []).append((first, last))
     for name, stretches in found.items():
-        if name == "all" or any(before > start for (_, before), (start, _) in pairwise(sorted(stretches))):
+        if name == "all" or overlap(stretches):
             what = "is the name of the whole recording" if name == "all" else "overlaps itself"
             raise InputError(file, "", f"phase '{name}' {what}", "correct its name, or its start and end")
     return found
@@ -198,13 +193,13 @@ def compared(
     if even is not time:
         reserve("frames are not evenly spaced: agreement is told at even times, without what lies in gaps")
     measured = load_table(whole, time)
-    in_phases = _phases(phases, even, step, o)
+    named = None if phases is None else frames_of(phases, even, o)
     rows = [
         {"channel": name, "unit": UNITS[name], "phase": phase, **asdict(each)}
         for name, theirs in model_curves(model, whole.wrench, time, o).items()
         for model_there in [at_times(time, theirs, even, step)]
         for ours in [at_times(time, measured[f"{name} [{UNITS[name]}]"].to_numpy(float), even, step)]
-        for phase, each in {"all": agreement(model_there, ours, step), **in_phases(model_there, ours)}.items()
+        for phase, each in by_phase(model_there, ours, step, named, PARTS).items()
     ]
     agreed = pd.DataFrame(rows).rename(columns={"lag": "lag [s]", "r2": "r2 [-]", "correlation": "correlation [-]"})
     if not (agreed.loc[agreed["phase"] == "all", "samples"] > 0).any():
@@ -217,14 +212,3 @@ def _tell(whole: pd.DataFrame) -> None:
     note("agreement", whole.replace({np.nan: None}).to_dict(orient="records"))
     for row in whole.itertuples():
         say(f"{row.channel}: mean absolute difference {row.mae:.4g} {row.unit}, root mean square {row.rmsd:.4g}")
-
-
-def _phases(
-    phases: tuple[Phase, ...] | None, time: Curve, step: float, o: MatOptions
-) -> Callable[[Curve, Curve], dict[str, Agreement]]:
-    """Agreement by name of the phase: tenths of the recording where nobody names any."""
-    if phases is None:
-        names = [f"{100 * k // PARTS}-{100 * (k + 1) // PARTS} %" for k in range(PARTS)]
-        return lambda model, ours: dict(zip(names, per_phase(model, ours, step, PARTS), strict=True))
-    found = frames_of(phases, time, o)
-    return lambda model, ours: {name: over_stretches(model, ours, step, parts) for name, parts in found.items()}

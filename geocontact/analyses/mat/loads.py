@@ -14,7 +14,7 @@ from geocontact.analyses.frame.collector import note, say, spelled
 from geocontact.analyses.frame.result import Result
 from geocontact.analyses.mat.comparison import AXES, load_table
 from geocontact.analyses.mat.options import MatOptions
-from geocontact.analyses.mat.placed import ClosestPoint, MatInputs, PlacedMat, cells_of, mat_and_marks
+from geocontact.analyses.mat.placed import MatInputs, PlacedMat, cells_of, mat_and_marks
 from geocontact.analyses.mat.recording import PreparedFrames, Travel
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.cells import Drape
@@ -22,6 +22,7 @@ from geocontact.geometry.drape.slip import slip_covariance
 from geocontact.geometry.register.quality import PoseCovariance, Registration
 from geocontact.geometry.surface import Surface
 from geocontact.io.recordings.mat_results import MatLandmarks
+from geocontact.loads.closest_point_mat import ClosestPoint
 from geocontact.loads.dead_cells import filling_covariance
 from geocontact.loads.mat_load import MatErrors, MatLoad, mat_load, segment_loads, wrench_covariance
 from geocontact.loads.mat_map import MatMap
@@ -43,7 +44,7 @@ def stated_errors(
         told["place"] = spelled("`registration`")
         told.update({"sd_shift_mm": [shift * 1e3] * 3, "sd_turn_deg": [np.degrees(turn)] * 3})
         return MatErrors(cell, gain, shift, turn)
-    middle = (placed.area @ placed.centre) / placed.area.sum()
+    middle = placed.middle
     known = None if registration is None else registration.covariance
     if registration is not None and known is not None:
         way = "landmarks" if registration.names else "shape"

@@ -16,6 +16,7 @@ from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placement import (
     BodyModel,
     SecondScan,
+    flat_mat,
     marks_found,
     open_belt,
     outwards,
@@ -39,7 +40,7 @@ from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.surface import Surface
 from geocontact.io.recordings.mat_results import MatLandmarks, read_mat_landmarks
 from geocontact.io.text.units import LENGTH
-from geocontact.loads.mat_load import MatLoad, mat_load
+from geocontact.loads.closest_point_mat import ClosestPoint, beside_closest_point
 from geocontact.loads.mat_map import MatMap, mat_map
 
 Parts = Mapping[str, str | Bool[np.ndarray, " f"]]
@@ -62,7 +63,7 @@ def cells_of(parts: Parts, surface: Surface, placed: MatMap, o: MatOptions) -> d
     found: dict[str, Bool[np.ndarray, " n"]] = {}
     for name, part in parts.items():
         faces = chosen_faces("`segment`", part, surface, o.unit) if isinstance(part, str) else part
-        found[name] = np.asarray(placed.share.T @ np.asarray(faces, float) >= 0.5)
+        found[name] = placed.lying_on(np.asarray(faces, bool))
         if not found[name].any():
             raise InputError("", "`segment`", f"no cell lies on '{name}'", "check the expression and the frame")
     if found:
@@ -177,8 +178,7 @@ def placed(given: MatInputs, frames: PressureFrames, o: MatOptions) -> PlacedMat
 
 def mat_and_marks(frames: PressureFrames, landmarks: MatLandmarks, o: MatOptions) -> tuple[Mat, Marks]:
     """The flat mat, and where its places were seen, as geometry takes them."""
-    mat = Mat(frames.rows, frames.columns, frames.pitch, mirrored=o.seen_from == "body")
-    return mat, Marks(landmarks.place, landmarks.point, landmarks.name)
+    return flat_mat(frames, o), Marks(landmarks.place, landmarks.point, landmarks.name)
 
 
 def _guard(surface: Surface, frames: PressureFrames, o: MatOptions) -> None:
@@ -206,21 +206,21 @@ def _laid(surface: Surface, frames: PressureFrames, marks: MatLandmarks, o: MatO
         raise InputError(o.landmarks or "", "", str(error), remedy) from error
     _tell_how_it_lies(laid, frames, marks)
     _warn_how_it_lies(laid, frames, marks)
-    say_which_side(surface, laid, marks, o)
+    say_which_side(surface, laid, at, o)
     say_how_it_closes(mat, laid, o)
     return laid
 
 
 def _tell_how_it_lies(laid: Drape, frames: PressureFrames, marks: MatLandmarks) -> None:
-    known = laid.distortion[laid.covered & frames.valid]
+    largest, rms = laid.distortion_of(frames.valid)
     note(
         "mat",
         {
             "cells": int(frames.valid.sum()),
             "uncovered_cells": np.argwhere(frames.valid & ~laid.covered).tolist(),
             "folded_cells": np.argwhere(laid.folded & frames.valid).tolist(),
-            "area_distortion_largest": float(np.abs(known).max()) if known.size else None,
-            "area_distortion_rms": float(np.sqrt(np.mean(known**2))) if known.size else None,
+            "area_distortion_largest": largest if np.isfinite(largest) else None,
+            "area_distortion_rms": rms if np.isfinite(rms) else None,
             "landmark_residual_mm": {
                 n: float(m) * 1e3 if np.isfinite(m) else None for n, m in zip(marks.name, laid.misses, strict=True)
             },
@@ -243,7 +243,7 @@ def _warn_how_it_lies(laid: Drape, frames: PressureFrames, marks: MatLandmarks) 
         reserve(f"{off} cells hang over the edge of the scan; what they read is left out")
     if folded:
         reserve(f"{folded} cells are folded over others: check the landmarks")
-    change = np.abs(laid.distortion[laid.covered & frames.valid]).max(initial=0.0)
+    change = laid.distortion_of(frames.valid)[0]
     if change > SHRUNK:
         reserve(f"cells are up to {change:.1%} larger or smaller on the scan than on the flat mat")
 
@@ -259,33 +259,6 @@ MM = 1e3
 HERE = "closest_point_projection"
 
 
-@dataclass(frozen=True, eq=False)
-class ClosestPoint:
-    """The same mat as the closest points would have laid it.
-
-    Parameters
-    ----------
-    drape
-        Cells on their closest points.
-    used, projected
-        Loads of the mat as it is laid, and of this one; both about the origin of the scan, in its axes.
-    """
-
-    drape: Drape
-    used: MatLoad
-    projected: MatLoad
-
-    @property
-    def frame(self) -> int:
-        """Where the ways are put beside each other: the frame with the largest force."""
-        return int(np.argmax(self.used.pressing))
-
-    @property
-    def distortion(self) -> Float[np.ndarray, "r c"]:
-        """Area of each cell of the grid over that of the flat cell, minus 1; so -1 where it is not on the scan."""
-        return np.where(self.drape.covered, self.drape.distortion, -1.0)
-
-
 def closest_point(p: PlacedMat, frames: PressureFrames, o: MatOptions) -> ClosestPoint | None:
     """The same marks and pressures on a mat that is pushed down flat; how it differs goes to the record.
 
@@ -295,32 +268,23 @@ def closest_point(p: PlacedMat, frames: PressureFrames, o: MatOptions) -> Closes
         return None
     mat, marks = mat_and_marks(frames, p.landmarks, o)
     try:
-        flat = project(Geodesics(p.surface), mat, marks)
-        there = mat_map(p.surface, flat.nodes, frames.valid & flat.covered, frames.cell_area)
+        found = beside_closest_point(p.surface, mat, marks, p.cells, frames, o.gate)
     except ValueError as error:
         note(HERE, {"not_possible": str(error)})
         return None
-    used, projected = (_load(p, each, frames, o) for each in (p.cells, there))
-    found = ClosestPoint(flat, used, projected)
     _tell(found, frames)
     return found
 
 
-def _load(p: PlacedMat, cells: MatMap, frames: PressureFrames, o: MatOptions) -> MatLoad:
-    """In the frame of the scan, about its origin: differences are the same in any frame."""
-    return mat_load(cells, cells.of(frames.pressure), np.zeros(3), p.surface.name, o.gate)
-
-
 def _tell(found: ClosestPoint, frames: PressureFrames) -> None:
     at, flat = found.frame, found.drape
-    force = np.linalg.norm(found.projected.wrench.force - found.used.wrench.force, axis=1)
-    centre = np.linalg.norm(found.projected.centre - found.used.centre, axis=1) * MM
-    known = np.abs(flat.distortion[flat.covered & frames.valid])
+    force, centre = found.force_apart, found.centre_apart * MM
+    largest, rms = flat.distortion_of(frames.valid)
     note(
         HERE,
         {
-            "area_distortion_largest": float(known.max()),
-            "area_distortion_rms": float(np.sqrt(np.mean(known**2))),
+            "area_distortion_largest": largest,
+            "area_distortion_rms": rms,
             "uncovered_cells": int((frames.valid & ~flat.covered).sum()),
             "force_differs_N": float(force[at]),
             "force_differs_at_most_N": float(force.max()),

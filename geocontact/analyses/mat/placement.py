@@ -16,11 +16,12 @@ from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.belt import NotAroundError
 from geocontact.geometry.drape.cells import Drape
-from geocontact.geometry.drape.mat import Mat
+from geocontact.geometry.drape.mat import Marks, Mat
 from geocontact.geometry.drape.scan_difference import Rectangle, ScanDifference, rectangle_on, scan_difference
 from geocontact.geometry.drape.spread import Geodesics
-from geocontact.geometry.register.icp import icp, same_place, shape_covariance, unguided
+from geocontact.geometry.register.icp import same_place, unguided
 from geocontact.geometry.register.landmarks import fit_landmarks
+from geocontact.geometry.register.open3d_icp import shape_registration
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.scale_guard import compare_boxes, compare_landmarks
 from geocontact.geometry.surface import Surface
@@ -48,7 +49,7 @@ def say_how_it_closes(mat: Mat, laid: Drape, o: MatOptions) -> None:
 
 
 HOLLOW = -0.1
-"""Mean cosine between the cells' normals and their directions from the middle of the mat; -1 inside a ball."""
+"""Least `Drape.bulge`; a scan below it looks as if it were seen from inside."""
 
 
 def outwards(surface: Surface, o: MatOptions) -> Surface:
@@ -60,28 +61,18 @@ def outwards(surface: Surface, o: MatOptions) -> Surface:
     return replace(surface, faces=np.ascontiguousarray(surface.faces[:, ::-1]))
 
 
-def say_which_side(surface: Surface, laid: Drape, marks: MatLandmarks, o: MatOptions) -> None:
+def say_which_side(surface: Surface, laid: Drape, marks: Marks, o: MatOptions) -> None:
     """Warn where landmarks cannot show the side, and where an open scan looks as if it were seen from inside."""
-    arms = marks.place - marks.place.mean(axis=0)
-    if o.landmarks is not None and np.linalg.matrix_rank(arms, 1e-6 * float(np.abs(arms).max())) < 2:
+    if o.landmarks is not None and marks.in_line:
         reserve(
             f"the landmarks lie on one line of the mat: they do not show which side of it faces the body, and "
             f"`seen_from` {o.seen_from} is believed"
         )
-    if not surface.closed and _bulge(laid) < HOLLOW:
+    if not surface.closed and laid.bulge < HOLLOW:
         reserve(
             "the scan is hollow under the mat, as its faces look: if they look into the body, every force has the "
             "wrong sign; pass `inwards` then"
         )
-
-
-def _bulge(laid: Drape) -> float:
-    """How much the cells' normals point away from the middle of the mat: 1 on a ball, 0 on a plane, -1 in a bowl."""
-    inside = laid.covered
-    centre = laid.centre[inside]
-    arm = centre - centre.mean(axis=0)
-    size = float(np.linalg.norm(arm, axis=-1).sum())
-    return float(np.einsum("ij,ij->", arm, laid.normal[inside])) / size if size > 0.0 else 0.0
 
 
 SCAN, BODY = ("x [m]", "y [m]", "z [m]"), ("body_x [m]", "body_y [m]", "body_z [m]")
@@ -135,18 +126,10 @@ def registered(
 
 def _by_shape(scan: Surface, body: Surface, start: Registration, o: MatOptions) -> tuple[str, Registration]:
     """The scan brought onto the body from where the landmarks put it, and by which engine."""
-    engine, found = "own", None
-    if o.icp_engine != "own":
-        from geocontact.geometry.register.open3d_icp import open3d_icp  # heavy
-
-        try:
-            engine, found = "open3d", open3d_icp(scan, body, start.pose)
-        except ImportError as error:
-            if o.icp_engine == "open3d":
-                raise InputError("", "`icp_engine`", str(error), "or leave it out") from error
-            engine = "own"
-    found = found or icp(scan, body, start.pose)
-    return engine, replace(found, covariance=shape_covariance(scan, body, found.pose, start=start.covariance))
+    try:
+        return shape_registration(scan, body, start, o.icp_engine or "auto")
+    except ImportError as error:
+        raise InputError("", "`icp_engine`", str(error), "or leave it out") from error
 
 
 def _pairs(path: Path) -> tuple[tuple[str, ...], Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
@@ -179,7 +162,6 @@ def _tell_fit(way: str, found: Registration, **more: str) -> None:
     say(f"registration by {way}: root mean square {found.rms * 1e3:.2f} mm, {found.overlap:.0%} of the points met")
 
 
-FITS = 0.12  # of a side's length, by which the region may be longer or shorter than the mat
 OVERLAP = 0.5  # of the second scan that lies on the first
 
 
@@ -213,13 +195,14 @@ def marks_found(scan: Surface, second: SecondScan, frames: PressureFrames, o: Ma
         remedy = "check that both scans are of the same body, or give `landmarks`"
         raise InputError(o.scan_with_mat or "", "", str(error), remedy) from error
     _tell_raised(found, raised, outline, frames)
-    first = _first(outline, _candidates(outline, frames, o), second.corner, o)
-    hand = 1 if o.seen_from == "outside" else -1
-    rows, columns = float(frames.rows), float(frames.columns)
-    order = [first, (first + hand) % 4, (first - hand) % 4, (first + 2) % 4]
-    place = np.array([[0.0, 0.0], [rows, 0.0], [0.0, columns], [rows, columns]])
-    names = ("first corner", "end of column 1", "end of row 1", "last corner")
-    return MatLandmarks(names, place, outline.corners[order])
+    mat = flat_mat(frames, o)
+    marks = outline.marks(mat, _first(outline, _candidates(outline, mat, o), second.corner, o))
+    return MatLandmarks(marks.names, marks.cells, marks.points)
+
+
+def flat_mat(frames: PressureFrames, o: MatOptions) -> Mat:
+    """The mat before it is laid down."""
+    return Mat(frames.rows, frames.columns, frames.pitch, mirrored=o.seen_from == "body")
 
 
 def _tell_raised(found: Registration, raised: ScanDifference, outline: Rectangle, frames: PressureFrames) -> None:
@@ -245,20 +228,18 @@ def _tell_raised(found: Registration, raised: ScanDifference, outline: Rectangle
         reserve("the registration of the second scan did not settle")
 
 
-def _candidates(outline: Rectangle, frames: PressureFrames, o: MatOptions) -> list[int]:
-    """Corners that may be the first: from them rows and columns are as long as the sides, and turn the right way."""
-    down, across = frames.rows * frames.pitch[0], frames.columns * frames.pitch[1]
-    ahead, behind = outline.sides, np.roll(outline.sides, 1)
-    by_row, by_column = (ahead, behind) if o.seen_from == "outside" else (behind, ahead)
-    fits = (np.abs(by_row / down - 1.0) < FITS) & (np.abs(by_column / across - 1.0) < FITS)
-    if not fits.any():
+def _candidates(outline: Rectangle, mat: Mat, o: MatOptions) -> list[int]:
+    """Corners that may be the first, at least one."""
+    found = outline.first_corners(mat)
+    if not found:
+        down, across = mat.rows * mat.pitch[0], mat.columns * mat.pitch[1]
         a, b = (outline.sides[k] + outline.sides[k + 2] for k in (0, 1))
         seen = f"{500.0 * max(a, b):.0f} × {500.0 * min(a, b):.0f}"
-        mat = f"{1e3 * max(down, across):.0f} × {1e3 * min(down, across):.0f}"
+        size = f"{1e3 * max(down, across):.0f} × {1e3 * min(down, across):.0f}"
         remedy = "check the pitch; `mat_edge` takes off a border without cells"
-        what = f"the region that stands off is {seen} mm, the mat {mat}"
+        what = f"the region that stands off is {seen} mm, the mat {size}"
         raise InputError(o.scan_with_mat or "", "", what, remedy)
-    return [int(k) for k in np.flatnonzero(fits)]
+    return found
 
 
 def _first(outline: Rectangle, candidates: list[int], given: Float[np.ndarray, " 3"] | None, o: MatOptions) -> int:

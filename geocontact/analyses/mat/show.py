@@ -12,8 +12,8 @@ from geocontact.analyses.frame.collector import spelled
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.mat.loads import MatFindings
-from geocontact.analyses.mat.placed import ClosestPoint
 from geocontact.geometry.drape.cells import Drape
+from geocontact.loads.closest_point_mat import ClosestPoint
 from geocontact.loads.mat_load import MatLoad
 from geocontact.loads.mat_map import MatMap
 from geocontact.view.curves.sheet import sheet

@@ -51,6 +51,26 @@ class Drape:
     misses: Float[np.ndarray, " k"]
 
     @property
+    def bulge(self) -> float:
+        """Mean cosine between normals and directions from the middle: 1 on a ball, 0 on a plane, -1 inside a ball.
+
+        Cells count with their distance from the middle. Below zero, the surface is hollow under the mat or its faces
+        look into the body.
+        """
+        inside = self.covered
+        centre = self.centre[inside]
+        arm = centre - centre.mean(axis=0)
+        size = float(np.linalg.norm(arm, axis=-1).sum())
+        return float(np.einsum("ij,ij->", arm, self.normal[inside])) / size if size > 0.0 else 0.0
+
+    def distortion_of(self, cells: Bool[np.ndarray, "r c"]) -> tuple[float, float]:
+        """Largest and root mean square size of `distortion` over covered cells among `cells`; NaN without any."""
+        known = self.distortion[self.covered & cells]
+        if not known.size:
+            return float("nan"), float("nan")
+        return float(np.abs(known).max()), float(np.sqrt(np.mean(known**2)))
+
+    @property
     def area_vector(self) -> Float[np.ndarray, "r c 3"]:
         """Vector area of each cell [m^2]: half the cross product of its diagonals, shorter than `area` on a curve."""
         return np.asarray(_vector_area(self.nodes) * np.sign(_dot(_vector_area(self.nodes), self.normal))[..., None])

@@ -86,6 +86,12 @@ class Marks:
         """Name of mark k."""
         return self.names[k] if self.names else f"mark {k + 1}"
 
+    @property
+    def in_line(self) -> bool:
+        """Whether the cells lie on one line of the mat: such marks fit either side of it to the body."""
+        arms = self.cells - self.cells.mean(axis=0)
+        return bool(np.linalg.matrix_rank(arms, 1e-6 * float(np.abs(arms).max())) < 2)
+
     def on(self, mat: Mat) -> None:
         """Refuse marks that are not on the mat, and too few of them."""
         if len(self.cells) < 2 or np.ptp(self.cells, axis=0).max() == 0.0:

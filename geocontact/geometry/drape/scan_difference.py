@@ -11,7 +11,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from geocontact.geometry.drape.mat import Mat
+from geocontact.geometry.drape.mat import Marks, Mat
 from geocontact.geometry.drape.spread import Anchor, Geodesics, spread
 from geocontact.geometry.surface import Surface
 
@@ -24,6 +24,7 @@ ROBUST = 1e-3  # m, beyond which a point of the outline pulls less
 TURNS = 46  # between 0 and 90 degrees, for the first guess
 TRIMMED = 2.0  # per cent of the outline at each end that the first guess leaves out
 PLANE = Mat(1, 1, (1.0, 1.0))
+FITS = 0.12  # of a side's length, by which the region may be longer or shorter than the mat
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +44,26 @@ class Rectangle:
     corners: Float[np.ndarray, "4 3"]
     sides: Float[np.ndarray, " 4"]
     rms: float
+
+    def first_corners(self, mat: Mat, within: float = FITS) -> list[int]:
+        """Corners that may be that of the mat's first cell; none where the mat has other sides.
+
+        Rows run from it along one side and columns along the other, in the order that `mat.hand` says; both are as long
+        as those sides up to the share `within`. An oblong mat leaves two, a square one four.
+        """
+        down, across = mat.rows * mat.pitch[0], mat.columns * mat.pitch[1]
+        ahead, behind = self.sides, np.roll(self.sides, 1)
+        by_row, by_column = (behind, ahead) if mat.mirrored else (ahead, behind)
+        fits = (np.abs(by_row / down - 1.0) < within) & (np.abs(by_column / across - 1.0) < within)
+        return [int(k) for k in np.flatnonzero(fits)]
+
+    def marks(self, mat: Mat, first: int) -> Marks:
+        """The four corners as marks of a mat whose first cell lies at corner `first`; points [m] as `corners`."""
+        hand = -1 if mat.mirrored else 1
+        rows, columns = float(mat.rows), float(mat.columns)
+        order = [first, (first + hand) % 4, (first - hand) % 4, (first + 2) % 4]
+        cells = np.array([[0.0, 0.0], [rows, 0.0], [0.0, columns], [rows, columns]])
+        return Marks(cells, self.corners[order], ("first corner", "end of column 1", "end of row 1", "last corner"))
 
 
 def rectangle_on(

@@ -1,14 +1,15 @@
-"""The same registration by open3d, where it is installed."""
+"""Registration by shape by open3d, where it is installed, or by our own search where it is not."""
 
 from __future__ import annotations
 
 import warnings
-from typing import Any
+from dataclasses import replace
+from typing import Any, Literal
 
 import numpy as np
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.geometry.register.icp import BIWEIGHT, IcpSearch, judged, samples
+from geocontact.geometry.register.icp import BIWEIGHT, IcpSearch, icp, judged, samples, shape_covariance
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.surface import Surface
 
@@ -16,6 +17,33 @@ DENSE = 200_000  # points that stand for the fixed surface, which open3d takes a
 FINE = 1e-4  # m; scale of the residuals in the last search
 AGAIN = 30  # rounds of a search begun again from the result
 STANDS = 2e-6  # m, motion at the points in these, below which the result stands
+
+
+def shape_registration(
+    moving: Surface, fixed: Surface, start: Registration, engine: Literal["auto", "own", "open3d"] = "auto"
+) -> tuple[Literal["own", "open3d"], Registration]:
+    """The pose X_BA at which A lies on B by shape, its covariance, and the engine that found it.
+
+    Parameters
+    ----------
+    moving, fixed
+        A and B; B's frame is that of the result.
+    start
+        Where A lies about, e.g. by landmarks; its covariance stays in the directions in which A slides on B.
+    engine
+        own: `icp`. open3d: `open3d_icp`, an ImportError where open3d is not installed. auto: open3d where it is.
+    """
+    used: Literal["own", "open3d"] = "own"
+    found = None
+    if engine != "own":
+        try:
+            used, found = "open3d", open3d_icp(moving, fixed, start.pose)
+        except ImportError:
+            if engine == "open3d":
+                raise
+            used = "own"
+    found = found or icp(moving, fixed, start.pose)
+    return used, replace(found, covariance=shape_covariance(moving, fixed, found.pose, start=start.covariance))
 
 
 def open3d_icp(moving: Surface, fixed: Surface, start: RigidTransform, search: IcpSearch | None = None) -> Registration:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -120,6 +120,46 @@ def over_stretches(
         return plain
     lag, correlation = lag_of(one, other, step, most * step)
     return replace(plain, lag=lag, correlation=correlation)
+
+
+ROUNDED = 1e-6
+"""s; a sample that close to a start or an end belongs to the phase."""
+
+
+def samples_within(time: Float[np.ndarray, " t"], start: float, end: float) -> tuple[int, int]:
+    """First sample from `start` to `end` [s], both included, and the one after the last; `time` [s] grows."""
+    first = int(np.searchsorted(time, start - ROUNDED))
+    return first, int(np.searchsorted(time, end + ROUNDED, side="right"))
+
+
+def overlap(stretches: Sequence[tuple[int, int]]) -> bool:
+    """Whether two stretches, first sample and the one after the last, have a sample in common."""
+    return any(before > start for (_, before), (start, _) in pairwise(sorted(stretches)))
+
+
+def by_phase(
+    model: Float[np.ndarray, " t"],
+    measured: Float[np.ndarray, " t"],
+    step: float,
+    phases: Mapping[str, Sequence[tuple[int, int]]] | None = None,
+    parts: int = 10,
+) -> dict[str, Agreement]:
+    """Agreement over all ("all") and in each phase, in their order; in tenths ("0-10 %", …) where none are named.
+
+    Parameters
+    ----------
+    model, measured
+        On the same times, `step` [s] apart; NaN where there is no value.
+    phases
+        Stretches of each: first sample and the one after the last; "all" is no name of a phase.
+    parts
+        Equal stretches where no phases are named.
+    """
+    whole = {"all": agreement(model, measured, step)}
+    if phases is not None:
+        return whole | {name: over_stretches(model, measured, step, stretches) for name, stretches in phases.items()}
+    names = [f"{100 * k // parts}-{100 * (k + 1) // parts} %" for k in range(parts)]
+    return whole | dict(zip(names, per_phase(model, measured, step, parts), strict=True))
 
 
 def lag_of(

@@ -140,3 +140,11 @@ def test_directions_between_corners():
     laid = lay(sheet, MAT, at(sheet, [0, 0, 0], [1, 0, 0]))
     ways = directions(laid.nodes, np.array([[0.0, 0], [16, 8], [3.25, 5.5]]))
     assert ways == pytest.approx(np.broadcast_to([[1.0, 0, 0], [0, 1, 0]], (3, 2, 3)), abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("cells", "in_line"),
+    [([[0, 0], [16, 8]], True), ([[0, 0], [4, 2], [16, 8]], True), ([[0, 0], [4, 2.1], [16, 8]], False)],
+)
+def test_marks_in_line_are_those_on_one_line_of_the_mat(cells, in_line):
+    assert Marks(np.array(cells, float), np.zeros((len(cells), 3))).in_line is in_line

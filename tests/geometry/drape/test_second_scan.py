@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from geocontact.geometry.drape.scan_difference import rectangle_on, scan_difference
+from geocontact.geometry.drape.mat import Mat
+from geocontact.geometry.drape.scan_difference import Rectangle, rectangle_on, scan_difference
 from geocontact.geometry.register.icp import same_place, unguided
 from geocontact.geometry.surface import Surface
 from tests.geometry.drape.second_scan import ELSEWHERE, bare, corners, with_mat
@@ -70,3 +71,29 @@ def test_a_rectangle_on_a_plane_is_exact(turn, size):
     assert sorted(found.sides) == pytest.approx(sorted([a, b, a, b]), abs=5e-4)
     inner = rectangle_on(over(plane()), points, np.ones(len(points)), edge=0.01)
     assert sorted(inner.sides) == pytest.approx(sorted([a - 0.02, b - 0.02] * 2), abs=5e-4)
+
+
+AROUND = np.array([[0.0, 0, 0], [0.2, 0, 0], [0.2, 0.1, 0], [0, 0.1, 0]])
+OBLONG = Rectangle(AROUND, np.array([0.2, 0.1, 0.2, 0.1]), 0.0)
+
+
+@pytest.mark.parametrize(("mirrored", "first"), [(False, [0, 2]), (True, [1, 3])])
+def test_rows_run_along_the_long_sides_in_the_mats_order(mirrored, first):
+    """Ten rows of 20 mm, five columns: seen from outside, columns lie to the left of the rows' way, or to the right."""
+    assert OBLONG.first_corners(Mat(10, 5, (0.02, 0.02), mirrored=mirrored)) == first
+
+
+def test_any_corner_of_a_square_may_be_the_first_and_none_where_the_mat_is_larger():
+    square = Rectangle(OBLONG.corners, np.full(4, 0.1), 0.0)
+    assert square.first_corners(Mat(5, 5, (0.02, 0.02))) == [0, 1, 2, 3]
+    assert square.first_corners(Mat(6, 5, (0.02, 0.02))) == []
+    assert square.first_corners(Mat(6, 5, (0.02, 0.02)), within=0.2) == [0, 1, 2, 3]
+
+
+@pytest.mark.parametrize(("mirrored", "first", "x"), [(False, 2, [0.2, 0.0]), (True, 1, [0.2, 0.0])])
+def test_marks_are_the_corners_from_the_first_cell_on(mirrored, first, x):
+    """The end of column 1 is a row's length away along x, the end of row 1 on the other side in y."""
+    marks = OBLONG.marks(Mat(10, 5, (0.02, 0.02), mirrored=mirrored), first)
+    assert marks.cells.tolist() == [[0, 0], [10, 0], [0, 5], [10, 5]]
+    y = OBLONG.corners[first, 1]
+    assert marks.points.tolist() == [[x[0], y, 0], [x[1], y, 0], [x[0], 0.1 - y, 0], [x[1], 0.1 - y, 0]]

@@ -1,10 +1,14 @@
 """Shapes find each other: a bumpy patch on a larger one, seen through another mesh, from a pose that is off."""
 
+import sys
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.geometry.register.icp import IcpSearch, icp, samples
+from geocontact.geometry.register.landmarks import fit_landmarks
+from geocontact.geometry.register.open3d_icp import shape_registration
 from geocontact.geometry.surface import Surface, on_boundary
 from tests.geometry.drape.sheets import lattice_faces, sphere, tube
 
@@ -156,3 +160,17 @@ def test_open3d_that_was_stopped_early_has_not_converged():
     found = open3d_icp(PARTLY, FIXED, off(), IcpSearch(points=8000, rounds=1, tolerance=0.02))
     assert apart(found.pose, RigidTransform.identity()) > 1e-4
     assert not found.converged
+
+
+def test_registration_by_shape_begins_at_landmarks_and_says_which_engine_found_it(monkeypatch):
+    """The same mesh, landmarks turned by the start's error: our own search brings it back where open3d is not there."""
+    monkeypatch.setitem(sys.modules, "open3d", None)
+    fixed = bumpy(-0.15, 0.15, -0.15, 0.15, 30)
+    seen = fixed.vertices[[0, 20, 500, 900]]
+    start = fit_landmarks(seen, off(2.0, 0.004).apply(seen))
+    for engine in ("own", "auto"):
+        used, found = shape_registration(fixed, fixed, start, engine)
+        assert used == "own" and apart(found.pose, RigidTransform.identity()) < 1e-7
+        assert found.covariance is not None
+    with pytest.raises(ImportError, match="open3d does not import"):
+        shape_registration(fixed, fixed, start, "open3d")
