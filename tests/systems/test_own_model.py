@@ -40,7 +40,7 @@ from geocontact.chain.effect import Candidate
 from geocontact.chain.effect import Effect
 from geocontact.chain.single_deflection import SingleDeflection
 from geocontact.data.parameter import Parameter
-from geocontact.systems.elastic_joint import model
+from geocontact.systems import elastic_joint as model
 from geocontact.systems.base import Base
 
 def squared(angle, numbers):
