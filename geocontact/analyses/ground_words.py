@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
 from geocontact.analyses.frame.quantities import number
 from geocontact.data.errors import InputError
 from geocontact.geometry.shapes import HalfSpace
-from geocontact.loads.ground import Stairs
+from geocontact.loads.ground import Stairs, plane_of
 
 LEVEL = "plane:0,1,0,0"
 
@@ -29,11 +27,12 @@ def _plane(text: str, rest: str) -> HalfSpace:
             "", "`ground`", f"{text!r} has {len(parts)} numbers", f"write plane:nx,ny,nz,offset as {LEVEL}"
         )
     x, y, z, offset = (number(part, "`ground`", LEVEL) for part in parts)
-    size = math.hypot(x, y, z)
-    if not 0.0 < size < math.inf:
-        raise InputError("", "`ground`", f"the normal in {text!r} has no length", f"write for example {LEVEL}")
-    normal = (x / size, y / size, z / size)
-    return HalfSpace((normal[0] * offset, normal[1] * offset, normal[2] * offset), normal)
+    try:
+        return plane_of((x, y, z), offset)
+    except ValueError as error:
+        raise InputError(
+            "", "`ground`", f"the normal in {text!r} has no length", f"write for example {LEVEL}"
+        ) from error
 
 
 def _stairs(text: str, rest: str) -> Stairs:

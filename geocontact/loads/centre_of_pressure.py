@@ -82,6 +82,20 @@ def centre_in_foot(
     return np.asarray((centre - x) * np.cos(pitch) - y * np.sin(pitch))
 
 
+def points_in_foot(points: Float[np.ndarray, "t 3"], poses: RigidTransform) -> Float[np.ndarray, "t 3"]:
+    """Points of the ground's frame [m] in the foot's; NaN stays NaN.
+
+    `poses` are those of the foot in the ground's frame, one per point.
+    """
+    matrices = poses.inv().as_matrix().reshape(-1, 4, 4)
+    return np.asarray(np.einsum("tij,tj->ti", matrices[:, :3, :3], points) + matrices[:, :3, 3])
+
+
+def path_length(centre: Float[np.ndarray, "t 3"]) -> float:
+    """Length of the path of a centre [m], without the ways across frames that have none (NaN)."""
+    return float(np.nansum(np.linalg.norm(np.diff(centre, axis=0), axis=1)))
+
+
 GROUND_POINT = "ground"
 SPHERE_CENTRE = "sphere"
 POINTS = (GROUND_POINT, SPHERE_CENTRE)

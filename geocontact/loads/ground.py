@@ -1,14 +1,15 @@
-"""Grounds that are neither a plane nor a closed body: stairs, and a surface that is only a sheet."""
+"""Grounds: a plane by its equation, stairs, and a surface, closed or only a sheet."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.geometry.shapes import Proximity, within
+from geocontact.geometry.shapes import HalfSpace, Proximity, within
 from geocontact.geometry.surface import Surface
 
 Vector = tuple[float, float, float]
@@ -80,6 +81,15 @@ class Sheet:
 
     surface: Surface
 
+    @property
+    def up(self) -> Float[np.ndarray, " 3"]:
+        """Mean of the faces' normals, weighted with their areas, as a unit vector: where above is on the whole.
+
+        Zero where the faces look every way alike.
+        """
+        total = np.einsum("f,fi->i", self.surface.face_area, self.surface.face_normal)
+        return np.asarray(total / max(float(np.linalg.norm(total)), 1e-30))
+
     def proximity(self, points: Float[np.ndarray, "n 3"], limit: float = np.inf) -> Proximity:
         """The surface's own answer with the side that the nearest face's normal tells."""
         near = self.surface.proximity(points, limit)
@@ -90,3 +100,20 @@ class Sheet:
             np.einsum("ij,ij->i", offset, self.surface.face_normal[near.face[found]]) < 0.0, -1.0, 1.0
         )
         return Proximity(near.distance * side, near.closest, near.normal * side[:, None], near.face)
+
+
+def plane_of(normal: Vector, offset: float) -> HalfSpace:
+    """The ground below all x with n.x = offset [m], where n is `normal`, of any length, as a unit vector.
+
+    ValueError for a normal that has no length or no finite one.
+    """
+    size = math.hypot(*normal)
+    if not 0.0 < size < math.inf:
+        raise ValueError("the normal has no length")
+    x, y, z = (part / size for part in normal)
+    return HalfSpace((x * offset, y * offset, z * offset), (x, y, z))
+
+
+def ground_of_surface(surface: Surface) -> Surface | Sheet:
+    """A closed surface as a body to stand on, an open one as a sheet."""
+    return surface if surface.closed else Sheet(surface)

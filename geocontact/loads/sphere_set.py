@@ -161,6 +161,12 @@ def sphere_loads(
     return SphereLoads(pressing, force, point, centre, normal, depth)
 
 
+def clearance(spheres: SphereSet, loads: SphereLoads, ground: Ground) -> float:
+    """Smallest distance between any sphere and the ground over all frames [m]; negative where one touches."""
+    distance = ground.proximity(loads.centre.reshape(-1, 3)).distance.reshape(loads.depth.shape)
+    return float((distance - spheres.radius).min())
+
+
 def _velocity(rate: Float[np.ndarray, "c 4 4"], body_point: Float[np.ndarray, "c 3"]) -> Float[np.ndarray, "c 3"]:
     return np.asarray(np.einsum("cij,cj->ci", rate[:, :3, :3], body_point) + rate[:, :3, 3])
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.geometry.shapes import HalfSpace
-from geocontact.loads.centre_of_pressure import centre_of_pressure
+from geocontact.loads.centre_of_pressure import centre_of_pressure, path_length, points_in_foot
 from geocontact.loads.ground import Stairs
 from geocontact.loads.sphere_set import SphereLoads, sphere_loads
 from tests.loads.scenes import RADIUS, law, rigid, scattered, sole, standing, still, twist
@@ -158,3 +158,18 @@ def test_gate_leaves_the_force_and_takes_the_centre() -> None:
 def test_points_have_names() -> None:
     with pytest.raises(ValueError, match="point must be ground or sphere, not 'toe'"):
         centre_of_pressure(standing(scattered(0), law(12), LEVEL), "toe")
+
+
+def test_points_in_the_foot() -> None:
+    """A quarter turn about z takes the foot's x to the ground's y: 0.1 m ahead in it is 0.1 m above its origin."""
+    turn = Rotation.from_rotvec(np.radians([[0.0, 0.0, 0.0], [0.0, 0.0, 90.0], [0.0, 0.0, 90.0]]))
+    poses = RigidTransform.from_components([[1.0, 2.0, 3.0]] * 3, turn)
+    points = np.array([[1.1, 2.0, 3.0], [1.0, 2.1, 3.0], [np.nan] * 3])
+    inside = points_in_foot(points, poses)
+    np.testing.assert_allclose(inside, [[0.1, 0.0, 0.0], [0.1, 0.0, 0.0], [np.nan] * 3], atol=1e-15)
+
+
+def test_a_path_has_no_length_across_frames_without_a_centre() -> None:
+    centre = np.array([[0.0, 0.0, 0.0], [0.03, 0.0, 0.04], [np.nan] * 3, [1.0, 0.0, 0.0], [1.0, 0.0, 0.01]])
+    assert path_length(centre) == pytest.approx(0.05 + 0.01, rel=1e-12)
+    assert path_length(np.full((4, 3), np.nan)) == 0.0

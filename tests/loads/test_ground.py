@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.geometry.surface import Surface
-from geocontact.loads.ground import Sheet, Stairs
+from geocontact.loads.ground import Sheet, Stairs, ground_of_surface, plane_of
 
 STAIRS = Stairs((0.3, 0.6, 0.8), (0.0, 0.15, 0.35, 0.1))
 coordinate = st.floats(-1.0, 2.0)
@@ -72,3 +72,29 @@ def test_sheet_is_a_half_space_over_its_extent() -> None:
     np.testing.assert_allclose(near.distance[~far], plane.distance[~far], atol=1e-12)
     np.testing.assert_allclose(near.normal[~far], plane.normal[~far], atol=1e-9)
     assert np.isinf(near.distance[far]).all()
+
+
+def test_a_plane_by_its_equation() -> None:
+    """0.6 x + 0.8 y = 0.5 m, its normal of any length: the origin is 0.5 m below, (1, 1, z) 0.9 m above."""
+    for length in (1.0, 10.0):
+        ground = plane_of((0.6 * length, 0.8 * length, 0.0), 0.5)
+        near = ground.proximity(np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 7.0]]))
+        np.testing.assert_allclose(near.distance, [-0.5, 0.9], atol=1e-15)
+        np.testing.assert_allclose(near.normal, [[0.6, 0.8, 0.0]] * 2, atol=1e-15)
+    for normal in ((0.0, 0.0, 0.0), (np.inf, 0.0, 0.0), (np.nan, 1.0, 0.0)):
+        with pytest.raises(ValueError, match="no length"):
+            plane_of(normal, 0.0)
+
+
+def test_a_closed_surface_is_a_body_and_an_open_one_a_sheet() -> None:
+    """Of a tetrahedron's faces without that below, the slanted one weighs as the three axes together."""
+    corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    faces = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
+    body = Surface(corners, faces)
+    assert ground_of_surface(body) is body
+    sheet = ground_of_surface(Surface(corners, faces[:3]))
+    assert isinstance(sheet, Sheet)
+    np.testing.assert_allclose(sheet.up, [0.0, 0.0, 1.0], atol=1e-15)  # (1, 1, 1)/2 - (1, 0, 0)/2 - (0, 1, 0)/2
+    roof = ground_of_surface(Surface(corners, faces[:1]))
+    assert isinstance(roof, Sheet)
+    np.testing.assert_allclose(roof.up, np.full(3, 3.0**-0.5), atol=1e-15)

@@ -15,7 +15,7 @@ from geocontact.geometry.shapes import HalfSpace
 from geocontact.geometry.surface import Surface
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.loads.ground import Ground, Sheet, Stairs
-from geocontact.loads.sphere_set import SoleLaw, SphereSet, sphere_loads
+from geocontact.loads.sphere_set import SoleLaw, SphereSet, clearance, sphere_loads
 from tests.loads.scenes import RADIUS, ROOT, law, rigid, scattered, sole, standing, still, twist
 
 LEVEL = HalfSpace()
@@ -49,6 +49,15 @@ def test_a_sphere_that_does_not_touch_is_unloaded() -> None:
     loads = standing(sole(np.array([[0.0, RADIUS + 1e-9, 0.0], [0.0, RADIUS - 1e-9, 0.0]])), law(2, b=100.0), LEVEL)
     assert loads.pressing[0, 0] == 0.0 < loads.pressing[0, 1]
     assert np.isnan(loads.point[0, 0]).all() and not loads.force[0, 0].any()
+
+
+def test_clearance_is_that_of_the_nearest_sphere_in_any_frame() -> None:
+    """Lowest points at 40 and 30 mm; the foot is 10 mm higher in one frame and 10 mm lower in the other."""
+    spheres = sole(np.array([[0.0, 0.05, 0.0], [0.2, 0.06, 0.0]]), np.array([0.01, 0.03]))
+    poses, rate = still(*(RigidTransform.from_translation([0.0, y, 0.0]) for y in (0.01, -0.01)))
+    loads = sphere_loads(spheres, law(2), poses, rate, LEVEL)
+    assert clearance(spheres, loads, LEVEL) == pytest.approx(0.02, abs=1e-15)
+    assert clearance(spheres, loads, HalfSpace((0.0, 0.025, 0.0))) == pytest.approx(-0.005, abs=1e-15)
 
 
 def test_damping_acts_on_the_approach_of_the_centre_alone() -> None:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Float, Int
+from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.analyses.cop.options import LAW, CopOptions
@@ -26,7 +27,9 @@ from geocontact.io.opensim.osim import bodies_at_rest, read_joint
 from geocontact.io.opensim.osim_contact import read_contact_spheres
 from geocontact.io.recordings.spheres import LawFile, SphereTable, read_law, read_spheres
 from geocontact.loads.centre_of_pressure import CentreOfPressure
-from geocontact.loads.ground import Ground, Sheet
+from geocontact.loads.ground import Ground, Sheet, ground_of_surface
+from geocontact.loads.plate_load import PlateCurves, load_on_plate, same_way_up
+from geocontact.loads.sole_law import law_of_sole
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
 
 
@@ -97,56 +100,79 @@ def _mesh(path: Path, unit: str) -> Ground:
     warn_of_inner_surfaces(surface)
     if surface.inside_out:
         reserve(f"{surface.name}: faces point inwards; taken the other way round")
-    if surface.closed:
-        return surface
-    up = np.einsum("f,fi->i", surface.face_area, surface.face_normal)
-    up /= max(float(np.linalg.norm(up)), 1e-30)
-    reserve(
-        f"{surface.name} is open ({surface.topology.why_open}): taken as a sheet, above is where its faces look, "
-        f"on the whole ({up[0]:.2f}, {up[1]:.2f}, {up[2]:.2f})"
-    )
-    return Sheet(surface)
-
-
-STIFFNESS, EXPONENT = 8e4, 1.2  # N/m^1.2: 75 N press a sphere 3 mm deep
-DAMPING, FULL_DEPTH = 200.0, 2e-3  # N s/m, m
-STATIC, KINETIC, THRESHOLD_SPEED = 0.9, 0.7, 0.25  # -, -, m/s: rubber on a laboratory floor
+    ground = ground_of_surface(surface)
+    if isinstance(ground, Sheet):
+        x, y, z = ground.up
+        reserve(
+            f"{surface.name} is open ({surface.topology.why_open}): taken as a sheet, above is where its faces look, "
+            f"on the whole ({x:.2f}, {y:.2f}, {z:.2f})"
+        )
+    return ground
 
 
 def sole_law(table: SphereTable, o: CopOptions) -> SoleLaw:
-    """The law; a number that is given in two places is refused, one that is given nowhere has its default, told."""
+    """The law; a number that is given in two places is refused, one that is given nowhere is assumed with a warning."""
     file = LawFile() if o.law is None else read_law(o.law)
     if o.law is not None:
         add_input("law", o.law)
     if file.foot is not None:
         reserve(f"{o.law}: [foot] is beside the standing trial of a prosthesis and has no effect here")
-    _refuse_strange_zones(o, file, table)
-    assumed: dict[str, float] = {}
-    static, kinetic = (None, None) if o.friction is None else o.friction
-    one = _Numbers(o, assumed)
-    exponent = table.exponent if o.exponent is None and file.n is None else None  # the unit of k says it
-    if exponent is None:
-        exponent = one("exponent", "n", o.exponent, file.n, EXPONENT)
-    if table.exponent is not None and table.exponent != exponent:
-        what = f"column k is in N/m^{table.exponent:g} but the exponent is {exponent:g}"
-        raise InputError("", "`exponent`", what, f"give `exponent` {table.exponent:g}")
+    columns = {key: each for key, each in (("k", table.stiffness), ("b", table.damping)) if each is not None}
+    zones = {name: zone.model_dump(exclude_none=True) for name, zone in file.zone.items()}
+    given = _numbers(o, file, table.exponent, columns)
+    for key in columns:
+        if any(key in zone for zone in zones.values()):
+            raise _beside_column(f"{key} in {o.law}", key)
     try:
-        law = SoleLaw(
-            stiffness=_each(one, table, file, "k"),
-            damping=_each(one, table, file, "b"),
-            exponent=exponent,
-            full_depth=one("full_depth", "delta_full", o.full_depth, file.delta_full, FULL_DEPTH),
-            static=_friction(one, table, file, "mu_s", static, STATIC),
-            kinetic=_friction(one, table, file, "mu_k", kinetic, KINETIC),
-            threshold_speed=one("threshold_speed", "v_th", o.threshold_speed, file.v_th, THRESHOLD_SPEED),
-        )
-    except InputError:
-        raise
+        law, assumed = law_of_sole(table.zone, given, zones, columns)
+    except InputError as error:
+        raise replace(error, file=o.law or "") from error
     except ValueError as error:
         raise InputError(o.law or "", "force law", str(error), "correct the number") from error
+    if "k" in assumed:
+        without = sorted({zone for zone in table.zone if "k" not in zones.get(zone, {})})
+        some = any("k" in zone for zone in zones.values())
+        where = f"zone {', '.join(without)}" if some else "every sphere"
+        reserve(f"no stiffness given for {where}: {assumed['k']:g} N/m^n is taken; forces are only as good as that")
     _check_sizes(o, law)
-    _tell_assumed(assumed, law)
+    shown = [f"{key} = {assumed[key]:g}{unit}" for key, unit in UNITS.items() if key in assumed]
+    if shown:
+        reserve(f"numbers of the force law that were not given are assumed: {', '.join(shown)}")
     return law
+
+
+UNITS = {"n": "", "b": " N s/m", "delta_full": " m", "mu_s": "", "mu_k": "", "v_th": " m/s"}
+
+
+def _numbers(o: CopOptions, file: LawFile, exponent: float | None, columns: Collection[str]) -> dict[str, float]:
+    """Numbers for all spheres by key, from the options or the file; `exponent` is the n that the unit of k names."""
+    static, kinetic = (None, None) if o.friction is None else o.friction
+    found: dict[str, float] = {}
+    for key, option, given in (
+        ("n", "exponent", o.exponent),
+        ("k", "stiffness", o.stiffness),
+        ("b", "damping", o.damping),
+        ("delta_full", "full_depth", o.full_depth),
+        ("mu_s", "friction", static),
+        ("mu_k", "friction", kinetic),
+        ("v_th", "threshold_speed", o.threshold_speed),
+    ):
+        filed = getattr(file, key)
+        if key in columns and (given is not None or filed is not None):
+            raise _beside_column(f"`{option}`" if given is not None else f"{key} in {o.law}", key)
+        if given is not None and filed is not None:
+            raise InputError("", f"`{option}`", f"is given a second time by {key} in {o.law}", "give it once")
+        number = given if given is not None else filed
+        if number is not None:
+            found[key] = number
+    if exponent is not None and found.setdefault("n", exponent) != exponent:
+        what = f"column k is in N/m^{exponent:g} but the exponent is {found['n']:g}"
+        raise InputError("", "`exponent`", what, f"give `exponent` {exponent:g}")
+    return found
+
+
+def _beside_column(source: str, key: str) -> InputError:
+    return InputError("", source, f"has no effect with the column {key} of the spheres", "give it once")
 
 
 def _check_sizes(o: CopOptions, law: SoleLaw) -> None:
@@ -167,83 +193,7 @@ def _check_sizes(o: CopOptions, law: SoleLaw) -> None:
             reserve(f"force law: {name}: {doubt}")
 
 
-class _Numbers:
-    """One number of the law from the options or the file; what neither gives is noted as assumed."""
-
-    def __init__(self, o: CopOptions, assumed: dict[str, float]) -> None:
-        self.options, self.assumed = o, assumed
-
-    def __call__(self, option: str, key: str, given: float | None, filed: float | None, default: float) -> float:
-        if given is not None and filed is not None:
-            what = f"is given a second time by {key} in {self.options.law}"
-            raise InputError("", f"`{option}`", what, "give it once")
-        if given is None and filed is None:
-            self.assumed[key] = default
-            return default
-        return given if given is not None else filed if filed is not None else default
-
-
-UNITS = {"n": "", "b": " N s/m", "delta_full": " m", "mu_s": "", "mu_k": "", "v_th": " m/s"}
-
-
-def _tell_assumed(assumed: dict[str, float], law: SoleLaw) -> None:
-    """Say which numbers nobody gave, of those that have an effect."""
-    idle = {"delta_full": not law.damping.any(), "v_th": not (law.static.any() or law.kinetic.any())}
-    shown = [f"{key} = {assumed[key]:g}{unit}" for key, unit in UNITS.items() if key in assumed and not idle.get(key)]
-    if shown:
-        reserve(f"numbers of the force law that were not given are assumed: {', '.join(shown)}")
-
-
-def _each(one: _Numbers, table: SphereTable, file: LawFile, key: str) -> Float[np.ndarray, " n"]:
-    """k or b of every sphere."""
-    option, given, filed, column, default = {
-        "k": ("stiffness", one.options.stiffness, file.k, table.stiffness, STIFFNESS),
-        "b": ("damping", one.options.damping, file.b, table.damping, DAMPING),
-    }[key]
-    zones = {name: value for name, zone in file.zone.items() if (value := getattr(zone, key)) is not None}
-    if column is not None:
-        if given is not None or filed is not None or zones:
-            source = f"`{option}`" if given is not None else f"{key} in {one.options.law}"
-            raise InputError("", source, f"has no effect with the column {key} of the spheres", "give it once")
-        return column
-    without = set(table.zone) - set(zones)
-    rest = one(option, key, given, filed, default) if without or given is not None or filed is not None else default
-    if key == "k" and key in one.assumed:
-        where = "every sphere" if not zones else f"zone {', '.join(sorted(without))}"
-        reserve(f"no stiffness given for {where}: {default:g} N/m^n is taken; forces are only as good as that")
-    return np.array([zones.get(zone, rest) for zone in table.zone])
-
-
-def _friction(
-    one: _Numbers, table: SphereTable, file: LawFile, key: str, given: float | None, default: float
-) -> Float[np.ndarray, " n"]:
-    """Static or kinetic friction of every sphere."""
-    zones = {name: value for name, zone in file.zone.items() if (value := getattr(zone, key)) is not None}
-    without = set(table.zone) - set(zones)
-    filed = getattr(file, key)
-    rest = one("friction", key, given, filed, default) if without or given is not None or filed is not None else default
-    return np.array([zones.get(zone, rest) for zone in table.zone])
-
-
-def _refuse_strange_zones(o: CopOptions, file: LawFile, table: SphereTable) -> None:
-    strange = sorted(set(file.zone) - set(table.zone))
-    if strange:
-        known = ", ".join(dict.fromkeys(table.zone))
-        raise InputError(o.law or "", f"zone.{strange[0]}", "no sphere is in that zone", f"zones are: {known}")
-
-
-ALIGNED = 0.7  # smallest cosine between our ground's normal and the plate's
 AXES = "xyz"
-
-
-@dataclass(frozen=True)
-class PlateCurves:
-    """What a plate shows at some of our frames, in our frame; NaN below the gate."""
-
-    frames: Int[np.ndarray, " f"]
-    force: Float[np.ndarray, "f 3"]
-    centre: Float[np.ndarray, "f 3"]
-    free_moment: Float[np.ndarray, " f"]
 
 
 def chosen_plate(o: CopOptions) -> ForcePlate | None:
@@ -265,16 +215,18 @@ def chosen_plate(o: CopOptions) -> ForcePlate | None:
 def plate_curves(
     plate: ForcePlate, time: Float[np.ndarray, " t"], ours: CentreOfPressure, o: CopOptions
 ) -> PlateCurves:
-    """The plate at our times within its own; its wrench is interpolated, and the centre follows from that."""
+    """The plate at our times within its own; InputError where there are none, or its normal is not that of ours."""
     path = o.compare or Path()
     inside = np.flatnonzero((time >= plate.time[0]) & (time <= plate.time[-1]))
     if not len(inside):
         what = f"runs from {plate.time[0]:g} to {plate.time[-1]:g} s, the motion from {time[0]:g} to {time[-1]:g} s"
         raise InputError(path, plate.name, what, "shift the clock of one of them")
-    _refuse_other_frame(path, plate, ours)
-    wrench = plate.at(time[inside])
-    centre = wrench.centre_of_pressure(plate.point, plate.normal, o.gate)
-    return PlateCurves(inside, wrench.force, centre, wrench.free_moment(centre, plate.normal))
+    if not same_way_up(ours.normal, plate.normal):
+        mean = np.nanmean(ours.normal, axis=0)
+        mine, theirs = (", ".join(f"{value:.2f}" for value in n) for n in (mean, plate.normal))
+        what = f"its normal is ({theirs}), that of our ground ({mine})"
+        raise InputError(path, plate.name, what, "give the pose of the plates' frame in ours with `plate_pose`")
+    return load_on_plate(inside, plate.at(time[inside]), plate.point, plate.normal, o.gate)
 
 
 def comparison_table(time: Float[np.ndarray, " t"], ours: CentreOfPressure, plate: PlateCurves) -> pd.DataFrame:
@@ -296,14 +248,6 @@ def root_mean_squares(table: pd.DataFrame) -> dict[str, float | None]:
         name.replace("difference_", "rms_"): float(np.sqrt(np.mean(values**2))) if len(values) else None
         for name, values in differences.items()
     }
-
-
-def _refuse_other_frame(path: Path, plate: ForcePlate, ours: CentreOfPressure) -> None:
-    normals = ours.normal[np.isfinite(ours.normal[:, 0])]
-    if len(normals) and float((normals @ plate.normal).mean()) < ALIGNED:
-        mine, theirs = (", ".join(f"{value:.2f}" for value in n) for n in (normals.mean(axis=0), plate.normal))
-        what = f"its normal is ({theirs}), that of our ground ({mine})"
-        raise InputError(path, plate.name, what, "give the pose of the plates' frame in ours with `plate_pose`")
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,12 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.cop.foot import Foot, PlateCurves
+from geocontact.analyses.cop.foot import Foot
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.frame.result import Result
 from geocontact.identify.signals.cycles import STEPS, Span, loaded_spans, normalised
 from geocontact.loads.centre_of_pressure import CentreOfPressure, FootAxis
+from geocontact.loads.plate_load import PlateCurves
 from geocontact.loads.sphere_set import SphereLoads
 
 

@@ -12,6 +12,7 @@ from geocontact.analyses.cop.loads import SHARE, FootLoads, along_foot
 from geocontact.analyses.frame.pages import thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted, rounded
 from geocontact.data.text import seconds
+from geocontact.loads.centre_of_pressure import path_length, points_in_foot
 from geocontact.view.page.content import (
     Curve,
     Curves,
@@ -54,11 +55,11 @@ def foot_plan(r: FootLoads, shown: Int[np.ndarray, " k"]) -> Plan:
     edge = ConvexHull(corners).vertices
     zones = list(sole.zones.items())
     marks = [Mark(name, _edge(circles[which])) for name, which in zones] if len(zones) <= ZONES else []
-    tracks = [Track("centre of pressure", flat(_in_foot(r, r.centre.centre))[shown])]
+    tracks = [Track("centre of pressure", flat(points_in_foot(r.centre.centre, r.foot.motion.poses))[shown])]
     if r.plate is not None:
         there = np.full_like(r.centre.centre, np.nan)
         there[r.plate.frames] = r.plate.centre
-        tracks.append(Track("force plate", flat(_in_foot(r, there))[shown]))
+        tracks.append(Track("force plate", flat(points_in_foot(there, r.foot.motion.poses))[shown]))
     outline = corners[[*edge, edge[0]]]
     return Plan(
         "Path under the foot",
@@ -116,21 +117,11 @@ def travel(r: FootLoads) -> tuple[float, str]:
     return float(np.ptp(centre[:, along])), axis_name(along)
 
 
-def path_length(centre: Float[np.ndarray, "t 3"]) -> float:
-    """Length of the path [m], without the ways across frames that have no centre."""
-    return float(np.nansum(np.linalg.norm(np.diff(centre, axis=0), axis=1)))
-
-
 def _along(centre: Float[np.ndarray, "t 3"], upward: int) -> int:
     """The axis of the ground along which a path is longest."""
     reach = np.ptp(centre, axis=0)
     reach[upward] = -1.0
     return int(np.argmax(reach))
-
-
-def _in_foot(r: FootLoads, points: Float[np.ndarray, "t 3"]) -> Float[np.ndarray, "t 3"]:
-    matrices = r.foot.motion.poses.inv().as_matrix().reshape(-1, 4, 4)
-    return np.asarray(np.einsum("tij,tj->ti", matrices[:, :3, :3], points) + matrices[:, :3, 3])
 
 
 def _seen(r: FootLoads) -> tuple[int, int, float]:

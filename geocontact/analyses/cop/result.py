@@ -36,7 +36,7 @@ from geocontact.data.errors import InputError
 from geocontact.loads.centre_of_pressure import POINTS, FootAxis, axis_of_sole
 from geocontact.loads.centre_of_pressure import centre_of_pressure as centre_of
 from geocontact.loads.resultant import pose_rate
-from geocontact.loads.sphere_set import SphereLoads, sphere_loads
+from geocontact.loads.sphere_set import SphereLoads, clearance, sphere_loads
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -148,8 +148,7 @@ def _loads(foot: Foot, o: CopOptions) -> SphereLoads:
 def _say_what_is_odd(foot: Foot, loads: SphereLoads, o: CopOptions) -> None:
     touching = loads.depth > 0.0
     if not touching.any():
-        distance = foot.ground.proximity(loads.centre.reshape(-1, 3)).distance.reshape(loads.depth.shape)
-        gap = float((distance - foot.sole.radius).min())
+        gap = clearance(foot.sole, loads, foot.ground)
         if gap > NEAR:
             what = f"the foot stays {gap * 1e3:.0f} mm above the ground in every frame"
             raise InputError(o.motion, "", what, REMEDY)
