@@ -1,5 +1,4 @@
-"""The sole's numbers on the whole model: its stances with exact derivatives, their residuals in units of the noise,
-and the search.
+"""Stances of the whole model at given numbers of the sole: exact derivatives, and residuals in units of the noise.
 
 The motion is simulated as `simulate` does; its derivatives are those of its variational equations
 (`dynamics.variation`), and what the plate shows is differentiated in symbols.
@@ -7,8 +6,7 @@ The motion is simulated as `simulate` does; its derivatives are those of its var
 Those by the numbers of the zones are exact; those by height and pitch of the foot are differences.
 
 Socket, inertia and the pelvis' free place act here, so that the force is what the simulation shows of the stance rather
-than what the recorded poses press. Damped Gauss-Newton steps from the calibration along recorded poses, with the same
-priors; height and pitch of the foot beside its standing trial are sought on, from what that calibration found.
+than what the recorded poses press.
 """
 
 from __future__ import annotations
@@ -21,7 +19,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.below_knee_prosthesis.calibration.known_numbers import Knowledge, knowledge
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance, WalkedStance
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import FARTHEST, NO_BALANCE, by_channel
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
@@ -37,9 +34,7 @@ from geocontact.below_knee_prosthesis.stance_model import (
     stance_numbers,
 )
 from geocontact.dynamics.variation import Variation, nodes_of
-from geocontact.identify.optimise.bounded_gauss_newton import least
 from geocontact.identify.optimise.least_squares import divided
-from geocontact.loads.sphere_set import SoleLaw
 
 if TYPE_CHECKING:
     from casadi import Function
@@ -354,80 +349,3 @@ def noise_of(whole: WholeStance, foot: VariableStiffnessFoot) -> Float[np.ndarra
         there = WholeStance(moved, foot, machine_code=whole.machine_code)
         square += np.nan_to_num(there.channels(there.shown(foot)) - base) ** 2
     return np.asarray(np.sqrt(square))
-
-
-ROUNDS = 20
-"""Simulations of the stances in the search, derivatives not counted."""
-WORTH = 0.5
-"""Cost that is not worth another step."""
-
-
-@dataclass(frozen=True, eq=False)
-class WholeCalibration:
-    """What was found.
-
-    Parameters
-    ----------
-    foot
-        With the law that was found.
-    logarithms
-        Of the numbers over the usual ones.
-    at
-        Everything that was sought: the logarithms, then height and pitch in standard deviations.
-    begun, cost
-        Half the sum of squares at the numbers that it began with and at those found, priors included.
-    converged
-        Whether the search ended by itself.
-    """
-
-    residuals: WholeResiduals
-    foot: VariableStiffnessFoot
-    logarithms: Float[np.ndarray, " p"]
-    at: Float[np.ndarray, " q"]
-    begun: float
-    cost: float
-    converged: bool
-    knowledge: Knowledge
-
-    @property
-    def offsets(self) -> tuple[FootOffset, ...]:
-        """Offsets of the foot in each stance, beside its standing trial; none where they were not sought."""
-        return self.knowledge.offsets
-
-    @property
-    def law(self) -> SoleLaw:
-        """With the numbers that were found."""
-        return self.foot.law
-
-
-def calibrate_whole(
-    stances: Sequence[WalkedStance],
-    foot: VariableStiffnessFoot,
-    begun: Float[np.ndarray, " p"],
-    *,
-    level: float = 0.95,
-    machine_code: bool = True,
-) -> WholeCalibration:
-    """Around the law of `foot`, from what a calibration along the recorded poses found about it.
-
-    Parameters
-    ----------
-    begun
-        The logarithms, and height and pitch in standard deviations (`SoleCalibration.at`). Without these the foot stays
-        as its standing trial has it.
-
-    ArithmeticError where the stances cannot be simulated with these.
-    """
-    residuals = WholeResiduals(stances, foot, begun, machine_code=machine_code)
-    reach, off = residuals.reach[: len(begun)], residuals(begun)
-    search = least(residuals, residuals.slope, begun, -reach, reach, ROUNDS, WORTH)
-    return WholeCalibration(
-        residuals,
-        residuals.at(search.x),
-        search.x[: len(residuals.zones.names)],
-        search.x,
-        0.5 * float(off @ off),
-        search.cost,
-        search.finished,
-        knowledge(residuals, search.x, level),
-    )

@@ -7,13 +7,8 @@ import pytest
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance, WalkedStance
-from geocontact.below_knee_prosthesis.calibration.whole_model import (
-    WORTH,
-    WholeCalibration,
-    WholeResiduals,
-    WholeStance,
-    calibrate_whole,
-)
+from geocontact.below_knee_prosthesis.calibration.whole_calibration import WORTH, WholeCalibration, calibrate_whole
+from geocontact.below_knee_prosthesis.calibration.whole_model import WholeResiduals, WholeStance
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
 from meshes.gait_course import course

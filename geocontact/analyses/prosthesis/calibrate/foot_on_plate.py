@@ -26,7 +26,7 @@ from geocontact.below_knee_prosthesis.calibration.recorded_stance import (
     recorded_heights,
     stance_from_markers,
 )
-from geocontact.below_knee_prosthesis.calibration.whole_model import WholeCalibration, calibrate_whole
+from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration, calibrate_whole
 from geocontact.below_knee_prosthesis.clocks import clock_offset
 from geocontact.below_knee_prosthesis.from_markers import Walked, of_side, standing_leg, walked
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers

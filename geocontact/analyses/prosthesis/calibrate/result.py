@@ -31,7 +31,7 @@ from geocontact.analyses.prosthesis.calibrate.show import calibration_page, stan
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
 from geocontact.below_knee_prosthesis.calibration.known_numbers import KnownNumber
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
-from geocontact.below_knee_prosthesis.calibration.whole_model import WholeCalibration
+from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
 from geocontact.below_knee_prosthesis.leg import FootOffset
 from geocontact.identify.signals.agreement import Agreement, agreement
