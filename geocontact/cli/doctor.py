@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 
 from geocontact.view.surfaces import child
-from geocontact.view.surfaces import child as probe
 
 PATIENCE = 8.0  # s for all child processes together
 ALONE = 30.0  # s for one that did not answer in time, asked again when the others have ended
@@ -84,8 +83,8 @@ FEATURES = (
         "3-D off-screen",
         "pyvista",
         "3-D stills and VTP files",
-        probe.PROGRAM,
-        probe.REMEDY,
+        child.PROGRAM,
+        child.REMEDY,
     ),
     Feature(
         "scan registration",

@@ -35,7 +35,7 @@ from geocontact.shoulder_exoskeleton.device_frame import (
     WRIST,
 )
 from geocontact.shoulder_exoskeleton.human_arm import CUTOFF, ToolWork
-from geocontact.shoulder_exoskeleton.support import phase_machine as phase_numbers
+from geocontact.shoulder_exoskeleton.support import phase_machine
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial, ToolUse, Worker, recorded_arms
 from geocontact.shoulder_exoskeleton.support.phase_machine import SCREW
 
@@ -303,10 +303,10 @@ def synthetic_trial(person: Participant, task: OverheadTask, condition: Conditio
 
 def phases(time: Float[np.ndarray, " t"], times: Times) -> Int[np.ndarray, " t"]:
     """Work phase of every frame: arms that are held up before and after screwing count as raised."""
-    found = np.full(len(time), phase_numbers.REST)
-    found[(time >= times.lift) & (time < times.lower)] = phase_numbers.LIFT
-    found[(time >= times.screw) & (time < times.screwed)] = phase_numbers.SCREW
-    found[(time >= times.lower) & (time < times.lowered)] = phase_numbers.LOWER
+    found = np.full(len(time), phase_machine.REST)
+    found[(time >= times.lift) & (time < times.lower)] = phase_machine.LIFT
+    found[(time >= times.screw) & (time < times.screwed)] = phase_machine.SCREW
+    found[(time >= times.lower) & (time < times.lowered)] = phase_machine.LOWER
     return found
 
 

@@ -15,7 +15,7 @@ import pytest
 import trimesh
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.io.mesh import mesh_checks as limits
+from geocontact.io.mesh import mesh_checks
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.io.mesh.ply import read_header
 from geocontact.io.text import file_preflight
@@ -266,7 +266,7 @@ def test_too_many_faces_are_refused(tmp_path, monkeypatch, name):
     path = tmp_path / name
     data = {"ball.stl": STL, "ascii.stl": STL_ASCII, "ball.ply": PLY, "ascii.ply": PLY_ASCII, "ball.obj": OBJ}
     path.write_bytes(data.get(name, ball_vtp()))
-    monkeypatch.setattr(limits, "MAX_FACES", 79)
+    monkeypatch.setattr(mesh_checks, "MAX_FACES", 79)
     with pytest.raises(InputError, match=r"80 faces.*, more than the 79 that are read; decimate"):
         read_mesh(path, "mm")
 

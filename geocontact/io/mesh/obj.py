@@ -17,7 +17,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
-from geocontact.io.mesh import mesh_checks as limits
+from geocontact.io.mesh import mesh_checks
 from geocontact.io.mesh.mesh_checks import triangles
 from geocontact.io.text.file_preflight import (
     BYTE_ORDER_MARK,
@@ -78,7 +78,7 @@ def _plain(data: bytes, file: str) -> tuple[bytearray, int, Int[np.ndarray, "m 3
             if number == 1 and meant == _AGAIN:
                 raise not_a("an OBJ file", data, file) from error
             raise InputError(file, f"line {number}", str(error), meant) from error
-    limits.require_count(count, limits.MAX_VERTICES, "vertices", file)
+    mesh_checks.require_count(count, mesh_checks.MAX_VERTICES, "vertices", file)
     faces = triangles(as_integers(corners), as_integers(sizes), count, file)
     warn_open_end(data, file)
     return text, count, faces

@@ -18,7 +18,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
-from geocontact.io.mesh import mesh_checks as limits
+from geocontact.io.mesh import mesh_checks
 from geocontact.io.mesh.mesh_checks import triangles
 from geocontact.io.text.file_preflight import (
     as_integers,
@@ -75,7 +75,7 @@ class PlyHeader:
 
 
 def read_header(data: bytes, file: str) -> PlyHeader:
-    """Header of a PLY file; its element counts are possible for a file of this size and within `limits`."""
+    """Header of a PLY file; its element counts are possible for a file of this size and are not too large."""
     lines, body = _header_lines(data, file)
     byte_order = _byte_order(lines[1] if len(lines) > 1 else "", file)
     elements: list[Element] = []
@@ -149,8 +149,8 @@ def _add(words: list[str], byte_order: str, elements: list[Element]) -> None:
 
 def _require_possible(header: PlyHeader, body_bytes: int, file: str) -> None:
     counts = {element.name: element.rows for element in header.elements}
-    limits.require_count(counts.get("face", 0), limits.MAX_FACES, "faces", file)
-    limits.require_count(counts.get("vertex", 0), limits.MAX_VERTICES, "vertices", file)
+    mesh_checks.require_count(counts.get("face", 0), mesh_checks.MAX_FACES, "faces", file)
+    mesh_checks.require_count(counts.get("vertex", 0), mesh_checks.MAX_VERTICES, "vertices", file)
     least = 0
     for element in header.elements:
         names = [p.name for p in element.properties]
@@ -164,7 +164,7 @@ def _require_possible(header: PlyHeader, body_bytes: int, file: str) -> None:
         raise InputError(file, "", what, "the file is cut off or damaged, export or download it again")
 
 
-_PLY_ASCII_AGAIN = "the file is cut off or damaged, export or download it again"
+_CUT_OFF = "the file is cut off or damaged, export or download it again"
 _AXES = ("x", "y", "z")
 _Row = tuple[int, list[bytes]]
 
@@ -187,14 +187,14 @@ def plain_ascii(data: bytes, header: PlyHeader, index_list: str, file: str) -> b
             else:
                 count = sum(1 for _ in some)
         except _RowError as error:
-            what, meant = f"{element.name}: {error}", remedy(error, _PLY_ASCII_AGAIN)
+            what, meant = f"{element.name}: {error}", remedy(error, _CUT_OFF)
             raise InputError(file, f"line {error.line}", what, meant) from error.__cause__
         if count < element.rows:
             what = f"the header declares {element.rows} rows of {element.name}, the file has {count}"
-            raise InputError(file, "", what, _PLY_ASCII_AGAIN)
+            raise InputError(file, "", what, _CUT_OFF)
     extra = next(rows, None)
     if extra is not None:
-        raise InputError(file, f"line {extra[0]}", "more rows than the header declares", _PLY_ASCII_AGAIN)
+        raise InputError(file, f"line {extra[0]}", "more rows than the header declares", _CUT_OFF)
     warn_open_end(data, file)
     vertex = next(element for element in header.elements if element.name == "vertex")
     faces = triangles(as_integers(corners), as_integers(sizes), vertex.rows, file)
@@ -260,7 +260,6 @@ def _faces(rows: Iterator[_Row], element: Element, index_list: str, corners: arr
     return len(sizes)
 
 
-_PLY_BINARY_AGAIN = "the file is cut off or damaged, export or download it again"
 _Lists = tuple[Int[np.ndarray, " k"], Int[np.ndarray, " p"]]
 _STRUCT = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "f4": "f", "f8": "d"}
 
@@ -277,7 +276,7 @@ def plain_binary(data: bytes, header: PlyHeader, index_list: str, file: str) -> 
     for element in header.elements:
         start, rows = position, _equal_rows(data, position, element)
         if element is vertex and (rows is None or any(p.length is not None for p in element.properties)):
-            raise InputError(file, "element vertex", "is cut off or has lists, which are not read", _PLY_BINARY_AGAIN)
+            raise InputError(file, "element vertex", "is cut off or has lists, which are not read", _CUT_OFF)
         if rows is None:
             found, position = _walked(data, position, element, header.byte_order, index_list, file)
         else:
@@ -294,7 +293,7 @@ def plain_binary(data: bytes, header: PlyHeader, index_list: str, file: str) -> 
                 lists = equal.reshape(-1).astype(np.int64), np.full(len(equal), equal.shape[1])
     if position != len(data):
         what = f"{len(data) - position} bytes follow the last of the rows that the PLY header declares"
-        raise InputError(file, "", what, _PLY_BINARY_AGAIN)
+        raise InputError(file, "", what, _CUT_OFF)
     if lists is not None:
         face, corners = _cut(triangles(*lists, vertex.rows, file), header.byte_order, index_list)
     return plain_header(header.byte_order, vertex, face, index_list) + points + corners
@@ -340,7 +339,7 @@ def _walked(
         return _walk(data, position, element, byte_order, index_list)
     except (struct.error, ValueError) as error:
         what = f"its rows do not fit in the file's {len(data)} bytes"
-        raise InputError(file, f"element {element.name}", what, _PLY_BINARY_AGAIN) from error
+        raise InputError(file, f"element {element.name}", what, _CUT_OFF) from error
 
 
 def _walk(data: bytes, position: int, element: Element, byte_order: str, index_list: str) -> tuple[_Lists, int]:

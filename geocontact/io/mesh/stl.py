@@ -17,7 +17,7 @@ from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
 from geocontact.data.mesh import AXES
-from geocontact.io.mesh import mesh_checks as limits
+from geocontact.io.mesh import mesh_checks
 from geocontact.io.text.file_preflight import (
     BLOCK,
     BYTE_ORDER_MARK,
@@ -85,7 +85,7 @@ def _whole(vertices: object, count: int, file: str) -> Float[np.ndarray, "n 3"]:
 def _is_binary(data: bytes, file: str) -> bool:
     declared = int.from_bytes(data[80:HEAD], "little")
     if len(data) >= HEAD and len(data) == HEAD + RECORD.itemsize * declared:
-        limits.require_count(declared, limits.MAX_FACES, "faces", file)
+        mesh_checks.require_count(declared, mesh_checks.MAX_FACES, "faces", file)
         return True
     text = not _CONTROL.search(data, 0, 512)
     if _SOLID.match(data):
@@ -114,10 +114,10 @@ def _read_ascii(data: bytes, file: str) -> Float[np.ndarray, "n 3"]:
             _require_facets(words, face, file)
             count = len(words) // len(_WORDS)
             face += count
-            limits.require_at_most(face, limits.MAX_FACES, "faces", file)
+            mesh_checks.require_at_most(face, mesh_checks.MAX_FACES, "faces", file)
             if count:
                 blocks.append(_whole(load_stl_ascii(BytesIO(_one_keyword_a_line(words)))["vertices"], count, file))
-    limits.require_count(face, limits.MAX_FACES, "faces", file)
+    mesh_checks.require_count(face, mesh_checks.MAX_FACES, "faces", file)
     return np.concatenate(blocks)
 
 

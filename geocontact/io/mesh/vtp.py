@@ -26,7 +26,7 @@ from defusedxml.ElementTree import fromstring  # type: ignore[import-untyped]
 from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
-from geocontact.io.mesh import mesh_checks as limits
+from geocontact.io.mesh import mesh_checks
 from geocontact.io.mesh.mesh_checks import triangles
 from geocontact.io.text.file_preflight import count_of_numbers, not_a, remedy
 
@@ -104,8 +104,8 @@ def read_document(data: bytes, file: str) -> VtpDocument:
         what = f"holds {root.tag} {root.get('type', '')}, expected VTKFile PolyData"
         raise InputError(file, "", what, "save the surface as PolyData")
     pieces = [_piece(element, file) for element in root.iterfind("PolyData/Piece")]
-    limits.require_count(sum(piece.polygons for piece in pieces), limits.MAX_FACES, "faces (Polys)", file)
-    limits.require_count(sum(piece.points for piece in pieces), limits.MAX_VERTICES, "vertices", file)
+    mesh_checks.require_count(sum(piece.polygons for piece in pieces), mesh_checks.MAX_FACES, "faces (Polys)", file)
+    mesh_checks.require_count(sum(piece.points for piece in pieces), mesh_checks.MAX_VERTICES, "vertices", file)
     appended = root.find("AppendedData")
     in_base64 = raw is None
     text = (appended.text or "").strip().encode().removeprefix(b"_") if appended is not None else b""
@@ -162,8 +162,8 @@ def _piece(element: Element, file: str) -> Piece:
     if _whole(element.get("NumberOfStrips", "0"), file):
         raise InputError(file, "Piece", "holds triangle strips", "triangulate it first")
     points, polygons = (_whole(element.get(name, "0"), file) for name in ("NumberOfPoints", "NumberOfPolys"))
-    limits.require_at_most(points, limits.MAX_VERTICES, "vertices", file)
-    limits.require_at_most(polygons, limits.MAX_FACES, "faces", file)
+    mesh_checks.require_at_most(points, mesh_checks.MAX_VERTICES, "vertices", file)
+    mesh_checks.require_at_most(polygons, mesh_checks.MAX_FACES, "faces", file)
     return Piece(element, points, polygons)
 
 
@@ -303,7 +303,7 @@ def _checked_arrays(piece: Piece, document: VtpDocument, file: str) -> dict[str,
         if np.diff(ends, prepend=0).min() < 0:
             raise InputError(file, "Polys offsets", "do not ascend", _AGAIN)
         total = int(ends[-1])
-        limits.require_at_most(total, 3 * limits.MAX_FACES, "polygon corners", file)
+        mesh_checks.require_at_most(total, 3 * mesh_checks.MAX_FACES, "polygon corners", file)
         arrays["connectivity"], _ = _checked(require_integers, piece, "Polys", "connectivity", total, document, file)
     return arrays
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from geocontact.view.surfaces import child as probe
+from geocontact.view.surfaces import child
 
 CRASH = "import os, signal; os.kill(os.getpid(), signal.SIGSEGV)"
 
@@ -14,7 +14,7 @@ CRASH = "import os, signal; os.kill(os.getpid(), signal.SIGSEGV)"
 @pytest.fixture
 def asked_anew() -> Iterator[None]:
     """The probe's answer is not kept from before, nor for later."""
-    asked = probe.off_screen_works
+    asked = child.off_screen_works
     asked.cache_clear()
     yield
     asked.cache_clear()
@@ -23,12 +23,12 @@ def asked_anew() -> Iterator[None]:
 @pytest.fixture
 def without_rendering(monkeypatch: pytest.MonkeyPatch, asked_anew: None) -> None:
     """The probe's process is killed, as it is without a graphics driver."""
-    monkeypatch.setattr(probe, "PROGRAM", CRASH)
+    monkeypatch.setattr(child, "PROGRAM", CRASH)
 
 
 @pytest.fixture
 def rendering() -> None:
     """Only where pyvista renders."""
-    answer = probe.off_screen_works()
+    answer = child.off_screen_works()
     if not answer.ok:
         pytest.skip(f"pyvista cannot render here: {answer.reason}")

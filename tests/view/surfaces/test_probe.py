@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 from geocontact.view.surfaces import child
-from geocontact.view.surfaces import child as probe
 from geocontact.view.surfaces.child import Probe, off_screen_works
 from tests.view.surfaces.conftest import CRASH
 
@@ -19,14 +18,14 @@ posix = pytest.mark.skipif(sys.platform == "win32", reason="signals end processe
 @posix
 def test_a_crash_means_no(monkeypatch: pytest.MonkeyPatch, asked_anew: None) -> None:
     pytest.importorskip("pyvista")
-    monkeypatch.setattr(probe, "PROGRAM", CRASH)
+    monkeypatch.setattr(child, "PROGRAM", CRASH)
     assert off_screen_works() == Probe(False, "ends the process (signal 11): a system library or driver is missing")
 
 
 def test_silence_means_no(monkeypatch: pytest.MonkeyPatch, asked_anew: None) -> None:
     pytest.importorskip("pyvista")
-    monkeypatch.setattr(probe, "PROGRAM", "import time; time.sleep(60)")
-    monkeypatch.setattr(probe, "PATIENCE", 0.5)
+    monkeypatch.setattr(child, "PROGRAM", "import time; time.sleep(60)")
+    monkeypatch.setattr(child, "PATIENCE", 0.5)
     start = time.perf_counter()
     assert off_screen_works() == Probe(False, "no answer within 0.5 s")
     assert time.perf_counter() - start < 20.0
@@ -43,7 +42,7 @@ def test_a_blank_picture_means_no(monkeypatch: pytest.MonkeyPatch, asked_anew: N
         "    def screenshot(self, return_img): import numpy; return numpy.zeros((64, 64, 3))\n"
         "fake.Plotter, fake.Sphere = Plotter, object\n"
     )
-    monkeypatch.setattr(probe, "PROGRAM", nothing + probe.PROGRAM)
+    monkeypatch.setattr(child, "PROGRAM", nothing + child.PROGRAM)
     assert off_screen_works() == Probe(False, "AssertionError: the rendered picture is blank")
 
 

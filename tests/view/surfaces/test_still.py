@@ -13,8 +13,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from geocontact.view.surfaces import child as probe
-from geocontact.view.surfaces import render, still
+from geocontact.view.surfaces import child, render, still
 from geocontact.view.surfaces.camera import Shot, View
 from geocontact.view.surfaces.child import Probe
 from geocontact.view.surfaces.legend import known_up_to
@@ -197,7 +196,7 @@ def test_nothing_is_left_behind(rendering: None, monkeypatch: pytest.MonkeyPatch
 
 
 def test_the_probe_is_not_the_render(rendering: None) -> None:
-    assert probe.PROGRAM != render.PROGRAM
+    assert child.PROGRAM != render.PROGRAM
 
 
 def test_a_scene_refuses_what_is_not_a_distance() -> None:

@@ -18,9 +18,7 @@ from geocontact.analyses.frame.collector import current
 from geocontact.analyses.gap.benchmark.outcome import SLOW, BenchmarkOutcome, alarm_lines, alarms, mean
 from geocontact.gap import attribute
 from geocontact.gap.selection import verdict
-from geocontact.gap_benchmark import answers as imitation
-from geocontact.gap_benchmark import residual_regression, score
-from geocontact.gap_benchmark import score as harm
+from geocontact.gap_benchmark import answers, residual_regression, score
 from geocontact.gap_benchmark.score import Rate, figures, reliability
 from geocontact.gap_benchmark.table import OPPONENTS, ROWS, error_interval, lead, markdown, scores
 from geocontact.view.curves.diagnosis_answers import Stated, reliability_figure
@@ -58,7 +56,7 @@ def content(outcome: BenchmarkOutcome, when: str) -> dict[str, Any]:
         "cases": {name: one.kinds for name, one in outcome.scopes.items()},
         "bars": {row.figure: row.bar for row in ROWS if row.bar},
         "thresholds": {
-            "scoring": _constants(score) | _constants(harm) | {"imitation_left": imitation.LEFT},
+            "scoring": _constants(score) | {"imitation_left": answers.LEFT},
             "diagnosis": _constants(verdict) | _constants(attribute),
             "regression": _constants(residual_regression),
             "gap_modules": constants_of_all(geocontact.gap),

@@ -21,15 +21,11 @@ from geocontact.analyses.misalignment.identify import sentences as said_cuts
 from geocontact.analyses.misalignment.identify.fitted import Fitted
 from geocontact.analyses.misalignment.identify.free_joint import Free
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
-from geocontact.axis_misalignment import bins, least_squares, uncertainty
-from geocontact.axis_misalignment import compensation as end_stop
-from geocontact.axis_misalignment import explicit as deflection
-from geocontact.axis_misalignment import least_squares as residuals
+from geocontact.axis_misalignment import bins, compensation, explicit, least_squares, uncertainty
 from geocontact.data.parameter import Parameter
 from geocontact.identify.intervals import bin_tests, profile_likelihood
 from geocontact.identify.noise import autoregressive
-from geocontact.identify.optimise import bounded_gauss_newton as tolerances
-from geocontact.identify.optimise import quasi_newton
+from geocontact.identify.optimise import bounded_gauss_newton, quasi_newton
 from geocontact.identify.signals import angle_bins
 
 COLUMNS = ["number", "value", "unit", "source", "note"]
@@ -101,7 +97,7 @@ def _of_files(found: Fitted, free: Free | None) -> Iterator[Row]:
 
 def _of_search(o: IdentifyOptions) -> Iterator[Row]:
     """Starts and ends of a search, and how the noise was looked for."""
-    t, spread_starts = tolerances, quasi_newton.spread_starts
+    t, spread_starts = bounded_gauss_newton, quasi_newton.spread_starts
     yield from _default(
         ("starts", least_squares.STARTS, "-", "besides the own one, spread over the bounds"),
         ("starts seed", _usual(spread_starts, "seed"), "-", "of the Latin hypercube"),
@@ -128,8 +124,8 @@ def _of_intervals(o: IdentifyOptions) -> Iterator[Row]:
         ("interval doublings", profile_likelihood.DOUBLINGS, "-", "of the half-width in search of an end"),
         ("interval distinct", uncertainty.DISTINCT, "-", "of a number: closer minima are one"),
         ("residual draws", bin_tests.DRAWS, "-", "of noise, for residuals and their excess"),
-        ("residual seed", _usual(residuals.normal_residuals, "seed"), "-", "of the test of normality"),
-        ("excess seed", _usual(residuals.excess, "seed"), "-", ""),
+        ("residual seed", _usual(least_squares.normal_residuals, "seed"), "-", "of the test of normality"),
+        ("excess seed", _usual(least_squares.excess, "seed"), "-", ""),
     )
     if o.bootstrap:
         yield from _default(
@@ -147,7 +143,7 @@ def _cuts(found: Fitted) -> Iterator[Row]:
         ("noise least", f.ROUNDING, "-", "of the force's range; less is refused"),
         ("mirrored", f.MIRRORED, "-", "correlation below which a force is refused as mirrored"),
         ("locked slides", input_cuts.SLID, "m", "a locked joint moves less, a free one more"),
-        ("pole", deflection.POLE_SHARE, "-", "of the link: nearer to a pole is beyond the model"),
+        ("pole", explicit.POLE_SHARE, "-", "of the link: nearer to a pole is beyond the model"),
         ("flat", uncertainty.FLAT, "-", "of the largest singular value: nothing is identified"),
         ("fixation series", uncertainty.SERIES, "-", "share of its own below which c is not told from k"),
         ("fixation own", s.OWN, "-", "share of its own below which c is hardly separable"),
@@ -165,10 +161,10 @@ def _cuts(found: Fitted) -> Iterator[Row]:
 def _stroke_cuts() -> Iterator[Row]:
     """Cut-offs of recordings with a free joint."""
     yield from _default(
-        ("stroke still", end_stop.STILL, "-", "of the displacement's range, at its ends: the joint does not slide"),
-        ("stroke stands", end_stop.STANDS, "-", "of that range, median deviation of a stand"),
-        ("stroke bins", end_stop.FEWEST, "-", "of a stand, or of a slope"),
-        ("stroke built_up", end_stop.BUILT_UP, "-", "standard deviations of the force at a stand"),
+        ("stroke still", compensation.STILL, "-", "of the displacement's range, at its ends: the joint does not slide"),
+        ("stroke stands", compensation.STANDS, "-", "of that range, median deviation of a stand"),
+        ("stroke bins", compensation.FEWEST, "-", "of a stand, or of a slope"),
+        ("stroke built_up", compensation.BUILT_UP, "-", "standard deviations of the force at a stand"),
         ("displacement against", free_cuts.AGAINST, "-", "standard errors below 0: refused as a turned sign"),
         ("stiffnesses apart", said_cuts.APART, "-", "times, from which a unit is doubted"),
     )
