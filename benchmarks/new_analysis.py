@@ -38,7 +38,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from geocontact.analyses.frame.options import MeshUnit, Options
+from geocontact.analyses.frame.marks import MeshUnit
+from geocontact.analyses.frame.options import Options
 
 
 @dataclass(frozen=True)

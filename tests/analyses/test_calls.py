@@ -11,7 +11,8 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.options import Missing, declared
+from geocontact.analyses.frame.marks import Missing
+from geocontact.analyses.frame.options import declared
 from geocontact.data.plausible import numbers_in
 from tests.analyses.jobs import JOBS
 

@@ -15,7 +15,8 @@ from matplotlib.figure import Figure
 import geocontact as gc
 from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.frame.job import Call, Job, execute
-from geocontact.analyses.frame.options import Length, Options, Spelled
+from geocontact.analyses.frame.marks import Length, Spelled
+from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.record import Listener
 from geocontact.analyses.frame.result import Result
 from geocontact.cli.command import Command

@@ -13,20 +13,18 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.frame.calls import read
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.options import (
-    Declared,
+from geocontact.analyses.frame.marks import (
     Excludes,
     Length,
     Lengths,
     Millimetres,
     Needs,
-    Options,
     Requires,
     Spelled,
     TimeSpan,
     Typed,
-    declared,
 )
+from geocontact.analyses.frame.options import Declared, Options, declared
 from geocontact.cli.command import option, speller
 from geocontact.data.errors import InputError
 from tests.analyses.jobs import JOBS

@@ -8,7 +8,7 @@ from glob import has_magic
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.options import (
+from geocontact.analyses.frame.marks import (
     AngleUnit,
     Excludes,
     Expression,
@@ -18,12 +18,12 @@ from geocontact.analyses.frame.options import (
     MeshUnit,
     Missing,
     Needs,
-    Options,
     Pressure,
     Requires,
     Spelled,
     Typed,
 )
+from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import BodyPair, Medial, Side, Sweep, Thickness, medial_side
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import (

@@ -6,19 +6,19 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.options import (
+from geocontact.analyses.frame.marks import (
     AngleUnit,
     C3dUnit,
     Excludes,
     Expression,
     Length,
     MeshUnit,
-    Options,
     PartLength,
     Requires,
     Spelled,
     Typed,
 )
+from geocontact.analyses.frame.options import Options
 from geocontact.data.plausible import CUTOFF, DAMPING, DEPTH, FORCE, FRICTION, PLAIN, SPEED, ByName, Plausible
 from geocontact.data.units import mm
 

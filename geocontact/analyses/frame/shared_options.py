@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from geocontact.analyses.frame.options import Spelled, Typed
+from geocontact.analyses.frame.marks import Spelled, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import JOINT_ANGLE, LAYER
 

@@ -6,7 +6,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.options import Expression, ForceUnit, Fraction, Options, Requires
+from geocontact.analyses.frame.marks import Expression, ForceUnit, Fraction, Requires
+from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import MASS, SHARE, N, Plausible
 from geocontact.data.text import cannot_be_named, same_place

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.options import (
+from geocontact.analyses.frame.marks import (
     AngleUnit,
     Excludes,
     Expression,
@@ -14,12 +14,12 @@ from geocontact.analyses.frame.options import (
     Length,
     MeshUnit,
     Needs,
-    Options,
     Pressure,
     Requires,
     Spelled,
     Typed,
 )
+from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import BORDER, CUTOFF, DISPLACEMENT, FORCE, SHARE, TOUCH
 

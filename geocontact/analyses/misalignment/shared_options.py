@@ -8,7 +8,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
-from geocontact.analyses.frame.options import AngleUnit, Expression, ForceUnit, Options, Spelled, Typed
+from geocontact.analyses.frame.marks import AngleUnit, Expression, ForceUnit, Spelled, Typed
+from geocontact.analyses.frame.options import Options
 from geocontact.analyses.misalignment.law_numbers import DRIFT, STROKE
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, JOINT_ANGLE

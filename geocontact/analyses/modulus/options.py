@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.checks import bootstrap_rule, refuse
-from geocontact.analyses.frame.options import (
+from geocontact.analyses.frame.marks import (
     AngleUnit,
     Excludes,
     Expression,
@@ -17,11 +17,11 @@ from geocontact.analyses.frame.options import (
     Length,
     Millimetres,
     Needs,
-    Options,
     Requires,
     Spelled,
     Typed,
 )
+from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import DELAY, J_PER_M2, POISSON, RADIUS, STRIP, THRESHOLD, TURN, ByName, Plausible
 

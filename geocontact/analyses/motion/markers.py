@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, reserve
-from geocontact.analyses.frame.options import LengthUnit
+from geocontact.analyses.frame.marks import LengthUnit
 from geocontact.analyses.frame.quantities import named_file, turned_axes
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories

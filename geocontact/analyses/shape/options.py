@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.checks import refuse
-from geocontact.analyses.frame.options import Degrees, Excludes, Expression, MeshUnit, Options, Requires, Spelled, Typed
+from geocontact.analyses.frame.marks import Degrees, Excludes, Expression, MeshUnit, Requires, Spelled, Typed
+from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import Medial, Side, medial_side
 from geocontact.data.plausible import JOINT_ANGLE, Plausible
 from geocontact.data.units import deg

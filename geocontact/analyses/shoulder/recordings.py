@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.analyses.frame.collector import add_input
-from geocontact.analyses.frame.options import AngleUnit, ForceUnit
+from geocontact.analyses.frame.marks import AngleUnit, ForceUnit
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import Agreement, agreement, over_stretches
 from geocontact.io.recordings.load_cells import column_in_newtons

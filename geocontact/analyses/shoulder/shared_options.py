@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 
 from geocontact.analyses.frame import quantities
-from geocontact.analyses.frame.options import Spelled, Typed
+from geocontact.analyses.frame.marks import Spelled, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import PLAIN, Plausible
 from geocontact.data.units import Unit

@@ -6,7 +6,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.options import Excludes, Missing, Needs, Options
+from geocontact.analyses.frame.marks import Excludes, Missing, Needs
+from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import KW_ONLY, dataclass
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.options import CaseFolder, Options, Requires
+from geocontact.analyses.frame.marks import CaseFolder, Requires
+from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
 
 

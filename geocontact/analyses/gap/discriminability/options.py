@@ -6,7 +6,8 @@ import math
 from dataclasses import KW_ONLY, dataclass
 from typing import ClassVar
 
-from geocontact.analyses.frame.options import CaseFolder, Options
+from geocontact.analyses.frame.marks import CaseFolder
+from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
 
 

@@ -6,7 +6,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from geocontact.analyses.frame.options import C3dUnit, Options
+from geocontact.analyses.frame.marks import C3dUnit
+from geocontact.analyses.frame.options import Options
 
 
 @dataclass(frozen=True)

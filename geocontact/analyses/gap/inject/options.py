@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.options import CaseFolder, Options, Spelled, Typed
+from geocontact.analyses.frame.marks import CaseFolder, Spelled, Typed
+from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
 
 NamedNumbers = Annotated[

@@ -7,17 +7,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.options import (
-    AngleUnit,
-    Excludes,
-    Expression,
-    Length,
-    MeshUnit,
-    Options,
-    Pressure,
-    Spelled,
-    Typed,
-)
+from geocontact.analyses.frame.marks import AngleUnit, Excludes, Expression, Length, MeshUnit, Pressure, Spelled, Typed
+from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import BodyPair, Side, Sweep, Thickness
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import LAYER_RATIO, PIECE, YOUNG, N, Plausible

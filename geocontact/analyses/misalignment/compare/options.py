@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.options import Degrees, Requires, Spelled
+from geocontact.analyses.frame.marks import Degrees, Requires, Spelled
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.misalignment.shared_options import ColumnOptions, Stroke, require_stroke
 from geocontact.data.errors import InputError

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import KW_ONLY, dataclass
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.options import Millimetres, Options, Spelled, Typed
+from geocontact.analyses.frame.marks import Millimetres, Spelled, Typed
+from geocontact.analyses.frame.options import Options
 from geocontact.analyses.misalignment.law_numbers import ACROSS, LINK, OFFSET
 from geocontact.analyses.misalignment.shared_options import (
     Angles,

@@ -8,7 +8,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.options import Degrees, Requires, Spelled, Typed
+from geocontact.analyses.frame.marks import Degrees, Requires, Spelled, Typed
 from geocontact.analyses.misalignment.law_numbers import MEANS, NUMBERS, TOPS, require_names
 from geocontact.analyses.misalignment.shared_options import ColumnOptions
 from geocontact.data.errors import InputError

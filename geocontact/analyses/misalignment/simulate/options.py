@@ -7,16 +7,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.options import (
-    AngleUnit,
-    Excludes,
-    Expression,
-    Millimetres,
-    Options,
-    Requires,
-    Spelled,
-    Typed,
-)
+from geocontact.analyses.frame.marks import AngleUnit, Excludes, Expression, Millimetres, Requires, Spelled, Typed
+from geocontact.analyses.frame.options import Options
 from geocontact.analyses.misalignment.law_numbers import NUMBERS, TORQUE, TURNING, require_names
 from geocontact.analyses.misalignment.shared_options import (
     Stroke,

@@ -6,7 +6,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.options import AngleUnit, C3dUnit, Excludes, Expression, Options, Texts, TimeSpan
+from geocontact.analyses.frame.marks import AngleUnit, C3dUnit, Excludes, Expression, Texts, TimeSpan
+from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, FORCE
 

@@ -7,17 +7,17 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.options import (
+from geocontact.analyses.frame.marks import (
     BodyMass,
     C3dUnit,
     Degrees,
     Expression,
     Fraction,
     Length,
-    Options,
     PartLength,
     Spelled,
 )
+from geocontact.analyses.frame.options import Options
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP, NOISE, SHIFT, SPEED, TILT

@@ -6,7 +6,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.options import C3dUnit, Expression, Options
+from geocontact.analyses.frame.marks import C3dUnit, Expression
+from geocontact.analyses.frame.options import Options
 from geocontact.analyses.prosthesis.ranges import TURNS, require_turns
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP

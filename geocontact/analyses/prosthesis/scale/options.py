@@ -6,16 +6,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.options import (
-    BodyMass,
-    C3dUnit,
-    Expression,
-    Fraction,
-    Options,
-    PartLength,
-    PartMass,
-    Spelled,
-)
+from geocontact.analyses.frame.marks import BodyMass, C3dUnit, Expression, Fraction, PartLength, PartMass, Spelled
+from geocontact.analyses.frame.options import Options
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, PROSTHESIS, RESIDUAL, STATURE
 from geocontact.data.errors import InputError
 

@@ -6,7 +6,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.options import AngleUnit, Expression, ForceUnit, Options, Spelled, Typed
+from geocontact.analyses.frame.marks import AngleUnit, Expression, ForceUnit, Spelled, Typed
+from geocontact.analyses.frame.options import Options
 from geocontact.data.plausible import DELAY
 
 Clock = Annotated[float, Typed("s", "finite", "0.02", "[s]", float), Spelled(dashed=True), DELAY]

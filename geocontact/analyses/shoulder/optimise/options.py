@@ -6,7 +6,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.options import C3dUnit, Expression, Options, Requires, Spelled
+from geocontact.analyses.frame.marks import C3dUnit, Expression, Requires, Spelled
+from geocontact.analyses.frame.options import Options
 from geocontact.analyses.shoulder.shared_options import TORQUE_RATE, Share, require_share
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP, LIMIT

@@ -6,7 +6,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.options import C3dUnit, Expression, Needs, Options, Requires, TimeSpan
+from geocontact.analyses.frame.marks import C3dUnit, Expression, Needs, Requires, TimeSpan
+from geocontact.analyses.frame.options import Options
 from geocontact.analyses.shoulder.shared_options import CURRENT, Level, require_share
 from geocontact.data.plausible import CUTOFF, GAP
 

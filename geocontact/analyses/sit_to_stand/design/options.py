@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.options import Expression, Fraction, Spelled
+from geocontact.analyses.frame.marks import Expression, Fraction, Spelled
 from geocontact.analyses.sit_to_stand.search_options import NODES, StandingSearchOptions, within
 from geocontact.data.errors import InputError
 from geocontact.standing_up.assistance_room import ROOM

@@ -6,7 +6,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.options import Fraction, Options, Requires, Spelled
+from geocontact.analyses.frame.marks import Fraction, Requires, Spelled
+from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import HZ, Plausible
 from geocontact.data.units import m
