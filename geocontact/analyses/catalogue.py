@@ -237,7 +237,7 @@ class Room(ModuleType):
         return known(name)
 
     def __dir__(self) -> list[str]:
-        return sorted({*super().__dir__(), *self.__all__})
+        return sorted({*(name for name in super().__dir__() if name.startswith("__")), *self.__all__})
 
 
 def make_room(package: str) -> None:

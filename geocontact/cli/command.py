@@ -12,7 +12,7 @@ from typing import Annotated, Any
 from cyclopts import Group, Parameter
 
 from geocontact.analyses.catalogue import Entry, entry_of
-from geocontact.analyses.frame.calls import key, read
+from geocontact.analyses.frame.calls import key
 from geocontact.analyses.frame.job import Call, Job, execute
 from geocontact.analyses.frame.options import Declared, Options, declared
 from geocontact.analyses.frame.result import Result
@@ -73,7 +73,7 @@ class Command:
         self, typed: Mapping[str, Any], folder: Path, forms: TableForms = AS_ALWAYS, *, overwrite: bool = True
     ) -> tuple[Result, list[str]]:
         """Run it with options as typed, by their names in `run.json`; the result and the names of its files."""
-        given = {one.name: read(one, typed[key(one)]) for one in self.known if key(one) in typed}
+        given = {one.name: one.read(typed[key(one)]) for one in self.known if key(one) in typed}
         return self.execute_in_si(given, typed, folder, forms, overwrite=overwrite)
 
     def execute_in_si(

@@ -166,7 +166,7 @@ BORDER = Plausible("the border of a mat", mm, (0.0, 500.0), (0.0, 100.0))
 DEPTH = Plausible("a depth of contact", mm, (1e-3, 200.0), (0.05, 30.0))
 SHIFT = Plausible("how far things are off", mm, (0.0, 500.0), (0.0, 50.0))
 
-YOUNG = Plausible("Young's modulus", MPa, (1e-4, 2e6), (1e-3, 5e5))
+YOUNG = Plausible("Young's modulus", MPa, (1e-3, 2e6), (5e-3, 5e5))
 TOUCH = Plausible("the pressure of a touch", kPa, (1e-3, 1e4), (0.05, 100.0))
 CUFF = Plausible("the pressure of a cuff", mmHg, (0.0, 2000.0), (0.0, 300.0))
 LAYER_RATIO = Plausible("Poisson's ratio of a layer, below 0.5", PLAIN, (0.0, 0.4999))

@@ -26,7 +26,7 @@ def names_of_stub(package: ModuleType) -> tuple[Callable[[str], Any], Callable[[
         return inside[name] if name in inside else import_module(f"{places[name]}.{name}")
 
     def names() -> list[str]:
-        return sorted({*vars(package), *places})
+        return sorted({*(name for name in vars(package) if name.startswith("__")), *places})
 
     return get, names, sorted(places)
 

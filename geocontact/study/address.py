@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from geocontact.analyses.frame import source_digest
-from geocontact.analyses.frame.calls import key, read
+from geocontact.analyses.frame.calls import key
 from geocontact.analyses.frame.folder import digest
 from geocontact.analyses.frame.options import Options, declared
 from geocontact.analyses.frame.record import library_versions
@@ -54,7 +54,7 @@ def options_of(options: type[Options], typed: Mapping[str, Any]) -> Options:
         if one is None or not one.settable:
             names = ", ".join(key(each) for each in known.values() if each.settable)
             raise InputError("", f"`{name}`", "is no option of this analysis", f"there are {names}")
-        given[one.name] = read(one, _as_typed(value, one.typed is not None and one.typed.kind is str))
+        given[one.name] = one.read(_as_typed(value, one.typed is not None and one.typed.kind is str))
     if ONE_THREAD in known and ONE_THREAD not in given:
         given[ONE_THREAD] = 1
     missing = next((one for one in known.values() if one.required and one.name not in given), None)

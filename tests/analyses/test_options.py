@@ -11,7 +11,6 @@ from typing import Annotated, Literal
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.frame.calls import read
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.marks import (
     Excludes,
@@ -97,7 +96,7 @@ def test_values_are_coerced() -> None:
         ({"other": ("x", "y")}, '`other`: is 2 values where one text is asked for; write "x,y"'),
         ({"other": "x"}, "`depth`: is missing with `other`; give 4mm"),
         ({"depth": 0.0}, "`depth`: 0 m is none; give more"),
-        ({"span": "0:0.2"}, "`span`: '0:0.2' is not 2 numbers; give 2 numbers: (0.4, 1.6)"),
+        ({"span": "0-0.2"}, "`span`: '0-0.2' is not a span; write for example 0.4:1.6"),  # a text is read as it is typed
         ({"span": (0.1, 0.2, 0.3)}, "`span`: (0.1, 0.2, 0.3) is not 2 numbers; give 2 numbers: (0.4, 1.6)"),
         ({"span": 0.2}, "`span`: 0.2 is not 2 numbers; give 2 numbers: (0.4, 1.6)"),
         ({"span": (0.1, "x")}, "`span`: (0.1, 'x') is not 2 numbers; give 2 numbers: (0.4, 1.6)"),
@@ -113,7 +112,7 @@ def test_an_option_may_be_one_of_several_types_and_read_by_any_module() -> None:
     course = of("course")
     assert course.optional and Example("a.csv", course="b.csv").course == Path("b.csv")
     assert Example("a.csv", course={"x": (0.0, 1e-3)}).course == {"x": (0.0, 1e-3)}
-    assert read(course, "x=0:1,y=2") == {"x": (0.0, 1e-3), "y": (2e-3,)} and read(course, "c.csv") == Path("c.csv")
+    assert course.read("x=0:1,y=2") == {"x": (0.0, 1e-3), "y": (2e-3,)} and course.read("c.csv") == Path("c.csv")
 
 
 def test_messages_are_spelled_as_the_user_wrote_them() -> None:
@@ -125,11 +124,11 @@ def test_messages_are_spelled_as_the_user_wrote_them() -> None:
 
 
 def test_what_is_typed_becomes_si() -> None:
-    assert read(of("depth"), "0.4 cm") == pytest.approx(4e-3, rel=1e-15)
-    assert read(of("levels"), "4,5mm") == of("levels").default
-    assert read(of("radius"), 37.0) == gc.mm(37)
+    assert of("depth").read("0.4 cm") == pytest.approx(4e-3, rel=1e-15)
+    assert of("levels").read("4,5mm") == of("levels").default
+    assert of("radius").read(37.0) == gc.mm(37)
     with pytest.raises(InputError, match="`depth`: 'deep' is not a finite number"):
-        read(of("depth"), "deep")
+        of("depth").read("deep")
 
 
 def test_units_are_in_the_names_of_what_is_recorded() -> None:
@@ -153,7 +152,7 @@ def test_headings_of_the_docstring_are_sections() -> None:
 def test_every_default_that_is_typed_is_the_default(job: Job, one: Declared) -> None:
     """And every default is finite, so that no NaN stands for a missing value."""
     if one.spelled.default is not None:
-        assert read(one, one.spelled.default) == one.default, job.command
+        assert one.read(one.spelled.default) == one.default, job.command
     if isinstance(one.default, float):
         assert math.isfinite(one.default)
 

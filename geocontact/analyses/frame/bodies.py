@@ -5,6 +5,7 @@ can be signed.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from os import PathLike
 from pathlib import Path
 from types import MappingProxyType
 from typing import Literal, Protocol, runtime_checkable
@@ -118,7 +119,7 @@ def read_body_motion(file: Path, o: MotionOptions) -> Motion:
 NOTHING: Mapping[str, Values] = MappingProxyType({})
 
 
-def read_surface(path: str, unit: str, assume_closed: bool = False) -> Surface:
+def read_surface(path: str | PathLike[str], unit: str, assume_closed: bool = False) -> Surface:
     """Surface of a mesh file whose numbers are in `unit` (m, cm, mm or in), ready for queries.
 
     Parameters

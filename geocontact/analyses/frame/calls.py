@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from difflib import get_close_matches
 from importlib import import_module
-from inspect import cleandoc
+from inspect import cleandoc, signature
 from pathlib import Path
 from textwrap import wrap
 from typing import Any
@@ -16,24 +16,62 @@ from geocontact.analyses.frame.options import Declared, Options, declared
 WIDTH = 112
 
 
-def python_help(options: type[Options]) -> str:
-    """Docstring of the call: that of the options, and how values that the command line reads from text are written."""
+def python_help(options: type[Options], run: Callable[..., Any]) -> str:
+    """Docstring of the call: what it does, its arguments, the result with its numbers, and an example.
+
+    Parameters
+    ----------
+    options
+        Class of the options; its docstring says what each is.
+    run
+        Function that computes: its return annotation names the class of the result, and its module has the example.
+    """
     summary = cleandoc(options.__doc__ or "").partition("Parameters\n")[0].strip()
     lines = [summary, "", "Parameters", "----------"]
     known = [one for one in declared(options) if one.settable]
     for section in dict.fromkeys(one.section for one in known):
         lines += ["", section, "-" * len(section)] if section else []
-        lines += [line for one in known if one.section == section for line in _told(one)]
-    return "\n".join(lines) + "\n"
+        lines += [line for one in known if one.section == section for line in _parameter_lines(one)]
+    return "\n".join([*lines, *_returns(run), *_example(run)]) + "\n"
 
 
-def _told(one: Declared) -> list[str]:
+def _parameter_lines(one: Declared) -> list[str]:
     unit = f" [{one.typed.si}]" if one.typed is not None and one.typed.si != "-" else ""
     head = f"{one.name} : {_kind(one.kind)}{unit}{', optional' if not one.required else ''}"
     words = one.words
     if one.typed is not None:
-        words = f"{words.rstrip('.')}. Written here as {one.typed.python}"
-    return [head, *(f"    {line}" for line in wrap(words, WIDTH, break_on_hyphens=False))]
+        words = f"{words.rstrip('.')}. As {one.typed.python}, or a text with its unit"
+    return [head, *_indented(words)]
+
+
+def _indented(words: str) -> list[str]:
+    return [f"    {line}" for line in wrap(words, WIDTH, break_on_hyphens=False)]
+
+
+def _returns(run: Callable[..., Any]) -> list[str]:
+    """The class of the result, what it is, and numbers that are attributes of it."""
+    found = signature(run).return_annotation
+    kind = vars(import_module(run.__module__)).get(found) if isinstance(found, str) else found
+    if not isinstance(kind, type):
+        return []
+    words = f"{cleandoc(kind.__doc__ or '').partition(chr(10) * 2)[0]} {METHODS}"
+    lines = ["", "Returns", "-------", kind.__name__, *_indented(" ".join(words.split()))]
+    for name, each in vars(kind).items():
+        if isinstance(each, property) and not name.startswith("_") and not hasattr(kind.__mro__[1], name):
+            lines += [f"    {name} : {' '.join(cleandoc(each.__doc__ or '').partition(chr(10) * 2)[0].split())}"]
+    return lines
+
+
+def _example(run: Callable[..., Any]) -> list[str]:
+    """What the module of the result shows."""
+    text = import_module(run.__module__).__doc__ or ""
+    place = text.find(">>>")
+    return ["", "Examples", "--------", *text[place:].rstrip().splitlines()] if place >= 0 else []
+
+
+METHODS = (
+    "`table()` and `tables()` give numbers, `figure()` a figure, `page(file)` its page, `write(folder)` all files."
+)
 
 
 def _kind(kind: Any) -> str:
@@ -81,12 +119,3 @@ def _listed(names: Sequence[str]) -> str:
 def key(one: Declared) -> str:
     """Key of the option in `run.json`."""
     return one.spelled.key or one.name
-
-
-def read(one: Declared, value: Any) -> Any:
-    """What was typed, in SI."""
-    if one.typed is None or value is None:
-        return value
-    place, _, name = one.typed.read.rpartition(":")
-    function = getattr(import_module(f"geocontact.analyses.{place or 'frame.quantities'}"), name)
-    return function(value, f"`{one.name}`")

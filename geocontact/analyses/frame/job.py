@@ -6,17 +6,19 @@ import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from inspect import Parameter, Signature
+from os import fspath
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from geocontact.analyses.frame.calls import python_help, require_arguments
 from geocontact.analyses.frame.collector import collecting
 from geocontact.analyses.frame.folder import written_whole
+from geocontact.analyses.frame.in_memory import InMemory
 from geocontact.analyses.frame.options import Declared, Options, declared
 from geocontact.analyses.frame.record import Listener, Record, as_python
 from geocontact.analyses.frame.result import Result
 from geocontact.analyses.frame.table_forms import AS_ALWAYS, TableForms
-from geocontact.data.errors import InputWarning
+from geocontact.data.errors import InputError, InputWarning
 
 I = TypeVar("I")
 R = TypeVar("R", bound=Result)
@@ -47,7 +49,7 @@ class Job(Generic[I, R]):
         run: Callable[[I, Any], R],
     ) -> None:
         self.command, self.options, self.read, self.run = command, options, read, run
-        self.__doc__ = python_help(options)
+        self.__doc__ = python_help(options, run)
         self.__name__ = command.replace(" ", "_")
 
     @property
@@ -56,20 +58,36 @@ class Job(Generic[I, R]):
         return Signature([_parameter(one) for one in declared(self.options) if one.settable])
 
     def __call__(self, *inputs: Any, **options: Any) -> R:
-        """Read and compute; nothing is written. Arguments are those of `__signature__`; paths may be text."""
+        """Read and compute; nothing is written. Arguments are those of `__signature__`.
+
+        A path may be text. Where a file is asked for, a `DataFrame`, an array of rows, a `trimesh.Trimesh`, a
+        `pyvista.PolyData`, a triangle mesh of open3d or a `gc.Motion` may be given as well.
+        """
         require_arguments(self.command, self.options, inputs, options)
-        asked = self.options(*inputs, **options)
-        asked.refuse_missing_files()
-        record = Record(self.command, asked.in_si(), asked.in_si())
-        with collecting(record):
-            tell_doubts(asked, record)
-            result = self.run(self.read(asked), asked)
+        held = InMemory()
+        placed = dict(zip([one.name for one in declared(self.options) if one.positional], inputs, strict=False))
+        given = held.replaced(placed | options, options.get("unit"))
+        try:
+            asked = self.options(**given)
+            asked.refuse_missing_files()
+            record = Record(self.command, asked.in_si(), asked.in_si(), spell=held.spelled, held=held)
+            with collecting(record):
+                tell_doubts(asked, record)
+                result = self.run(self.read(asked), asked)
+        except InputError as error:
+            if not held.words:
+                raise
+            parts = map(held.spelled, (fspath(error.file), error.place, error.what, error.remedy))
+            raise InputError(*parts) from error
+        record.name_in_memory()
         for line in record.warnings:
             warnings.warn(line, InputWarning, stacklevel=2)
         return result
 
     def __repr__(self) -> str:
-        return f"<analysis {self.command}{self.__signature__}>"
+        inputs = [one.name for one in declared(self.options) if one.settable and one.positional]
+        count = sum(one.settable and not one.positional for one in declared(self.options))
+        return f"<analysis {self.command}({', '.join(inputs)}, …): {count} options, see help()>"
 
 
 def _parameter(one: Declared) -> Parameter:

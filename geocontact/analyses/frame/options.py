@@ -17,6 +17,7 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin, get_type_hints
 
+from geocontact.analyses.frame import typed_text
 from geocontact.analyses.frame.docstrings import Documented, documented
 from geocontact.analyses.frame.marks import Excludes, ForFiles, Missing, Needs, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
@@ -77,8 +78,14 @@ class Declared:
         """Whether the value is a tuple of any length."""
         return get_origin(self.kind) is tuple and get_args(self.kind)[-1] is Ellipsis
 
+    def read(self, typed: Any) -> Any:
+        """What was typed on the command line, in SI."""
+        return typed if self.typed is None or typed is None else typed_text.read(self.typed, self.name, typed)
+
     def coerced(self, value: Any) -> Any:
-        """The value as the analysis takes it: paths for text and text for paths, a tuple for a single value."""
+        """The value as the analysis takes it: in SI, paths for text and text for paths, a tuple for a single value."""
+        if self.typed is not None:
+            value = typed_text.from_python(self.typed, self.name, self.kind, self.spelled.each, value)
         if value is None:
             return None
         if self.several:
@@ -87,7 +94,9 @@ class Declared:
         if self.kind is str and isinstance(value, (tuple, list)):
             remedy = f'write "{",".join(map(str, value))}"'
             raise InputError("", f"`{self.name}`", f"is {len(value)} values where one text is asked for", remedy)
-        if self.kind in (Path, float, str):
+        if self.kind is float:
+            return self._number(value)
+        if self.kind in (Path, str):
             return _as(self.kind, value)
         if isinstance(value, str) and Path in get_args(self.kind):
             return Path(value)
@@ -97,8 +106,17 @@ class Declared:
             raise InputError("", f"`{self.name}`", f"{value!r} is not a choice", f"one of {', '.join(self.choices)}")
         return value
 
+    def _number(self, value: Any) -> float:
+        """The number; InputError for what is none."""
+        try:
+            return float(value)
+        except (TypeError, ValueError):
+            shown = repr(value) if isinstance(value, str) else f"a {type(value).__name__}"
+            remedy = f"give a number, as in {self.typed.python}" if self.typed else "give a number"
+            raise InputError("", f"`{self.name}`", f"{shown} is not a number", remedy) from None
+
     def _require_numbers(self, value: Any) -> None:
-        """InputError unless there are as many numbers as are asked for: in Python nothing parses a text."""
+        """InputError unless there are as many numbers as are asked for."""
         count = len(get_args(self.kind))
         try:
             right = not isinstance(value, str) and len([float(each) for each in value]) == count

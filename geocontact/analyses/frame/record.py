@@ -14,6 +14,7 @@ from os import PathLike, fspath
 from pathlib import Path
 
 from geocontact.analyses.frame.folder import RUN, digest, written
+from geocontact.analyses.frame.in_memory import InMemory
 from geocontact.analyses.frame.table_forms import AS_ALWAYS, TableForms
 from geocontact.data.errors import InputWarning
 from geocontact.data.version import VERSION
@@ -79,6 +80,8 @@ class Record:
         Further forms of the tables.
     out
         Where results will be; None where nothing is written. What is whole by itself may be put there at once.
+    held
+        Values of a Python session that stand where files are; their files are there as long as the record is.
     """
 
     command: str
@@ -94,6 +97,14 @@ class Record:
     spell: Callable[[str], str] = as_python
     forms: TableForms = AS_ALWAYS
     out: Path | None = None
+    held: InMemory = field(default_factory=InMemory)
+
+    def name_in_memory(self) -> None:
+        """Replace files that stand for values of a Python session by what those are."""
+        self.options = {name: self.held.plain(value) for name, value in self.options.items()}
+        self.in_si = {name: self.held.plain(value) for name, value in self.in_si.items()}
+        for one in self.inputs:
+            one |= {name: self.held.spelled(fact) for name, fact in one.items() if isinstance(fact, str)}
 
     def add_input(self, role: str, path: str | PathLike[str], **facts: object) -> None:
         """Note a file with its SHA-256 and what is known of it."""

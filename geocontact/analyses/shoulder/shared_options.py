@@ -26,7 +26,8 @@ def level(text: str, option: str) -> float:
 def require_share(value: float, option: str, example: str) -> None:
     """Refuse what is below 0 or above 1."""
     if not 0.0 <= value <= 1.0:
-        raise InputError("", f"`{option}`", f"{100.0 * value:g} % is not 0 to 100 %", f"give for example {example}")
+        meant = f"is {value:g} % meant?" if 1.0 < value <= 100.0 else f"give for example {example}"
+        raise InputError("", f"`{option}`", f"{100.0 * value:g} % is not 0 to 100 %", meant)
 
 
 Share = Annotated[float, Typed("-", "shoulder.shared_options:level", "0.5")]

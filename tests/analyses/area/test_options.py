@@ -10,7 +10,6 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.area.options import AreaOptions, PressureOptions
-from geocontact.analyses.frame.calls import read
 from geocontact.analyses.frame.options import declared
 from geocontact.cli.command import option
 from geocontact.data.errors import InputError
@@ -40,7 +39,7 @@ OPTIONS = {one.name: one for one in declared(AreaOptions)}
     ],
 )
 def test_what_is_typed_becomes_si(name: str, text: str, value: object) -> None:
-    found = read(OPTIONS[name], text)
+    found = OPTIONS[name].read(text)
     if isinstance(value, tuple) and isinstance(value[0], str):
         assert (found[0], found[1:]) == (value[0], pytest.approx(value[1:], rel=1e-15))
     else:
@@ -123,7 +122,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     ),
     "modulus in MPa": (
         MOTION | LAYER | {"modulus": 50},
-        "`modulus`: 5e-05 MPa cannot be Young's modulus: that is 0.0001 to 2e+06 MPa; is 50 MPa meant?",
+        "`modulus`: 5e-05 MPa cannot be Young's modulus: that is 0.001 to 2e+06 MPa; is 50 MPa meant?",
     ),
     "sweep in degrees": (
         {"sweep": ("flexion", 0, 90, 1)},
