@@ -68,3 +68,12 @@ class Mesh:
     unit: str = "m"
     sha256: str = ""
     space: str = ""
+
+    def __repr__(self) -> str:
+        return f"<Mesh {self.name}, {mesh_words(self.vertices, self.faces)}>"
+
+
+def mesh_words(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"]) -> str:
+    """How many points [m] and faces, and the bounding box of the points in millimetres: one line."""
+    box = " x ".join(f"{1e3 * side:.3g}" for side in np.ptp(vertices, axis=0)) if len(vertices) else "no"
+    return f"{len(vertices)} points, {len(faces)} faces, {box} mm"

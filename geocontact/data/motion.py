@@ -90,6 +90,11 @@ class Motion:
     def __len__(self) -> int:
         return len(self.time)
 
+    def __repr__(self) -> str:
+        unit = "" if self.time_unit == "%" else " "
+        span = f"{self.time[0]:g} … {self.time[-1]:g}{unit}{self.time_unit}" if len(self) else "no time"
+        return f"<Motion, {len(self)} frames, {span}{f', {self.source}' if self.source else ''}>"
+
     def at(self, time: Float[np.ndarray, " k"]) -> Motion:
         """The motion at other times within its own: translations linear, rotations along the shortest arc between."""
         if len(time) == len(self.time) and np.allclose(time, self.time, rtol=0.0, atol=SAME_TIME):

@@ -9,7 +9,7 @@ import igl
 import numpy as np
 from jaxtyping import Bool, Float, Int, Int32
 
-from geocontact.data.mesh import Mesh, repeated_faces
+from geocontact.data.mesh import Mesh, mesh_words, repeated_faces
 from geocontact.geometry.inside_outside import doubtful_faces, normals_agree, resolve_inside_outside
 from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
 from geocontact.geometry.kernels.binary import Binary, build
@@ -122,6 +122,10 @@ class Surface:
             raise ValueError(f"{self.name}: vertices must be finite")
         if self.faces.min() < 0 or self.faces.max() >= len(self.vertices):
             raise ValueError(f"{self.name}: a face names a vertex that is not there")
+
+    def __repr__(self) -> str:
+        """Name, size of the box, points and faces, whether it is closed: one line."""
+        return f"<Surface {self.name}, {mesh_words(self.vertices, self.faces)}, {'closed' if self.closed else 'open'}>"
 
     @classmethod
     def of(cls, mesh: Mesh, assume_closed: bool = False) -> Surface:

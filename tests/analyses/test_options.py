@@ -96,7 +96,10 @@ def test_values_are_coerced() -> None:
         ({"other": ("x", "y")}, '`other`: is 2 values where one text is asked for; write "x,y"'),
         ({"other": "x"}, "`depth`: is missing with `other`; give 4mm"),
         ({"depth": 0.0}, "`depth`: 0 m is none; give more"),
-        ({"span": "0-0.2"}, "`span`: '0-0.2' is not a span; write for example 0.4:1.6"),  # a text is read as it is typed
+        (
+            {"span": "0-0.2"},
+            "`span`: '0-0.2' is not a span; write for example 0.4:1.6",
+        ),  # read as typed
         ({"span": (0.1, 0.2, 0.3)}, "`span`: (0.1, 0.2, 0.3) is not 2 numbers; give 2 numbers: (0.4, 1.6)"),
         ({"span": 0.2}, "`span`: 0.2 is not 2 numbers; give 2 numbers: (0.4, 1.6)"),
         ({"span": (0.1, "x")}, "`span`: (0.1, 'x') is not 2 numbers; give 2 numbers: (0.4, 1.6)"),

@@ -12,10 +12,12 @@ import pandas as pd
 import pytest
 import pyvista as pv
 import trimesh
+from scipy.spatial.transform import RigidTransform
 
 import geocontact as gc
 from geocontact.analyses.frame.in_memory import InMemory
 from geocontact.analyses.frame.options import Declared, declared
+from geocontact.analyses.shape.options import ShapeOptions
 from tests.analyses.jobs import JOBS
 
 SAMPLES = Path(__file__).parents[2] / "meshes"
@@ -86,6 +88,7 @@ def test_a_bare_number_that_cannot_be_meant_names_the_likely_unit() -> None:
         gc.shoulder.simulate(SAMPLES / "overhead_P1T1S100" / "markers.trc", level=100)
 
 
+POSES = RigidTransform.from_translation([[0.0, 0.0, 0.0], [0.0, 0.01, 0.0]])
 TABLE = pd.read_csv(SAMPLES / "gait.csv").iloc[::25]
 
 
@@ -179,3 +182,26 @@ def test_help_of_a_fit_names_its_numbers() -> None:
 @pytest.mark.parametrize("room", [gc, gc.shoulder, gc.prosthesis, gc.knee, gc.misalignment, gc.sit_to_stand])
 def test_tab_lists_public_names_only(room) -> None:
     assert [name for name in dir(room) if not name.startswith("__")] == sorted(room.__all__)
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        (
+            lambda: gc.read_surface(SAMPLES / "sphere_r20.stl", "mm"),
+            "<Surface sphere_r20.stl, 1442 points, 2880 faces, 40 x 40 x 40 mm, closed>",
+        ),
+        (
+            lambda: gc.read_mesh(SAMPLES / "sphere_r20.stl", "mm"),
+            "<Mesh sphere_r20.stl, 1442 points, 2880 faces, 40 x 40 x 40 mm>",
+        ),
+        (lambda: gc.Motion(np.array([0.0, 0.5]), POSES, "walk.csv"), "<Motion, 2 frames, 0 … 0.5 s, walk.csv>"),
+        (lambda: gc.Motion(np.array([0.0, 50.0]), POSES, "", "%"), "<Motion, 2 frames, 0 … 50%>"),
+        (
+            lambda: ShapeOptions(SAMPLES / "a.stl", shape="sphere", unit="mm"),
+            f"ShapeOptions(mesh='{SAMPLES}/a.stl', shape='sphere', unit='mm')",
+        ),
+    ],
+)
+def test_what_a_notebook_shows_is_one_line(value, said: str) -> None:
+    assert repr(value()) == said

@@ -157,6 +157,16 @@ class Options:
     folder_help: ClassVar[str] = "Folder for the results."
     last_line: ClassVar[str] = ""
 
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        cls.__repr__ = Options.__repr__  # type: ignore[method-assign]  # else each dataclass makes its own
+
+    def __repr__(self) -> str:
+        """What differs from the defaults, in one line."""
+        values = ((one, getattr(self, one.name)) for one in declared(type(self)))
+        said = [f"{one.name}={_shown(value)}" for one, value in values if repr(value) != repr(one.default)]
+        return f"{type(self).__name__}({', '.join(said)})"
+
     def __post_init__(self) -> None:
         for one in declared(type(self)):
             object.__setattr__(self, one.name, one.coerced(getattr(self, one.name)))
@@ -220,6 +230,13 @@ class Options:
             for name in (one.name for one in declared(type(self)))
             if getattr(self, name) is not None
         }
+
+
+def _shown(value: Any) -> str:
+    """A value as somebody writes it: a path as its text."""
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_shown, value))}{',' if len(value) == 1 else ''})"
+    return repr(fspath(value) if isinstance(value, PathLike) else value)
 
 
 def leads_nowhere(path: Path) -> bool:
