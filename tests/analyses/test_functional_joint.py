@@ -102,3 +102,31 @@ def test_skin_and_exchanged_markers_are_told(leg: tuple[Multibody, np.ndarray, P
     said = [str(each.message) for each in told]
     assert any("mm from a rigid segment" in line for line in said)
     assert found.summary["halves_apart_mm"] > 20.0 and any("two halves of the trial give" in line for line in said)
+
+
+def test_the_answer_says_where_the_joint_is_and_how_sure(leg: tuple[Multibody, np.ndarray, Path]) -> None:
+    """The centre in the pelvis' markers: their mean in the first frame, the hip by forward kinematics."""
+    model, values, file = leg
+    found = gc.functional_joint(file, first=PELVIS, second=FEMUR)
+    markers = read_trc(file)
+    mean = markers.of(tuple(PELVIS.split(",")))[0].mean(axis=0)
+    expected = 1e3 * (at(model, values[:1], "hip_r")[0] - mean)
+    told = found.sentences[0]
+    shown = np.array([float(part) for part in told.removeprefix("centre at ").partition(" mm")[0].split(", ")])
+    np.testing.assert_allclose(shown, expected, atol=0.06)
+    assert told.endswith("(standard errors 0.0, 0.0, 0.0 mm)") and PELVIS.replace(",", ", ") in told
+    facts = dict(found.facts())
+    assert facts["largest standard error"] == "0.00 mm" and facts["residual, root mean square"] == "0.00 mm"
+    assert np.allclose([float(x) for x in facts["place in the first segment"].removesuffix(" mm").split(", ")], shown)
+
+
+def test_an_axis_is_compared_with_the_line_of_two_markers(leg: tuple[Multibody, np.ndarray, Path]) -> None:
+    """Angle between the hinge's axis and two markers of the first frame, whose axes the axis is in; by arccos here."""
+    model, values, file = leg
+    found = gc.functional_joint(file, first=FEMUR, second=TIBIA, axis=True, near="femur_r0,femur_r1")
+    markers = read_trc(file).of(("femur_r0", "femur_r1"))
+    line = markers[0, 1] - markers[0, 0]
+    along = np.diff(found.points.first, axis=0)[0]
+    turn = np.degrees(np.arccos(abs(line @ along) / np.linalg.norm(line) / np.linalg.norm(along)))
+    assert found.sentences[1] == f"the axis is {turn:.1f} deg from the line through femur_r0 and femur_r1"
+    assert found.sentences[0].startswith("axis through ") and dict(found.facts())["direction"].count(",") == 2

@@ -84,6 +84,8 @@ class SettleInputs:
         Of each coordinate [N/m, N m/rad].
     free
         Which coordinates settle, in the order of `NAMES`.
+    medial
+        Unit vector towards medial in FIXED's frame.
     """
 
     fixed: Surface
@@ -92,6 +94,7 @@ class SettleInputs:
     load: Float[np.ndarray, " t"]
     springs: Float[np.ndarray, " 6"]
     free: Bool[np.ndarray, " 6"]
+    medial: Float[np.ndarray, " 3"]
 
     @property
     def clock(self) -> str:
@@ -120,7 +123,9 @@ def read(o: SettleOptions) -> SettleInputs:
     motion = _swept(bed, fixed, o) if recorded is None else recorded
     springs = np.array([(o.springs or {}).get(name, 0.0) for name in NAMES])
     free = np.array([name in (*o.free, "axial") for name in NAMES])
-    return SettleInputs(fixed, bed, motion, _load(o, motion), springs, free)
+    side = medial_side(o.split, o.side, None)
+    medial = side.sign * np.eye(3)["xyz".index(side.axis)]
+    return SettleInputs(fixed, bed, motion, _load(o, motion), springs, free, medial)
 
 
 def layer_of(fixed: Surface, o: SettleOptions) -> Layer:

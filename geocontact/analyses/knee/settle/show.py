@@ -18,6 +18,7 @@ FRAMES = 101  # that the page animates at most
 FEWEST = 6
 UNUSED = 1e-3  # m; a threshold, which a scene has even where no distance is shown
 MM, MPA = 1e3, 1e-6
+FROM_ABOVE = (0.25, 1.0, 0.0)  # the load is along -y: from the front the rim of an insert hides the pressures
 
 
 def thinned_page(s: Settled, sentences: Sequence[str]) -> Thinned:
@@ -66,7 +67,8 @@ def _scene(s: Settled, frames: Int[np.ndarray, " k"]) -> Scene:
         ),
         thresholds=(UNUSED,),
         span=(0.0, UNUSED),
-        directions=camera_directions(np.zeros(3)),
+        directions=camera_directions(s.inputs.medial),
+        view=FROM_ABOVE,
         maps=(FaceMap("mean pressure of each face", "MPa", 0, pressure),),
     )
 

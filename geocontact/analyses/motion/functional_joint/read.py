@@ -65,7 +65,7 @@ class MovedPair:
         if names is None:
             both = np.concatenate([segment.origin + segment.template for segment in (self.first, self.second)])
             return np.asarray(both.mean(axis=0) - self.first.origin)
-        return np.asarray(_means(self.shown, names, "`near`").mean(axis=0) - self.first.origin)
+        return np.asarray(means_of(self.shown, names, "`near`").mean(axis=0) - self.first.origin)
 
 
 def read(o: JointOptions) -> MovedPair:
@@ -107,7 +107,7 @@ def _segment(
     if len(names) < FEWEST:
         raise InputError(seen.source, option, f"{len(names)} markers fix no pose", f"name {FEWEST} at the least")
     if still is not None:
-        places = _means(still, names, option)
+        places = means_of(still, names, option)
     else:
         tracks = seen.of(names)
         whole = np.flatnonzero(np.isfinite(tracks).all(axis=(1, 2)))
@@ -117,7 +117,8 @@ def _segment(
     return Segment(names, places - places.mean(axis=0), places.mean(axis=0))
 
 
-def _means(trial: MarkerTrajectories, names: tuple[str, ...], option: str) -> Float[np.ndarray, "m 3"]:
+def means_of(trial: MarkerTrajectories, names: tuple[str, ...], option: str) -> Float[np.ndarray, "m 3"]:
+    """Mean place of each marker over the frames that show it [m]; InputError for one that no frame shows."""
     _require(trial, names, option)
     tracks = trial.of(names)
     unseen = [name for k, name in enumerate(names) if not np.isfinite(tracks[:, k]).all(axis=1).any()]

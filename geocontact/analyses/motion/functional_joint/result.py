@@ -24,7 +24,7 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import finite, plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.functional_joint.options import JointOptions
-from geocontact.analyses.motion.functional_joint.read import MovedPair, Segment, marker_list, read
+from geocontact.analyses.motion.functional_joint.read import MovedPair, Segment, marker_list, means_of, read
 from geocontact.analyses.motion.functional_joint.show import joint_page
 from geocontact.analyses.motion.panels import curves_figure
 from geocontact.data.errors import InputError
@@ -83,7 +83,20 @@ class JointResult(Result):
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Both segments and the joint as they move, and how far it is off itself."""
         title, apart = f"Joint from {self.options.trial.name}", self.table()["apart [mm]"].to_numpy()
-        return {REPORT: joint_page(title, self.sentences, self.pair, self.points, apart)}
+        return {REPORT: joint_page(title, self.sentences, self.facts(), self.pair, self.points, apart)}
+
+    def facts(self) -> list[tuple[str, str]]:
+        """The few numbers that belong to the answer, each with its name."""
+        s, first = self.summary, self.summary["first"]
+        told = [("place in the first segment", ", ".join(f"{value:.1f}" for value in first["point_mm"]) + " mm")]
+        if "point_sd_mm" in first:
+            told.append(("largest standard error", f"{max(first['point_sd_mm']):.2f} mm"))
+        if "direction" in first:
+            told.append(("direction", ", ".join(f"{value:.3f}" for value in first["direction"])))
+        told.append(("residual, root mean square", f"{s['apart_rms_mm']:.2f} mm"))
+        if s["halves_apart_mm"] is not None:
+            told.append(("halves of the trial apart", f"{s['halves_apart_mm']:.2f} mm"))
+        return [*told, ("turn", f"{s['turn_deg']:.0f}°")]
 
     def write_files(self, folder: Path) -> None:
         """joint.json and markers.trc [mm] besides."""
@@ -114,7 +127,7 @@ def run(pair: MovedPair, o: JointOptions) -> JointResult:
     summary = _summary(o, pair, points, halves)
     results().update(plain(summary))
     _warn(o, pair, points)
-    _tell(o, pair, points, halves)
+    _report(o, pair, points, halves)
     return JointResult(
         options=o,
         pair=pair,
@@ -169,16 +182,44 @@ def _warn(o: JointOptions, pair: MovedPair, points: JointPoints) -> None:
         reserve(f"{o.trial}: a point fits as well as an axis (looseness {points.looseness:.2f}): is it a hinge?")
 
 
-def _tell(o: JointOptions, pair: MovedPair, points: JointPoints, halves: float) -> None:
+def _report(o: JointOptions, pair: MovedPair, points: JointPoints, halves: float) -> None:
     kind = "axis" if o.axis else "centre"
-    both = "" if np.isnan(halves) else f"; halves of the trial give it {1e3 * halves:.1f} mm apart"
-    off = f"the segments' {kind} is {1e3 * points.rms:.1f} mm off itself, root mean square"
+    say(f"{place_words(points)} in the frame of {', '.join(pair.first.names)}{_error_words(points)}")
+    if points.looseness is not None and (turn := _from_near(o, pair, points)) is not None:
+        say(f"the axis is {np.degrees(turn):.1f} deg from the line through {' and '.join(marker_list(o.near or ''))}")
+    both = "" if np.isnan(halves) else f"; halves of the trial give {kind}s {1e3 * halves:.1f} mm apart"
+    off = f"residual between the segments {1e3 * points.rms:.1f} mm root mean square"
     say(f"{len(pair.time)} frames, {np.degrees(turned(pair)):.0f} deg of turn: {off}{both}")
     if np.isnan(halves):
         reserve(f"{o.trial}: half of the trial does not tell the {kind}: how far it can be trusted stays open")
     elif halves > APART:
         what = f"two halves of the trial give the {kind} {1e3 * halves:.0f} mm apart"
         reserve(f"{o.trial}: {what}: {MOVE}")
+
+
+def place_words(points: JointPoints) -> str:
+    """Where the joint is in the first segment's frame: "centre at 1.0, 2.0, 3.0 mm"."""
+    at = ", ".join(f"{1e3 * value:.1f}" for value in points.middle)
+    if len(points.first) == 1:
+        return f"centre at {at} mm"
+    return f"axis through {at} mm along {', '.join(f'{value:.3f}' for value in _direction(points.first))}"
+
+
+def _error_words(points: JointPoints) -> str:
+    sd = points.first_sd
+    return "" if sd is None else f" (standard errors {', '.join(f'{1e3 * value:.1f}' for value in sd)} mm)"
+
+
+def _from_near(o: JointOptions, pair: MovedPair, points: JointPoints) -> float | None:
+    """Angle [rad] between the axis and the line of the two markers that `near` names; None for any other count."""
+    names = () if o.near is None else marker_list(o.near)
+    if len(names) != 2:
+        return None
+    means_of(pair.shown, names, "`near`")  # refuses markers that no frame shows
+    poses, known, _ = segment_poses(pair.shown.of(pair.first.names), pair.first.template)
+    ends = [np.nanmean(poses.inv().apply(pair.shown.of((name,))[known, 0]), axis=0) for name in names]
+    line = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+    return float(np.arccos(min(abs(line @ _direction(points.first)), 1.0)))
 
 
 def _beside(shown: MarkerTrajectories, o: JointOptions, first: Segment, points: JointPoints) -> MarkerTrajectories:

@@ -1,4 +1,4 @@
-"""The page of a joint: both segments as they move, and how far the joint is off itself."""
+"""The page of a joint: both segments as they move, and the residual between them."""
 
 from __future__ import annotations
 
@@ -22,9 +22,14 @@ SKIN = (
 
 
 def joint_page(
-    title: str, sentences: Sequence[str], pair: MovedPair, points: JointPoints, apart: Float[np.ndarray, " t"]
+    title: str,
+    sentences: Sequence[str],
+    facts: Sequence[tuple[str, str]],
+    pair: MovedPair,
+    points: JointPoints,
+    apart: Float[np.ndarray, " t"],
 ) -> Page:
-    """The page of a joint; `apart` is in mm."""
+    """The page of a joint: its answer, numbers of it with their names, and the distance `apart` over time [mm]."""
     shown = thinned(len(pair.time), [apart])
     sections: list[Section] = [
         _picture(pair, points, shown),
@@ -39,6 +44,7 @@ def joint_page(
         time=pair.time[shown],
         time_label="time [s]",
         headline=list(sentences),
+        facts=facts,
         sections=tuple(sections),
         numbers=shown + 1,
         total=len(pair.time),
