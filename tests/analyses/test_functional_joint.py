@@ -122,7 +122,7 @@ def test_the_answer_says_where_the_joint_is_and_how_sure(leg: tuple[Multibody, n
 
 def test_an_axis_is_compared_with_the_line_of_two_markers(leg: tuple[Multibody, np.ndarray, Path]) -> None:
     """Angle between the hinge's axis and two markers of the first frame, whose axes the axis is in; by arccos here."""
-    model, values, file = leg
+    _, _, file = leg
     found = gc.functional_joint(file, first=FEMUR, second=TIBIA, axis=True, near="femur_r0,femur_r1")
     markers = read_trc(file).of(("femur_r0", "femur_r1"))
     line = markers[0, 1] - markers[0, 0]

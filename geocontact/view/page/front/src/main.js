@@ -7,6 +7,7 @@ import { names } from "./linkages.js";
 import { legend, scaleBar, triad } from "./overlays.js";
 import { plan } from "./plan.js";
 import { boldFirst, quantitiesOf } from "./quantities.js";
+import { tables } from "./save.js";
 import { openScene } from "./scene.js";
 import { tools } from "./tools.js";
 
@@ -28,7 +29,7 @@ function readout(panel, part) {
   return (frame) => part.texts.forEach((texts, row) => (cells[row].textContent = texts[frame]));
 }
 
-async function picture(data, time) {
+async function picture(data, time, play) {
   const canvas = element("canvas");
   canvas.addEventListener("webglcontextlost", () => notice("The 3-D picture was lost (graphics driver). It comes back by itself; if not, reload the page."));
   canvas.addEventListener("webglcontextrestored", () => notice(""));
@@ -48,7 +49,7 @@ async function picture(data, time) {
   for (const draw of overlays) scene.drawn(draw);
   const drawings = () => ({ legend: element("legend").firstChild, triad: element("triad").firstChild, scale: element("scale") });
   const meaning = () => (data.scene.bodies.length ? `${chosen.name} [${chosen.unit}], ` : "");
-  tools(scene, drawings, () => [data.title, meaning() + time.words(time.frame())]);
+  tools(scene, drawings, () => [data.title, meaning() + time.words(time.frame())], time, play, data.title);
   time.listen(scene.show);
   scene.choose = (threshold) => {
     const thresholds = boldFirst(data.scene.thresholds, threshold);
@@ -74,10 +75,11 @@ async function start() {
   time.listen((frame) => (state.frame = frame));
   for (const id of ["timeline", "keys", "choose"]) if (element(id)) element(id).hidden = false;
   continues();
+  tables();
   let scene = null;
   if (data.scene) {
     try {
-      scene = await picture(data, time);
+      scene = await picture(data, time, play);
     } catch (problem) {
       element("scene").classList.add("absent");
       notice("No 3-D picture: this browser offers no WebGL 2. Curves, tables and words work.");

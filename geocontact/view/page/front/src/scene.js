@@ -58,6 +58,17 @@ export async function openScene(data, canvas) {
     bodies,
     reach,
     draw,
+    /** Draws as many pixels across as wanted, where that is more than now; the function it returns undoes that. */
+    enlarge(pixels) {
+      const { clientWidth: width, clientHeight: height } = canvas.parentElement;
+      const most = renderer.capabilities.maxTextureSize;
+      const ratio = Math.min(Math.max(pixels / width, renderer.getPixelRatio()), most / Math.max(width, height));
+      renderer.setPixelRatio(ratio);
+      renderer.setSize(width, height, false);
+      shared.pixel.value = ratio;
+      draw();
+      return fit;
+    },
     drawn: (listen) => listeners.push(listen),
     show(frame) {
       if (frame === shown) return;

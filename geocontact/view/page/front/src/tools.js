@@ -1,15 +1,21 @@
-// Buttons and sliders of the picture: views, bodies, section plane, PNG.
-import { savePicture } from "./picture.js";
+// Buttons and sliders of the picture: views, bodies, section plane, PNG, video.
+import { films, savePicture, saveVideo } from "./picture.js";
+import { named } from "./save.js";
 
 const element = (id) => document.getElementById(id);
 const each = (name, act) => document.querySelectorAll(`[data-${name}]`).forEach((e) => act(e, Number(e.dataset[name])));
 
-export function tools(scene, overlays, caption) {
+export function tools(scene, overlays, caption, time, play, title) {
   each("view", (button, k) => button.addEventListener("click", () => scene.view.look(k)));
   each("show", (box, k) => box.addEventListener("change", () => scene.setVisible(k, box.checked)));
   each("opacity", (slider, k) => slider.addEventListener("input", () => scene.setOpacity(k, Number(slider.value))));
   element("reset").addEventListener("click", scene.view.reset);
-  element("png").addEventListener("click", () => savePicture(scene, overlays(), caption(), "picture.png"));
+  element("png").addEventListener("click", () => savePicture(scene, overlays(), caption(), named(title)));
+  const film = element("film");
+  if (film && films()) {
+    film.hidden = false;
+    film.addEventListener("click", () => filmed(film, scene, overlays, caption, time, play, title));
+  }
 
   if (element("cut")) sections(scene);
   element("more").open = !window.matchMedia("(max-width: 860px)").matches;
@@ -18,6 +24,20 @@ export function tools(scene, overlays, caption) {
     // browsers leave what is seen in part where it is; the row of views is wider than a phone
     if (target.matches(":focus-visible")) target.scrollIntoView({ block: "nearest", inline: "nearest" });
   });
+}
+
+/** Records a video; the button says how far it is. */
+async function filmed(button, scene, overlays, caption, time, play, title) {
+  const words = button.textContent;
+  button.disabled = true;
+  play.pause();
+  try {
+    const at = (part) => (button.textContent = `recording ${Math.round(100 * part)} %`);
+    await saveVideo(scene, overlays(), caption, time, Number(element("speed").value), named(title), at);
+  } finally {
+    button.textContent = words;
+    button.disabled = false;
+  }
 }
 
 function sections(scene) {
