@@ -26,10 +26,14 @@ def test_the_chain_returns_to_where_it_began(markers: Path, tmp_path: Path) -> N
     swing = np.loadtxt(SWING, skiprows=7)
     np.testing.assert_allclose(found.to_numpy(), swing, atol=1e-4)
     assert angles.rms_mm < 1e-3 and "16 markers" in repr(angles)
+    np.testing.assert_allclose(angles.time, swing[:, 0], atol=1e-9)
+    np.testing.assert_allclose(angles.coordinates["knee"], np.radians(found["knee [deg]"]), atol=1e-12)
     np.testing.assert_allclose(angles.table("knees")["right_flexion [deg]"], -found["knee [deg]"], atol=1e-4)
     with pytest.warns(gc.InputWarning, match="nothing but gravity acts"):
         moments = gc.inverse_dynamics(angles.write(tmp_path / "ik") / "ik.mot", model=LEG)
     assert moments.table()["ty_force [N]"].mean() == pytest.approx(23.0 * 9.80665, rel=0.02), "nothing else carries it"
+    np.testing.assert_array_equal(moments.moments["knee_moment"], moments.table()["knee_moment [N m]"])
+    np.testing.assert_array_equal(moments.time, moments.table()["time [s]"])
     assert [axes.get_ylabel() for axes in moments.figure().axes] == ["moment [N m]"], "no force but at the ground"
 
 

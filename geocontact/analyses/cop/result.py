@@ -54,6 +54,21 @@ CENTRES = {"ground": "centre of the ground points", "sphere": "centre of the sph
 class CopResult(FootLoads):
     """Loads on a foot over its motion, with tables, figure and page."""
 
+    @property
+    def force(self) -> Float[np.ndarray, "t 3"]:
+        """Force of the ground on the foot over time, in the frame of the ground [N]."""
+        return self.centre.wrench.force
+
+    @property
+    def centre_of_pressure(self) -> Float[np.ndarray, "t 3"]:
+        """Centre of pressure over time [m]; NaN where the normal force is too small for one."""
+        return self.centre.centre
+
+    @property
+    def free_moment(self) -> Float[np.ndarray, " t"]:
+        """Moment about the normal through the centre of pressure over time [N m]."""
+        return self.centre.free_moment
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`cop`, `zones`; `comparison` with a plate, `along_foot` with `toe`, `stances` where asked for."""
         found = {"cop": loads_table(self), "zones": self._zones_table()}

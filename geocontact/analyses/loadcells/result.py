@@ -16,7 +16,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import drawing
@@ -77,6 +79,16 @@ class LoadcellResult(Result):
     regression: CellRegression
     recordings: tuple[RecordedCells, ...]
     cuts: list[Cut]
+
+    @property
+    def force(self) -> dict[str, dict[str, Float[np.ndarray, " t"]]]:
+        """Force of "medial", "lateral" and "total" over time [N], by the name of the recording."""
+        return {each.file.stem: each.forces.curves for each in self.recordings}
+
+    @property
+    def peak(self) -> dict[str, dict[str, float]]:
+        """Largest force of "medial", "lateral" and "total" [N], by the name of the recording."""
+        return {name: {side: float(f.max()) for side, f in sides.items()} for name, sides in self.force.items()}
 
     @property
     def folders(self) -> tuple[str, ...]:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import listener, reserve
 from geocontact.analyses.frame.job import Job
@@ -48,6 +49,21 @@ WORDS = "forces are those of the mat on the body"
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class MatResult(MatFindings):
     """Loads of a pressure mat on a body over time; `MatFindings` has the fields."""
+
+    @property
+    def force(self) -> Float[np.ndarray, "t 3"]:
+        """Force of the mat on the body over time, in the frame of the results [N]."""
+        return self.loads.wrench.force
+
+    @property
+    def normal_force(self) -> Float[np.ndarray, " t"]:
+        """Sum of pressure times area of all cells over time, whichever way they look [N]."""
+        return self.loads.pressing
+
+    @property
+    def area(self) -> Float[np.ndarray, " t"]:
+        """Area under pressure over time [m^2]."""
+        return self.loads.area
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`wrench`, `uncertainty`, `cells`, `frames_cells`; and `segments`, `registration`, `agreement` if any."""

@@ -106,6 +106,9 @@ def test_a_sweep_needs_no_recorded_poses() -> None:
     np.testing.assert_allclose(table[["adduction [deg]", "rotation [deg]", "anterior [mm]"]], 0.0, atol=1e-6)
     np.testing.assert_allclose(table["force_total [N]"], 500.0, rtol=2e-3)
     assert table["axial [mm]"].between(19.5, 20.0).all()
+    np.testing.assert_allclose(found.force["total"], table["force_total [N]"])
+    np.testing.assert_allclose(1e6 * found.area, table["contact_area [mm^2]"])
+    np.testing.assert_allclose(1e-6 * found.pressure, table["peak [MPa]"])
 
 
 @pytest.mark.parametrize(

@@ -25,6 +25,9 @@ def test_forces_are_the_weighted_cells(tmp_path: Path) -> None:
     for side, values in sides(gait(table["time [s]"].to_numpy())).items():
         np.testing.assert_allclose(table[f"{side} [N]"], values, rtol=1e-12, err_msg=side)
         np.testing.assert_array_equal(result.recordings[0].forces.curves[side], table[f"{side} [N]"])
+    ((name, force),) = result.force.items()
+    assert name == result.recordings[0].file.stem and result.peak[name]["total"] == table["total [N]"].max()
+    np.testing.assert_array_equal(force["medial"], table["medial [N]"])
     assert list(result.tables()) == ["forces"] and result.warnings == ()
 
 

@@ -45,6 +45,9 @@ def test_a_scan_that_looks_inwards_is_refused_and_turned_over_when_it_is_said(sh
     with pytest.raises(InputError, match=r"do the faces look inwards\?.* `inwards` where faces look into the body"):
         mat(shells, "inwards")
     turned = mat(shells, "inwards", inwards=True)
+    np.testing.assert_array_equal(turned.force, turned.table()[FORCE])
+    np.testing.assert_allclose(1e6 * turned.area, turned.table()["area [mm^2]"])
+    np.testing.assert_array_equal(turned.normal_force, turned.table()["normal [N]"])
     np.testing.assert_allclose(turned.table()[FORCE + MOMENT], right, rtol=1e-6, atol=1e-6)
     assert not hollow(turned)
 

@@ -96,6 +96,21 @@ class SettleResult(Result):
     settled: Settled
     balance: EnergyBalance | None
 
+    @property
+    def force(self) -> dict[str, Float[np.ndarray, " t"]]:
+        """Force of "medial", "lateral" and "total" along the load in every frame [N]; NaN where nothing is at rest."""
+        return {side: self.settled.forces(side) for side in SIDES}
+
+    @property
+    def pressure(self) -> Float[np.ndarray, " t"]:
+        """Largest contact pressure in every frame [Pa]."""
+        return self.settled.peaks
+
+    @property
+    def area(self) -> Float[np.ndarray, " t"]:
+        """Contact area of FIXED in every frame [m^2]."""
+        return self.settled.areas
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`settle`, a row per frame, and `poses` of those at rest."""
         return {"settle": settle_table(self.settled), "poses": pose_table(self.settled)}

@@ -60,6 +60,16 @@ class JointResult(Result):
     markers: MarkerTrajectories
     summary: dict[str, Any]
 
+    @property
+    def point(self) -> Float[np.ndarray, " 3"]:
+        """Centre, or middle of the axis, in the first segment's frame [m]; `summary["frame"]` says which that is."""
+        return self.points.middle
+
+    @property
+    def rms(self) -> float:
+        """Residual between what both segments say, root mean square over the frames [m]."""
+        return self.points.rms
+
     def places(self) -> tuple[Float[np.ndarray, "t 3"], Float[np.ndarray, "t 3"]]:
         """Middle of the joint in the laboratory, as the first and as the second segment have it [m]."""
         one = self.pair.first_poses.apply(self.points.middle)

@@ -73,6 +73,16 @@ class IdResult(Result):
     cycles: GaitCycles
     summary: dict[str, Any]
 
+    @property
+    def time(self) -> Float[np.ndarray, " t"]:
+        """Time of the frames [s]."""
+        return self.forces.time
+
+    @property
+    def moments(self) -> dict[str, Float[np.ndarray, " t"]]:
+        """Moment [N m] or force [N] along each coordinate over time, by its name in OpenSim: "knee_angle_r_moment"."""
+        return dict(zip(self.forces.names, np.asarray(self.forces.values).T, strict=True))
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`forces`: a column for each coordinate, as OpenSim calls it, with its unit; `cycles` where there are some."""
         f = self.forces

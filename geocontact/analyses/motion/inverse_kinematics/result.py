@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import listener, reserve, results, say
 from geocontact.analyses.frame.job import Job
@@ -74,6 +75,16 @@ class IkResult(Result):
     poses: Poses
     cycles: GaitCycles
     summary: dict[str, Any]
+
+    @property
+    def time(self) -> Float[np.ndarray, " t"]:
+        """Time of the frames [s]."""
+        return self.poses.time
+
+    @property
+    def coordinates(self) -> dict[str, Float[np.ndarray, " t"]]:
+        """Each coordinate over time [rad, m], by its name."""
+        return dict(zip(self.poses.names, np.asarray(self.poses.values).T, strict=True))
 
     @property
     def rms_mm(self) -> float:
