@@ -11,11 +11,13 @@ NOT_A_DEVICE = (
 
 
 MOST = 3  # sentences of a headline; more are left to the page
+SIDES = "medial is "  # how the note on sides begins: it explains the answer and is none
 
 
 def headline(sentences: Sequence[str], most: int = MOST) -> tuple[str, ...]:
-    """Sentences of a run as a page's headline: those of one line, with a capital and a full stop."""
-    lines = [line for line in sentences if line and "\n" not in line][:most]
+    """Sentences of a run as a page's headline: those of one line, with a capital and a full stop; sides come last."""
+    answers = sorted(sentences, key=lambda line: line.startswith(SIDES))
+    lines = [line for line in answers if line and "\n" not in line][:most]
     return tuple(_sentence(line.replace("mm^2", "mm²")) for line in lines)
 
 
