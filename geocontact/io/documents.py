@@ -11,8 +11,10 @@
 
     study = read_document(path, Study)
 
-A key without a default must be there, and one that is not declared must not. Files are looked for beside the
-description. What is wrong is said of the first key that is: InputError with its place as it is written in TOML.
+A key without a default must be there, and one that is not declared must not; a class with `extra="allow"` and the type
+of `__pydantic_extra__` takes further ones. Files are looked for beside the description. What is wrong is said of the
+first key that is: InputError with its place as it is written in TOML. `docs/reference/descriptions.md` is made of these
+classes: the meaning of a key stands under its name in the docstring.
 """
 
 from __future__ import annotations
@@ -23,7 +25,7 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, TypeVar, get_args, get_origin
+from typing import Annotated, Any, TypeGuard, TypeVar, get_args, get_origin
 
 from pydantic import (
     AfterValidator,
@@ -81,34 +83,48 @@ class Document(BaseModel):
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
 
+    @classmethod
+    def keys(cls) -> dict[str, FieldInfo]:
+        """Every key as it is written, with what is declared of it."""
+        return {field.alias or name: field for name, field in cls.model_fields.items()}
+
     @model_validator(mode="before")
     @classmethod
     def _require_keys(cls, content: object) -> object:
-        every = ", ".join(cls.model_fields)
+        keys = cls.keys()
+        every = ", ".join(keys)
         if not isinstance(content, dict):
             raise refusal("is no table", f"write {every}")
-        odd = next((key for key in content if key not in cls.model_fields), None)
-        if odd is not None:
-            near = ", ".join(near_names([odd[:LONGEST]], list(cls.model_fields)).values())
+        odd = next((key for key in content if key not in keys), None)
+        if odd is not None and cls.model_config["extra"] == "forbid":
+            near = ", ".join(near_names([odd[:LONGEST]], list(keys)).values())
             raise refusal("is not known here", f"perhaps {near}" if near else f"write {every}", at=(odd,))
-        for name, field in cls.model_fields.items():
+        for name, field in keys.items():
             if field.is_required():
                 _require(name, field, content.get(name))
         return content
 
 
 D = TypeVar("D", bound=Document)
+Value = str | int | float | bool
+
+
+def _is_document(kind: object) -> TypeGuard[type[Document]]:
+    return isinstance(kind, type) and issubclass(kind, Document)
 
 
 def _require(name: str, field: FieldInfo, value: object) -> None:
     """That a key is there, and of tables by name or in a row at least one."""
-    table = next((each for each in get_args(field.annotation) if hasattr(each, "model_fields")), None)
+    table = next((each for each in get_args(field.annotation) if _is_document(each)), None)
     if table is not None:
         kind, heading = (list, f"[[{name}]]") if get_origin(field.annotation) is tuple else (dict, f"[{name}.NAME]")
         if not value or not isinstance(value, kind):
-            raise refusal(f"no {heading}", f"write one for each, with {', '.join(table.model_fields)}", at=("",))
+            raise refusal(f"no {heading}", f"write one for each, with {', '.join(table.keys())}", at=("",))
+    if value is None and _is_document(field.annotation):
+        raise refusal(f"no [{name}]", f"add it, with {', '.join(field.annotation.keys())}", at=("",))
     if value is None:
         example = next((each.example for each in field.metadata if isinstance(each, WithUnit)), "")
+        example = next(iter(field.examples or ()), example)
         raise refusal(f"no {name}", f"add it: {name} = {example}" if example else "add it", at=("",))
 
 
@@ -217,7 +233,7 @@ def read_document(path: Path, kind: type[D], largest: int = LARGEST) -> D:
 def checked(path: Path, kind: Any, content: object) -> Any:
     """What `kind`, as a field is annotated, makes of the content of a file; InputError as `read_document`."""
     try:
-        return TypeAdapter(kind).validate_python(content, context=path.parent)
+        return TypeAdapter(kind).validate_python(content, context=path)
     except ValidationError as error:
         raise _input_error(path, error.errors(include_url=False)[0]) from error
 
@@ -230,6 +246,10 @@ def _input_error(path: Path, first: ErrorDetails) -> InputError:
         case "refused":
             remedy = f"write {key} = {context['example']}" if context["example"] else context["remedy"]
             return InputError(path, place, context["what"], remedy)
+        case "dict_type" | "mapping_type":
+            return InputError(path, place, "is no table", "write names with values")
+        case "float_type" | "finite_number":
+            return InputError(path, place, f"{_shown(first['input'])} is not a finite number", f"write {key} = 1.5")
         case "bool_type":
             return InputError(path, place, f"{_shown(first['input'])} is neither true nor false", f"write {key} = true")
         case "literal_error":
@@ -274,9 +294,15 @@ def _file_name(name: str) -> str:
     return name
 
 
+def _beside(named: object, info: Any) -> Path:
+    """`info` is pydantic's ValidationInfo, whose context is the path of the description."""
+    if not isinstance(named, str) or not named.strip():
+        raise refusal(f"{_shown(named)} is no path", "write it in quotes, from the folder of this file")
+    return Path(info.context).parent / named
+
+
 def _file(named: object, info: Any) -> Path:
-    """`info` is pydantic's ValidationInfo, whose context is the folder of the description."""
-    file = Path(info.context or "", str(named))
+    file = _beside(named, info)
     if not file.is_file():
         raise refusal(f"there is no file {named!s:.200}", "give its path from the study's folder")
     return file
@@ -290,6 +316,32 @@ def _names(value: object) -> tuple[str, ...]:
     if not isinstance(value, list) or not all(isinstance(each, str) for each in value):
         raise refusal("is no list of names", example='["…", "…"]')
     return tuple(value)
+
+
+def _value(value: object) -> Value:
+    if not isinstance(value, Value) or (isinstance(value, float) and not math.isfinite(value)):
+        raise refusal(f"{_shown(value)} is no value", "write a text in quotes, a number, true or false")
+    return value
+
+
+def _values(given: object) -> tuple[Value, ...]:
+    if not isinstance(given, list) or not given or not all(isinstance(each, Value) for each in given):
+        raise refusal("is no list of values", example='["one", "other"]')
+    if len(set(map(str, given))) < len(given):
+        raise refusal("has a value twice", "give each once")
+    return tuple(given)
+
+
+def _text(text: str) -> str:
+    if not text.strip():
+        raise refusal("is empty", "write a text in quotes")
+    return text
+
+
+def _rows(given: object) -> tuple[Any, ...]:
+    if not isinstance(given, list) or not all(isinstance(each, dict) and each for each in given):
+        raise refusal("is no list of tables", "write it in double brackets, [[…]], with names and values below")
+    return tuple(given)
 
 
 def doubled(names: Iterable[str]) -> str | None:
@@ -307,3 +359,13 @@ File = Annotated[Path, PlainValidator(_file)]
 """A file that is there, from the folder of the description."""
 Files = Annotated[tuple[Path, ...], PlainValidator(_files)]
 """One of them, or a list."""
+Beside = Annotated[Path, PlainValidator(_beside)]
+"""A path from the folder of the description, which is looked for when it is read."""
+Text = Annotated[str, AfterValidator(_text)]
+"""A text that is not empty."""
+AnyValue = Annotated[Value, PlainValidator(_value)]
+"""A text, a number, true or false."""
+Values = Annotated[tuple[Value, ...], PlainValidator(_values)]
+"""A list of them, none twice."""
+Rows = BeforeValidator(_rows)
+"""Tables in a row, `[[leave_out]]`, none of them empty; there may be none."""

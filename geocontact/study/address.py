@@ -14,12 +14,12 @@ from contextlib import chdir
 from functools import cache
 from glob import glob, has_magic
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args, get_origin
 
 from geocontact.analyses.frame import source_digest
 from geocontact.analyses.frame.calls import key
 from geocontact.analyses.frame.folder import digest
-from geocontact.analyses.frame.options import Options, declared
+from geocontact.analyses.frame.options import Declared, Options, declared
 from geocontact.analyses.frame.record import library_versions
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
@@ -54,7 +54,7 @@ def options_of(options: type[Options], typed: Mapping[str, Any]) -> Options:
         if one is None or not one.settable:
             names = ", ".join(key(each) for each in known.values() if each.settable)
             raise InputError("", f"`{name}`", "is no option of this analysis", f"there are {names}")
-        given[one.name] = one.read(_as_typed(value, one.typed is not None and one.typed.kind is str))
+        given[one.name] = one.read(as_typed(one, value))
     if ONE_THREAD in known and ONE_THREAD not in given:
         given[ONE_THREAD] = 1
     missing = next((one for one in known.values() if one.required and one.name not in given), None)
@@ -63,11 +63,32 @@ def options_of(options: type[Options], typed: Mapping[str, Any]) -> Options:
     return options(**given)
 
 
-def _as_typed(value: Any, text: bool) -> Any:
-    """What would be typed: lists of numbers with commas, where text is read."""
-    if isinstance(value, list):
-        return ",".join(map(str, value)) if text else tuple(value)
-    return str(value) if text else value
+def as_typed(one: Declared, value: Any) -> Any:
+    """What would be typed: lists with commas, where text is read; InputError for a value of another kind."""
+    kind: Any = one.kind if one.typed is None else one.typed.kind
+    if get_origin(kind) is tuple:
+        return tuple(_item(one, get_args(kind)[0], each) for each in (value if isinstance(value, list) else [value]))
+    if kind is str and isinstance(value, list):  # the options refuse more than one where nothing reads the text
+        return value if one.typed is None else ",".join(_item(one, str, each) for each in value)
+    return _item(one, kind, value)
+
+
+def _item(one: Declared, kind: Any, value: Any) -> Any:
+    """A value that is no list; numbers stand for texts, and texts for numbers where a pattern found them."""
+    number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if kind is str and number:
+        return str(value)
+    if kind in (int, float) and isinstance(value, str):
+        try:
+            return kind(value)
+        except ValueError:
+            pass
+    right = {Path: isinstance(value, str), str: isinstance(value, str), bool: isinstance(value, bool)}
+    right |= {float: number, int: number and float(value).is_integer()}
+    if not right.get(kind, True):
+        remedy = {Path: "a path in quotes", str: "a text in quotes", bool: "true or false", float: "a number"}
+        raise InputError("", f"`{one.name}`", f"cannot be {value!r:.60}", f"write {remedy.get(kind, 'a whole number')}")
+    return int(value) if kind is int else value
 
 
 def address_of(command: str, options: Options, home: Path, digests: Digests) -> str:

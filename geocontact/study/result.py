@@ -188,7 +188,7 @@ class CohortResult(Result):
     @property
     def title(self) -> str:
         """Heading that the description has."""
-        return self.planned.file.title
+        return self.planned.file.heading
 
     def figures(self) -> dict[str, Figure]:
         """`ensemble`: mean curves, where a trial has a whole one."""

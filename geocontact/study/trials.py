@@ -11,8 +11,9 @@ from pathlib import Path, PurePath, PureWindowsPath
 from typing import Any
 
 from geocontact.data.errors import InputError
+from geocontact.io.documents import Value
 from geocontact.io.text.side_table import read_side_table
-from geocontact.study.description import OWN, RESERVED, StudyFile, Value
+from geocontact.study.description import RESERVED, StudyFile
 
 NAME = re.compile(r"\{(\w+)\}")
 FILE = "file"
@@ -90,7 +91,7 @@ def trials_of(study: StudyFile) -> list[CohortTrial]:
 
 def _sources(study: StudyFile) -> Iterator[tuple[str, list[Factors]]]:
     if study.trials:
-        yield "[[trials]]", [{APART if name == OWN else name: each[name] for name in each} for each in study.trials]
+        yield "[[trials]]", [{**each.values, APART: each.options} for each in study.trials]
     if study.files:
         found = found_files(study.home, study.files, study.path)
         yield study.files, [{**names, FILE: path} for path, names in found]

@@ -1,0 +1,453 @@
+"""Every key of every description in TOML with a value of another kind: refused in one line that names the key."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import chdir
+from dataclasses import dataclass
+from datetime import date
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from geocontact.analyses.catalogue import ENTRIES, job_named
+from geocontact.analyses.frame.options import declared
+from geocontact.analyses.misalignment.population.drawn import UNITS as OFFSETS
+from geocontact.analyses.shoulder.devices import UNITS as DEVICE_UNITS
+from geocontact.data.errors import InputError
+from geocontact.data.parameter import SOURCES
+from geocontact.io.cases.case_settings import read_settings
+from geocontact.io.cases.gathering import read_gathering
+from geocontact.io.mats.layout import read_layout
+from geocontact.io.recordings.gait_study import read_gait_study
+from geocontact.io.recordings.load_cells import read_regression
+from geocontact.io.recordings.overhead_study import read_overhead_study
+from geocontact.io.recordings.population import read_population
+from geocontact.io.recordings.shoulder_device import read_device_file, read_person_file
+from geocontact.io.recordings.spheres import read_law
+from geocontact.io.recordings.standing_study import read_standing_study
+from geocontact.study.address import as_typed, options_of
+from geocontact.study.description import read_study_file
+from geocontact.study.trials import trials_of
+
+Place = tuple[str | int, ...]
+
+
+def cohort(path: Path) -> None:
+    """Trials of a study and their options, as they are read before any is evaluated."""
+    study = read_study_file(path)
+    for trial in trials_of(study):
+        with chdir(study.home):
+            options_of(job_named(study.analysis).options, trial.options)
+
+
+CASE = """format = 1
+system = "elbow"
+calibration = ["t01"]
+evaluation = ["t02"]
+spheres = "spheres.csv"
+noise = { force = 0.5 }
+constants = { l = 0.2 }
+trial = { t01 = { level = 0.5, where = "left" } }
+[parameters.k]
+start = 300.0
+lower = 100.0
+upper = 900.0
+unit = "N/m"
+fixed = false
+"""
+
+
+@dataclass(frozen=True)
+class Description:
+    """One kind of description.
+
+    Parameters
+    ----------
+    read
+        Its reader.
+    text
+        With every key that it can have.
+    takes
+        Kinds that a key may also have, by a pattern of its place: a number as a name, one file or a list of them.
+    """
+
+    read: Callable[[Path], Any]
+    text: str
+    takes: Mapping[str, tuple[str, ...]]
+
+
+WORD = ("number",)
+FREE = ("number", "text", "bool")
+SITES = ("text",)
+DESCRIPTIONS: dict[str, Description] = {
+    "study": Description(
+        cohort,
+        """analysis = "area"
+title = "Knees"
+files = "{subject}_{condition}.csv"
+table = "people.csv"
+trials = [{ subject = "P1", walk = 3, options = { split = "z", side = "left" } }, { subject = "P2", walk = 4 }]
+leave_out = [{ subject = "P2", condition = "fast" }]
+[options]
+moving = "a.stl"
+fixed = "a.stl"
+unit = "mm"
+motion = "{file}"
+save_map = true
+[vary]
+condition = ["slow", "fast"]
+[sweep]
+threshold = [1, 4]
+[summary]
+table = "area"
+columns = ["area_fixed [mm^2]"]
+over = "time [s]"
+where = { "threshold [mm]" = 4 }
+subject = "subject"
+condition = "condition"
+[surface]
+particles = "a.particles"
+unit = "mm"
+body = "fixed"
+at = [0, 50, 100]
+""",
+        {
+            r"trials \d+ (subject|walk)": FREE,
+            r"leave_out \d+ \w+": FREE,
+            r"(vary|sweep) \w+ \d+": FREE,
+            "summary where .*": FREE,
+            r"(options|trials \d+ options) \w+": (*FREE, "list", "table", "date"),
+            r"options motion": (*FREE, "list"),
+        },
+    ),
+    "population": Description(
+        lambda path: read_population(path, OFFSETS),
+        """[k]
+unit = "N/m"
+value = 200
+[l]
+unit = "mm"
+normal = { mean = 180, sd = 10, lower = 100, upper = 250 }
+[z]
+unit = "mm"
+uniform = { lower = 80, upper = 120 }
+[x]
+table = "offsets.csv"
+[y]
+unit = "mm"
+normal = { mean = 0, sd = 5 }
+[correlation]
+l_y = 0.4
+""",
+        {},
+    ),
+    "gathering": Description(
+        read_gathering,
+        CASE
+        + """[columns]
+"angle [deg]" = "knee_angle_r"
+[from.t01]
+inputs = "t01.mot"
+outputs = "t01.sto"
+plates = "grf.mot"
+plate = "right"
+belt = 1.1
+areas = "area.csv"
+threshold = 0.004
+forces = "forces.csv"
+force_unit = "lbf"
+thigh = "t01_thigh"
+[from.t02]
+inputs = "t02.csv"
+thigh = "t02_thigh"
+""",
+        {r"trial t01 \w+": ("number", "text"), r"from \w+ plate": WORD, "spheres": ()},
+    ),
+    "standing": Description(
+        read_standing_study,
+        """mass = { value = 70, unit = "kg", source = "scale", note = "with shoes" }
+height = { value = 1.75, unit = "m" }
+exoskeleton = true
+free = ["a"]
+tracks = ["b"]
+[noise]
+angle = { value = 0.3, unit = "deg" }
+[[trials]]
+name = "T1"
+coordinates = "a.csv"
+rates = "a.csv"
+plates = "a.csv"
+torques = "a.csv"
+strap = ["a.csv", "a.csv"]
+strap_shank = "a.csv"
+strap_pelvis = "a.csv"
+feet = "feet"
+chair = 2
+sitting = true
+start = { value = 0.5, unit = "s" }
+end = 2.5
+""",
+        {
+            r"trials \d+ (name|feet|chair)": ("number", "text"),
+            r"trials \d+ strap\w*": ("list", "text"),
+            r"trials \d+ (start|end)": ("number", "table"),
+            ".* (source|note)": ("number", "bool", "list", "table", "date"),
+        },
+    ),
+    "gait": Description(
+        read_gait_study,
+        """[persons.P1]
+mass = { value = 77.3, unit = "kg" }
+static = "a.csv"
+side = "right"
+sex = "male"
+residual = { value = 45, unit = "%" }
+functional = "a.csv"
+law = "a.csv"
+[[trials]]
+name = "T1"
+person = "P1"
+setting = "medium"
+markers = "a.csv"
+plates = "a.csv"
+plate = "own"
+other_plate = 2
+calibrated = true
+law = "a.csv"
+ground = "plane:0,1,0,0"
+[[trials]]
+person = "P1"
+fulcrum = { value = 100, unit = "mm" }
+markers = "a.csv"
+plates = "a.csv"
+plate = "own"
+other_plate = 2
+""",
+        {r"trials \d+ (name|plate|other_plate|ground)": ("number", "text")},
+    ),
+    "overhead": Description(
+        read_overhead_study,
+        """[tasks.T1]
+tool = { value = 1.3, unit = "kg" }
+push = { value = 35, unit = "N" }
+dominant_share = 0.5
+[persons.P1]
+mass = { value = 82, unit = "kg" }
+sex = "male"
+dominant = "right"
+upper_arm = { value = 296, unit = "mm" }
+shoulder_width = { value = 390, unit = "mm" }
+torso = { value = 500, unit = "mm" }
+[[trials]]
+name = "A"
+person = "P1"
+task = "T1"
+markers = "a.csv"
+tool = "a.csv"
+upright = [0.0, 0.5]
+[[trials]]
+person = "P1"
+task = "T1"
+markers = "a.csv"
+tool = "a.csv"
+level = "100%"
+recorded = "a.csv"
+recorded_other = "a.csv"
+without = "A"
+""",
+        {r"trials \d+ (name|level)": ("number", "text")},
+    ),
+    "device": Description(
+        lambda path: read_device_file(path, DEVICE_UNITS, SOURCES),
+        """name = "wide"
+based_on = "lucy"
+[numbers]
+cuff_length = { value = 160, unit = "mm", source = "invented", note = "longer" }
+""",
+        {"name|based_on": WORD, "numbers .* note": ("number", "bool", "list", "table", "date")},
+    ),
+    "person": Description(
+        lambda path: read_person_file(path, ("upper_arm", "torso")), 'upper_arm = { value = 310, unit = "mm" }\n', {}
+    ),
+    "case": Description(read_settings, CASE, {r"trial t01 \w+": ("number", "text")}),
+    "layout": Description(
+        read_layout,
+        """rows = 16
+columns = 8
+pitch_mm = [20, 20.0]
+cell_area_mm2 = 380
+order = "row"
+serpentine = true
+first_id = 1
+origin = "top-left"
+mirrored = "rows"
+masked = [[0, 0]]
+dead = [[1, 0]]
+unit = "kPa"
+saturation_kPa = 100
+rate_Hz = 50
+delimiter = ","
+decimal = "."
+[sensors]
+mat = [[0, 1]]
+""",
+        {"pitch_mm|cell_area_mm2": ("number", "list"), "mirrored": ("bool", "text")},
+    ),
+    "law": Description(
+        read_law,
+        f"""k = 8e6
+b = 100.0
+n = 1.2
+delta_full = 0.001
+mu_s = 0.8
+mu_k = 0.7
+v_th = 0.01
+[zone.heel]
+k = 1e6
+b = 10.0
+mu_s = 0.8
+mu_k = 0.7
+[foot]
+height = 0.001
+height_sd = 0.001
+pitch = 0.01
+pitch_sd = 0.01
+standing = "{"0" * 64}"
+""",
+        {},
+    ),
+    "weights": Description(
+        read_regression,
+        """name = "tray"
+source = "paper"
+cells = ["AL", "PM"]
+medial = [0.2, 0.9]
+lateral = [0.8, 0.1]
+""",
+        {},
+    ),
+}
+WRONG: dict[str, tuple[Any, ...]] = {
+    "list": ([], [1], ["a"], [{}], [[]]),
+    "table": ({}, {"a": 1}, {"a": {}}),
+    "bool": (True, False),
+    "number": (3, 2.5, -1, float("nan")),
+    "text": ("", "text"),
+    "date": (date(2020, 1, 1),),
+}
+EMPTY = ([], {}, "")
+
+
+def kind_of(value: Any) -> str:
+    """Kind of a value in TOML."""
+    kinds = {list: "list", dict: "table", bool: "bool", int: "number", float: "number", str: "text", date: "date"}
+    return kinds[type(value)]
+
+
+def toml(value: Any) -> str:
+    """A value as TOML writes it."""
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{json.dumps(key)} = {toml(each)}" for key, each in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml, value)) + "]"
+    return value.isoformat() if isinstance(value, date) else repr(value) if value != value else json.dumps(value)
+
+
+def written(file: Path, content: Mapping[str, Any]) -> Path:
+    file.write_text("".join(f"{json.dumps(key)} = {toml(each)}\n" for key, each in content.items()), encoding="utf-8")
+    return file
+
+
+def places(value: Any, before: Place = ()) -> Iterator[tuple[Place, Any]]:
+    """Every key, of tables in tables and of lists too, with what it holds."""
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, each in items:
+        yield (*before, key), each
+        yield from places(each, (*before, key))
+
+
+def changed(value: Any, place: Place, new: Any) -> Any:
+    """The same with another value at one place."""
+    first, *rest = place
+    own = changed(value[first], tuple(rest), new) if rest else new
+    if isinstance(value, list):
+        return [own if k == first else each for k, each in enumerate(value)]
+    return {**value, first: own}
+
+
+def cases(what: str) -> Iterator[tuple[Place, Any, bool]]:
+    """Where a value of another kind is written, the value, and whether it may be read."""
+    description = DESCRIPTIONS[what]
+    for place, value in places(tomllib.loads(description.text)):
+        spelled = " ".join(map(str, place))
+        own = [more for pattern, more in description.takes.items() if re.fullmatch(pattern, spelled)]
+        taken = {kind_of(value), *(kind for more in own for kind in more)}
+        for kind, values in WRONG.items():
+            for each in values:
+                yield place, each, kind in taken
+
+
+@pytest.fixture(scope="module")
+def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with all files that the descriptions name."""
+    folder = tmp_path_factory.mktemp("descriptions")
+    for name in ("a.csv", "a.stl", "a.particles", "P1_slow.csv", "P1_fast.csv", "P2_slow.csv", "P2_fast.csv"):
+        (folder / name).touch()
+    (folder / "people.csv").write_text("subject,mass [kg]\nP1,70\nP2,80\n", encoding="utf-8")
+    (folder / "offsets.csv").write_text("x [mm]\n1\n2\n", encoding="utf-8")
+    return folder
+
+
+@pytest.mark.parametrize("what", DESCRIPTIONS)
+def test_a_description_with_every_key_is_read(home: Path, what: str) -> None:
+    DESCRIPTIONS[what].read(written(home / f"{what}.toml", tomllib.loads(DESCRIPTIONS[what].text)))
+
+
+def outcome(read: Callable[[Path], Any], file: Path, place: Place) -> str:
+    """What a reader does: read, refused with the key named, or what is wrong with it."""
+    try:
+        read(file)
+    except InputError as error:
+        line = str(error)
+        if "\n" in line or not line.isprintable() or len(line) > 1000:
+            return f"unclear: {line[:200]!r}"
+        named = [str(part) for part in place if isinstance(part, str)]
+        lines = line.replace(str(file.parent), "")
+        return "refused" if any(part in lines for part in named) else f"elsewhere: {line[:200]}"
+    except Exception as error:
+        return f"{type(error).__name__}: {error!s:.80}"
+    return "read"
+
+
+@pytest.mark.parametrize("what", DESCRIPTIONS)
+def test_a_value_of_another_kind_is_refused_at_its_key(home: Path, what: str) -> None:
+    """One of a kind that the key takes may be read, or contradict another key."""
+    content, bad = tomllib.loads(DESCRIPTIONS[what].text), []
+    for place, value, may_be_read in cases(what):
+        file = written(home / f"{what}.toml", changed(content, place, value))
+        said = outcome(DESCRIPTIONS[what].read, file, place)
+        if said != "refused" and not (may_be_read and (said == "read" or said.startswith("elsewhere: "))):
+            bad.append(f"{' '.join(map(str, place))} = {toml(value)} -> {said}")
+    assert not bad, f"{len(bad)}:\n" + "\n".join(bad[:30])
+
+
+def test_an_option_of_a_study_is_refused_by_its_name() -> None:
+    """Of every analysis that a study may name, with every kind of value."""
+    bad, seen = [], 0
+    for entry in (each for each in ENTRIES if each.of_trials):
+        for one in (each for each in declared(entry.load_job().options) if each.settable):
+            for value in (each for values in WRONG.values() for each in values):
+                seen += 1
+                try:
+                    one.coerced(one.read(as_typed(one, value)))
+                except InputError as error:
+                    if one.name not in str(error):
+                        bad.append(f"{entry.command} {one.name} = {toml(value)}: {error}")
+                except Exception as error:
+                    bad.append(f"{entry.command} {one.name} = {toml(value)}: {type(error).__name__}")
+    assert not bad and seen > 5000, f"{len(bad)} of {seen}:\n" + "\n".join(bad[:30])
