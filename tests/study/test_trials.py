@@ -75,7 +75,7 @@ def test_trials_that_are_listed_have_options_of_their_own(data: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("option = 1", "`option`: is not known here; write analysis, title, files"),
+        ("option = 1", "option: is not known here; perhaps options"),
         ('files = "{subject}/none_{trial}.csv"', "`files`: no file fits '{subject}/none_{trial}.csv'"),
         ('files = "{subject}/*.csv"\n', "two trials are 'P1'; name what they differ in"),
         ('[options]\nmotion = "{who}.csv"\n[vary]\nsubject = ["A"]', "[options] motion: no trial has {who}; names are"),
@@ -85,9 +85,9 @@ def test_trials_that_are_listed_have_options_of_their_own(data: Path) -> None:
         ('[vary]\nsubject = ["A"]\n[[leave_out]]\nsubject = "A"', "every trial is left out"),
         ("[options]\nrate = 1\n[sweep]\nrate = [1, 2]", "[sweep] rate: is in [options] too"),
         ('[[trials]]\nsubject = "A"\n[[trials]]\nwalk = 2', "[[trials]] 2: 'subject' is not in all of them"),
-        ('[[trials]]\nsubject = ["A"]', "[[trials]] 1 subject: is no value"),
+        ('[[trials]]\nsubject = ["A"]', "[[trials]] 1 subject: ['A'] is no value"),
         ("[[trials]]\noptions = 3", "[[trials]] 1 options: is no table"),
-        ("trials = 2", "[[trials]]: is no list of tables"),
+        ("trials = 2", "trials: is no list of tables; write it in double brackets"),
         ("[sweep]\nrate = [1, 2]\n[[trials]]\noptions = { rate = 1 }", "[sweep] rate: is in [options] too"),
         ('[summary]\nwho = "subject"', "[summary] who: is not known here"),
         ('files = "{subject}/{condition}_{trial}.csv"\ntable = "one.csv"', "one.csv: has no row for subject P2"),

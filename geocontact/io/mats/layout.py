@@ -9,7 +9,7 @@ from os import fspath
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, PlainValidator, ValidationError
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, PlainValidator, ValidationError
 
 from geocontact.data.errors import InputError
 from geocontact.io.text import units
@@ -98,6 +98,13 @@ def _mirrored(value: object) -> bool | Turned | None:
     raise ValueError('input should be a valid boolean, or "rows", "columns" or "both"')
 
 
+def _no_flag(value: object) -> object:
+    """True and false are equal to 1 and 0, but no numbers."""
+    if isinstance(value, bool):
+        raise ValueError("expected 0 or 1")
+    return value
+
+
 def _unit(text: str) -> str:
     if pressure_unit(text) is None:
         raise ValueError("expected a unit of pressure: Pa, kPa, mmHg, psi, N/cm2, bar, kg/cm2")
@@ -147,7 +154,7 @@ class MatLayout(BaseModel):
     cell_area_mm2: Annotated[tuple[float, ...], PlainValidator(_areas)] = ()
     order: Literal["row", "column"] = "row"
     serpentine: bool = False
-    first_id: Literal[0, 1] = 1
+    first_id: Annotated[Literal[0, 1], BeforeValidator(_no_flag)] = 1
     origin: Literal["top-left", "top-right", "bottom-left", "bottom-right"] = "top-left"
     mirrored: Annotated[bool | Turned | None, PlainValidator(_mirrored)] = None
     masked: Cells = ()

@@ -38,6 +38,7 @@ the device. What tells no more than these may be left out: `dominant_share`, len
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Literal
@@ -55,7 +56,8 @@ Length = Annotated[float, WithUnit("m")]
 
 
 def _span(value: object) -> tuple[float, float]:
-    if not isinstance(value, list) or len(value) != 2 or not all(isinstance(each, (int, float)) for each in value):
+    numbers = isinstance(value, list) and [each for each in value if type(each) in (int, float) and math.isfinite(each)]
+    if not isinstance(value, list) or not numbers or not len(value) == len(numbers) == 2:
         raise refusal(f"{value!r:.60} is no span", "write [first, last] in s")
     return float(value[0]), float(value[1])
 

@@ -1,41 +1,188 @@
-"""Description of a population: what differs from person to person, and how."""
+"""Description of a population: what differs from person to person, and how.
+
+    [k]
+    unit = "N/m"
+    normal = { mean = 222, sd = 40, lower = 50 }
+
+    [l]
+    unit = "mm"
+    uniform = { lower = 160, upper = 200 }
+
+    [z]
+    unit = "mm"
+    value = 100
+
+    [x]
+    table = "measured.csv"
+
+    [y]
+    table = "measured.csv"
+
+    [correlation]
+    k_l = 0.4
+
+Every quantity is described in one of these ways. A table is looked for beside the description and has a column for
+each quantity that names it, with its unit; its people are drawn whole.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from jaxtyping import Float
+from pydantic import AfterValidator, Field, FiniteFloat, create_model, model_validator
 
 from geocontact.data.errors import InputError
+from geocontact.io.documents import Beside, Document, checked, refusal
 from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.toml_text import toml_of
 from geocontact.io.text.units import si_unit
 
 LARGEST = 100_000
 """Bytes of the description."""
+KINDS = ("value", "normal", "uniform", "table")
+"""Ways in which a quantity may be described."""
 
-KINDS = {"value": (), "normal": ("mean", "sd"), "uniform": ("lower", "upper"), "table": ()}
-"""How a quantity may be told, and the numbers that it then needs."""
 
-CUTS = ("lower", "upper")
-"""Numbers that a normal one may have besides."""
+class _Range(Document):
+    """Numbers of which `upper` is above `lower`."""
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """Those that are stated, by name."""
+        return {name: value for name, value in self if value is not None}
+
+    @model_validator(mode="after")
+    def _require_order(self) -> _Range:
+        if self.numbers.get("upper", math.inf) <= self.numbers.get("lower", -math.inf):
+            raise refusal("is not above lower", "turn them round", at=("upper",))
+        return self
+
+
+class NormalDistribution(_Range):
+    """A normal distribution.
+
+    Parameters
+    ----------
+    mean, sd
+        Mean and standard deviation before it is cut off.
+    lower, upper
+        Where it is cut off.
+    """
+
+    mean: FiniteFloat
+    sd: Annotated[FiniteFloat, Field(gt=0.0)]
+    lower: FiniteFloat | None = None
+    upper: FiniteFloat | None = None
+
+
+class UniformDistribution(_Range):
+    """A uniform distribution.
+
+    Parameters
+    ----------
+    lower, upper
+        Smallest and largest value.
+    """
+
+    lower: FiniteFloat
+    upper: FiniteFloat
+
+
+class QuantityEntry(Document):
+    """A quantity in one of four ways.
+
+    Parameters
+    ----------
+    value
+        The same for everybody.
+    normal, uniform
+        Distributions.
+    table
+        A .csv with a row for each person and the quantity among its columns.
+    unit
+        Unit of these numbers; a table has its own.
+    """
+
+    value: FiniteFloat | None = None
+    normal: NormalDistribution | None = None
+    uniform: UniformDistribution | None = None
+    table: Beside | None = None
+    unit: str | None = None
+
+    @property
+    def kind(self) -> str:
+        """Which of `KINDS`."""
+        return next(kind for kind in KINDS if getattr(self, kind) is not None)
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """Those that are stated, by name."""
+        one = self.normal or self.uniform
+        return one.numbers if one is not None else {} if self.value is None else {"value": self.value}
+
+    @model_validator(mode="after")
+    def _require_one(self) -> QuantityEntry:
+        count = sum(getattr(self, kind) is not None for kind in KINDS)
+        if count != 1:
+            raise refusal(f"is described in {count or 'no'} ways", f"give one of {', '.join(KINDS)}", at=("",))
+        if self.table is not None and self.unit is not None:
+            raise refusal("has no effect", "write it in the table", at=("unit",))
+        return self
+
+
+class PopulationDescription(Document):
+    """Quantities by name, each a table of this kind, and how they go together.
+
+    Parameters
+    ----------
+    correlation
+        Rank correlation of two quantities by their names, as in x_y = 0.4, between -1 and 1.
+    """
+
+    correlation: Mapping[str, Annotated[FiniteFloat, Field(gt=-1.0, lt=1.0)]] = {}
+
+    @property
+    def quantities(self) -> dict[str, StatedQuantity]:
+        """Quantities in SI, by name."""
+        return {name: getattr(self, name) for name in type(self).model_fields if name != "correlation"}
+
+    @property
+    def pairs(self) -> dict[tuple[str, str], float]:
+        """Correlations by the names of both quantities."""
+        return {(key.partition("_")[0], key.partition("_")[2]): value for key, value in self.correlation.items()}
+
+    @model_validator(mode="after")
+    def _require_pairs(self) -> PopulationDescription:
+        for k, (first, second) in enumerate(self.pairs):
+            at = ("correlation", f"{first}_{second}")
+            if first == second or not {first, second} <= {*self.quantities}:
+                raise refusal("is no pair of quantities", "write x_y = 0.4", at=at)
+            for name in (first, second):
+                if (kind := self.quantities[name].kind) in ("table", "value"):
+                    remedy = "a table brings its own correlation, a value has none"
+                    raise refusal(f"{name} is described by {kind}", remedy, at=at)
+            if (second, first) in [*self.pairs][:k]:
+                raise refusal("stands there twice", "keep one", at=at)
+        return self
 
 
 @dataclass(frozen=True)
 class StatedQuantity:
-    """A quantity: its kind, and its numbers in SI units (`value`, or those of `KINDS` and `CUTS`).
+    """A quantity: its kind, and its numbers in SI units, `value` or those of the distribution.
 
-    `factor` is how many SI units the unit is that stands beside them.
+    `factor` is how many SI units the unit is that stands beside them; `table` where it is described by one.
     """
 
     kind: str
     numbers: Mapping[str, float]
     factor: float = 1.0
+    table: Path | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,67 +196,33 @@ class PopulationFile:
 
 def read_population(path: Path, units: Mapping[str, str]) -> PopulationFile:
     """The description, with `units` the SI units of the quantities that have to be in it; InputError otherwise."""
-    content = toml_of(path, LARGEST)
-    unknown = [key for key in content if key not in (*units, "correlation")]
-    if unknown:
-        raise InputError(
-            path, f"[{unknown[0]}]", "is not a quantity here", f"these are: {', '.join(units)}, correlation"
-        )
-    missing = [name for name in units if not isinstance(content.get(name), dict)]
-    if missing:
-        raise InputError(path, "", f"no [{missing[0]}]", f"tell all of {', '.join(units)}")
-    quantities = {name: _told(path, name, content[name], unit) for name, unit in units.items()}
+    fields: dict[str, Any] = {
+        name: (Annotated[QuantityEntry, AfterValidator(_InUnit(unit))], ...) for name, unit in units.items()
+    }
+    kind = create_model("Population", __base__=PopulationDescription, **fields)
+    described: PopulationDescription = checked(path, kind, toml_of(path, LARGEST))
     tables: dict[Path, dict[str, Float[np.ndarray, " m"]]] = {}
-    for name, told in quantities.items():
-        if told.kind == "table":
-            file = path.parent / str(content[name]["table"])
-            tables.setdefault(file, {})[name] = _column(file, name, units[name])
-    return PopulationFile(quantities, tables, _correlations(path, content.get("correlation", {}), quantities))
+    for name, one in described.quantities.items():
+        if one.table is not None:
+            tables.setdefault(one.table, {})[name] = _column(one.table, name, units[name])
+    return PopulationFile(described.quantities, tables, described.pairs)
 
 
-def _told(path: Path, name: str, entry: dict[str, Any], unit: str) -> StatedQuantity:
-    place = f"[{name}]"
-    kinds = [kind for kind in KINDS if kind in entry]
-    if len(kinds) != 1:
-        raise InputError(path, place, f"is told in {len(kinds) or 'no'} ways", f"give one of {', '.join(KINDS)}")
-    (kind,) = kinds
-    if kind == "table":
-        _only(path, place, entry, ("table",))
-        return StatedQuantity(kind, {})
-    _only(path, place, entry, (kind, "unit"))
-    known = si_unit(str(entry.get("unit", "")))
-    if known is None or known[0] != unit:
-        raise InputError(
-            path, place, f"unit is {entry.get('unit', 'missing')!r}", f"write one of {unit}, like unit = …"
-        )
-    given = {"value": entry[kind]} if kind == "value" else entry[kind]
-    if not isinstance(given, dict):
-        raise InputError(path, place, f"{kind} is no table", f"write {kind} = {{ {' = …, '.join(KINDS[kind])} = … }}")
-    needed = KINDS[kind] or ("value",)
-    _only(path, place, given, (*needed, *(CUTS if kind == "normal" else ())))
-    numbers = {key: known[1] * _number(path, place, key, given.get(key)) for key in dict.fromkeys((*needed, *given))}
-    _check_order(path, place, kind, numbers)
-    return StatedQuantity(kind, numbers, known[1])
+@dataclass(frozen=True)
+class _InUnit:
+    """What turns an entry into SI; a refusal of a unit that is not of `si`."""
 
+    si: str
 
-def _only(path: Path, place: str, entry: Mapping[str, Any], allowed: Sequence[str]) -> None:
-    unknown = [key for key in entry if key not in allowed]
-    if unknown:
-        raise InputError(path, place, f"{unknown[0]!r} is not known here", f"these are: {', '.join(allowed)}")
-
-
-def _number(path: Path, place: str, key: str, value: object) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        what = "is missing" if value is None else f"{value!r} is not a finite number"
-        raise InputError(path, place, f"{key} {what}", f"write {key} = 1.5")
-    return float(value)
-
-
-def _check_order(path: Path, place: str, kind: str, numbers: Mapping[str, float]) -> None:
-    if kind == "normal" and numbers["sd"] <= 0.0:
-        raise InputError(path, place, "sd is not above 0", "write value = … for what is the same for everybody")
-    if numbers.get("upper", math.inf) <= numbers.get("lower", -math.inf):
-        raise InputError(path, place, "upper is not above lower", "turn them round")
+    def __call__(self, entry: QuantityEntry) -> StatedQuantity:
+        if entry.table is not None:
+            return StatedQuantity("table", {}, table=entry.table)
+        known = si_unit(entry.unit or "")
+        if known is None or known[0] != self.si:
+            what = "is missing" if entry.unit is None else f"{entry.unit!r:.60} is not a unit of it"
+            raise refusal(what, f"write {self.si}, or another one of its kind", at=("unit",))
+        numbers = {name: known[1] * value for name, value in entry.numbers.items()}
+        return StatedQuantity(entry.kind, numbers, known[1])
 
 
 def _column(file: Path, name: str, unit: str) -> Float[np.ndarray, " m"]:
@@ -119,25 +232,3 @@ def _column(file: Path, name: str, unit: str) -> Float[np.ndarray, " m"]:
         what = f"no column '{name}' in {unit} or a multiple; columns are: {', '.join(map(str, table.columns))}"
         raise InputError(file, "line 1", what, f"write {label}")
     return table[label].to_numpy(float)
-
-
-def _correlations(path: Path, entry: object, quantities: Mapping[str, StatedQuantity]) -> dict[tuple[str, str], float]:
-    """Pairs written as x_y = 0.4."""
-    place = "[correlation]"
-    if not isinstance(entry, dict):
-        raise InputError(path, place, "is no table", "write x_y = 0.4 below [correlation]")
-    found: dict[tuple[str, str], float] = {}
-    for key, value in entry.items():
-        first, _, second = key.partition("_")
-        for name in (first, second):
-            if name not in quantities or first == second:
-                raise InputError(path, place, f"{key!r} is no pair of quantities", "write x_y = 0.4")
-            if quantities[name].kind not in ("normal", "uniform"):
-                what = f"{name} is told by {quantities[name].kind}"
-                raise InputError(path, place, what, "a table brings its own correlation, a value has none")
-        if (second, first) in found:
-            raise InputError(path, place, f"{key!r} is told twice", "keep one")
-        found[first, second] = _number(path, place, key, value)
-        if abs(found[first, second]) >= 1.0:
-            raise InputError(path, place, f"{key} = {found[first, second]:g} is not between -1 and 1", "e.g. 0.4")
-    return found
