@@ -84,14 +84,14 @@ class Document(BaseModel):
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
 
     @classmethod
-    def keys(cls) -> dict[str, FieldInfo]:
+    def by_key(cls) -> dict[str, FieldInfo]:
         """Every key as it is written, with what is declared of it."""
         return {field.alias or name: field for name, field in cls.model_fields.items()}
 
     @model_validator(mode="before")
     @classmethod
     def _require_keys(cls, content: object) -> object:
-        keys = cls.keys()
+        keys = cls.by_key()
         every = ", ".join(keys)
         if not isinstance(content, dict):
             raise refusal("is no table", f"write {every}")
@@ -119,9 +119,9 @@ def _require(name: str, field: FieldInfo, value: object) -> None:
     if table is not None:
         kind, heading = (list, f"[[{name}]]") if get_origin(field.annotation) is tuple else (dict, f"[{name}.NAME]")
         if not value or not isinstance(value, kind):
-            raise refusal(f"no {heading}", f"write one for each, with {', '.join(table.keys())}", at=("",))
+            raise refusal(f"no {heading}", f"write one for each, with {', '.join(table.by_key())}", at=("",))
     if value is None and _is_document(field.annotation):
-        raise refusal(f"no [{name}]", f"add it, with {', '.join(field.annotation.keys())}", at=("",))
+        raise refusal(f"no [{name}]", f"add it, with {', '.join(field.annotation.by_key())}", at=("",))
     if value is None:
         example = next((each.example for each in field.metadata if isinstance(each, WithUnit)), "")
         example = next(iter(field.examples or ()), example)

@@ -9,12 +9,18 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError
-from geocontact.io.cases.gathering import columns_of, read_storage_trial
+from geocontact.io.cases.gathering import Columns, StorageColumn, read_storage_trial
+from geocontact.io.documents import checked
 from geocontact.io.opensim.storage_writer import write_storage
 
 TIME = np.linspace(0.0, 1.0, 11)
 COLUMNS = {"angle [deg]": "knee_angle_r", "height [m]": "pelvis_ty", "torque [N m]": "knee_angle_r_moment"}
-HERE = Path("gather.toml")
+
+
+def columns_of(given: object) -> tuple[StorageColumn, ...]:
+    """`[columns]` of a gather.toml."""
+    found: tuple[StorageColumn, ...] = checked(Path("gather.toml"), Columns, given)
+    return found
 
 
 def ik(folder: Path, degrees: bool = True, name: str = "knee_angle_r") -> Path:
@@ -25,7 +31,7 @@ def ik(folder: Path, degrees: bool = True, name: str = "knee_angle_r") -> Path:
 
 
 def test_coordinates_come_in_si_units_and_other_columns_are_left_out(tmp_path: Path) -> None:
-    table = read_storage_trial(ik(tmp_path), columns_of(HERE, COLUMNS))
+    table = read_storage_trial(ik(tmp_path), columns_of(COLUMNS))
     assert table.signals.channels == ("angle", "height") and table.signals.units == ("rad", "m")
     np.testing.assert_allclose(table.signals.column("angle"), np.radians(60.0 * TIME), rtol=1e-9)
     np.testing.assert_allclose(table.signals.column("height"), 0.9 + 0.1 * TIME, rtol=1e-9)
@@ -34,25 +40,25 @@ def test_coordinates_come_in_si_units_and_other_columns_are_left_out(tmp_path: P
 
 def test_a_coordinate_may_be_named_by_its_path(tmp_path: Path) -> None:
     file = ik(tmp_path, name="/jointset/knee_r/knee_angle_r/value")
-    columns = columns_of(HERE, {"angle [deg]": "/jointset/knee_r/knee_angle_r/value"})
+    columns = columns_of({"angle [deg]": "/jointset/knee_r/knee_angle_r/value"})
     assert read_storage_trial(file, columns).signals.channels == ("angle",)
 
 
 def test_a_header_that_contradicts_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"angles are in deg by the header, \[columns\] has angle in rad"):
-        read_storage_trial(ik(tmp_path), columns_of(HERE, {"angle [rad]": "knee_angle_r"}))
+        read_storage_trial(ik(tmp_path), columns_of({"angle [rad]": "knee_angle_r"}))
     with pytest.raises(InputError, match="angles are in rad by the header"):
-        read_storage_trial(ik(tmp_path, degrees=False), columns_of(HERE, {"angle [deg]": "knee_angle_r"}))
+        read_storage_trial(ik(tmp_path, degrees=False), columns_of({"angle [deg]": "knee_angle_r"}))
 
 
 def test_degrees_under_a_flag_of_radians_are_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"column 'knee_angle_r' reaches 60, too much for the radians .*angle \[deg\]"):
-        read_storage_trial(ik(tmp_path, degrees=False), columns_of(HERE, {"angle [rad]": "knee_angle_r"}))
+        read_storage_trial(ik(tmp_path, degrees=False), columns_of({"angle [rad]": "knee_angle_r"}))
 
 
 def test_a_file_without_any_of_the_columns_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="holds none of knee_angle_l; columns are: knee_angle_r, pelvis_ty"):
-        read_storage_trial(ik(tmp_path), columns_of(HERE, {"angle [deg]": "knee_angle_l"}))
+        read_storage_trial(ik(tmp_path), columns_of({"angle [deg]": "knee_angle_l"}))
 
 
 @pytest.mark.parametrize(
@@ -70,4 +76,4 @@ def test_a_file_without_any_of_the_columns_is_refused(tmp_path: Path) -> None:
 )
 def test_what_columns_are_is_told_or_refused(given: object, message: str) -> None:
     with pytest.raises(InputError, match=re.escape(message)):
-        columns_of(HERE, given)
+        columns_of(given)

@@ -7,15 +7,15 @@ by the ending of its name; everything else is in SI units there.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import fspath
 from pathlib import Path
-from typing import Any
+from typing import Annotated
 
 import numpy as np
 from jaxtyping import Float
+from pydantic import AfterValidator, ConfigDict, Field, FiniteFloat, PlainValidator, model_validator
 
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Signals
@@ -28,6 +28,7 @@ from geocontact.io.cases.case_settings import (
     settings_of,
 )
 from geocontact.io.cases.trial_table import TrialTable
+from geocontact.io.documents import Beside, Document, Text, Word, checked, refusal
 from geocontact.io.text.columns import LARGEST_RADIANS, resolve
 from geocontact.io.text.csv_text import Column
 from geocontact.io.text.tables import TextTable, listed, read_table
@@ -53,29 +54,31 @@ def is_storage(path: Path) -> bool:
     return path.suffix.lower() in STORAGE
 
 
-def columns_of(path: Path, given: Any) -> tuple[StorageColumn, ...]:
-    """`[columns]` of gather.toml, the file `path`; InputError for a channel without a known unit."""
+def _columns(given: object) -> tuple[StorageColumn, ...]:
     if not isinstance(given, dict):
-        raise InputError(path, "columns", "is no table", f"write [columns] and {EXAMPLE}")
-    return tuple(_column(path, header, label) for header, label in given.items())
+        raise refusal("is no table", f"write [columns] and {EXAMPLE}")
+    return tuple(_column(header, label) for header, label in given.items())
 
 
-def _column(path: Path, header: str, label: Any) -> StorageColumn:
-    place = f"[columns] {header[:80]!r}"
+def _column(header: str, label: object) -> StorageColumn:
     if not isinstance(label, str) or not label.strip():
-        raise InputError(path, place, f"is {label!r:.60}", f"write the name of a column in quotes, as in {EXAMPLE}")
+        remedy = f"write the name of a column in quotes, as in {EXAMPLE}"
+        raise refusal(f"is {label!r:.60}", remedy, at=(header,))
     name, unit = split_header(header)
     known = si_unit(unit)
     if not name.isidentifier() or known is None:
-        what = "is no channel with a unit that is known"
-        raise InputError(path, place, what, f"write for example {EXAMPLE}")
+        raise refusal("is no channel with a unit that is known", f"write for example {EXAMPLE}", at=(header,))
     si, factor = known
     expected = next((each for ending, each in ENDINGS.items() if label.endswith(ending)), None)
     if expected is not None and unit != expected:
-        raise InputError(path, place, f"column {label!r} is in {expected} by its name", f"write [{expected}]")
+        raise refusal(f"column {label!r:.60} is in {expected} by its name", f"write [{expected}]", at=(header,))
     if si != "rad" and factor != 1.0:
-        raise InputError(path, place, f"is in {unit!r}; OpenSim's tables are in {si}", f"write [{si}]")
+        raise refusal(f"is in {unit!r}; OpenSim's tables are in {si}", f"write [{si}]", at=(header,))
     return StorageColumn(Column(name, unit, si, factor), label)
+
+
+Columns = Annotated[tuple[StorageColumn, ...], PlainValidator(_columns)]
+"""`[columns]`: names of columns by channel and unit."""
 
 
 def read_storage_trial(path: Path, columns: Sequence[StorageColumn]) -> TrialTable:
@@ -106,84 +109,84 @@ def _values(table: TextTable, channel: Column, label: str) -> Float[np.ndarray, 
     return values * channel.factor
 
 
-SOURCES_EXAMPLE = '[from.t01] with inputs = "t01.csv" and outputs = "t01_measured.csv" or SITE = "results/t01_site"'
 GOES_WITH = {"plate": "plates", "belt": "plates", "areas": "forces", "threshold": "areas", "force_unit": "forces"}
 """A key that says nothing without another."""
-NUMBERS = ("belt", "threshold")
-WORDS = ("inputs", "outputs", "plates", "plate", "areas", "forces", "force_unit")
 
 
-@dataclass(frozen=True)
-class PlateSource:
-    """What a foot stands on: a file of force plates, which of them, and how fast its ground runs backwards [m/s]."""
-
-    file: Path
-    plate: str | None
-    belt: float
+def _outputs(file: Path) -> Path:
+    if not is_storage(file) and file.suffix.lower() != ".csv":
+        raise refusal(f"'{file.suffix}' is not read here", "give a .mot, .sto or .csv file")
+    return file
 
 
-@dataclass(frozen=True)
-class SidesSource:
-    """What loads a knee: area.csv and its threshold [m], forces by side and their unit; None where there is one only.
-
-    Without a file of areas they are among the inputs.
-    """
-
-    areas: Path | None
-    threshold: float | None
-    forces: Path
-    unit: str | None
-
-
-@dataclass(frozen=True)
-class Source:
+class Source(Document):
     """Where one trial comes from: the file of its inputs, and what is measured beside them.
 
-    `outputs` is a .mot or .sto file, or a .csv table with units like that of a trial.
+    Any other key is the site of a mat, with the folder that `geocontact mat` wrote.
+
+    Parameters
+    ----------
+    inputs
+        Time and the inputs of the model: .csv with units, or .mot, .sto with `[columns]`.
+    outputs
+        A .mot, .sto or .csv file like that of inputs.
+    plates, plate, belt
+        File of force plates, name or number of the one that counts, and how fast its ground runs backwards [m/s].
+    areas, threshold
+        `area.csv` with both sides of a knee, and which of its thresholds [m]; areas may be among the inputs instead.
+    forces, force_unit
+        Forces by side, and their unit where the file does not say it.
     """
 
-    inputs: Path
-    outputs: Path | None
-    mats: Mapping[str, Path]
-    plate: PlateSource | None
-    sides: SidesSource | None
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, Beside]
+    inputs: Annotated[Beside, Field(examples=['"t01.csv"'])]
+    outputs: Annotated[Beside, AfterValidator(_outputs)] | None = None
+    plates: Beside | None = None
+    plate: Word | None = None
+    belt: FiniteFloat = 0.0
+    areas: Beside | None = None
+    threshold: FiniteFloat | None = None
+    forces: Beside | None = None
+    force_unit: Text | None = None
+
+    @property
+    def mats(self) -> dict[str, Path]:
+        """Folders of mats by site."""
+        return self.__pydantic_extra__
+
+    @property
+    def unnamed(self) -> bool:
+        """Whether one of its files says no units."""
+        return any(is_storage(each) for each in (self.inputs, self.outputs) if each is not None)
+
+    @model_validator(mode="after")
+    def _require_measured(self) -> Source:
+        for site in self.mats:
+            if not site.isidentifier():
+                raise refusal("is no name of a site", "letters, digits and _", at=(site,))
+        for key, other in GOES_WITH.items():
+            if key in self.model_fields_set and getattr(self, other) is None:
+                raise refusal(f"says nothing without {other}", f"name the file of {other}", at=(key,))
+        if not self.mats and self.outputs is None and self.plates is None and self.forces is None:
+            what = "names no mat, plates, forces or outputs beside its inputs"
+            raise refusal(what, 'add outputs = "t01_measured.csv" or SITE = "results/t01_site"', at=("",))
+        return self
 
 
-def source_of(path: Path, trial: str, given: Any) -> Source:
-    """Source of a trial from its table in the file `path`; paths in it are meant from the folder of that file."""
-    place = f"[from.{trial}]"
-    if not isinstance(given, dict) or "inputs" not in given or len(given) < 2:
-        raise InputError(
-            path, place, "names no inputs and no mat, plates, forces or outputs", f"write {SOURCES_EXAMPLE}"
-        )
-    for key, value in given.items():
-        _check(path, f"{place} {key}", key, value)
-    for key, other in GOES_WITH.items():
-        if key in given and other not in given:
-            raise InputError(path, f"{place} {key}", f"says nothing without {other}", f"name the file of {other}")
-    sites = {key: path.parent / value for key, value in given.items() if key not in (*NUMBERS, *WORDS)}
-    plate = sides = None
-    if "plates" in given:
-        plate = PlateSource(path.parent / given["plates"], given.get("plate"), float(given.get("belt", 0.0)))
-    if "forces" in given:
-        areas = path.parent / given["areas"] if "areas" in given else None
-        sides = SidesSource(areas, given.get("threshold"), path.parent / given["forces"], given.get("force_unit"))
-    outputs = path.parent / given["outputs"] if "outputs" in given else None
-    if outputs is not None and not is_storage(outputs) and outputs.suffix.lower() != ".csv":
-        remedy = "give a .mot, .sto or .csv file"
-        raise InputError(path, f"{place} outputs", f"'{outputs.suffix}' is not read here", remedy)
-    return Source(path.parent / given["inputs"], outputs, sites, plate, sides)
+class Sources(Document):
+    """What gather.toml has besides the keys of case.toml.
 
+    Parameters
+    ----------
+    from
+        Sources of each trial that calibration or evaluation lists, by its id.
+    columns
+        Where a .mot or .sto file is read: which channel each of its columns is, `"angle [deg]" = "knee_angle_r"`.
+    """
 
-def _check(path: Path, place: str, key: str, value: Any) -> None:
-    if key in NUMBERS:
-        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-            raise InputError(path, place, f"is {value!r:.60}", "write a number in SI units")
-        return
-    if not isinstance(value, str) or not value.strip():
-        raise InputError(path, place, f"is {value!r:.60}", "write a path in quotes")
-    if not key.isidentifier():
-        raise InputError(path, place, "is no name of a site", "letters, digits and _")
+    sources: Annotated[dict[str, Source], Field(alias="from")]
+    columns: Columns = ()
 
 
 @dataclass(frozen=True)
@@ -203,39 +206,30 @@ class Gathering:
 def read_gathering(path: Path) -> Gathering:
     """Content of gather.toml; paths in it are meant from its own folder."""
     given = toml_of(path, LARGEST_SETTINGS)
-    stated, columns = given.pop("from", None), columns_of(path, given.pop("columns", {}))
-    if not isinstance(stated, dict) or not stated:
-        raise InputError(path, "", "says nowhere what trials come from", f"write {SOURCES_EXAMPLE}")
+    own = {key: given.pop(key) for key in Sources.by_key() if key in given}
+    described: Sources = checked(path, Sources, own)
     if "layout" in given:
         raise InputError(path, "layout", "is what gathering writes", "leave it out")
     settings = settings_of(given, fspath(path))
     check_settings(settings, path, KNOWN_SYSTEMS)
-    parameters_of(settings, path)  # told here and not when the case is read that is written from it
-    for name in settings.trials:
-        if name not in stated:
-            like = next((each for each in stated if isinstance(stated[each], dict)), None)
-            wanted = (
-                f"write {SOURCES_EXAMPLE}" if like is None else f"write it as [from.{like}]: {', '.join(stated[like])}"
-            )
-            raise InputError(path, f"[from.{name}]", "is missing", wanted)
-    for name in stated:
-        if name not in settings.trials:
-            what = "neither calibration nor evaluation lists this trial"
-            raise InputError(path, f"[from.{name}]", what, f"trials are {', '.join(settings.trials[:30])}")
-    sources = {name: source_of(path, name, stated[name]) for name in settings.trials}
-    _check_columns(path, sources, columns)
-    return Gathering(settings, sources, columns)
+    parameters_of(settings, path)  # refused here and not when the case is read that is written from it
+    lacking = next((name for name in settings.trials if name not in described.sources), None)
+    if lacking is not None:
+        like, source = next(iter(own["from"].items()))
+        raise InputError(path, f"[from.{lacking}]", "is missing", f"write it as [from.{like}]: {', '.join(source)}")
+    odd = next((name for name in described.sources if name not in settings.trials), None)
+    if odd is not None:
+        what = "neither calibration nor evaluation lists this trial"
+        raise InputError(path, f"[from.{odd}]", what, f"trials are {', '.join(settings.trials[:30])}")
+    _check_columns(path, described)
+    return Gathering(settings, {name: described.sources[name] for name in settings.trials}, described.columns)
 
 
-def _check_columns(path: Path, sources: Mapping[str, Source], columns: tuple[StorageColumn, ...]) -> None:
-    """Columns are told where, and only where, a file without units is read."""
-    unnamed = [
-        name
-        for name, each in sources.items()
-        if is_storage(each.inputs) or (each.outputs is not None and is_storage(each.outputs))
-    ]
-    if unnamed and not columns:
-        what = f"is missing: [from.{unnamed[0]}] names a .mot or .sto file, which says no units"
+def _check_columns(path: Path, described: Sources) -> None:
+    """Columns are stated where, and only where, a file without units is read."""
+    unnamed = next((name for name, each in described.sources.items() if each.unnamed), None)
+    if unnamed is not None and not described.columns:
+        what = f"is missing: [from.{unnamed}] names a .mot or .sto file, which says no units"
         raise InputError(path, "[columns]", what, f"write [columns] and {EXAMPLE}")
-    if columns and not unnamed:
+    if described.columns and unnamed is None:
         raise InputError(path, "[columns]", "has no effect: no trial comes from a .mot or .sto file", "leave it out")

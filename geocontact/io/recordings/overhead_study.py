@@ -41,7 +41,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, PlainValidator, model_validator
 
@@ -55,9 +55,9 @@ LENGTHS = ("upper_arm", "shoulder_width", "torso")
 Length = Annotated[float, WithUnit("m")]
 
 
-def _span(value: object) -> tuple[float, float]:
-    numbers = isinstance(value, list) and [each for each in value if type(each) in (int, float) and math.isfinite(each)]
-    if not isinstance(value, list) or not numbers or not len(value) == len(numbers) == 2:
+def _span(value: Any) -> tuple[float, float]:
+    numbers = isinstance(value, list) and all(type(each) in (int, float) and math.isfinite(each) for each in value)
+    if not numbers or len(value) != 2:
         raise refusal(f"{value!r:.60} is no span", "write [first, last] in s")
     return float(value[0]), float(value[1])
 

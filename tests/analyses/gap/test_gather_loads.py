@@ -162,7 +162,7 @@ def test_a_knee_gets_areas_and_forces_of_its_sides(knee: Path, tmp_path: Path) -
     [
         ("foot", lambda t: t.replace('plate = "ground_force_r"\n', ""), "holds 2 plates: ground_force_r, ground_force"),
         ("foot", lambda t: t.replace("force_r", "force_x"), "no plate 'ground_force_x'; plates are: ground_force_r"),
-        ("foot", lambda t: t.replace("belt = 1.2", "belt = true"), "[from.t01] belt: is True; write a number"),
+        ("foot", lambda t: t.replace("belt = 1.2", "belt = true"), "[from.t01] belt: True is not a finite number"),
         ("foot", lambda t: t.replace('plates = "grf.mot"\n', ""), "plate: says nothing without plates"),
         ("foot", lambda t: t.replace('"t02.csv"', '"bare.csv"'), "bare.csv line 1: no column 'pitch' in rad"),
         ("foot", lambda t: t.replace('"t02.csv"', '"late.csv"'), "ground_force_r in grf.mot from 1 to 1.8 s"),

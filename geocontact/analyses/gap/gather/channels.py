@@ -12,7 +12,6 @@ from jaxtyping import Float
 from geocontact.analyses.frame.collector import reserve
 from geocontact.data.errors import InputError
 from geocontact.data.gap_cells import CellChannels, CellTrial
-from geocontact.io.cases.gathering import PlateSource
 from geocontact.io.cases.trial_table import TrialTable
 from geocontact.io.mocap.force_plates import LOADED, ForcePlate
 from geocontact.io.recordings.area_table import AreaTable, ForceCurves
@@ -86,9 +85,12 @@ def with_outputs(table: TrialTable, outputs: TrialTable) -> TrialTable:
     return replace(widened, columns=(*table.columns, *outputs.columns))
 
 
-def with_plate(table: TrialTable, plate: ForcePlate, source: PlateSource) -> TrialTable:
-    """The trial with the plate's reaction as a foot on spheres predicts it; x counted along the belt where one runs."""
-    _require_pose(table, source, plate)
+def with_plate(table: TrialTable, plate: ForcePlate, file: Path, belt: float) -> TrialTable:
+    """The trial with a plate's reaction as a foot on spheres predicts it.
+
+    `file` is that of the plate; x counts along the belt, whose ground runs backwards at `belt` [m/s].
+    """
+    _require_pose(table, file, plate)
     time = table.signals.time
     x, y, pitch = (table.signals.column(name) for name in POSE)
     reaction = plate.at(time)
@@ -99,9 +101,9 @@ def with_plate(table: TrialTable, plate: ForcePlate, source: PlateSource) -> Tri
         "cop_x": ("m", centre_in_foot(centre[:, 0], x, y, pitch)),
     }
     values = table.signals.values.copy()
-    values[:, table.signals.channels.index("x")] += source.belt * time
+    values[:, table.signals.channels.index("x")] += belt * time
     run = replace(table, signals=replace(table.signals, values=values))
-    return _widened(run, RecordedChannels(f"{plate.name} in {source.file.name}", plate.time, channels))
+    return _widened(run, RecordedChannels(f"{plate.name} in {file.name}", plate.time, channels))
 
 
 def with_sides(table: TrialTable, areas: AreaTable | None, forces: ForceCurves, threshold: float | None) -> TrialTable:
@@ -143,7 +145,7 @@ def _threshold(areas: AreaTable, wanted: float | None) -> int:
     return int(near[0])
 
 
-def _require_pose(table: TrialTable, source: PlateSource, plate: ForcePlate) -> None:
+def _require_pose(table: TrialTable, file: Path, plate: ForcePlate) -> None:
     """Refuse a trial that does not say where the foot is, and plates that do not lie level with y up."""
     for name, unit in POSE.items():
         if name not in table.signals.channels or table.column(name).si != unit:
@@ -151,7 +153,7 @@ def _require_pose(table: TrialTable, source: PlateSource, plate: ForcePlate) -> 
             raise InputError(table.file, "line 1", what, "a plate's reaction needs x, y and pitch of the foot")
     if plate.normal[1] < UPRIGHT:
         normal = ", ".join(f"{value:.2f}" for value in plate.normal)
-        raise InputError(source.file, plate.name, f"its normal is ({normal})", "give a file with y up, x forward")
+        raise InputError(file, plate.name, f"its normal is ({normal})", "give a file with y up, x forward")
 
 
 def _widened(table: TrialTable, found: RecordedChannels) -> TrialTable:

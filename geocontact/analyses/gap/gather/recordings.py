@@ -84,10 +84,10 @@ def _with_loads(table: TrialTable, one: GatheredTrial) -> TrialTable:
     """The trial with generalised forces, the reaction of a plate, and loads of the sides of a knee."""
     if one.outputs is not None:
         table = with_outputs(table, one.outputs)
-    if one.plate is not None and one.source.plate is not None:
-        table = with_plate(table, one.plate, one.source.plate)
-    if one.forces is not None and one.source.sides is not None:
-        table = with_sides(table, one.areas, one.forces, one.source.sides.threshold)
+    if one.plate is not None and one.source.plates is not None:
+        table = with_plate(table, one.plate, one.source.plates, one.source.belt)
+    if one.forces is not None:
+        table = with_sides(table, one.areas, one.forces, one.source.threshold)
     return table
 
 
@@ -105,16 +105,15 @@ def _mats(path: Path, plan: Gathering, site: str) -> dict[str, MatFolder]:
 def _recording(plan: Gathering, name: str, source: Source, c3d_unit: str | None) -> GatheredTrial:
     inputs, outputs = _inputs_and_outputs(plan, name, source)
     plate = areas = forces = None
-    if source.plate is not None:
-        there = read_force_plates(source.plate.file, c3d_unit)
-        plate = plate_named(there, source.plate.plate, source.plate.file, "plate =")
-        add_input(f"{name} plates", source.plate.file, plate=plate.name)
-    if source.sides is not None:
-        if source.sides.areas is not None:
-            areas = read_area_table([source.sides.areas])
-            add_input(f"{name} areas", source.sides.areas)
-        forces = read_force_curves(source.sides.forces, source.sides.unit, {})
-        add_input(f"{name} forces", source.sides.forces, unit=forces.unit)
+    if source.plates is not None:
+        plate = plate_named(read_force_plates(source.plates, c3d_unit), source.plate, source.plates, "plate =")
+        add_input(f"{name} plates", source.plates, plate=plate.name)
+    if source.areas is not None:
+        areas = read_area_table([source.areas])
+        add_input(f"{name} areas", source.areas)
+    if source.forces is not None:
+        forces = read_force_curves(source.forces, source.force_unit, {})
+        add_input(f"{name} forces", source.forces, unit=forces.unit)
     return GatheredTrial(source, inputs, outputs, plate, areas, forces)
 
 
