@@ -24,6 +24,7 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from datetime import date
 from pathlib import Path
 from typing import Annotated, Any, TypeGuard, TypeVar, get_args, get_origin
 
@@ -276,7 +277,7 @@ def _place(loc: tuple[str | int, ...]) -> tuple[str, str]:
 
 
 def _shown(value: object) -> str:
-    return f"{value!r:.60}"
+    return f"{value if isinstance(value, date) else repr(value)!s:.60}"
 
 
 def _stated(table: Document) -> dict[str, Any]:
@@ -285,7 +286,8 @@ def _stated(table: Document) -> dict[str, Any]:
 
 def _word(value: object) -> object:
     """Numbers stand for themselves in names: plate = 1."""
-    return str(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
+    number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    return str(value) if number else value
 
 
 def _file_name(name: str) -> str:
@@ -349,7 +351,9 @@ def doubled(names: Iterable[str]) -> str | None:
     return next((name for name, count in Counter(names).items() if count > 1), None)
 
 
-Word = Annotated[str, BeforeValidator(_word)]
+Text = Annotated[str, AfterValidator(_text)]
+"""A text that is not empty."""
+Word = Annotated[Text, BeforeValidator(_word)]
 """A text, or a number as it is written."""
 FileName = Annotated[Word, AfterValidator(_file_name)]
 """A text that can be part of a file's name."""
@@ -361,8 +365,6 @@ Files = Annotated[tuple[Path, ...], PlainValidator(_files)]
 """One of them, or a list."""
 Beside = Annotated[Path, PlainValidator(_beside)]
 """A path from the folder of the description, which is looked for when it is read."""
-Text = Annotated[str, AfterValidator(_text)]
-"""A text that is not empty."""
 AnyValue = Annotated[Value, PlainValidator(_value)]
 """A text, a number, true or false."""
 Values = Annotated[tuple[Value, ...], PlainValidator(_values)]
