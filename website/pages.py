@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from website import constants, limits, validation
+from website import constants, descriptions, limits, validation
 from website.stage import ROOT
 
 MADE: dict[str, Callable[[], str]] = {
     validation.PAGE: validation.report,
     limits.PAGE: limits.limits,
     constants.PAGE: constants.constants,
+    descriptions.PAGE: descriptions.descriptions,
 }
 """Place of each and what makes its text."""
 

@@ -180,6 +180,13 @@ class WithUnit:
 
 
 @dataclass(frozen=True)
+class Holds:
+    """What a key holds, as the table of keys says it, where that does not follow from its type."""
+
+    words: str
+
+
+@dataclass(frozen=True)
 class Some:
     """A table in which every key may be missing, as a dict of those that are there; `kinds` by name, as annotated."""
 
@@ -353,21 +360,21 @@ def doubled(names: Iterable[str]) -> str | None:
 
 Text = Annotated[str, AfterValidator(_text)]
 """A text that is not empty."""
-Word = Annotated[Text, BeforeValidator(_word)]
+Word = Annotated[Text, BeforeValidator(_word), Holds("text or number")]
 """A text, or a number as it is written."""
-FileName = Annotated[Word, AfterValidator(_file_name)]
+FileName = Annotated[Word, AfterValidator(_file_name), Holds("letters, digits, - and _")]
 """A text that can be part of a file's name."""
-Names = Annotated[tuple[str, ...], PlainValidator(_names)]
+Names = Annotated[tuple[str, ...], PlainValidator(_names), Holds("list of names")]
 """A list of texts."""
-File = Annotated[Path, PlainValidator(_file)]
+File = Annotated[Path, PlainValidator(_file), Holds("file")]
 """A file that is there, from the folder of the description."""
-Files = Annotated[tuple[Path, ...], PlainValidator(_files)]
+Files = Annotated[tuple[Path, ...], PlainValidator(_files), Holds("file, or list of files")]
 """One of them, or a list."""
-Beside = Annotated[Path, PlainValidator(_beside)]
+Beside = Annotated[Path, PlainValidator(_beside), Holds("path")]
 """A path from the folder of the description, which is looked for when it is read."""
-AnyValue = Annotated[Value, PlainValidator(_value)]
+AnyValue = Annotated[Value, PlainValidator(_value), Holds("text, number, true or false")]
 """A text, a number, true or false."""
-Values = Annotated[tuple[Value, ...], PlainValidator(_values)]
+Values = Annotated[tuple[Value, ...], PlainValidator(_values), Holds("list of values")]
 """A list of them, none twice."""
 Rows = BeforeValidator(_rows)
 """Tables in a row, `[[leave_out]]`, none of them empty; there may be none."""

@@ -42,7 +42,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, ConfigDict, Field, PlainValidator, PrivateAttr, model_validator
 
 from geocontact.data.errors import InputError
-from geocontact.io.documents import AnyValue, Document, Names, Rows, Text, Value, Values, checked, refusal
+from geocontact.io.documents import AnyValue, Document, Holds, Names, Rows, Text, Value, Values, checked, refusal
 from geocontact.io.text.toml_text import numbers_in, toml_of
 from geocontact.io.text.units import LENGTH
 
@@ -75,7 +75,7 @@ class SummarySettings(Document):
     table
         Name of the table; the first one over time unless given.
     columns
-        Of numbers, with their units; the first few unless given.
+        Columns of numbers with their units; the first few unless given.
     over
         Column that a curve is over; its span is 0 to 100 % of the curve.
     where
@@ -110,18 +110,26 @@ class SurfaceSettings(Document):
     """
 
     particles: Annotated[Text, Field(examples=['"{subject}/talus.particles"'])]
-    unit: Annotated[str, AfterValidator(_length_unit), Field(examples=['"mm"'])]
+    unit: Annotated[str, AfterValidator(_length_unit), Holds("unit of length"), Field(examples=['"mm"'])]
     body: Literal["fixed", "moving"] = "fixed"
-    at: Annotated[tuple[float, ...], PlainValidator(_places)] = (0.0, 25.0, 50.0, 75.0, 100.0)
+    at: Annotated[tuple[float, ...], PlainValidator(_places), Holds("list of numbers, 0 to 100")] = (
+        0.0,
+        25.0,
+        50.0,
+        75.0,
+        100.0,
+    )
 
 
 class ListedTrial(Document):
-    """A trial that is listed: values by name, the same names in every trial.
+    """A trial that is listed.
 
     Parameters
     ----------
     options
         Options of its own, before those of `[options]`.
+    NAME
+        What the trial has under that name; the same names in every trial.
     """
 
     model_config = ConfigDict(extra="allow")
@@ -146,15 +154,17 @@ class StudyFile(Document):
     options
         Options by name; texts may hold `{name}`.
     files
-        Pattern of paths: a trial for each file that fits.
+        Pattern of paths with `{name}`: a trial for each file that fits.
     table
         File with a row for each trial or subject.
     trials
         Trials that are listed one by one.
-    vary, sweep
-        Values by name: of what trials differ in, and of options.
+    vary
+        What trials differ in, all combinations.
+    sweep
+        Options with the values that they take in turn, all combinations.
     leave_out
-        Values by name, of trials that are not evaluated.
+        Trials that are not evaluated: those that have all of these values.
     summary
         What the page and the statistics are about.
     surface

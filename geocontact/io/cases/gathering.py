@@ -28,7 +28,7 @@ from geocontact.io.cases.case_settings import (
     settings_of,
 )
 from geocontact.io.cases.trial_table import TrialTable
-from geocontact.io.documents import Beside, Document, Text, Word, checked, refusal
+from geocontact.io.documents import Beside, Document, Holds, Text, Word, checked, refusal
 from geocontact.io.text.columns import LARGEST_RADIANS, resolve
 from geocontact.io.text.csv_text import Column
 from geocontact.io.text.tables import TextTable, listed, read_table
@@ -77,7 +77,7 @@ def _column(header: str, label: object) -> StorageColumn:
     return StorageColumn(Column(name, unit, si, factor), label)
 
 
-Columns = Annotated[tuple[StorageColumn, ...], PlainValidator(_columns)]
+Columns = Annotated[tuple[StorageColumn, ...], PlainValidator(_columns), Holds("names of columns by channel and unit")]
 """`[columns]`: names of columns by channel and unit."""
 
 
@@ -122,20 +122,28 @@ def _outputs(file: Path) -> Path:
 class Source(Document):
     """Where one trial comes from: the file of its inputs, and what is measured beside them.
 
-    Any other key is the site of a mat, with the folder that `geocontact mat` wrote.
-
     Parameters
     ----------
     inputs
         Time and the inputs of the model: .csv with units, or .mot, .sto with `[columns]`.
     outputs
         A .mot, .sto or .csv file like that of inputs.
-    plates, plate, belt
-        File of force plates, name or number of the one that counts, and how fast its ground runs backwards [m/s].
-    areas, threshold
-        `area.csv` with both sides of a knee, and which of its thresholds [m]; areas may be among the inputs instead.
-    forces, force_unit
-        Forces by side, and their unit where the file does not say it.
+    plates
+        Force plates, y up: .mot, .sto or .c3d.
+    plate
+        Name or number of the plate that counts; may be left out where there is one.
+    belt
+        How fast its ground runs backwards [m/s].
+    areas
+        `area.csv` of both sides of a knee; left out where areas are among the inputs.
+    threshold
+        Which of its thresholds [m]; may be left out where there is one.
+    forces
+        Forces of both sides: `forces.csv` of `geocontact loadcells`, or a table with `medial` and `lateral`.
+    force_unit
+        Unit of forces where the file does not say it.
+    SITE
+        Folder with the results of `geocontact mat` for a mat on that site.
     """
 
     model_config = ConfigDict(extra="allow")

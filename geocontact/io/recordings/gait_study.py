@@ -46,7 +46,25 @@ Setting = Literal["low", "medium", "high"]
 
 
 class GaitPerson(Document):
-    """Mass with the prosthesis [kg], files, side of the prosthesis, row of the segment table, share of the shank."""
+    """A person with a prosthesis.
+
+    Parameters
+    ----------
+    mass
+        Body mass with the prosthesis.
+    static
+        Markers while standing.
+    side
+        Side of the prosthesis.
+    sex
+        Row of the segment table.
+    residual
+        Share of the shank that is left.
+    functional
+        Markers of a trial in which the hip turns.
+    law
+        Force law of the foot.
+    """
 
     mass: Annotated[float, WithUnit(WALKER)]
     static: File
@@ -62,16 +80,24 @@ class GaitStance(Document):
 
     Parameters
     ----------
+    name
+        Its own for each.
+    person
+        Name from `[persons.NAME]`.
+    markers
+        Recorded markers: .trc, .c3d or .csv.
+    plates
+        Force plates: .mot, .sto or .c3d.
     plate, other_plate
-        Under the prosthetic foot and under the other one.
+        Plates under the prosthetic foot and under the other one, by name or number.
     setting, fulcrum
-        Of the foot, one of both; the fulcrum in m.
+        Setting of the foot, or place of its fulcrum; one of both.
     calibrated
         Whether the law was fitted to it.
     law
-        In place of the person's.
+        Force law in place of the person's.
     ground
-        As it is written; None for the floor.
+        A plane or stairs as in `prosthesis simulate`; the floor y = 0 unless given.
     """
 
     name: Word
@@ -99,7 +125,15 @@ class GaitStance(Document):
 
 
 class GaitStudy(Document):
-    """Everything in the description."""
+    """Everything in the description.
+
+    Parameters
+    ----------
+    persons
+        Persons by name.
+    trials
+        All stances.
+    """
 
     persons: dict[str, GaitPerson]
     trials: Annotated[tuple[GaitStance, ...], Listed("{person}_{number}", doubled)]

@@ -47,7 +47,7 @@ from pydantic import Field, PlainValidator, model_validator
 
 from geocontact.data.body_segments import Sex
 from geocontact.data.plausible import KG, Plausible
-from geocontact.io.documents import Document, File, Listed, WithUnit, Word, doubled, read_document, refusal
+from geocontact.io.documents import Document, File, Holds, Listed, WithUnit, Word, doubled, read_document, refusal
 
 WORKER = Plausible("the mass of a person", KG, (20.0, 300.0))
 LENGTHS = ("upper_arm", "shoulder_width", "torso")
@@ -63,7 +63,17 @@ def _span(value: Any) -> tuple[float, float]:
 
 
 class StudyTask(Document):
-    """Tool [kg], push [N], upwards, and the dominant hand's share of it."""
+    """Work with a tool.
+
+    Parameters
+    ----------
+    tool
+        Mass of the tool.
+    push
+        Upward force on the tool while it runs.
+    dominant_share
+        Part of it that the dominant hand exerts; `optimise` only, which has an option for it.
+    """
 
     tool: Annotated[float, WithUnit("kg"), Field(ge=0.0)]
     push: Annotated[float, WithUnit("N"), Field(ge=0.0)]
@@ -71,7 +81,23 @@ class StudyTask(Document):
 
 
 class StudyPerson(Document):
-    """Mass [kg], sex, the side of the dominant hand, and lengths [m]."""
+    """A person.
+
+    Parameters
+    ----------
+    mass
+        Body mass.
+    sex
+        Which segments of de Leva.
+    dominant
+        Side of the dominant hand.
+    upper_arm
+        Shoulder to elbow.
+    shoulder_width
+        Between both acromia.
+    torso
+        Shoulder bar above the hips.
+    """
 
     mass: Annotated[float, WithUnit(WORKER)]
     sex: Sex
@@ -91,12 +117,20 @@ class StudyTrial(Document):
 
     Parameters
     ----------
+    name
+        Its own for each.
+    person, task
+        Names from the tables above.
+    markers
+        Recorded markers: .trc, .c3d or .csv.
+    tool
+        Table with `event [-]`, 0 or 1, or `current [A]`.
     upright
-        A span of upright stance [s].
+        A span of upright stance.
     level
-        Support level as it is written, "100%" or 0.5; None where the device was not worn.
+        Support level as it is written, "100%" or 0.5; without it the device was not worn.
     recorded, recorded_other
-        Of logger and mat, on the dominant side and on the other.
+        Logger and mat, on the dominant side and on the other: tables with `elevation [deg]`, `force [N]` or both.
     without
         Name of the trial of the same work without the device.
     """
@@ -106,7 +140,7 @@ class StudyTrial(Document):
     task: Word
     markers: File
     tool: File
-    upright: Annotated[tuple[float, float], PlainValidator(_span)] | None = None
+    upright: Annotated[tuple[float, float], PlainValidator(_span), Holds("[first, last] in s")] | None = None
     level: Word | None = None
     recorded: File | None = None
     recorded_other: File | None = None
@@ -114,7 +148,15 @@ class StudyTrial(Document):
 
 
 class OverheadStudy(Document):
-    """Everything in the description."""
+    """Everything in the description.
+
+    Parameters
+    ----------
+    tasks, persons
+        Tasks and persons by name.
+    trials
+        All trials.
+    """
 
     tasks: dict[str, StudyTask]
     persons: dict[str, StudyPerson]

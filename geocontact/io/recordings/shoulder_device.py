@@ -51,6 +51,24 @@ class SourcedQuantity(WithUnit):
         return core_schema.no_info_plain_validator_function(self.sourced)
 
 
+class DeviceDescription(Document):
+    """What differs from a device that is built in.
+
+    Parameters
+    ----------
+    name
+        For the record; the file's name unless given.
+    based_on
+        The built-in device whose numbers count where none is given.
+    numbers
+        Numbers by name: `NAME = { value, unit, source, note }`.
+    """
+
+    name: Word | None = None
+    based_on: Word = "lucy"
+    numbers: Mapping[str, Any] = {}
+
+
 @dataclass(frozen=True)
 class DeviceFile:
     """Name, the device whose numbers count where none is given, and the numbers that are given."""
@@ -73,13 +91,10 @@ def read_device_file(path: Path, units: Mapping[str, str], sources: tuple[str, .
     numbers = Some(
         {name: Annotated[StatedNumber, SourcedQuantity(unit, sources=sources)] for name, unit in units.items()}
     )
-    fields: dict[str, Any] = {
-        "name": (Word, path.stem),
-        "based_on": (Word, "lucy"),
-        "numbers": (Annotated[dict[str, StatedNumber], numbers], {}),
-    }
-    found = checked(path, create_model("DeviceDescription", __base__=Document, **fields), toml_of(path, LARGEST))
-    return DeviceFile(found.name, found.based_on, found.numbers)
+    fields: dict[str, Any] = {"numbers": (Annotated[dict[str, StatedNumber], numbers], {})}
+    kind = create_model("Device", __base__=DeviceDescription, **fields)
+    found: DeviceDescription = checked(path, kind, toml_of(path, LARGEST))
+    return DeviceFile(found.name or path.stem, found.based_on, found.numbers)
 
 
 def read_person_file(path: Path, names: tuple[str, ...]) -> dict[str, float]:

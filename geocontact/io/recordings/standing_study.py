@@ -18,14 +18,10 @@
     feet = "feet"
     chair = "chair"
 
-Files are looked for beside the description. `noise` are standard deviations of one sample; `rate` is that of turns and,
-in m/s, of the foot's place. `feet` and `chair` are plates in `plates`. `free` and `tracks`, lists of names, may stand
-beside mass and height, `start` and `end` [s] in a trial instead of `chair`; with `sitting = true` a trial begins while
-the person still sits, and the chair's force is a load on the model. With `exoskeleton = true` a trial also has
-`torques` of all joints of both legs (.sto, [N m]) and `strap`, the normal force of the mat of one leg on the person,
-forwards positive (.csv, `time [s], normal [N]`), or the wrench.csv of a mat on a scan of the thigh, x forwards. A list
-of files, such as mats in front and behind, has the sum of their forces. `strap_shank` and `strap_pelvis` are the same
-of further straps; at the pelvis the force is that of the whole module. A trial needs one of the three.
+Files are looked for beside the description. With `sitting = true` a trial begins while the person still sits, and the
+chair's force is a load on the model. With `exoskeleton = true` a trial also has `torques` and at least one of the straps,
+whose force on the person is positive forwards: `time [s], normal [N]`, or the wrench.csv of a mat on a scan, x forwards.
+A list of files, such as mats in front and behind, has the sum of their forces.
 """
 
 from __future__ import annotations
@@ -66,16 +62,24 @@ class StandingTrialFiles(Document):
 
     Parameters
     ----------
-    coordinates, rates, plates, torques
-        Files; all but the first may be missing.
+    name
+        Its own for each.
+    coordinates, rates
+        Joint angles and their rates: .sto or .mot.
+    plates
+        Force plates.
+    torques
+        Torques of all joints of both legs: .sto, [N m].
     strap
-        Files whose forces add; none where the thigh's strap was not recorded.
+        Normal force on the thigh: .csv of the mat of one leg, `normal [N]`, or `wrench.csv` of a mat on a scan.
+    strap_shank, strap_pelvis
+        The same of further straps; the pelvis has the force of the whole module.
     feet, chair
         Plates by name or number.
     sitting
         Whether the trial begins before seat-off, with the chair's force as a load.
     start, end
-        Of what is used [s].
+        Times between which the trial is used.
     """
 
     name: FileName
@@ -110,14 +114,20 @@ class StandingStudy(Document):
 
     Parameters
     ----------
-    mass, height
-        [kg], [m].
+    mass
+        Body mass.
+    height
+        Body height.
     exoskeleton
         Whether it was worn.
     noise
-        Standard deviations in SI by the keys of `NOISE`; those that are stated.
-    free, tracks
-        Names as written; None where nothing is.
+        Standard deviation of one sample; `rate` is that of turns and, in m/s, of the foot's place.
+    free
+        Names of parameters that are fitted; the usual ones unless given.
+    tracks
+        Names of what the motion follows, `coordinates` among them; all that was recorded unless given.
+    trials
+        All trials.
     """
 
     mass: Annotated[float, WithUnit(BODY)]
