@@ -67,6 +67,10 @@ def _places(given: object) -> tuple[float, ...]:
     return tuple(float(x) for x in given)
 
 
+Places = Annotated[tuple[float, ...], PlainValidator(_places), Holds("list of numbers, 0 to 100")]
+"""Places on a curve [%]."""
+
+
 class SummarySettings(Document):
     """Which curves are compared, and between whom.
 
@@ -112,13 +116,7 @@ class SurfaceSettings(Document):
     particles: Annotated[Text, Field(examples=['"{subject}/talus.particles"'])]
     unit: Annotated[str, AfterValidator(_length_unit), Holds("unit of length"), Field(examples=['"mm"'])]
     body: Literal["fixed", "moving"] = "fixed"
-    at: Annotated[tuple[float, ...], PlainValidator(_places), Holds("list of numbers, 0 to 100")] = (
-        0.0,
-        25.0,
-        50.0,
-        75.0,
-        100.0,
-    )
+    at: Places = (0.0, 25.0, 50.0, 75.0, 100.0)
 
 
 class ListedTrial(Document):

@@ -6,19 +6,24 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import pytest
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import KG, Plausible
 from geocontact.data.text import same_place
 from geocontact.io.documents import (
+    AnyValue,
+    Beside,
     Document,
     File,
     FileName,
     Files,
     Listed,
     Names,
+    Rows,
     Some,
+    Text,
+    Values,
     WithUnit,
     Word,
     checked,
@@ -151,3 +156,65 @@ def test_tables_that_are_none(content: dict[str, object], line: str) -> None:
 
 def test_the_first_name_that_stands_twice() -> None:
     assert doubled(["a", "b", "A", "b", "a"]) == "a" and doubled(["a", "A"]) is None
+
+
+class Spread(Document):
+    mean: float
+    sd: Annotated[float, Field(gt=0.0)]
+
+
+class Site(Document):
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, Beside]
+    inputs: Annotated[Text, Field(examples=['"a.csv"'])]
+
+
+class Loose(Document):
+    """Keys of other names, tables that must be there, and values of any kind."""
+
+    sources: Annotated[dict[str, Site], Field(alias="from")]
+    spread: Spread
+    vary: Annotated[dict[str, Values], Field()] = Field({})
+    leave_out: Annotated[tuple[dict[str, AnyValue], ...], Rows] = ()
+
+
+WHOLE: dict[str, object] = {
+    "from": {"t01": {"inputs": "a.csv", "thigh": "results/thigh"}},
+    "spread": {"mean": 1, "sd": 2.5},
+    "vary": {"side": ["left", 2, True]},
+    "leave_out": [{"side": "left", "trial": 3}],
+}
+
+
+def test_further_keys_are_read_as_their_type() -> None:
+    found = checked(Path("home/study.toml"), Loose, WHOLE)
+    site = found.sources["t01"]
+    assert site.inputs == "a.csv" and site.__pydantic_extra__ == {"thigh": Path("home/results/thigh")}
+    assert found.vary == {"side": ("left", 2, True)} and found.leave_out == ({"side": "left", "trial": 3},)
+    assert found.vary["side"][2] is True and isinstance(found.spread.mean, float)
+
+
+@pytest.mark.parametrize(
+    ("content", "line"),
+    [
+        ({"from": {}}, "no [from.NAME]; write one for each, with inputs"),
+        ({"from": {"t01": {"thigh": "b"}}}, '[from.t01]: no inputs; add it: inputs = "a.csv"'),
+        ({"from": {"t01": {"inputs": " "}}}, "[from.t01] inputs: is empty; write a text in quotes"),
+        ({"from": {"t01": {"inputs": "a", "thigh": 3}}}, "[from.t01] thigh: 3 is no path; write it in quotes"),
+        ({"spread": None}, "no [spread]; add it, with mean, sd"),
+        ({"spread": {"mean": True, "sd": 1}}, "[spread] mean: True is not a finite number; write mean = 1.5"),
+        ({"spread": {"mean": 0, "sd": 0}}, "[spread] sd: is not above 0"),
+        ({"vary": []}, "vary: is no table"),
+        ({"vary": {"side": []}}, '[vary] side: is no list of values; write side = ["one", "other"]'),
+        ({"vary": {"side": [["a"]]}}, "[vary] side: is no list of values"),
+        ({"vary": {"side": [1, "1"]}}, "[vary] side: has a value twice"),
+        ({"leave_out": [{}]}, "leave_out: is no list of tables; write it in double brackets"),
+        ({"leave_out": [{"a": 1}, {"a": [1]}]}, "[[leave_out]] 2 a: [1] is no value"),
+        ({"leave_out": [{"a": float("nan")}]}, "[[leave_out]] 1 a: nan is no value"),
+        ({"form": {}}, "form: is not known here; write from, spread, vary, leave_out"),
+    ],
+)
+def test_what_further_keys_cannot_be(content: dict[str, object], line: str) -> None:
+    with pytest.raises(InputError) as error:
+        checked(Path("study.toml"), Loose, {**WHOLE, **content})
+    assert str(error.value).removeprefix("study.toml").lstrip(": ").startswith(line)

@@ -91,6 +91,8 @@ def test_trials_that_are_listed_have_options_of_their_own(data: Path) -> None:
         ("[sweep]\nrate = [1, 2]\n[[trials]]\noptions = { rate = 1 }", "[sweep] rate: is in [options] too"),
         ('[summary]\nwho = "subject"', "[summary] who: is not known here"),
         ('files = "{subject}/{condition}_{trial}.csv"\ntable = "one.csv"', "one.csv: has no row for subject P2"),
+        ('[options]\nsave_map = true\n[surface]\nparticles = "a"\nunit = []', "[surface] unit: [] is no text"),
+        ('[[leave_out]]\nsubject = ["A"]', "[[leave_out]] 1 subject: ['A'] is no value"),
     ],
 )
 def test_what_cannot_be_is_one_line(data: Path, text: str, said: str) -> None:

@@ -66,7 +66,7 @@ SAMPLES = ("study", "gathering", "population", "overhead", "device", "gait", "st
 """Descriptions of `tests.io.test_wrong_kinds` in the order of the page."""
 
 
-@pytest.mark.parametrize(("what", "file"), zip(SAMPLES, FILES, strict=True))
+@pytest.mark.parametrize(("what", "file"), list(zip(SAMPLES, FILES, strict=True)))
 def test_every_key_that_is_declared_is_given_wrong_values_by_a_test(what: str, file: DescribedFile) -> None:
     rows = [row for kind in (file.kind, *file.entries.values()) for row in rows_of(kind)]
     declared = {row.key.strip("`") for row in rows if not row.key.endswith("any other")}

@@ -19,9 +19,9 @@
     chair = "chair"
 
 Files are looked for beside the description. With `sitting = true` a trial begins while the person still sits, and the
-chair's force is a load on the model. With `exoskeleton = true` a trial also has `torques` and at least one of the straps,
-whose force on the person is positive forwards: `time [s], normal [N]`, or the wrench.csv of a mat on a scan, x forwards.
-A list of files, such as mats in front and behind, has the sum of their forces.
+chair's force is a load on the model. With `exoskeleton = true` a trial also has `torques` and at least one of the
+straps, whose force on the person is positive forwards: `time [s], normal [N]`, or the wrench.csv of a mat on a scan, x
+forwards. A list of files, such as mats in front and behind, has the sum of their forces.
 """
 
 from __future__ import annotations
