@@ -19,7 +19,8 @@ from geocontact.systems.validate import refusal, said, validated
 
 FORMER_NAMES = {
     "geocontact.systems.knee_chain": "geocontact.systems.knee_full_chain",
-    "geocontact.systems.elastic_joint": "geocontact.systems.elastic_joint",
+    "geocontact.systems.knee.full_chain": "geocontact.systems.knee_full_chain",
+    "geocontact.systems.elastic_joint.model": "geocontact.systems.elastic_joint",
 }
 """Modules of the package as existing cases name them, kept for one version, and where these models are now."""
 

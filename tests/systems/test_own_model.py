@@ -124,6 +124,8 @@ def test_a_model_of_the_package_is_one_like_any_other() -> None:
         ("geocontact.systems.elastic_joint:JOINT", elastic_joint.JOINT),
         ("geocontact.systems.knee_chain:CELLS", full_chain.CELLS),
         ("geocontact.systems.knee_chain:SIDES", full_chain.SIDES),
+        ("geocontact.systems.knee.full_chain:CELLS", full_chain.CELLS),
+        ("geocontact.systems.elastic_joint.model:JOINT", elastic_joint.JOINT),
     ],
 )
 def test_a_case_may_name_a_model_of_the_package_as_before_it_moved(former: str, expected: Base) -> None:
