@@ -15,7 +15,7 @@ import geocontact as gc
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.calibrate.result import doubts_of_fit
 from geocontact.analyses.prosthesis.simulate.result import doubt
-from geocontact.below_knee_prosthesis.clocks import clock_offset
+from geocontact.below_knee_prosthesis.plate_checks import clock_offset
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
 from meshes.gait_course import course
