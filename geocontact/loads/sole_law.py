@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from types import MappingProxyType
 
 import numpy as np
@@ -19,6 +20,18 @@ and kinetic friction of rubber on a laboratory floor [-]; v_th [m/s].
 """
 OF_SPHERES = ("k", "b", "mu_s", "mu_k")
 """Numbers that may differ from sphere to sphere."""
+FIELDS: Mapping[str, str] = MappingProxyType(
+    {
+        "k": "stiffness",
+        "b": "damping",
+        "mu_s": "static",
+        "mu_k": "kinetic",
+        "n": "exponent",
+        "delta_full": "full_depth",
+        "v_th": "threshold_speed",
+    }
+)
+"""What `SoleLaw` calls them."""
 NONE: Mapping[str, Mapping[str, float]] = MappingProxyType({})
 NO_COLUMN: Mapping[str, Float[np.ndarray, " n"]] = MappingProxyType({})
 
@@ -59,10 +72,7 @@ def law_of_sole(
     ValueError
         Numbers beside a column of the same key, keys that are not known, and what `SoleLaw` refuses.
     """
-    strange = sorted(set(zones) - set(zone))
-    if strange:
-        known = ", ".join(dict.fromkeys(zone))
-        raise InputError("", f"zone.{strange[0]}", "no sphere is in that zone", f"zones are: {known}")
+    _refuse_strange(zone, zones)
     _refuse_unknown(given, zones, columns)
     assumed: dict[str, float] = {}
 
@@ -85,6 +95,39 @@ def law_of_sole(
     if not (law.static.any() or law.kinetic.any()):
         assumed.pop("v_th", None)
     return law, assumed
+
+
+def changed_law(
+    law: SoleLaw,
+    zone: Sequence[str],
+    given: Mapping[str, float],
+    zones: Mapping[str, Mapping[str, float]] = NONE,
+) -> SoleLaw:
+    """A law with some of its numbers changed; the rest stay as they are.
+
+    Parameters
+    ----------
+    zone, given, zones
+        As those of `law_of_sole`: a sphere has the number of its zone, else that which is given for all, else its own.
+
+    InputError and ValueError as those of `law_of_sole`.
+    """
+    _refuse_strange(zone, zones)
+    _refuse_unknown(given, zones, NO_COLUMN)
+    changed: dict[str, float | Float[np.ndarray, " n"]] = {FIELDS[key]: value for key, value in given.items()}
+    for key in OF_SPHERES:
+        usual = np.broadcast_to(given.get(key, getattr(law, FIELDS[key])), len(zone))
+        own = [zones.get(name, {}).get(key, float(value)) for name, value in zip(zone, usual, strict=True)]
+        changed[FIELDS[key]] = np.array(own)
+    new: SoleLaw = replace(law, **changed)
+    return new
+
+
+def _refuse_strange(zone: Sequence[str], zones: Mapping[str, Mapping[str, float]]) -> None:
+    strange = sorted(set(zones) - set(zone))
+    if strange:
+        known = ", ".join(dict.fromkeys(zone))
+        raise InputError("", f"zone.{strange[0]}", "no sphere is in that zone", f"zones are: {known}")
 
 
 def _refuse_unknown(

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -83,52 +82,6 @@ class SoleLaw:
     def needs_velocity(self) -> bool:
         """Whether any force depends on how the foot moves, not only on where it is."""
         return bool(self.damping.any() or self.static.any() or self.kinetic.any())
-
-
-BY_SPHERE = ("stiffness", "damping", "static", "kinetic")
-"""Numbers of a law that each sphere has of its own; the others are shared."""
-
-
-def changed_law(
-    law: SoleLaw,
-    spheres: SphereSet,
-    numbers: Mapping[str, float],
-    by_zone: Mapping[str, Mapping[str, float]],
-) -> SoleLaw:
-    """A law with some of its numbers changed; the rest stay as they are.
-
-    Parameters
-    ----------
-    spheres
-        That the law is of.
-    numbers
-        By the names of `SoleLaw`, SI: of all spheres.
-    by_zone
-        By zone and name (`BY_SPHERE`): of the spheres of that zone, before those of all.
-
-    KeyError for a name or a zone that there is not; ValueError where a number cannot be.
-
-    >>> spheres = SphereSet(np.zeros((2, 3)), np.full(2, 0.01), ("heel", "toes"))
-    >>> law = SoleLaw(np.full(2, 1e4), np.zeros(2), 1.0, 1e-3, np.ones(2), np.ones(2), 0.01)
-    >>> changed_law(law, spheres, {"exponent": 1.5}, {"toes": {"stiffness": 3e4}}).stiffness
-    array([10000., 30000.])
-    """
-    zones = spheres.zones
-    strange = {*numbers, *(name for each in by_zone.values() for name in each)} - {each.name for each in fields(law)}
-    strange |= {name for each in by_zone.values() for name in each} - set(BY_SPHERE)
-    if strange:
-        raise KeyError(min(strange))
-    changed: dict[str, float | Float[np.ndarray, " n"]] = {
-        name: value for name, value in numbers.items() if name not in BY_SPHERE
-    }
-    for name in BY_SPHERE:
-        values = np.array(np.broadcast_to(numbers.get(name, getattr(law, name)), len(spheres)), float)
-        for zone, own in by_zone.items():
-            if name in own:
-                values[zones[zone]] = own[name]
-        changed[name] = values
-    new: SoleLaw = replace(law, **changed)
-    return new
 
 
 @dataclass(frozen=True)

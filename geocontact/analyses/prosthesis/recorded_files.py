@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from os import fspath
 from pathlib import Path
 
@@ -21,11 +22,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
 from geocontact.io.recordings.spheres import read_law
-from geocontact.loads.sphere_set import changed_law
-
-BY_SPHERE = {"k": "stiffness", "b": "damping", "mu_s": "static", "mu_k": "kinetic"}
-SHARED = {"n": "exponent", "delta_full": "full_depth", "v_th": "threshold_speed"}
-"""Names in a law's file and of `SoleLaw`."""
+from geocontact.loads.sole_law import changed_law
 
 
 def right_markers(
@@ -76,24 +73,17 @@ def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableSti
     """The foot with the numbers that a file gives, for all spheres or by zone; the rest are as they were."""
     if file is None:
         return foot
-    law, spheres = read_law(file), foot.sole.spheres
+    law = read_law(file)
     add_input("`law`", file)
-    strange = sorted(set(law.zone) - set(spheres.zones))
-    if strange:
-        remedy = f"zones are: {', '.join(spheres.zones)}"
-        raise InputError(file, f"zone.{strange[0]}", "no sphere is in that zone", remedy)
+    zones = {zone: of.model_dump(exclude_none=True) for zone, of in law.zone.items()}
+    given = law.model_dump(exclude={"zone", "foot"}, exclude_none=True)
     try:
-        by_zone = {zone: _stated(of, BY_SPHERE) for zone, of in law.zone.items()}
-        changed = changed_law(foot.law, spheres, _stated(law, BY_SPHERE | SHARED), by_zone)
+        changed = changed_law(foot.law, foot.sole.spheres.zone, given, zones)
+    except InputError as error:
+        raise replace(error, file=file) from error
     except ValueError as error:
         raise InputError(file, "force law", str(error), "correct the number") from error
     return VariableStiffnessFoot(foot.keel, foot.sole, changed)
-
-
-def _stated(numbers: object, names: dict[str, str]) -> dict[str, float]:
-    """Numbers that a part of a law's file states, by their names in `SoleLaw`."""
-    values = {name: getattr(numbers, key) for key, name in names.items()}
-    return {name: value for name, value in values.items() if value is not None}
 
 
 def offset_of_law(file: Path | None, standing: Path) -> FootOffset:
