@@ -35,8 +35,6 @@ class StanceFit:
         Along the floor, beside the recorded speed [m/s]; nothing on the whole model.
     vertical, centre
         Agreement of the vertical force over body weight, and of the centre, with the plate's.
-    residual
-        Of the data over their noise, root mean square.
     sunk
         Whether a sphere sinks beyond its radius along the recorded poses.
     """
@@ -45,7 +43,6 @@ class StanceFit:
     slip: Float[np.ndarray, "t 2"]
     vertical: Agreement
     centre: Agreement
-    residual: float
     sunk: bool
 
 
@@ -58,7 +55,6 @@ def stance_fit(found: SoleCalibration, whole: WholeCalibration | None = None) ->
     if whole is not None:
         one = whole.residuals.whole(whole.at, 0)
         predicted, slip = one.channels(one.shown(whole.foot)), 0.0 * slip
-    last = found if whole is None else whole
     step = float(np.median(np.diff(stance.time)))
     model, measured = predicted / stance.weight, stance.measured / stance.weight
     return StanceFit(
@@ -66,9 +62,13 @@ def stance_fit(found: SoleCalibration, whole: WholeCalibration | None = None) ->
         slip,
         agreement(model[:, 1], measured[:, 1], step, 0.0),
         agreement(predicted[:, 3], stance.centre, step, 0.0),
-        float(np.sqrt(np.mean(last.residuals.of_data(last.at) ** 2))),
         bool((motion.loads.depth > SHARE_OF_DEPTH * found.foot.sole.spheres.radius).any()),
     )
+
+
+def residual_over_noise(found: SoleCalibration | WholeCalibration) -> float:
+    """Residual of the data at the numbers found, over their noise, root mean square."""
+    return float(np.sqrt(np.mean(found.residuals.of_data(found.at) ** 2)))
 
 
 def fore_aft_error(predicted: Float[np.ndarray, "t 4"], stance: RecordedStance) -> float:

@@ -8,7 +8,13 @@ import numpy as np
 import pytest
 
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
-from geocontact.below_knee_prosthesis.calibration.fit import doubts_of_fit, fore_aft_error, known_of, stance_fit
+from geocontact.below_knee_prosthesis.calibration.fit import (
+    doubts_of_fit,
+    fore_aft_error,
+    known_of,
+    residual_over_noise,
+    stance_fit,
+)
 from geocontact.below_knee_prosthesis.calibration.known_numbers import knowledge
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResiduals
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
@@ -29,7 +35,7 @@ def test_a_fit_is_what_the_residuals_are_made_of() -> None:
     off_centre = (found.predicted[:, 3] - stance.centre)[known]
     assert found.centre.rmsd == pytest.approx(np.sqrt(np.mean(off_centre**2)), rel=1e-12)
     assert fore_aft_error(found.predicted, stance) == pytest.approx(np.sqrt(np.mean(off[:, 0] ** 2)), rel=1e-12)
-    assert found.residual == pytest.approx(np.sqrt(np.mean(residuals.of_data(z) ** 2)), rel=1e-12)
+    assert residual_over_noise(usual) == pytest.approx(np.sqrt(np.mean(residuals.of_data(z) ** 2)), rel=1e-12)
     assert np.abs(found.slip).max() > 0.0 and not found.sunk
     assert [each.name for each in known_of(usual)][-2:] == ["foot.height", "foot.pitch"]
 

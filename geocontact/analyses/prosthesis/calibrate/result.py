@@ -29,7 +29,13 @@ from geocontact.analyses.prosthesis.calibrate.foot_on_plate import FootOnPlate, 
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.calibrate.show import calibration_page, stance_figure
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
-from geocontact.below_knee_prosthesis.calibration.fit import doubts_of_fit, fore_aft_error, known_of, stance_fit
+from geocontact.below_knee_prosthesis.calibration.fit import (
+    doubts_of_fit,
+    fore_aft_error,
+    known_of,
+    residual_over_noise,
+    stance_fit,
+)
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
@@ -105,8 +111,6 @@ class ProsthesisCalibrateResult(Result):
         Along the floor, beside the recorded speed [m/s].
     vertical, centre
         Agreement of the vertical force over body weight, and of the centre, with the plate's.
-    residual
-        Of the data at the last numbers, over their noise, root mean square.
     """
 
     options: ProsthesisCalibrateOptions
@@ -117,7 +121,11 @@ class ProsthesisCalibrateResult(Result):
     slip: Float[ndarray, "t 2"]
     vertical: Agreement
     centre: Agreement
-    residual: float
+
+    @property
+    def residual(self) -> float:
+        """Residual of the data at the last numbers, over their noise, root mean square."""
+        return residual_over_noise(self.last)
 
     @property
     def last(self) -> SoleCalibration | WholeCalibration:
@@ -181,7 +189,6 @@ def run(given: FootOnPlate, o: ProsthesisCalibrateOptions) -> ProsthesisCalibrat
         slip=fit.slip,
         vertical=fit.vertical,
         centre=fit.centre,
-        residual=fit.residual,
     )
     if fit.sunk:
         reserve("a sphere sinks beyond its radius: the foot is recorded too low, or the sole is too soft")
