@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from types import MappingProxyType
 
 import numpy as np
@@ -20,18 +19,6 @@ and kinetic friction of rubber on a laboratory floor [-]; v_th [m/s].
 """
 OF_SPHERES = ("k", "b", "mu_s", "mu_k")
 """Numbers that may differ from sphere to sphere."""
-FIELDS: Mapping[str, str] = MappingProxyType(
-    {
-        "k": "stiffness",
-        "b": "damping",
-        "mu_s": "static",
-        "mu_k": "kinetic",
-        "n": "exponent",
-        "delta_full": "full_depth",
-        "v_th": "threshold_speed",
-    }
-)
-"""What `SoleLaw` calls them."""
 NONE: Mapping[str, Mapping[str, float]] = MappingProxyType({})
 NO_COLUMN: Mapping[str, Float[np.ndarray, " n"]] = MappingProxyType({})
 
@@ -114,13 +101,20 @@ def changed_law(
     """
     _refuse_strange(zone, zones)
     _refuse_unknown(given, zones, NO_COLUMN)
-    changed: dict[str, float | Float[np.ndarray, " n"]] = {FIELDS[key]: value for key, value in given.items()}
-    for key in OF_SPHERES:
-        usual = np.broadcast_to(given.get(key, getattr(law, FIELDS[key])), len(zone))
-        own = [zones.get(name, {}).get(key, float(value)) for name, value in zip(zone, usual, strict=True)]
-        changed[FIELDS[key]] = np.array(own)
-    new: SoleLaw = replace(law, **changed)
-    return new
+
+    def each(key: str, own: Float[np.ndarray, "#n"]) -> Float[np.ndarray, " n"]:
+        usual = np.broadcast_to(given.get(key, own), len(zone))
+        return np.array([zones.get(name, {}).get(key, float(value)) for name, value in zip(zone, usual, strict=True)])
+
+    return SoleLaw(
+        each("k", law.stiffness),
+        each("b", law.damping),
+        given.get("n", law.exponent),
+        given.get("delta_full", law.full_depth),
+        each("mu_s", law.static),
+        each("mu_k", law.kinetic),
+        given.get("v_th", law.threshold_speed),
+    )
 
 
 def _refuse_strange(zone: Sequence[str], zones: Mapping[str, Mapping[str, float]]) -> None:

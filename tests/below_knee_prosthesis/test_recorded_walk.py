@@ -9,10 +9,9 @@ import pytest
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
-from geocontact.below_knee_prosthesis.from_markers import Walked, hip_by_regression
+from geocontact.below_knee_prosthesis.from_markers import Walked
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.below_knee_prosthesis.leg import FootOffset, Leg
-from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, RECORDED, recorded_tree
 from geocontact.below_knee_prosthesis.recorded_walk import SeenFoot, Walk, fitted_walk, simulated_walk
 from geocontact.below_knee_prosthesis.simulate import simulate_stance
 from geocontact.below_knee_prosthesis.stance_model import FLOOR
@@ -20,48 +19,39 @@ from geocontact.contact.bushing import SOCKET
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from meshes.gait_course import course
-from meshes.gait_persons import PARTICIPANTS, SPINES, true_leg
+from meshes.gait_persons import PARTICIPANTS, true_leg
 from tests.below_knee_prosthesis.from_markers.test_standing_and_walking import BELOW, seen
+from tests.below_knee_prosthesis.walks import (
+    FULCRUM,
+    TIME,
+    a_walker,
+    keel_of,
+    plate,
+    standing_markers,
+    walking_values,
+)
 
-TIME = np.arange(0.0, 1.2, 0.02)
-FULCRUM = 0.1174
-HIGH = 2.0
-"""m, of the pelvis: a foot that never reaches the floor has no clock to be compared with."""
+LEVEL = np.array([1.0, 0.0, 1.0])
 
 
 @pytest.fixture(scope="module")
 def leg() -> Leg:
-    spines = {name: np.array(place) for name, place in SPINES.items()}
-    return replace(true_leg(PARTICIPANTS[0], BELOW), hip=hip_by_regression(spines))
+    return a_walker()
 
 
 @pytest.fixture(scope="module")
 def standing(leg: Leg) -> MarkerTrajectories:
-    values = np.zeros((1, len(RECORDED)))
-    values[0, RECORDED.index("pelvis_ty")] = BELOW - (leg.keel[1] - leg.thigh + leg.hip[1])
-    return seen(leg, values, np.zeros(1))
+    return standing_markers(leg)
 
 
 @pytest.fixture(scope="module")
 def values() -> np.ndarray:
-    found = np.column_stack([0.1 * np.sin(4.0 * TIME + k) for k in range(len(RECORDED))])
-    found[:, RECORDED.index("pelvis_tx")] += 1.2 * TIME
-    found[:, RECORDED.index("pelvis_ty")] += HIGH
-    return found
-
-
-def plate(leg: Leg, begins: float, ends: float, centre: np.ndarray | None = None) -> PlateStance:
-    """Loaded with the person's weight between two times [s]."""
-    force = np.zeros((len(TIME), 3))
-    force[(begins - 1e-9 < TIME) & (ends + 1e-9 > TIME), 1] = leg.person.mass * GRAVITY
-    place = np.zeros((len(TIME), 3)) if centre is None else centre
-    return PlateStance(TIME, force, np.where(force[:, 1:2] > 0.0, place, np.nan), "left", "plates.mot")
+    return walking_values()
 
 
 def heel_of(leg: Leg, values: np.ndarray) -> np.ndarray:
     """Below the keel's posterior end, on the floor."""
-    shank = recorded_tree(leg).poses(values)["shank"]
-    return (shank * RigidTransform.from_components(leg.keel, leg.turn)).translation * [1.0, 0.0, 1.0]
+    return keel_of(leg, values).translation * LEVEL
 
 
 def test_leg_and_motion_are_those_that_made_the_markers(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -161,7 +160,8 @@ def doubts_of_legs(made: Amputee, joints: FunctionalJoints, height: float | None
 def doubts_of_joints(joints: FunctionalJoints) -> list[str]:
     """Joints that a functional trial does not tell, with the reason, and those that both segments put apart."""
     said = [f"the functional trial does not tell the {JOINTS[name][0]}: {why}" for name, why in joints.untold.items()]
-    apart: Mapping[str, float] = {name: each.rms for name, each in {**joints.points, **joints.lines}.items()}
+    apart = {name: each.rms for name, each in joints.points.items()}
+    apart |= {name: each.rms for name, each in joints.lines.items()}
     for name, rms in apart.items():
         if rms > FAR:
             said.append(f"{JOINTS[name][0]}: both segments put it {1e3 * rms:.0f} mm apart: is the skin loose?")

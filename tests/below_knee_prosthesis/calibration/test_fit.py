@@ -21,13 +21,20 @@ from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from tests.below_knee_prosthesis.calibration.stances import recorded
 
 
-def test_a_fit_is_what_the_residuals_are_made_of() -> None:
-    """At the usual numbers, the foot as it stood: errors by sums over the samples, in body weights."""
+def usual_calibration() -> SoleCalibration:
+    """Of a tenth of a second: the usual numbers, and the foot as it stood."""
     whole, few = recorded(), slice(20, 40)
     names = ("time", "poses", "rate", "force", "centre")
     stance = replace(whole, **{name: getattr(whole, name)[few] for name in names})
     residuals, z = SoleResiduals.of([stance], vsf_foot()), np.zeros(17)
-    usual = SoleCalibration(residuals, vsf_foot().law, z[:15], z, 0.0, (), True, knowledge(residuals, z))
+    return SoleCalibration(residuals, vsf_foot().law, z[:15], z, 0.0, (), True, knowledge(residuals, z))
+
+
+def test_a_fit_is_what_the_residuals_are_made_of() -> None:
+    """At the usual numbers, the foot as it stood: errors by sums over the samples, in body weights."""
+    usual = usual_calibration()
+    residuals, z = usual.residuals, usual.at
+    stance = residuals.stances[0]
     found = stance_fit(usual)
     off = (found.predicted - stance.measured) / stance.weight
     assert found.vertical.rmsd == pytest.approx(np.sqrt(np.mean(off[:, 1] ** 2)), rel=1e-12)

@@ -71,7 +71,7 @@ def ranges_table(sweep: Sweep) -> pd.DataFrame:
 
 def difference_words(sweep: Sweep) -> dict[str, str]:
     """The last value in place of the first, draw by draw, by response."""
-    found = {}
+    found: dict[str, str] = {}
     for j, response in enumerate(RESPONSES):
         words = []
         for k, aim in enumerate(AIMS):
