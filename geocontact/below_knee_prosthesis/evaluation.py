@@ -37,19 +37,25 @@ SAMPLES = 101
 
 @dataclass(frozen=True, eq=False)
 class PlateStance:
-    """What a plate saw of the prosthetic foot, in the frame of a right leg.
+    """What a plate saw of a foot, in the frame of a person with a right prosthesis.
 
     Parameters
     ----------
+    time
+        [s].
     force
         On the foot [N].
     centre
         Of pressure [m]; NaN where the foot is not loaded.
+    name, source
+        Of the plate, and where it was recorded: what an error names.
     """
 
     time: Float[np.ndarray, " t"]
     force: Float[np.ndarray, "t 3"]
     centre: Float[np.ndarray, "t 3"]
+    name: str = "the plate"
+    source: str = ""
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,12 +13,15 @@ from jaxtyping import Float
 from scipy.optimize import nnls
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.below_knee_prosthesis.simulate import GATE
+from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times, longest_stance
+from geocontact.below_knee_prosthesis.simulate import GATE, Stance
 from geocontact.loads.centre_of_pressure import centre_in_foot
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
 
 LEVER = 0.05
 """m; a moment about the heel counts as the force that makes it at this distance."""
+AROUND = 0.05
+"""s; before and after the stance that belong to the trial."""
 
 
 @dataclass(frozen=True)
@@ -102,3 +105,52 @@ def row_numbers(
     found, _ = nnls(np.concatenate([up, moment / LEVER]), np.concatenate([force, told / LEVER]))
     stiffness, damping = (dict(zip(names, map(float, part), strict=True)) for part in found.reshape(2, -1))
     return RowNumbers(stiffness, damping, float(np.sqrt(np.mean((up @ found - force) ** 2))))
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneTrial:
+    """A stance for the base model.
+
+    Parameters
+    ----------
+    foot
+        Its motion by markers.
+    reaction
+        Of the plate at the same times: forward and upward force [N] and centre of pressure in the foot [m]; None
+        without a plate.
+    numbers
+        Of the rows, with which a rigid foot is nearest to the simulated one.
+    """
+
+    foot: FootInPlane
+    reaction: tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"], Float[np.ndarray, " t"]] | None
+    numbers: RowNumbers
+
+
+def plane_trial(
+    time: Float[np.ndarray, " t"], poses: RigidTransform, plate: PlateStance | None, stance: Stance
+) -> PlaneTrial | None:
+    """Trial and numbers of a stance on a floor; None where the foot is never loaded.
+
+    Parameters
+    ----------
+    time, poses
+        When the keel was seen [s], and its frame by the markers on the socket.
+    plate
+        Under the prosthetic foot; None where it is not known: then the trial is where the simulated foot is loaded.
+    stance
+        That was simulated.
+    """
+    loaded = (stance.time, stance.force[:, 1]) if plate is None else (plate.time, plate.force[:, 1])
+    span = longest_stance(*loaded)
+    if span is None:
+        return None
+    inside = (time >= span[0] - AROUND) & (time <= span[1] + AROUND)
+    foot = in_plane(time[inside], poses[inside])
+    reaction = None
+    if plate is not None:
+        reaction = foot.reaction(*(at_times(foot.time, plate.time, each) for each in (plate.force, plate.centre)))
+    simulated = in_plane(stance.time, stance.poses)
+    _, up, centre = simulated.reaction(stance.force, stance.centre("ground"))
+    spheres, law = stance.foot.sole.spheres, stance.foot.law
+    return PlaneTrial(foot, reaction, row_numbers(simulated, spheres, law, up, centre))

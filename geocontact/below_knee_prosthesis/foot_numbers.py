@@ -1,4 +1,4 @@
-"""Numbers of a foot and of its socket as a simulation takes them, and where each is from."""
+"""Numbers of a leg, its socket and its foot as a simulation takes them, and where each is from."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.sole import ROWS as SOLE_ROWS
 from geocontact.below_knee_prosthesis.keel.vsf import ROWS as KEEL_ROWS
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
-from geocontact.below_knee_prosthesis.leg_tree import SOCKET
+from geocontact.below_knee_prosthesis.leg import Leg
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, SOCKET
+from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.contact.bushing import PRINTED, Bushing
 from geocontact.contact.bushing import SOCKET as AS_MEANT
 from geocontact.data.parameter import Number, Source
@@ -43,6 +45,29 @@ def socket_numbers(bushing: Bushing) -> dict[str, Number]:
             turned = bushing == AS_MEANT and "_r" in name
             found[f"{name} {kind}"] = Number(value, "derived" if turned else "paper", note)
     return found
+
+
+def leg_numbers(leg: Leg) -> dict[str, Number]:
+    """Numbers of the leg by name, in SI; height and pitch of the foot are in `leg keel` and `leg turn`."""
+    return {f"leg {name}": number for name, number in leg.numbers().items()}
+
+
+def numbers_without_leg(foot: VariableStiffnessFoot, fulcrum: float) -> dict[str, Number]:
+    """Numbers of keel and sole at a fulcrum [m], and gravity."""
+    return foot_numbers(foot, fulcrum) | {"gravity": Number(GRAVITY, "derived", "standard gravity")}
+
+
+def all_numbers(leg: Leg, foot: VariableStiffnessFoot, fulcrum: float, bushing: Bushing) -> Mapping[str, Number]:
+    """Numbers of leg, socket, keel and sole that are simulated, in SI; motion, plates and ground are not among them.
+
+    Fixed besides is a pinned end of the keel (`Keel.compliance` has its hinges from EI and fulcrum).
+    """
+    return leg_numbers(leg) | socket_numbers(bushing) | numbers_without_leg(foot, fulcrum)
+
+
+def numbers_of(stance: Stance) -> Mapping[str, Number]:
+    """`all_numbers` of a stance that was simulated."""
+    return all_numbers(stance.motion.leg, stance.foot, stance.fulcrum, stance.bushing)
 
 
 def _keel(keel: Keel, fulcrum: float) -> Iterator[tuple[str, Number]]:

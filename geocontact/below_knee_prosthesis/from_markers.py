@@ -323,3 +323,13 @@ def functional_hip(seen: MarkerTrajectories, pelvis: Float[np.ndarray, "4 3"]) -
         raise InputError(
             seen.source, "`functional`", str(error), "swing the leg in all directions, markers seen"
         ) from error
+
+
+def standing_hip(standing: MarkerTrajectories, moving: MarkerTrajectories) -> FunctionalCentre:
+    """Hip centre of a functional trial, in the pelvis' frame of the standing one.
+
+    InputError where markers of the pelvis lie on a line, and where the trial does not tell the centre.
+    """
+    places = np.nanmedian(standing.of(PELVIS), axis=0)
+    frame = pelvis_frame(dict(zip(PELVIS, places, strict=True)), standing.source)
+    return functional_hip(moving, frame.inv().apply(places))

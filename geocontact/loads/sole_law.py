@@ -59,10 +59,7 @@ def law_of_sole(
     ValueError
         Numbers beside a column of the same key, keys that are not known, and what `SoleLaw` refuses.
     """
-    strange = sorted(set(zones) - set(zone))
-    if strange:
-        known = ", ".join(dict.fromkeys(zone))
-        raise InputError("", f"zone.{strange[0]}", "no sphere is in that zone", f"zones are: {known}")
+    _refuse_strange(zone, zones)
     _refuse_unknown(given, zones, columns)
     assumed: dict[str, float] = {}
 
@@ -85,6 +82,46 @@ def law_of_sole(
     if not (law.static.any() or law.kinetic.any()):
         assumed.pop("v_th", None)
     return law, assumed
+
+
+def changed_law(
+    law: SoleLaw,
+    zone: Sequence[str],
+    given: Mapping[str, float],
+    zones: Mapping[str, Mapping[str, float]] = NONE,
+) -> SoleLaw:
+    """A law with some of its numbers changed; the rest stay as they are.
+
+    Parameters
+    ----------
+    zone, given, zones
+        As those of `law_of_sole`: a sphere has the number of its zone, else that which is given for all, else its own.
+
+    InputError and ValueError as those of `law_of_sole`.
+    """
+    _refuse_strange(zone, zones)
+    _refuse_unknown(given, zones, NO_COLUMN)
+
+    def each(key: str, own: Float[np.ndarray, "#n"]) -> Float[np.ndarray, " n"]:
+        usual = np.broadcast_to(given.get(key, own), len(zone))
+        return np.array([zones.get(name, {}).get(key, float(value)) for name, value in zip(zone, usual, strict=True)])
+
+    return SoleLaw(
+        each("k", law.stiffness),
+        each("b", law.damping),
+        given.get("n", law.exponent),
+        given.get("delta_full", law.full_depth),
+        each("mu_s", law.static),
+        each("mu_k", law.kinetic),
+        given.get("v_th", law.threshold_speed),
+    )
+
+
+def _refuse_strange(zone: Sequence[str], zones: Mapping[str, Mapping[str, float]]) -> None:
+    strange = sorted(set(zones) - set(zone))
+    if strange:
+        known = ", ".join(dict.fromkeys(zone))
+        raise InputError("", f"zone.{strange[0]}", "no sphere is in that zone", f"zones are: {known}")
 
 
 def _refuse_unknown(

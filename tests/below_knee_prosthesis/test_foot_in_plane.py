@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.foot_in_plane import FootInPlane, in_plane, row_numbers, rows_of
+from geocontact.below_knee_prosthesis.foot_in_plane import FootInPlane, in_plane, plane_trial, row_numbers, rows_of
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
+from tests.below_knee_prosthesis.stances import a_stance
+from tests.below_knee_prosthesis.test_stance_errors import plate_of, walked
 
 TIME = np.linspace(0.0, 0.7, 141)
 
@@ -100,3 +102,21 @@ def test_rows_are_those_of_the_least_squares_by_hand() -> None:
         for by in (0.98, 1.02):
             moved = {**found.stiffness, row: by * found.stiffness[row] + 1e-3}
             assert squares(moved, found.damping) >= least * (1.0 - 1e-12)
+
+
+def test_a_trial_is_the_loaded_foot_and_a_twentieth_of_a_second_around_it() -> None:
+    """A plate that is loaded from 0.1 to 0.8 s, beside markers on a foot that stands at x = 0."""
+    own, time = np.arange(0.0, 0.95, 0.002), np.arange(-0.1, 1.0, 0.01)
+    still = RigidTransform.from_components(np.tile([0.0, 0.03, 0.0], (len(time), 1)), Rotation.identity(len(time)))
+    stance, plate = a_stance(own, walked(own)), plate_of(own)
+    found = plane_trial(time, still, plate, stance)
+    assert found is not None and found.reaction is not None
+    assert found.foot.time[[0, -1]] == pytest.approx([0.05, 0.85], abs=0.011)
+    ahead, up, centre = found.reaction
+    np.testing.assert_allclose(ahead, np.interp(found.foot.time, own, walked(own)[:, 0]), atol=1e-9)
+    np.testing.assert_allclose(up, np.interp(found.foot.time, own, walked(own)[:, 1]), atol=1e-9)
+    inside = (found.foot.time > 0.15) & (found.foot.time < 0.75)
+    np.testing.assert_allclose(centre[inside], 0.05 + 0.2 * (found.foot.time[inside] - 0.1), atol=1e-9)
+    alone = plane_trial(time, still, None, stance)
+    assert alone is not None and alone.reaction is None
+    assert plane_trial(time, still, None, a_stance(own)) is None

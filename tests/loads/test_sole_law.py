@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError
-from geocontact.loads.sole_law import law_of_sole
+from geocontact.loads.sole_law import changed_law, law_of_sole
 
 ZONE = ("heel", "toe", "heel")
 ALL = {"k": 5e4, "n": 1.5, "b": 100.0, "delta_full": 1e-3, "mu_s": 0.8, "mu_k": 0.6, "v_th": 0.1}
@@ -60,3 +60,19 @@ def test_mistakes() -> None:
         law_of_sole(ZONE, {"mu": 1.0})
     with pytest.raises(ValueError, match="must be positive"):
         law_of_sole(ZONE, {"n": 0.0})
+
+
+def test_a_changed_law_keeps_the_rest() -> None:
+    """A zone goes before all spheres, and what is not named stays, sphere by sphere."""
+    law, _ = law_of_sole(ZONE, {key: value for key, value in ALL.items() if key != "b"}, columns={"b": np.arange(3.0)})
+    new = changed_law(law, ZONE, {"k": 7e4, "n": 1.1}, {"toe": {"k": 9e4, "mu_k": 0.2}})
+    np.testing.assert_array_equal(new.stiffness, [7e4, 9e4, 7e4])
+    np.testing.assert_array_equal(new.damping, law.damping)
+    np.testing.assert_array_equal([new.static, new.kinetic], [[0.8] * 3, [0.6, 0.2, 0.6]])
+    assert (new.exponent, new.full_depth, new.threshold_speed) == (1.1, 1e-3, 0.1)
+    with pytest.raises(InputError, match=r"zone.arch: no sphere is in that zone; zones are: heel, toe"):
+        changed_law(law, ZONE, {}, {"arch": {"k": 1.0}})
+    with pytest.raises(ValueError, match="v_th is no number"):
+        changed_law(law, ZONE, {}, {"toe": {"v_th": 1.0}})
+    with pytest.raises(ValueError, match="must be positive"):
+        changed_law(law, ZONE, {"k": -1.0})

@@ -1,55 +1,28 @@
-"""Markers and plates of a trial, of a right leg; refused where they cannot be those of a walking person's foot."""
+"""What a recording of a person with a prosthesis holds, as of a right leg: markers, plates, and the law of the sole."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+from os import fspath
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.frame.collector import add_input, reserve
+from geocontact.analyses.frame.folder import digest
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
-from geocontact.below_knee_prosthesis.leg import Side
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.leg import AS_STOOD, FootOffset, Side
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.plate_checks import require_weight
 from geocontact.below_knee_prosthesis.simulate import GATE
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
-from geocontact.io.mocap.force_plates import plate_named, read_force_plates
-
-LEAST, MOST = 0.3, 5.0
-"""Shares of the body weight between which the largest vertical force of a step lies."""
-BESIDE = 1.0
-"""Lengths of the foot from its middle beyond which a centre of pressure is not its."""
-APART = 0.06
-"""s by which clocks may differ: a foot that hovers before it lands, and a plate's threshold, make up to that."""
-
-
-def require_weight(file: Path, option: str, name: str, load: Float[np.ndarray, " t"], weight: float) -> None:
-    """InputError for a vertical force [N] that no step of a person of that weight [N] makes."""
-    most = float(np.max(load, initial=0.0)) / weight
-    if LEAST <= most <= MOST:
-        return
-    what = f"the vertical force on {name} is {most:.3g} times body weight at most"
-    raise InputError(file, option, what, "is it in N, `mass` in kg, and y up?")
-
-
-def require_one_clock(file: Path, option: str, name: str, offset: float) -> None:
-    """InputError where the plate is later than the markers by more than clocks on one time can differ [s]."""
-    if abs(offset) > APART:
-        what = (
-            f"{name} is loaded {abs(offset):.2f} s {'after' if offset > 0.0 else 'before'} the markers touch the floor"
-        )
-        raise InputError(file, option, what, "markers and forces need one clock: shift one of them")
-
-
-def require_under_foot(file: Path, name: str, centre: Float[np.ndarray, " t"]) -> None:
-    """InputError where a centre of pressure is not under the foot; in lengths of the foot from its heel."""
-    known = centre[np.isfinite(centre)]
-    if not len(known) or np.median(np.abs(known - 0.5)) > BESIDE:
-        what = f"no plate under the foot: the centre of pressure of {name} is not under it"
-        raise InputError(file, "`plate`", what, "check frame, side and clock, and that this plate is meant")
+from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
+from geocontact.io.recordings.spheres import read_law
+from geocontact.loads.sole_law import changed_law
 
 
 def right_markers(
@@ -67,15 +40,19 @@ def right_markers(
     return as_right(seen, side)
 
 
+def right_plate(
+    plates: tuple[ForcePlate, ...], name: str | None, file: Path, side: Side, option: str = "plate"
+) -> PlateStance:
+    """One plate of a file, mirrored where the prosthesis is on the left; `option` is that by which it is named."""
+    plate = plate_named(plates, name, file, f"`{option}`")
+    force = of_side(np.nan_to_num(plate.wrench.force), side)
+    return PlateStance(plate.time, force, of_side(plate.centre_of_pressure(GATE), side), plate.name, fspath(file))
+
+
 def plate_under_foot(
-    file: Path,
-    name: str | None,
-    side: Side,
-    mass: float,
-    c3d_unit: str | None,
-    option: str = "plate",
-) -> tuple[PlateStance, str]:
-    """Force and centre of pressure of one plate of a file, and its name; InputError where nobody of that mass stands.
+    file: Path, name: str | None, side: Side, mass: float, c3d_unit: str | None, option: str = "plate"
+) -> PlateStance:
+    """Force and centre of pressure of one plate of a file; InputError where nobody of that mass stands on it.
 
     Parameters
     ----------
@@ -86,8 +63,38 @@ def plate_under_foot(
     option
         By which the plate is named.
     """
-    plate = plate_named(read_force_plates(file, c3d_unit), name, file, f"`{option}`")
+    plate = right_plate(read_force_plates(file, c3d_unit), name, file, side, option)
     add_input(f"`{option}s`", file, plate=plate.name)
-    force = of_side(np.nan_to_num(plate.wrench.force), side)
-    require_weight(file, f"`{option}`", plate.name, force[:, 1], mass * GRAVITY)
-    return PlateStance(plate.time, force, of_side(plate.centre_of_pressure(GATE), side)), plate.name
+    require_weight(plate, mass * GRAVITY, f"`{option}`")
+    return plate
+
+
+def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableStiffnessFoot:
+    """The foot with the numbers that a file gives, for all spheres or by zone; the rest are as they were."""
+    if file is None:
+        return foot
+    law = read_law(file)
+    add_input("`law`", file)
+    zones = {zone: of.model_dump(exclude_none=True) for zone, of in law.zone.items()}
+    given = law.model_dump(exclude={"zone", "foot"}, exclude_none=True)
+    try:
+        changed = changed_law(foot.law, foot.sole.spheres.zone, given, zones)
+    except InputError as error:
+        raise replace(error, file=file) from error
+    except ValueError as error:
+        raise InputError(file, "force law", str(error), "correct the number") from error
+    return VariableStiffnessFoot(foot.keel, foot.sole, changed)
+
+
+def offset_of_law(file: Path | None, standing: Path) -> FootOffset:
+    """How the foot is beside a standing trial; none where the file does not say, or says it of another trial."""
+    beside = None if file is None else read_law(file).foot
+    if beside is None:
+        return AS_STOOD
+    if beside.standing is not None and beside.standing != digest(standing):
+        reserve(
+            f"{file}: [foot] was found beside another standing trial than `static`, and is left out: height and pitch "
+            "are errors of that trial (if it is the same in another file, take the line `standing` out of the law)"
+        )
+        return AS_STOOD
+    return FootOffset(beside.height, beside.pitch, beside.height_sd, beside.pitch_sd)

@@ -1,7 +1,8 @@
-"""Files of a stance for other programs: OpenSim, ParaView, and `geocontact gap gather` for the base model `foot`."""
+"""A stance in files and words: for OpenSim, ParaView, and `geocontact gap gather` with the base model `foot`."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -9,13 +10,14 @@ import pandas as pd
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times, longest_stance
-from geocontact.below_knee_prosthesis.foot_in_plane import FootInPlane, RowNumbers, in_plane, row_numbers, rows_of
+from geocontact.below_knee_prosthesis.evaluation import PlateStance
+from geocontact.below_knee_prosthesis.foot_in_plane import FootInPlane, RowNumbers, plane_trial, rows_of
 from geocontact.below_knee_prosthesis.from_markers import of_side
-from geocontact.below_knee_prosthesis.keel.on_tree import coordinates
-from geocontact.below_knee_prosthesis.leg import Side
-from geocontact.below_knee_prosthesis.leg_tree import RECORDED, SOCKET
+from geocontact.below_knee_prosthesis.leg import FootOffset, Side
+from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
+from geocontact.below_knee_prosthesis.own_side import coordinates_of_side, ground_reaction
 from geocontact.below_knee_prosthesis.simulate import Stance
+from geocontact.data.parameter import Number
 from geocontact.io.opensim.external_loads import write_external_loads
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.text.results import CASES, write_table
@@ -24,44 +26,22 @@ from geocontact.view.surfaces.vtp_series import LineSeries, write_line_series
 
 FOOT: dict[Side, str] = {"right": "calcn_r", "left": "calcn_l"}
 """Bodies of OpenSim's models that the force acts on."""
-TURNED = ("pelvis_rotation", "pelvis_list", "pelvis_tz")
-"""Coordinates whose sign is the laboratory's, not the leg's."""
-LENGTHS = ("pelvis_tx", "pelvis_ty", "pelvis_tz", *SOCKET[3:])
 EVERY = 5
 """Which sample ParaView gets: 100 Hz."""
 
 
 def write_coordinates(folder: Path, s: Stance, side: Side) -> None:
-    """coordinates.sto: pelvis, hip and knee as driven but for the pelvis' free places; socket and keel as found.
-
-    Between the recorded frames pelvis, hip and knee are on splines. What was driven is the bushing's frame, on splines
-    through its poses at these frames: the same there, and within micrometres between them.
-    """
-    values = s.motion.at(s.time)
-    values[:, 3:5] = s.found.q[:, :2]
-    names = [*RECORDED, *SOCKET, *coordinates(s.foot.keel)]
-    table = np.hstack([values, s.found.q[:, 2:]])
-    for k, name in enumerate(names):
-        sign = -1.0 if side == "left" and name in TURNED else 1.0
-        table[:, k] = sign * (table[:, k] if name in LENGTHS else np.degrees(table[:, k]))
-    ending = side[0]
-    called = [name if name.startswith("pelvis") else f"{name}_{ending}" for name in names]
-    title = "Coordinates of a prosthetic side"
-    write_storage(folder / "coordinates.sto", s.time, called, table, title=title, degrees=True)
+    """coordinates.sto: pelvis, hip and knee as driven but for the pelvis' free places; socket and keel as found."""
+    found, title = coordinates_of_side(s, side), "Coordinates of a prosthetic side"
+    write_storage(folder / "coordinates.sto", s.time, list(found.names), found.in_degrees, title=title, degrees=True)
 
 
 def write_loads(folder: Path, s: Stance, side: Side) -> None:
-    """ground_reaction.mot and .xml: force of the ground on the prosthetic foot at its centre of pressure.
-
-    The free moment about the vertical is left out; where nothing presses the point is that below the keel's end.
-    """
-    force, centre = of_side(s.force, side), of_side(s.centre("ground"), side)
-    below = of_side(s.poses.translation, side) * np.array([1.0, 0.0, 1.0])
-    place = np.where(np.isfinite(centre), centre, below)
-    stem = f"ground_{side}_force"
+    """ground_reaction.mot and .xml: force of the ground on the prosthetic foot at its centre of pressure."""
+    stem, title = f"ground_{side}_force", "Ground reaction under a prosthetic foot"
     names = [f"{stem}_{kind}{axis}" for kind in "vp" for axis in "xyz"]
-    title = "Ground reaction under a prosthetic foot"
-    write_storage(folder / "ground_reaction.mot", s.time, names, np.hstack([force, place]), title=title, degrees=False)
+    table = np.hstack(ground_reaction(s, side))
+    write_storage(folder / "ground_reaction.mot", s.time, names, table, title=title, degrees=False)
     write_external_loads(folder / "ground_reaction.xml", "ground_reaction.mot", {stem: FOOT[side]})
 
 
@@ -73,8 +53,6 @@ def write_spheres(folder: Path, s: Stance, side: Side) -> None:
     write_line_series(folder, "foot", LineSeries(s.time[kept], centres, lines), {"force of the ground [N]": force})
 
 
-AROUND = 0.05
-"""s; before and after the stance that belong to the trial."""
 STIFFEST, MOST_DAMPED = 12.0, 30.0
 """Factors on a sphere's own numbers, up to which those of a row may be fitted."""
 HEAD = """# the foot in its plane; a rigid foot of these numbers is {off:.0f} N (rms) off the simulated one
@@ -112,21 +90,14 @@ def write_plane(
     s
         The stance that was simulated.
     """
-    loaded = (s.time, s.force[:, 1]) if plate is None else (plate.time, plate.force[:, 1])
-    span = longest_stance(*loaded)
-    if span is None:
+    trial = plane_trial(time, poses, plate, s)
+    if trial is None:
         return
-    inside = (time >= span[0] - AROUND) & (time <= span[1] + AROUND)
-    foot = in_plane(time[inside], poses[inside])
     folder.mkdir(parents=True, exist_ok=True)
-    write_table(pose_table(foot), folder, "foot", CASES)
-    if plate is not None:
-        force, centre = (at_times(foot.time, plate.time, each) for each in (plate.force, plate.centre))
-        write_table(reaction_table(foot, *foot.reaction(force, centre)), folder, "plate", CASES)
-    simulated = in_plane(s.time, s.poses)
-    _, up, centre = simulated.reaction(s.force, s.centre("ground"))
-    spheres, law = s.foot.sole.spheres, s.foot.law
-    write_sole(folder, spheres, law, row_numbers(simulated, spheres, law, up, centre))
+    write_table(pose_table(trial.foot), folder, "foot", CASES)
+    if trial.reaction is not None:
+        write_table(reaction_table(trial.foot, *trial.reaction), folder, "plate", CASES)
+    write_sole(folder, s.foot.sole.spheres, s.foot.law, trial.numbers)
 
 
 def pose_table(foot: FootInPlane) -> pd.DataFrame:
@@ -167,3 +138,29 @@ def write_sole(folder: Path, spheres: SphereSet, law: SoleLaw, numbers: RowNumbe
             within = f"start = {min(start, upper):.6g}\nlower = 0.0\nupper = {upper:.6g}"
             text += f'[parameters.{letter}_{name}]\n{within}\nunit = "{unit}"\n\n'
     (folder / "foot.toml").write_text(text, encoding="utf-8")
+
+
+def numbers_table(numbers: Mapping[str, Number]) -> pd.DataFrame:
+    """Every number in SI, and where it is from."""
+    rows = [(name, number.value, number.source, number.note) for name, number in numbers.items()]
+    return pd.DataFrame(rows, columns=["number", "value", "source", "note"])
+
+
+def offset_words(offset: FootOffset) -> str:
+    """The foot beside its standing trial, as the law has it, in a sentence."""
+    return f"the foot is {offset.words} beside where its standing trial has it, as the law's file says"
+
+
+def counted_twice(limb: LimbInSocket) -> str:
+    """The socket's motion that stays in the leg's angles, where taking it out did not settle, in words."""
+    if limb.turns == 0:
+        turned = np.degrees(np.abs(limb.stance.found.q[:, 2:5]).max())
+        piston = 1e3 * np.abs(limb.stance.pistoning).max()
+        return (
+            f"the socket's motion, up to {turned:.1f} degrees and {piston:.0f} mm, is counted twice: in the leg's "
+            "angles and in the bushing"
+        )
+    return (
+        f"fit and simulated socket do not agree yet: the last of {limb.turns} turns changed the force by "
+        f"{limb.change:.1%} of body weight"
+    )

@@ -10,10 +10,10 @@ from jaxtyping import Float
 from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.clocks import lowest_sphere
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times, longest_stance
-from geocontact.below_knee_prosthesis.from_markers import MAP
+from geocontact.below_knee_prosthesis.from_markers import MAP, Walked
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import MIDDLE, FootOffset, Leg
 from geocontact.below_knee_prosthesis.leg_tree import (
     GRAVITY,
@@ -23,6 +23,14 @@ from geocontact.below_knee_prosthesis.leg_tree import (
     RECORDED,
     LegMotion,
     driving_inputs,
+)
+from geocontact.below_knee_prosthesis.plate_checks import (
+    LATE,
+    lowest_sphere,
+    require_covering,
+    require_one_clock,
+    require_under_foot,
+    require_weight,
 )
 from geocontact.below_knee_prosthesis.simulate import Push, share_of_foot
 from geocontact.contact.bushing import SOCKET, Bushing
@@ -187,6 +195,41 @@ def stance_from_markers(
     return RecordedStance(time, poses, pose_rate(time, poses), fulcrum, force, share, leg.person.mass * GRAVITY, errors)
 
 
+def stance_on_plate(
+    seen: MarkerTrajectories,
+    leg: Leg,
+    plate: PlateStance,
+    foot: VariableStiffnessFoot,
+    fulcrum: float,
+    *,
+    cutoff: float | None,
+    gap_limit: float,
+    errors: Errors = USUAL,
+) -> RecordedStance:
+    """Recorded stance of a foot, which is seen to stand on the plate, on one clock with it.
+
+    Parameters
+    ----------
+    seen
+        Markers while walking.
+    leg
+        By a standing trial, of a right leg (`from_markers.standing_leg`).
+    fulcrum
+        [m].
+    cutoff, gap_limit, errors
+        As those of `stance_from_markers`.
+
+    InputError as that, and where the plate is another foot's or runs on another clock.
+    """
+    stance = stance_from_markers(
+        seen, leg, plate, fulcrum, foot.keel.length, cutoff=cutoff, gap_limit=gap_limit, errors=errors
+    )
+    heights = recorded_heights(seen, leg, foot.sole.spheres, cutoff=cutoff, gap_limit=gap_limit)
+    require_one_clock(plate, *heights)
+    require_under_foot(plate, stance.centre)
+    return stance
+
+
 def recorded_heights(
     seen: MarkerTrajectories, leg: Leg, spheres: SphereSet, *, cutoff: float | None, gap_limit: float
 ) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"]]:
@@ -297,3 +340,27 @@ class WalkedStance:
             values = self.motion.values.copy()
             values[:, RECORDED.index(name)] += by
             yield replace(self, motion=LegMotion(self.motion.leg, self.motion.time, values))
+
+
+def walked_stance(stance: RecordedStance, fit: Walked, other: PlateStance, source: str) -> WalkedStance:
+    """A recorded stance as the whole model walks it.
+
+    Parameters
+    ----------
+    fit
+        Motion of pelvis and leg by the markers (`from_markers.walked`).
+    other
+        Plate under the other foot, whose force stands for the other leg.
+    source
+        Where the markers are from: what an error names.
+
+    InputError where markers or the other plate do not cover enough, and where nobody of that weight stands on it.
+    """
+    motion, time = fit.motion, stance.time
+    require_weight(other, motion.leg.person.mass * GRAVITY, "`other_plate`")
+    if motion.time[0] > time[0] - LATE or motion.time[-1] < time[-1]:
+        what = f"markers are from {motion.time[0]:.2f} to {motion.time[-1]:.2f} s, the stance from {time[0]:.2f} to"
+        remedy = "markers must begin before touch-down and end after it"
+        raise InputError(source, "", f"{what} {time[-1]:.2f} s", remedy)
+    require_covering(other, motion.time)
+    return WalkedStance(stance, motion, Push(other.time, other.force))

@@ -7,16 +7,22 @@ beside its standing trial are sought on, from what that calibration found.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
 from geocontact.below_knee_prosthesis.calibration.known_numbers import Knowledge, knowledge
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import WalkedStance
 from geocontact.below_knee_prosthesis.calibration.whole_model import WholeResiduals
+from geocontact.below_knee_prosthesis.from_markers import Walked
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import FootOffset
+from geocontact.below_knee_prosthesis.leg_tree import LegMotion
+from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket
+from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.identify.optimise.bounded_gauss_newton import least
 from geocontact.loads.sphere_set import SoleLaw
 
@@ -95,3 +101,43 @@ def calibrate_whole(
         search.finished,
         knowledge(residuals, search.x, level),
     )
+
+
+def limb_on_sole(
+    found: SoleCalibration,
+    stance: WalkedStance,
+    seen: MarkerTrajectories,
+    fit: Walked,
+    *,
+    cutoff: float | None,
+    gap_limit: float,
+    turns: int,
+    machine_code: bool = True,
+) -> LimbInSocket:
+    """The limb's motion with the socket's taken out of its markers, along the stance on a calibrated sole.
+
+    Parameters
+    ----------
+    found
+        Sole, height and pitch by the calibration along the recorded poses.
+    seen, fit
+        Markers of the walk, and their fit with the foot as its standing trial has it.
+    cutoff, gap_limit, turns
+        As those of `limb_in_socket`.
+
+    ArithmeticError where the stance cannot be simulated.
+    """
+    leg = fit.motion.leg.with_foot(found.offsets[0])
+    first = replace(fit, motion=replace(fit.motion, leg=leg))
+    span = (stance.begin, float(stance.recorded.time[-1]))
+
+    def along(motion: LegMotion) -> Stance:
+        given = motion, found.foot, stance.recorded.fulcrum, stance.push, span
+        return simulate_stance(*given, machine_code=machine_code)
+
+    return limb_in_socket(seen, first, along, cutoff=cutoff, gap_limit=gap_limit, turns=turns)
+
+
+def along_limb(stance: WalkedStance, limb: LimbInSocket) -> WalkedStance:
+    """The stance along the limb's own motion, with the foot where its standing trial has it."""
+    return replace(stance, motion=replace(limb.walked.motion, leg=stance.motion.leg))

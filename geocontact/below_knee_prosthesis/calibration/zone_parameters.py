@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
+from scipy.stats import norm
 
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
 from geocontact.data.parameter import Parameter
@@ -92,3 +93,25 @@ class ZoneParameters:
         low, high = usual * np.exp(-self.reach), usual * np.exp(self.reach)
         rows = zip(self.names, self.kinds, usual, low, high, strict=True)
         return [Parameter(name, UNITS[kind], float(v), float(a), float(b)) for name, kind, v, a, b in rows]
+
+    def sd_within(self, intervals: Mapping[str, tuple[float, float]], level: float = 0.95) -> Float[np.ndarray, " p"]:
+        """Standard deviation of the logarithm of each number, by the intervals that a calibration found.
+
+        Parameters
+        ----------
+        intervals
+            Lower and upper end by name, both positive; a number that has none keeps its prior (`sd`).
+        level
+            Probability of the intervals.
+
+        An interval that is wider than the prior's makes no number less known. ValueError, with the name, for one that
+        is none.
+        """
+        found, wide = self.sd, 2.0 * norm.ppf(0.5 + 0.5 * level)
+        for k, name in enumerate(self.names):
+            if name in intervals:
+                lower, upper = intervals[name]
+                if not 0.0 < lower <= upper < np.inf:
+                    raise ValueError(f"{name}: {lower:g} to {upper:g} is no interval")
+                found[k] = min(float(np.log(upper / lower) / wide), float(found[k]))
+        return found

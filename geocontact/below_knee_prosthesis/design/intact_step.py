@@ -15,14 +15,17 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import IntactLeg
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RATE, body_poses
 from geocontact.below_knee_prosthesis.design.foot_task import EVERY, LOADED
-from geocontact.below_knee_prosthesis.design.outcomes import LANDING, Aim, radius_of_path
+from geocontact.below_knee_prosthesis.design.outcomes import LANDING, MEASURES, Aim, radius_of_path
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times, longest_stance
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.plate_checks import lowest_sphere, require_one_clock
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 
 OF_INTACT: tuple[Aim, ...] = ("ankle_moment", "radius", "loading_rate")
 """What an intact foot has of a prosthetic one: it has neither a socket nor a keel."""
+BESIDE = 0.75
+"""Lengths of the foot from its middle beyond which the centre of pressure of a step is not its in the median."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,3 +137,42 @@ def _rise(plate: PlateStance, span: tuple[float, float], weight: float) -> float
 def _beside(foot: RigidTransform, leg: IntactLeg, centre: Float[np.ndarray, "t 3"]) -> float:
     middle = foot.apply(0.5 * (leg.heel + leg.hallux))
     return float(np.median(np.linalg.norm((centre - middle)[:, ::2], axis=1))) / leg.length
+
+
+def require_intact(
+    step: IntactStep,
+    seen: MarkerTrajectories,
+    leg: IntactLeg,
+    plate: PlateStance,
+    own: PlateStance,
+    *,
+    cutoff: float | None,
+    gap_limit: float,
+) -> None:
+    """InputError where a step is not that of the intact foot on its plate, or has outcomes that no step has.
+
+    Parameters
+    ----------
+    seen, leg, plate, cutoff, gap_limit
+        That the step was found with, as those of `intact_step`.
+    own
+        Plate under the prosthetic foot, which may have been named by mistake.
+    """
+    foot = body_poses(seen, leg.markers, "intact_foot", seen.time, cutoff, gap_limit)
+    same = np.array_equal(plate.force, own.force)
+    if same or not step.beside < BESIDE:
+        where = f"is {step.beside:.1f} lengths of it from its middle in the median"
+        whose = f"{plate.name} is under the prosthetic foot" if same else "no plate under the intact foot"
+        what = f"{whose}: the centre of pressure of {plate.name} {where}"
+        raise InputError(plate.source, "`intact_plate`", what, "name the plate of the intact foot's step")
+    require_one_clock(plate, seen.time, lowest_sphere(foot, leg.spheres()[0]), "`intact_plate`")
+    try:
+        values = step.outcomes()
+    except ValueError as error:
+        what = f"the step of the intact foot is too short: {error}"
+        raise InputError(seen.source, "", what, "give another") from error
+    for aim, value in values.items():
+        if not 0.0 < value < np.inf:
+            what = f"the intact foot would have a {MEASURES[aim].words} of {value:.3g} {MEASURES[aim].unit}"
+            remedy = "are markers and plate in the same axes, x forward along the walk?"
+            raise InputError(seen.source, "", what, remedy)

@@ -18,10 +18,10 @@ from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOpti
 from geocontact.analyses.prosthesis.compare.stances import read as read_study
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.trial import read as read_design
-from geocontact.analyses.prosthesis.leg_and_foot import offset_of_law
+from geocontact.analyses.prosthesis.recorded_files import offset_of_law
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
-from geocontact.analyses.prosthesis.simulate.walk import fitted_walk
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
+from geocontact.analyses.prosthesis.simulate.walk import walk_of
 from geocontact.below_knee_prosthesis.leg import AS_STOOD, FootOffset
 from geocontact.io.recordings.spheres import SphereTable
 from tests.analyses.prosthesis import test_compare
@@ -91,7 +91,7 @@ def test_simulate_compare_and_design_start_from_it(tmp_path: Path) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
         asked = [ProsthesisSimulateOptions(TRIAL / "walking.trc", **GIVEN, **own) for own in ({}, {"law": file})]
-        without, walk = (fitted_walk(read_walk(o), o) for o in asked)
+        without, walk = (walk_of(read_walk(o), o) for o in asked)
         plain = without.leg
         (stance,) = read_study(ProsthesisCompareOptions(study))
         trial = read_design(ProsthesisDesignOptions(TRIAL / "walking.trc", **given, law=file)).trial

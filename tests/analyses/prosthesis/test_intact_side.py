@@ -11,7 +11,8 @@ import pytest
 
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
-from geocontact.analyses.prosthesis.design.trial import intact_side, intact_table, intact_words
+from geocontact.analyses.prosthesis.design.sweep import intact_table, intact_words
+from geocontact.analyses.prosthesis.design.trial import intact_side
 from geocontact.analyses.prosthesis.recorded_files import plate_under_foot, right_markers
 from geocontact.below_knee_prosthesis.design.drawn import RecordedTrial
 from geocontact.below_knee_prosthesis.design.intact_step import IntactStep
@@ -31,7 +32,7 @@ def found_step(folder: Path, late: float = 0.0, away: float = 0.0, **changed: An
     given |= {"intact": made.markers, "intact_plates": made.plates}
     o = ProsthesisDesignOptions(TRIAL / "walking.trc", **(given | changed))
     standing = right_markers("`static`", o.static, o.side, None, None, None)
-    plate, _ = plate_under_foot(o.plates, o.plate, o.side, o.mass, None)
+    plate = plate_under_foot(o.plates, o.plate, o.side, o.mass, None)
     trial = RecordedTrial(standing, standing, plate, Person(o.mass), vsf_keel(), 0.117, 0.05, 15.0, 0.2)
     return intact_side(o, trial)
 

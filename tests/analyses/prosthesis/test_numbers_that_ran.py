@@ -14,14 +14,16 @@ from scipy.spatial.transform import Rotation
 
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
-from geocontact.analyses.prosthesis.leg_and_foot import all_numbers, numbers_table
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
-from geocontact.analyses.prosthesis.simulate.walk import Walk, bushing_of, fitted_walk, read
+from geocontact.analyses.prosthesis.simulate.walk import bushing_of, read, walk_of
+from geocontact.analyses.prosthesis.stance_files import numbers_table
+from geocontact.below_knee_prosthesis.foot_numbers import all_numbers
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import Inertial, Leg, Person
 from geocontact.below_knee_prosthesis.leg_tree import LegMotion, driving_inputs
+from geocontact.below_knee_prosthesis.recorded_walk import Walk
 from geocontact.below_knee_prosthesis.simulate import simulate_stance
 from geocontact.below_knee_prosthesis.stance_model import stance_numbers
 from geocontact.contact.bushing import Bushing
@@ -117,7 +119,7 @@ def walk_and_table(folder: Path, **options: Any) -> tuple[Walk, ProsthesisSimula
         warnings.simplefilter("ignore", gc.InputWarning)
         o = ProsthesisSimulateOptions(TRIAL / "walking.trc", **(GIVEN | options))
         opened(Record("prosthesis simulate", {}))
-        walk = fitted_walk(read(o), o)
+        walk = walk_of(read(o), o)
     write_table(numbers_table(all_numbers(walk.leg, walk.foot, walk.fulcrum, bushing_of(o))), folder, "numbers")
     return walk, o, read_back(folder)
 

@@ -11,21 +11,13 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.json_file import plain
-from geocontact.analyses.frame.record import Record
-from geocontact.analyses.prosthesis.simulate.result import (
-    beside_words,
-    curves_table,
-    doubt,
-    errors_table,
-    found_words,
-    summary,
-)
+from geocontact.analyses.prosthesis.simulate.result import beside_words, curves_table, errors_table, found_words
 from geocontact.below_knee_prosthesis.evaluation import stance_errors
+from geocontact.below_knee_prosthesis.stance_summary import doubts, summary
 from geocontact.io.opensim.external_loads import read_external_loads
 from tests.below_knee_prosthesis.stances import a_stance
 from tests.below_knee_prosthesis.test_stance_errors import plate_of, walked
 from tests.cli.calls import MESHES
-from tests.recording import opened
 
 TRIAL = MESHES / "gait_P1_medium_1"
 GIVEN: dict[str, Any] = {
@@ -107,14 +99,9 @@ def test_a_simulation_that_ends_before_toe_off_says_so() -> None:
     """A number that there is none of is not printed."""
     own, seen = np.arange(0.0, 0.662, 0.002), np.arange(-0.2, 1.2, 0.002)
     found = a_stance(own, walked(own))
-    errors, told, record = (
-        stance_errors(found, plate_of(seen)),
-        summary(found),
-        opened(Record("prosthesis simulate", {})),
-    )
-    doubt(found)
-    assert any("still on the floor" in line and "0.66 s" in line for line in record.warnings)
-    words = [found_words(found, told), beside_words(errors), *record.warnings]
+    errors, told, doubted = stance_errors(found, plate_of(seen)), summary(found), doubts(found)
+    assert any("still on the floor" in line and "0.66 s" in line for line in doubted)
+    words = [found_words(found, told), beside_words(errors), *doubted]
     assert not any("nan" in line for line in words), words
     assert "not over after 0.55 s" in words[0]
     assert "over the first 80% of the plate's stance" in words[1]
@@ -126,8 +113,7 @@ def test_a_simulation_that_ends_before_toe_off_says_so() -> None:
 
 def test_a_whole_stance_has_its_length() -> None:
     own = np.arange(0.0, 0.95, 0.002)
-    found, record = a_stance(own, walked(own)), opened(Record("prosthesis simulate", {}))
-    doubt(found)
-    assert not any("still on the floor" in line for line in record.warnings)
+    found = a_stance(own, walked(own))
+    assert not any("still on the floor" in line for line in doubts(found))
     assert found_words(found, summary(found)).startswith("stance of 0.69 s at the fulcrum of 117 mm")
     assert beside_words(stance_errors(found, plate_of(own))).endswith("stance +0 ms")

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.analyses.prosthesis.leg_and_foot import foot_with_law
+from geocontact.analyses.prosthesis.recorded_files import foot_with_law
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
 from geocontact.below_knee_prosthesis.calibration.known_numbers import knowledge
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResiduals

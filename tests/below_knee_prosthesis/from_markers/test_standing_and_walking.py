@@ -16,6 +16,7 @@ from geocontact.below_knee_prosthesis.from_markers import (
     functional_hip,
     hip_by_regression,
     mirrored_name,
+    standing_hip,
     standing_leg,
     walked,
 )
@@ -113,3 +114,15 @@ def test_markers_on_a_line_are_refused(standing: MarkerTrajectories) -> None:
     )
     with pytest.raises(InputError, match="lie on a line"):
         standing_leg(replace(standing, positions=places), Person(77.0), vsf_keel(), BELOW)
+
+
+def test_both_trials_together_find_the_hip_wherever_the_person_stood(leg: Leg, standing: MarkerTrajectories) -> None:
+    """In the standing pelvis' frame, though the person stood elsewhere and turned."""
+    values = np.zeros((60, len(RECORDED)))
+    values[:, 6:9] = 0.5 * np.random.default_rng(5).standard_normal((60, 3))
+    turn = Rotation.from_euler("y", 0.4)
+    places = turn.apply(standing.positions.reshape(-1, 3)).reshape(standing.positions.shape)
+    places = places + np.array([0.3, 0.0, -1.0])
+    elsewhere = replace(standing, positions=places)
+    found = standing_hip(elsewhere, seen(leg, values, np.arange(60.0)))
+    np.testing.assert_allclose(found.first, leg.hip, atol=1e-6)

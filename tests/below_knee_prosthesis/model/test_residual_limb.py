@@ -12,10 +12,10 @@ from scipy.optimize import brentq
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
-from geocontact.analyses.prosthesis.scale.standing import read as read_stood
+from geocontact.analyses.prosthesis.scale.result import read as read_stood
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
-from geocontact.analyses.prosthesis.simulate.walk import fitted_walk
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
+from geocontact.analyses.prosthesis.simulate.walk import walk_of
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_amputee
 from tests.analyses.prosthesis.test_simulate import GIVEN, TRIAL
@@ -50,7 +50,7 @@ def test_one_person_has_one_residual_limb_in_both_commands() -> None:
         warnings.simplefilter("ignore", gc.InputWarning)
         o = ProsthesisSimulateOptions(TRIAL / "walking.trc", **GIVEN)
         opened(Record("simulate", {}))
-        walk = fitted_walk(read_walk(o), o)
+        walk = walk_of(read_walk(o), o)
         standing = MESHES / "amputee_P1" / "standing.trc"
         stood = read_stood(ProsthesisScaleOptions(standing, mass=77.3))
     made = standing_amputee(stood.seen, stood.person, stood.foot, stood.fulcrum, 0.03)

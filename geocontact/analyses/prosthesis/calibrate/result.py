@@ -29,12 +29,18 @@ from geocontact.analyses.prosthesis.calibrate.foot_on_plate import FootOnPlate, 
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.calibrate.show import calibration_page, stance_figure
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
-from geocontact.below_knee_prosthesis.calibration.known_numbers import KnownNumber
+from geocontact.below_knee_prosthesis.calibration.fit import (
+    doubts_of_fit,
+    fore_aft_error,
+    known_of,
+    residual_over_noise,
+    stance_fit,
+)
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
 from geocontact.below_knee_prosthesis.leg import FootOffset
-from geocontact.identify.signals.agreement import Agreement, agreement
+from geocontact.identify.signals.agreement import Agreement
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -86,11 +92,6 @@ def _foot(offset: FootOffset, standing: str) -> str:
 LAW = "law.toml"
 
 
-def known_of(found: SoleCalibration | WholeCalibration) -> tuple[KnownNumber, ...]:
-    """Numbers of the zones, then height and pitch of the foot beside its standing trial."""
-    return *found.knowledge.numbers, *found.knowledge.beside
-
-
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class ProsthesisCalibrateResult(Result):
     """Numbers of the zones, and the stance with them.
@@ -124,7 +125,7 @@ class ProsthesisCalibrateResult(Result):
     @property
     def residual(self) -> float:
         """Residual of the data at the last numbers, over their noise, root mean square."""
-        return float(np.sqrt(np.mean(self.last.residuals.of_data(self.last.at) ** 2)))
+        return residual_over_noise(self.last)
 
     @property
     def last(self) -> SoleCalibration | WholeCalibration:
@@ -174,39 +175,22 @@ class ProsthesisCalibrateResult(Result):
         super().write_files(folder)
 
 
-FAR, LARGE = 2.0, 2.0
-"""Standard deviations of height and pitch, and residual over noise, root mean square, that are warned of."""
-MISSED = 0.04
-"""Vertical force that may be missed, root mean square, in body weights: stances that the model made leave 0.01 to 0.02,
-a foot that stood 0.57 degrees out of flat left 0.053 with height and pitch held. Their errors are in the residual's
-noise, so that it alone hardly says so."""
-SHARE_OF_DEPTH = 1.0
-"""Share of its radius that a sphere may sink before its centre is under the ground."""
-
-
 def run(given: FootOnPlate, o: ProsthesisCalibrateOptions) -> ProsthesisCalibrateResult:
     """Numbers of the zones, their intervals, and the stance with them."""
-    foot, stance = given.foot, given.stance
     found = along_poses(given, o)
     whole = on_whole_model(given, found, o)
-    motion, slip = found.residuals.motion(found.at, 0)
-    predicted = found.residuals.stance(found.at, 0).predicted(found.foot.at(stance.fulcrum), motion)
-    if whole is not None:
-        one = whole.residuals.whole(whole.at, 0)
-        predicted, slip = one.channels(one.shown(whole.foot)), 0.0 * slip
-    step = float(np.median(np.diff(stance.time)))
-    model, measured = predicted / stance.weight, stance.measured / stance.weight
+    fit = stance_fit(found, whole)
     result = ProsthesisCalibrateResult(
         options=o,
-        stance=stance,
+        stance=given.stance,
         calibration=found,
         whole=whole,
-        predicted=predicted,
-        slip=slip,
-        vertical=agreement(model[:, 1], measured[:, 1], step, 0.0),
-        centre=agreement(predicted[:, 3], stance.centre, step, 0.0),
+        predicted=fit.predicted,
+        slip=fit.slip,
+        vertical=fit.vertical,
+        centre=fit.centre,
     )
-    if (motion.loads.depth > SHARE_OF_DEPTH * foot.sole.spheres.radius).any():
+    if fit.sunk:
         reserve("a sphere sinks beyond its radius: the foot is recorded too low, or the sole is too soft")
     _summarise(result)
     return result
@@ -224,31 +208,6 @@ def _summarise_fit(r: ProsthesisCalibrateResult) -> None:
         reserve(words)
 
 
-def doubts_of_fit(height: float, pitch: float, residual: float, vertical: float) -> list[str]:
-    """Reasons against a fit.
-
-    Parameters
-    ----------
-    height, pitch
-        Of the foot beside its standing trial, in standard deviations of their errors.
-    residual
-        Root mean square over what plate, height and pitch leave.
-    vertical
-        Root mean square difference of the vertical force, in body weights.
-    """
-    reasons = []
-    if max(abs(height), abs(pitch)) > FAR:
-        what = "height or pitch of the foot is more than two standard deviations beside the standing trial"
-        reasons.append(f"{what}: did the foot stand flat in `static`?")
-    if residual > LARGE or vertical > MISSED:
-        reasons.append(
-            f"the vertical force is missed by {vertical:.1%} of body weight, the residual is {residual:.1f} times its "
-            "noise: the model does not fit this stance, its numbers and their intervals are not to be trusted; check "
-            "`mass`, `setting`, plate and markers"
-        )
-    return reasons
-
-
 def _summarise(r: ProsthesisCalibrateResult) -> None:
     """Sentences, reservations and results of a calibration."""
     found = r.last
@@ -261,8 +220,7 @@ def _summarise(r: ProsthesisCalibrateResult) -> None:
     apart = found.knowledge.told_apart
     along = f"is met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s beside the recorded speed"
     if r.whole is not None:
-        off = (r.predicted - r.stance.measured)[:, 0] / r.stance.weight
-        along = f"fore and aft within {100.0 * float(np.sqrt(np.mean(off**2))):.1f} % of body weight"
+        along = f"fore and aft within {100.0 * fore_aft_error(r.predicted, r.stance):.1f} % of body weight"
     say(
         f"vertical force within {100.0 * r.vertical.rmsd:.1f} % of body weight (R² {r.vertical.r2:.3f}), centre of "
         f"pressure within {100.0 * r.centre.rmsd:.1f} % of the foot (R² {r.centre.r2:.2f}); the force along the floor "

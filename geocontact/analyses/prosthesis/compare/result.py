@@ -43,9 +43,16 @@ from geocontact.analyses.prosthesis.compare.stances import (
     summary_table,
     trials_table,
 )
-from geocontact.analyses.prosthesis.leg_and_foot import counted_twice, numbers_of, numbers_table
-from geocontact.analyses.prosthesis.stance_files import write_coordinates, write_loads, write_spheres
-from geocontact.below_knee_prosthesis.evaluation import FEWEST, JudgedStance, Oddness, oddness, reasons
+from geocontact.analyses.prosthesis.stance_files import (
+    counted_twice,
+    numbers_table,
+    write_coordinates,
+    write_loads,
+    write_spheres,
+)
+from geocontact.below_knee_prosthesis.comparison import odd_stances
+from geocontact.below_knee_prosthesis.evaluation import FEWEST, JudgedStance, Oddness, reasons
+from geocontact.below_knee_prosthesis.foot_numbers import numbers_of
 from geocontact.below_knee_prosthesis.leg import Side
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.errors import InputError
@@ -131,13 +138,11 @@ def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions) -> Prosth
     if not found:
         raise InputError(o.study, "[[trials]]", "no stance could be simulated", "look at one with prosthesis simulate")
     stances = tuple(judged_stance(one, found[one.trial.name]) for one in given if one.trial.name in found)
-    transfer = [one for one in stances if not one.calibrated]
-    odd = oddness({one.name: one.errors.table["resultant"][1] for one in transfer})
     result = ProsthesisCompareResult(
         options=o,
         stances=stances,
         sides={one.trial.name: one.person.side for one in given},
-        odd=odd,
+        odd=odd_stances(stances),
     )
     _summarise(result)
     return result

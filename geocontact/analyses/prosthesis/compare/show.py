@@ -11,7 +11,8 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.prosthesis.compare.stances import UNITS, by_setting, curves_of, plain_curves
+from geocontact.analyses.prosthesis.compare.stances import UNITS
+from geocontact.below_knee_prosthesis.comparison import by_setting, curves_of, plain_curves
 from geocontact.below_knee_prosthesis.evaluation import ANOTHER, MEAN, JudgedStance
 from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words

@@ -7,33 +7,30 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, collecting, current, reserve
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
-from geocontact.analyses.prosthesis.simulate.walk import Walk, fitted_walk, simulated
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
+from geocontact.analyses.prosthesis.simulate.walk import simulated, walk_of
+from geocontact.below_knee_prosthesis.comparison import against_predictors, by_setting, ensembles
 from geocontact.below_knee_prosthesis.evaluation import (
     ANKLE,
     ANOTHER,
     MEAN,
-    QUANTITIES,
     JudgedStance,
-    MeasuredCurve,
     Oddness,
     PlateStance,
     judged,
     reasons,
-    trivial_curves,
 )
 from geocontact.below_knee_prosthesis.leg import RESIDUAL
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
+from geocontact.below_knee_prosthesis.recorded_walk import Walk
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.errors import InputError
-from geocontact.identify.signals.agreement import agreement
 from geocontact.io.recordings.gait_study import GaitPerson, GaitStance, read_gait_study
 
 
@@ -58,7 +55,7 @@ def read(o: ProsthesisCompareOptions) -> tuple[StudiedStance, ...]:
 def _stance(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -> StudiedStance:
     asked = _asked(trial, person, o)
     with collecting(Record("prosthesis simulate", {})) as own:
-        walk = fitted_walk(read_walk(asked), asked)
+        walk = walk_of(read_walk(asked), asked)
     for entry in own.inputs:
         current().inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
     for line in own.warnings:
@@ -116,37 +113,27 @@ UNITS = {"impulse": "s", ANKLE: "N m/kg"}
 """Units of quantities that are no shares: forces are over body weight, centres over the foot's length."""
 
 
-def plain_curves(stances: Sequence[JudgedStance], name: str) -> dict[str, dict[str, Float[np.ndarray, " s"]]]:
-    """Curves of a quantity by both predictors without a model, by stance."""
-    plates = [MeasuredCurve(each.name, each.person, each.setting, each.measured(name)) for each in stances]
-    return {one.name: trivial_curves(plates, one) for one in plates}
-
-
 def errors_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
     """One row for each stance and quantity: the model's R² and error, and those of both trivial predictors."""
     rows = []
-    plain = {name: plain_curves(stances, name) for name in QUANTITIES}
-    for one in stances:
-        for name in QUANTITIES:
-            r2, off = one.errors.table[name]
-            row: dict[str, object] = {
-                "trial": one.name,
-                "person": one.person,
-                "setting": one.setting,
-                "calibrated": one.calibrated,
-                "quantity": name,
-                "unit": UNITS.get(name, "-"),
-                "r2 [-]": r2,
-                "rmse": off,
-            }
-            seen = np.where(np.isfinite(one.simulated(name)), one.measured(name), np.nan)  # the same samples for all
-            told = {label: agreement(curve, seen, 1.0, 0.0) for label, curve in plain[name][one.name].items()}
-            for label, column in ((MEAN, MEAN), (ANOTHER, "another")):
-                own = told.get(label)
-                row[f"{column} r2 [-]"] = np.nan if own is None else own.r2
-                row[f"{column} rmse"] = np.nan if own is None else own.rmsd
-            row["better"] = all(off < each.rmsd for each in told.values()) if told else np.nan
-            rows.append(row)
+    for each in against_predictors(stances):
+        one, name = each.stance, each.quantity
+        row: dict[str, object] = {
+            "trial": one.name,
+            "person": one.person,
+            "setting": one.setting,
+            "calibrated": one.calibrated,
+            "quantity": name,
+            "unit": UNITS.get(name, "-"),
+            "r2 [-]": each.r2,
+            "rmse": each.rmse,
+        }
+        for label, column in ((MEAN, MEAN), (ANOTHER, "another")):
+            own = each.plain.get(label)
+            row[f"{column} r2 [-]"] = np.nan if own is None else own.r2
+            row[f"{column} rmse"] = np.nan if own is None else own.rmsd
+        row["better"] = np.nan if each.better is None else each.better
+        rows.append(row)
     return pd.DataFrame(rows)
 
 
@@ -205,39 +192,13 @@ def trials_table(stances: Sequence[JudgedStance], odd: Mapping[str, Oddness]) ->
 def ensembles_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
     """Mean and standard deviation over the stances of each setting at 101 points: simulated, measured, without a model.
 
-    The predictors without a model are those of `plain_curves`, meant over the same stances.
+    The predictors without a model are those of `comparison.plain_curves`, meant over the same stances.
     """
-    frames = []
-    plain = {name: plain_curves(stances, name) for name in QUANTITIES}
-    for setting, own in by_setting(stances).items():
-        columns: dict[str, object] = {"setting": setting, "stance [-]": own[0].errors.share}
-        for name in QUANTITIES:
-            unit = UNITS.get(name, "-")
-            for label, curves in (
-                (name, [one.simulated(name) for one in own]),
-                (f"{name} measured", [one.measured(name) for one in own]),
-                *((f"{name} {label}", curves_of(plain[name], own, label)) for label in (MEAN, ANOTHER)),
-            ):
-                if not curves:
-                    continue
-                columns[f"{label} [{unit}]"] = np.mean(curves, axis=0)
-                columns[f"{label} sd [{unit}]"] = np.std(curves, axis=0)
+    frames, own = [], by_setting(stances)
+    for setting, found in ensembles(stances).items():
+        columns: dict[str, object] = {"setting": setting, "stance [-]": own[setting][0].errors.share}
+        for one in found:
+            unit = UNITS.get(one.quantity, "-")
+            columns |= {f"{one.label} [{unit}]": one.mean, f"{one.label} sd [{unit}]": one.sd}
         frames.append(pd.DataFrame(columns))
     return pd.concat(frames, ignore_index=True)
-
-
-def curves_of(
-    plain: Mapping[str, Mapping[str, Float[np.ndarray, " s"]]], own: Sequence[JudgedStance], label: str
-) -> list[Float[np.ndarray, " s"]]:
-    """Curves of one predictor for some stances; nothing where it has none of one of them."""
-    found = [plain[one.name].get(label) for one in own]
-    return [] if any(each is None for each in found) else [each for each in found if each is not None]
-
-
-def by_setting(stances: Sequence[JudgedStance]) -> dict[str, list[JudgedStance]]:
-    """Stances that nothing was fitted to, by setting; all of them where there are none such."""
-    kept = [one for one in stances if not one.calibrated] or list(stances)
-    found: dict[str, list[JudgedStance]] = {}
-    for one in kept:
-        found.setdefault(one.setting, []).append(one)
-    return found

@@ -23,28 +23,33 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.show import design_figure, design_page, stance_share
 from geocontact.analyses.prosthesis.design.sweep import (
-    ALIGNMENTS,
+    OF_ONE_STEP,
     SHOWN,
     UNITS,
-    VALUES,
-    AimAnswer,
-    Sweep,
-    Together,
     answers_table,
+    difference_words,
+    intact_table,
+    intact_words,
     pair_words,
+    pairs_table,
+    ranges_table,
     sensitivities_table,
+    shown_values,
+    sweep_table,
+    together_table,
     value_words,
-    varied_foot,
-    wanted_of,
 )
-from geocontact.analyses.prosthesis.design.trial import OF_ONE_STEP, FootAndTrial, intact_table, intact_words, read
-from geocontact.analyses.prosthesis.leg_and_foot import leg_numbers, numbers_table, numbers_without_leg, offset_words
-from geocontact.below_knee_prosthesis.design.choice import FootChoice, choose
+from geocontact.analyses.prosthesis.design.trial import FootAndTrial, read, varied
+from geocontact.analyses.prosthesis.stance_files import numbers_table, offset_words
+from geocontact.below_knee_prosthesis.design.choice import FootChoice
 from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import LEVEL, FootTask, Terrain, words
-from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob, Response
+from geocontact.below_knee_prosthesis.design.knob import Knob, Response
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, shank_path
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity
+from geocontact.below_knee_prosthesis.design.sweep import AimAnswer, Sweep, Together
+from geocontact.below_knee_prosthesis.design.varied import ALIGNMENTS, VALUES
+from geocontact.below_knee_prosthesis.foot_numbers import leg_numbers, numbers_without_leg
 from geocontact.data.parameter import Number
 
 if TYPE_CHECKING:
@@ -94,16 +99,17 @@ class ProsthesisDesignResult(Result):
         vary = self.sweep.knob.vary
         tables = {
             "answers": answers_table(self.answers, vary),
-            "ranges": self.sweep.ranges(),
+            "ranges": ranges_table(self.sweep),
             "sensitivities": sensitivities_table(self.hangs_on),
-            "sweep": self.sweep.table(),
+            "sweep": sweep_table(self.sweep),
             "shapes": self._shapes(),
             "numbers": numbers_table(self.numbers),
         }
         if self.intact is not None:
             tables["intact"] = intact_table(self.intact)
         if self.together is not None:
-            tables |= {"pairs": self.together.pairs(vary, self.answers), "together": self.together.table(vary)}
+            tables["pairs"] = pairs_table(self.together, vary, self.answers)
+            tables["together"] = together_table(self.together, vary)
         return tables
 
     def figures(self) -> dict[str, Figure]:
@@ -138,27 +144,25 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions) -> ProsthesisDesignResu
     """Bands of every outcome over the values, the best value for every aim."""
     trial = given.trial
     knob = Knob(o.vary, VALUES[o.vary], trial.fulcrum, Terrain(o.slope, o.edge))
-    varied = varied_foot(given, knob, o)
-    sweep = Sweep(knob, varied.drawn.drawn, varied.drawn.free, o.level)
+    found = varied(given, knob, o)
+    sweep = Sweep(knob, found.drawn.drawn, found.drawn.free, o.level)
     near = {} if given.intact is None else given.intact.outcomes()
-    answers = tuple(
-        _answer(sweep, wanted_now(AIMS[k], o, varied.task, near), AIMS[k] in near, k) for k in range(len(AIMS))
-    )
-    beside = varied.drawn.beside
+    answers = sweep.answers(found.task, {} if o.target is None else {o.aim: o.target}, near)
+    beside = found.drawn.beside
     result = ProsthesisDesignResult(
         options=o,
         sweep=sweep,
         answers=answers,
-        ends=varied.ends,
-        shapes=varied.shapes,
-        task=varied.task,
-        held=varied.held,
-        hangs_on=varied.hangs_on,
+        ends=found.ends,
+        shapes=found.shapes,
+        task=found.task,
+        held=found.held,
+        hangs_on=found.hangs_on,
         together=Together.of(knob.settings, ALIGNMENTS, beside, answers, o.level) if o.together else None,
         numbers=leg_numbers(trial.leg) | numbers_without_leg(given.foot, trial.fulcrum),
         intact=None if given.intact is None else near,
     )
-    _reserve(result, varied.drawn.lost)
+    _reserve(result, found.drawn.lost)
     _summarise(result)
     if trial.offset.given:
         say(offset_words(trial.offset))
@@ -179,19 +183,6 @@ def _reserve(r: ProsthesisDesignResult, lost: int) -> None:
     if knob.terrain != LEVEL:
         where = words(knob.terrain)
         reserve(f"judged {where}: the stance was recorded on a floor, its load and its turns are kept")
-
-
-def wanted_now(aim: Aim, o: ProsthesisDesignOptions, task: FootTask, near: Mapping[Aim, float]) -> float | None:
-    """Value of an aim that is wanted: a given one, else what the intact side has, else the usual one."""
-    if aim == o.aim and o.target is not None:
-        return o.target
-    return near.get(aim, wanted_of(aim, task))
-
-
-def _answer(sweep: Sweep, target: float | None, of_intact: bool, k: int) -> AimAnswer:
-    knob, measure = sweep.knob, MEASURES[AIMS[k]]
-    choice = choose(knob.settings, sweep.drawn[..., k], measure.sense, target, knob.present, sweep.level)
-    return AimAnswer(AIMS[k], target, choice, of_intact)
 
 
 def _summarise(r: ProsthesisDesignResult) -> None:
@@ -221,10 +212,10 @@ def _summarise(r: ProsthesisDesignResult) -> None:
         note("intact", plain(dict(r.intact)))
     if r.together is not None:
         say(pair_words(knob.vary, chosen, r.together))
-    for response, rows in r.sweep.differences().items():
-        say(f"{response}, {shown(knob.settings[-1])} in place of {shown(knob.settings[0])}: {'; '.join(rows)}")
+    for response, line in difference_words(r.sweep).items():
+        say(f"{response}, {shown(knob.settings[-1])} in place of {shown(knob.settings[0])}: {line}")
     ends = r.sweep.ends
-    note("design_values", plain(r.sweep.shown.tolist()))
+    note("design_values", plain(shown_values(r.sweep).tolist()))
     note("torques_alone_hold_s", plain(r.held))
     note(
         "design",

@@ -10,11 +10,12 @@ import pandas as pd
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, UNITS, AimAnswer, Sweep
+from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, UNITS, shown_values
 from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import words
 from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES, Knob, Response
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, shank_path
+from geocontact.below_knee_prosthesis.design.sweep import AimAnswer, Sweep
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, panels
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
 from geocontact.view.page.tables import frame_table
@@ -43,8 +44,8 @@ def design_figure(
         panel, measure = axes[k], MEASURES[AIMS[k]]
         for j, response in enumerate(RESPONSES):
             median, lower, upper = bands[:, j, :, k]
-            panel.plot(sweep.shown, median, color=HUES[j], ls=LINES[j], label=response)
-            panel.fill_between(sweep.shown, lower, upper, color=HUES[j], alpha=0.2, lw=0)
+            panel.plot(shown_values(sweep), median, color=HUES[j], ls=LINES[j], label=response)
+            panel.fill_between(shown_values(sweep), lower, upper, color=HUES[j], alpha=0.2, lw=0)
         panel.axvline(factor * sweep.knob.present, color=GREY, lw=0.7)
         if answer.choice.told:
             panel.axvspan(factor * answer.choice.lower, factor * answer.choice.upper, color=PALETTE[2], alpha=0.2, lw=0)
@@ -133,7 +134,7 @@ def design_page(drawn: bytes, sweep: Sweep, tables: Mapping[str, pd.DataFrame], 
     return Page(
         title=f"Which {vary} of the foot suits this person",
         subtitle=f"Recorded at the fulcrum of {1e3 * sweep.knob.fulcrum:.0f} mm; {len(sweep.drawn)} draws{place}",
-        time=sweep.shown,
+        time=shown_values(sweep),
         time_label=f"{vary} [{UNITS[vary]}]",
         headline=headline(sentences, most=2),
         sections=tuple(sections),

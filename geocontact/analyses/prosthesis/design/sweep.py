@@ -1,25 +1,17 @@
-"""A sweep of one thing about a foot, alone or with its alignment: bands and best values, in numbers and words."""
+"""A sweep of one thing about a foot, alone or with its alignment, in tables and words."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import listener
-from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
-from geocontact.analyses.prosthesis.design.trial import FootAndTrial
-from geocontact.below_knee_prosthesis.design.choice import FootChoice, PairChoice, choose_pair
-from geocontact.below_knee_prosthesis.design.drawn import Draws, TrialErrors, draws, task_again
-from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
-from geocontact.below_knee_prosthesis.design.foot_task import FootTask
-from geocontact.below_knee_prosthesis.design.knob import AIMS, JUDGED, RESPONSES, Knob, Response, Vary
-from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, ROLLING, Aim
-from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity, Unit, Unknown, sensitivities
-from geocontact.data.errors import InputError
+from geocontact.below_knee_prosthesis.design.knob import AIMS, JUDGED, RESPONSES, Vary
+from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim
+from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity, Unit
+from geocontact.below_knee_prosthesis.design.sweep import AimAnswer, Sweep, Together
 
 SHOWN: dict[Vary, tuple[float, str]] = {
     "fulcrum": (1e3, "mm"),
@@ -29,8 +21,7 @@ SHOWN: dict[Vary, tuple[float, str]] = {
 """How many of what a value is shown in."""
 DIGITS: dict[Vary, int] = {"fulcrum": 0, "alignment": 1, "stiffness": 2}
 UNITS: dict[Vary, str] = {"fulcrum": "mm", "alignment": "deg", "stiffness": "-"}
-NO_DIFFERENCE = 1e-3
-"""Share of an outcome's size: a smaller difference is none."""
+BAND = ("median", "lower", "upper")
 
 
 def value_words(vary: Vary, value: float) -> str:
@@ -39,133 +30,61 @@ def value_words(vary: Vary, value: float) -> str:
     return f"{factor * value:.{DIGITS[vary]}f}{unit and ' '}{unit}"
 
 
-@dataclass(frozen=True, eq=False)
-class Sweep:
-    """Outcomes of all draws over the values.
+def shown_values(sweep: Sweep) -> Float[np.ndarray, " n"]:
+    """Values in the unit that they are shown in."""
+    return SHOWN[sweep.knob.vary][0] * sweep.knob.settings
 
-    Parameters
-    ----------
-    drawn
-        By draw, response, value and aim, with the recorded load: what the best value is sought in.
-    free
-        The same with the load that would follow from the foot: what bands and differences are of.
-    level
-        Probability of the bands.
-    """
 
-    knob: Knob
-    drawn: Float[np.ndarray, "d responses n aims"]
-    free: Float[np.ndarray, "d responses n aims"]
-    level: float
-
-    @property
-    def bands(self) -> Float[np.ndarray, "three responses n aims"]:
-        """Median, lower and upper end."""
-        ends = [0.5, 0.5 * (1.0 - self.level), 0.5 * (1.0 + self.level)]
-        return np.asarray(np.quantile(self.free, ends, axis=0))
-
-    @property
-    def shown(self) -> Float[np.ndarray, " n"]:
-        """Values in the unit that they are shown in."""
-        return SHOWN[self.knob.vary][0] * self.knob.settings
-
-    def table(self) -> pd.DataFrame:
-        """Long: one row for each value, response and outcome."""
-        rows, bands = [], self.bands
-        for k, aim in enumerate(AIMS):
-            for j, response in enumerate(RESPONSES):
-                for i, value in enumerate(self.shown):
-                    median, lower, upper = map(float, bands[:, j, i, k])
-                    rows.append(
-                        {
-                            f"{self.knob.vary} [{UNITS[self.knob.vary]}]": float(value),
-                            "response": response,
-                            "outcome": aim,
-                            "unit": MEASURES[aim].unit,
-                            "median": median,
-                            "lower": lower,
-                            "upper": upper,
-                        }
-                    )
-        return pd.DataFrame(rows)
-
-    @property
-    def ends(self) -> Float[np.ndarray, "two n aims"]:
-        """Least and most of the medians over the responses of the person."""
-        median = self.bands[0]
-        return np.stack([median.min(axis=0), median.max(axis=0)])
-
-    def ranges(self) -> pd.DataFrame:
-        """Long: between which ends an outcome lies at each value, with the responses that make them."""
-        rows, (median, lower, upper) = [], self.bands
-        for k, aim in enumerate(AIMS):
-            for i, value in enumerate(self.shown):
-                least, most = int(median[:, i, k].argmin()), int(median[:, i, k].argmax())
-                rows.append(
-                    {
-                        f"{self.knob.vary} [{UNITS[self.knob.vary]}]": float(value),
-                        "outcome": aim,
-                        "unit": MEASURES[aim].unit,
-                        "least": float(median[least, i, k]),
-                        "with": RESPONSES[least],
-                        "most": float(median[most, i, k]),
-                        "with it": RESPONSES[most],
-                        "lower": float(lower[:, i, k].min()),
-                        "upper": float(upper[:, i, k].max()),
-                    }
-                )
-        return pd.DataFrame(rows)
-
-    def differences(self) -> dict[str, list[str]]:
-        """The last value in place of the first, draw by draw, in words, by response."""
-        found: dict[str, list[str]] = {}
+def sweep_table(sweep: Sweep) -> pd.DataFrame:
+    """Long: one row for each value, response and outcome."""
+    rows, bands, vary = [], sweep.bands, sweep.knob.vary
+    for k, aim in enumerate(AIMS):
         for j, response in enumerate(RESPONSES):
-            words = []
-            for k, aim in enumerate(AIMS):
-                off = self.free[:, j, -1, k] - self.free[:, j, 0, k]
-                median, lower, upper = np.quantile(off, [0.5, 0.5 * (1.0 - self.level), 0.5 * (1.0 + self.level)])
-                name, unit = MEASURES[aim].words.partition(",")[0], MEASURES[aim].unit
-                small = NO_DIFFERENCE * float(np.abs(self.free[..., k]).mean())
-                if max(abs(lower), abs(upper)) < small:
-                    words.append(f"{name} the same")
-                elif lower <= 0.0 <= upper:
-                    words.append(f"{name} cannot tell ({lower:+.3g} to {upper:+.3g} {unit})")
-                else:
-                    words.append(f"{name} {median:+.3g} ({lower:+.3g} to {upper:+.3g}) {unit}")
-            found[response] = words
-        return found
+            for i, value in enumerate(shown_values(sweep)):
+                row: dict[str, object] = {f"{vary} [{UNITS[vary]}]": float(value), "response": response}
+                row |= {"outcome": aim, "unit": MEASURES[aim].unit}
+                rows.append(row | dict(zip(BAND, map(float, bands[:, j, i, k]), strict=True)))
+    return pd.DataFrame(rows)
 
 
-@dataclass(frozen=True)
-class AimAnswer:
-    """The best value for one aim.
-
-    Parameters
-    ----------
-    target
-        Wanted value; None where the least or the most is best.
-    of_intact
-        Whether it is what the intact side has.
-    """
-
-    aim: Aim
-    target: float | None
-    choice: FootChoice
-    of_intact: bool = False
-
-    @property
-    def wanted(self) -> str:
-        """In words."""
-        measure = MEASURES[self.aim]
-        if self.target is None:
-            return f"the {measure.sense}"
-        whose = "the intact side's " if self.of_intact else ""
-        return f"nearest to {whose}{self.target:.3g} {measure.unit}"
+def ranges_table(sweep: Sweep) -> pd.DataFrame:
+    """Long: between which ends an outcome lies at each value, with the responses that make them."""
+    rows, (median, lower, upper), vary = [], sweep.bands, sweep.knob.vary
+    for k, aim in enumerate(AIMS):
+        for i, value in enumerate(shown_values(sweep)):
+            least, most = int(median[:, i, k].argmin()), int(median[:, i, k].argmax())
+            rows.append(
+                {
+                    f"{vary} [{UNITS[vary]}]": float(value),
+                    "outcome": aim,
+                    "unit": MEASURES[aim].unit,
+                    "least": float(median[least, i, k]),
+                    "with": RESPONSES[least],
+                    "most": float(median[most, i, k]),
+                    "with it": RESPONSES[most],
+                    "lower": float(lower[:, i, k].min()),
+                    "upper": float(upper[:, i, k].max()),
+                }
+            )
+    return pd.DataFrame(rows)
 
 
-def wanted_of(aim: Aim, task: FootTask) -> float | None:
-    """Value that is wanted where the user does not say; None where the least or the most is."""
-    return ROLLING * task.leg_length if MEASURES[aim].sense == "nearest" else None
+def difference_words(sweep: Sweep) -> dict[str, str]:
+    """The last value in place of the first, draw by draw, by response."""
+    found: dict[str, str] = {}
+    for j, response in enumerate(RESPONSES):
+        words = []
+        for k, aim in enumerate(AIMS):
+            off = sweep.difference(j, k)
+            name, unit = MEASURES[aim].words.partition(",")[0], MEASURES[aim].unit
+            if off.small:
+                words.append(f"{name} the same")
+            elif off.unsure:
+                words.append(f"{name} cannot tell ({off.lower:+.3g} to {off.upper:+.3g} {unit})")
+            else:
+                words.append(f"{name} {off.median:+.3g} ({off.lower:+.3g} to {off.upper:+.3g}) {unit}")
+        found[response] = "; ".join(words)
+    return found
 
 
 def answers_table(answers: tuple[AimAnswer, ...], vary: Vary) -> pd.DataFrame:
@@ -192,78 +111,37 @@ def answers_table(answers: tuple[AimAnswer, ...], vary: Vary) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@dataclass(frozen=True, eq=False)
-class Together:
-    """Outcomes of all pairs, with the recorded load.
+def together_table(together: Together, vary: Vary) -> pd.DataFrame:
+    """Long: one row for each pair, response and outcome."""
+    factor, turn, rows = SHOWN[vary][0], SHOWN["alignment"][0], []
+    for k, aim in enumerate(AIMS):
+        for j, response in enumerate(JUDGED):
+            for m, angle in enumerate(together.alignments):
+                for n, value in enumerate(together.values):
+                    row: dict[str, object] = {f"{vary} [{UNITS[vary]}]": factor * float(value)}
+                    row |= {"alignment [deg]": turn * float(angle), "response": response}
+                    row |= {"outcome": aim, "unit": MEASURES[aim].unit}
+                    rows.append(row | dict(zip(BAND, map(float, together.bands[:, m, j, n, k]), strict=True)))
+    return pd.DataFrame(rows)
 
-    Parameters
-    ----------
-    values, alignments
-        In SI.
-    bands
-        Median, lower and upper end.
-    choices
-        By aim.
-    """
 
-    values: Float[np.ndarray, " n"]
-    alignments: Float[np.ndarray, " m"]
-    bands: Float[np.ndarray, "three m judged n aims"]
-    choices: Mapping[Aim, PairChoice]
-
-    @classmethod
-    def of(
-        cls,
-        values: Float[np.ndarray, " n"],
-        alignments: Float[np.ndarray, " m"],
-        drawn: Float[np.ndarray, "d m judged n aims"],
-        answers: Sequence[AimAnswer],
-        level: float,
-    ) -> Together:
-        """Judged as the answers for one value alone are."""
-        given = (values, alignments)
-        choices = {
-            each.aim: choose_pair(*given, drawn[..., k], MEASURES[each.aim].sense, each.target, level)
-            for k, each in enumerate(answers)
-        }
-        ends = [0.5, 0.5 * (1.0 - level), 0.5 * (1.0 + level)]
-        return cls(*given, np.asarray(np.quantile(drawn, ends, axis=0)), choices)
-
-    def table(self, vary: Vary) -> pd.DataFrame:
-        """Long: one row for each pair, response and outcome."""
-        factor, turn, rows = SHOWN[vary][0], SHOWN["alignment"][0], []
-        for k, aim in enumerate(AIMS):
-            for j, response in enumerate(JUDGED):
-                for m, angle in enumerate(self.alignments):
-                    for n, value in enumerate(self.values):
-                        median, lower, upper = map(float, self.bands[:, m, j, n, k])
-                        row: dict[str, object] = {
-                            f"{vary} [{UNITS[vary]}]": factor * float(value),
-                            "alignment [deg]": turn * float(angle),
-                            "response": response,
-                            "outcome": aim,
-                            "unit": MEASURES[aim].unit,
-                        }
-                        rows.append(row | {"median": median, "lower": lower, "upper": upper})
-        return pd.DataFrame(rows)
-
-    def pairs(self, vary: Vary, answers: Sequence[AimAnswer]) -> pd.DataFrame:
-        """One row for each aim."""
-        factor, turn, rows = SHOWN[vary][0], SHOWN["alignment"][0], []
-        what, turned = f"{vary} [{UNITS[vary]}]", "alignment [deg]"
-        for each in answers:
-            one = self.choices[each.aim]
-            (lower, upper), (least, most) = one.as_good, one.alignments
-            row: dict[str, object] = {"outcome": each.aim, "wanted": each.wanted}
-            row |= {f"best {what}": factor * one.value, f"best {turned}": turn * one.alignment}
-            row |= {f"lower {what}": factor * lower, f"upper {what}": factor * upper}
-            row |= {f"lower {turned}": turn * least, f"upper {turned}": turn * most}
-            row |= {f"best {what} alone": factor * one.alone, "better than alone": one.better}
-            row["unit"] = MEASURES[each.aim].unit
-            for response, (median, low, high) in one.gain.items():
-                row |= {f"{response}: gain": median, f"{response}: lower": low, f"{response}: upper": high}
-            rows.append(row)
-        return pd.DataFrame(rows)
+def pairs_table(together: Together, vary: Vary, answers: Sequence[AimAnswer]) -> pd.DataFrame:
+    """One row for each aim."""
+    factor, turn, rows = SHOWN[vary][0], SHOWN["alignment"][0], []
+    what, turned = f"{vary} [{UNITS[vary]}]", "alignment [deg]"
+    for each in answers:
+        one = together.choices[each.aim]
+        (lower, upper), (least, most) = one.as_good, one.alignments
+        row: dict[str, object] = {"outcome": each.aim, "wanted": each.wanted}
+        row |= {f"best {what}": factor * one.value, f"best {turned}": turn * one.alignment}
+        row |= {f"lower {what}": factor * lower, f"upper {what}": factor * upper}
+        row |= {f"lower {turned}": turn * least, f"upper {turned}": turn * most}
+        row |= {f"best {what} alone": factor * one.alone, "better than alone": one.better}
+        row["unit"] = MEASURES[each.aim].unit
+        for response, (median, low, high) in one.gain.items():
+            row |= {f"{response}: gain": median, f"{response}: lower": low, f"{response}: upper": high}
+        rows.append(row)
+    return pd.DataFrame(rows)
 
 
 def pair_words(vary: Vary, answer: AimAnswer, together: Together) -> str:
@@ -306,74 +184,29 @@ def sensitivities_table(found: Sequence[FootSensitivity]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-VALUES: dict[Vary, Float[np.ndarray, " n"]] = {
-    "fulcrum": np.linspace(0.066, 0.151, 9),
-    "alignment": np.radians(np.linspace(-6.0, 6.0, 9)),
-    "stiffness": np.linspace(0.6, 1.6, 9),
-}
-ALIGNMENTS = np.radians([-6.0, -3.0, 0.0, 3.0, 6.0])
-"""That go together with every value."""
+OF_ONE_STEP = (
+    "what the intact side has is of one step, and no error of it is in the bands; its rate of loading is the plate's, "
+    "that of a prosthetic foot its stiffness times its speed"
+)
 
 
-@dataclass(frozen=True, eq=False)
-class VariedFoot:
-    """A foot varied along a trial.
-
-    Parameters
-    ----------
-    task
-        What the foot carries.
-    drawn
-        Outcomes over the values, with what is not known drawn.
-    ends, shapes
-        First, present and last value, and the foot along the stance at each, with the numbers as they are.
-    held
-        How long joint torques alone hold the leg at each of the ends [s].
-    hangs_on
-        How far outcomes on the present foot hang on each number.
-    """
-
-    task: FootTask
-    drawn: Draws
-    ends: Knob
-    shapes: Mapping[Response, tuple[CarriedLoad, ...]]
-    held: tuple[float, ...]
-    hangs_on: tuple[FootSensitivity, ...]
+def intact_words(values: Mapping[Aim, float]) -> str:
+    """Outcomes that the intact foot has, and those that it does not have, in a sentence."""
+    has = "; ".join(f"{MEASURES[aim].words} {value:.3g} {MEASURES[aim].unit}" for aim, value in values.items())
+    lacks = " and no ".join(MEASURES[aim].words.partition(",")[0] for aim in AIMS if aim not in values)
+    return f"aimed at, of one step of the intact foot: {has}; without socket and keel it has no {lacks}"
 
 
-def varied_foot(given: FootAndTrial, knob: Knob, o: ProsthesisDesignOptions) -> VariedFoot:
-    """Draws over the values, and both ends beside the present one; InputError where the foot finds no equilibrium."""
-    trial, ends = given.trial, _ends(knob)
-    pitch = min(o.pitch_error, trial.offset.pitch_sd) if trial.offset.pitch_sd > 0.0 else o.pitch_error
-    errors = TrialErrors(marker=o.marker_error, pitch=pitch, force=o.force_noise)
-    try:
-        task = trial.task()
-        with listener().progress("feet", o.feet) as step:
-            drawn = draws(
-                knob,
-                given.foot,
-                task,
-                lambda rng: task_again(trial, errors, rng),
-                given.sd,
-                feet=o.feet,
-                walks=o.walks,
-                seed=o.seed,
-                step=step,
-                alignments=ALIGNMENTS.tolist() if o.together else (),
-            )
-        unknown = Unknown(given.sd, errors.pitch, errors.gain)
-        hangs_on = sensitivities(given.foot, task, trial.fulcrum, knob.terrain, unknown)
-        maps = ends.maps(given.foot, task)
-        shapes = ends.carried(maps, task)
-        held = ends.other_feet(maps, task, tracking=0.0).moved().held
-    except (ArithmeticError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
-        remedy = "check `mass`, the plate and how flat the foot stood"
-        raise InputError(o.markers, "", str(error), remedy) from error
-    return VariedFoot(task, drawn, ends, shapes, tuple(held.tolist()), hangs_on)
-
-
-def _ends(knob: Knob) -> Knob:
-    """The first value, the present one and the last, in order."""
-    return Knob(knob.vary, np.unique([knob.settings[0], knob.present, knob.settings[-1]]), knob.fulcrum, knob.terrain)
+def intact_table(values: Mapping[Aim, float]) -> pd.DataFrame:
+    """One row for each outcome; those that an intact foot does not have are empty."""
+    rows = [
+        {
+            "outcome": aim,
+            "intact side": values.get(aim, np.nan),
+            "unit": MEASURES[aim].unit,
+            "aimed at": aim in values,
+            "words": MEASURES[aim].words if aim in values else f"{MEASURES[aim].words}: an intact foot has none",
+        }
+        for aim in AIMS
+    ]
+    return pd.DataFrame(rows)

@@ -2,43 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
-from scipy.stats import norm
 
 from geocontact.analyses.frame.collector import add_input, listener, reserve
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
-from geocontact.analyses.prosthesis.leg_and_foot import foot_with_law, offset_of_law
 from geocontact.analyses.prosthesis.recorded_files import (
+    foot_with_law,
+    offset_of_law,
     plate_under_foot,
-    require_one_clock,
-    require_under_foot,
     right_markers,
 )
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_intact_leg
-from geocontact.below_knee_prosthesis.calibration.recorded_stance import (
-    body_poses,
-    recorded_heights,
-    stance_from_markers,
-)
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import stance_on_plate
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
-from geocontact.below_knee_prosthesis.clocks import clock_offset, lowest_sphere
-from geocontact.below_knee_prosthesis.design.drawn import RecordedTrial
-from geocontact.below_knee_prosthesis.design.intact_step import OF_INTACT, IntactStep, intact_step
-from geocontact.below_knee_prosthesis.design.knob import AIMS
-from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim
+from geocontact.below_knee_prosthesis.design.drawn import RecordedTrial, TrialErrors
+from geocontact.below_knee_prosthesis.design.intact_step import OF_INTACT, IntactStep, intact_step, require_intact
+from geocontact.below_knee_prosthesis.design.knob import Knob
+from geocontact.below_knee_prosthesis.design.outcomes import MEASURES
+from geocontact.below_knee_prosthesis.design.varied import ALIGNMENTS, VariedFoot, known_pitch, varied_foot
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.errors import InputError
 
-INTERVAL = 0.95
-"""Probability of the intervals of a calibration."""
 COLUMNS = ("number", "value", "lower", "upper", "verdict")
 
 
@@ -59,7 +50,7 @@ def read(o: ProsthesisDesignOptions) -> FootAndTrial:
     """Everything the options name."""
     with listener().preparing():
         foot = foot_with_law(vsf_foot(), o.law)
-    plate, name = plate_under_foot(o.plates, o.plate, o.side, o.mass, o.c3d_unit)
+    plate = plate_under_foot(o.plates, o.plate, o.side, o.mass, o.c3d_unit)
     trial = RecordedTrial(
         standing=right_markers("`static`", o.static, o.side, o.axes, o.markers_map, o.c3d_unit),
         walking=right_markers("markers", o.markers, o.side, o.axes, o.markers_map, o.c3d_unit),
@@ -72,13 +63,8 @@ def read(o: ProsthesisDesignOptions) -> FootAndTrial:
         gap_limit=o.gap_limit,
         offset=offset_of_law(o.law, o.static),
     )
-    leg = trial.leg
-    spheres = foot.sole.spheres
-    time, height = recorded_heights(trial.walking, leg, spheres, cutoff=trial.cutoff, gap_limit=trial.gap_limit)
-    require_one_clock(o.plates, "`plate`", name, clock_offset(time, height, plate.time, plate.force[:, 1]))
-    given = (trial.walking, leg, plate, trial.fulcrum, foot.keel.length)
-    stance = stance_from_markers(*given, cutoff=trial.cutoff, gap_limit=trial.gap_limit)
-    require_under_foot(o.plates, name, stance.centre)
+    given = trial.walking, trial.leg, plate, foot, trial.fulcrum
+    stance_on_plate(*given, cutoff=trial.cutoff, gap_limit=trial.gap_limit)  # refuses what is none
     intact = intact_side(o, trial)
     zones = ZoneParameters(foot.sole, foot.law)
     if o.numbers is None:
@@ -101,25 +87,15 @@ def _known(file: Path, zones: ZoneParameters) -> Float[np.ndarray, " p"]:
     lost = [name for name in zones.names if name not in told.index]
     if lost:
         raise InputError(file, "", f"no row {lost[0]!r}", "give numbers.csv of prosthesis calibrate")
-    found = []
-    for name, prior in zip(zones.names, zones.sd, strict=True):
-        if told["verdict"].to_dict()[name] != "known":
-            found.append(float(prior))
-            continue
-        lower, upper = (float(told[column].to_dict()[name]) for column in ("lower", "upper"))
-        if not 0.0 < lower <= upper < np.inf:
-            raise InputError(file, name, f"{lower:g} to {upper:g} is no interval", "give positive bounds, lower first")
-        own = np.log(upper / lower) / (2.0 * norm.ppf(0.5 + 0.5 * INTERVAL))
-        found.append(min(float(own), float(prior)))
-    return np.array(found)
-
-
-BESIDE = 0.75
-"""Lengths of the foot from its middle beyond which the centre of pressure of a step is not its in the median."""
-OF_ONE_STEP = (
-    "what the intact side has is of one step, and no error of it is in the bands; its rate of loading is the plate's, "
-    "that of a prosthetic foot its stiffness times its speed"
-)
+    last = told[~told.index.duplicated(keep="last")]
+    known = last[(last["verdict"] == "known") & last.index.isin(zones.names)]
+    ends = zip(known["lower"].map(float), known["upper"].map(float), strict=True)
+    intervals = dict(zip(map(str, known.index), ends, strict=True))
+    try:
+        return zones.sd_within(intervals)
+    except ValueError as error:
+        name, _, what = str(error).partition(": ")
+        raise InputError(file, name, what, "give positive bounds, lower first") from error
 
 
 def intact_side(o: ProsthesisDesignOptions, trial: RecordedTrial) -> IntactStep | None:
@@ -132,45 +108,31 @@ def intact_side(o: ProsthesisDesignOptions, trial: RecordedTrial) -> IntactStep 
     leg = standing_intact_leg(trial.standing, trial.person)
     seen = right_markers("`intact`", o.intact, o.side, o.axes, o.markers_map, o.c3d_unit)
     plates = o.plates if o.intact_plates is None else o.intact_plates
-    plate, name = plate_under_foot(plates, o.intact_plate, o.side, o.mass, o.c3d_unit, "intact_plate")
+    plate = plate_under_foot(plates, o.intact_plate, o.side, o.mass, o.c3d_unit, "intact_plate")
     step = intact_step(seen, leg, plate, cutoff=trial.cutoff, gap_limit=trial.gap_limit)
-    foot = body_poses(seen, leg.markers, "intact_foot", seen.time, trial.cutoff, trial.gap_limit)
-    height = lowest_sphere(foot, leg.spheres()[0])
-    same = np.array_equal(plate.force, trial.plate.force)
-    if same or not step.beside < BESIDE:
-        what = f"the centre of pressure of {name} is {step.beside:.1f} lengths of it from its middle in the median"
-        whose = f"{name} is under the prosthetic foot" if same else "no plate under the intact foot"
-        raise InputError(plates, "`intact_plate`", f"{whose}: {what}", "name the plate of the intact foot's step")
-    clocks = clock_offset(seen.time, height, plate.time, plate.force[:, 1])
-    require_one_clock(plates, "`intact_plate`", name, clocks)
-    try:
-        values = step.outcomes()
-    except ValueError as error:
-        raise InputError(o.intact, "", f"the step of the intact foot is too short: {error}", "give another") from error
-    for aim, value in values.items():
-        if not 0.0 < value < np.inf:
-            what = f"the intact foot would have a {MEASURES[aim].words} of {value:.3g} {MEASURES[aim].unit}"
-            raise InputError(o.intact, "", what, "are markers and plate in the same axes, x forward along the walk?")
+    require_intact(step, seen, leg, plate, trial.plate, cutoff=trial.cutoff, gap_limit=trial.gap_limit)
     return step
 
 
-def intact_words(values: Mapping[Aim, float]) -> str:
-    """Outcomes that the intact foot has, and those that it does not have, in a sentence."""
-    has = "; ".join(f"{MEASURES[aim].words} {value:.3g} {MEASURES[aim].unit}" for aim, value in values.items())
-    lacks = " and no ".join(MEASURES[aim].words.partition(",")[0] for aim in AIMS if aim not in values)
-    return f"aimed at, of one step of the intact foot: {has}; without socket and keel it has no {lacks}"
-
-
-def intact_table(values: Mapping[Aim, float]) -> pd.DataFrame:
-    """One row for each outcome; those that an intact foot does not have are empty."""
-    rows = [
-        {
-            "outcome": aim,
-            "intact side": values.get(aim, np.nan),
-            "unit": MEASURES[aim].unit,
-            "aimed at": aim in values,
-            "words": MEASURES[aim].words if aim in values else f"{MEASURES[aim].words}: an intact foot has none",
-        }
-        for aim in AIMS
-    ]
-    return pd.DataFrame(rows)
+def varied(given: FootAndTrial, knob: Knob, o: ProsthesisDesignOptions) -> VariedFoot:
+    """Draws over the values, and both ends beside the present one; InputError where the foot finds no equilibrium."""
+    pitch = known_pitch(given.trial.offset, o.pitch_error)
+    try:
+        with listener().progress("feet", o.feet) as step:
+            return varied_foot(
+                given.foot,
+                given.trial,
+                given.sd,
+                knob,
+                feet=o.feet,
+                walks=o.walks,
+                seed=o.seed,
+                errors=TrialErrors(marker=o.marker_error, pitch=pitch, force=o.force_noise),
+                alignments=ALIGNMENTS.tolist() if o.together else (),
+                step=step,
+            )
+    except (ArithmeticError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        remedy = "check `mass`, the plate and how flat the foot stood"
+        raise InputError(o.markers, "", str(error), remedy) from error

@@ -18,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 import pandas as pd
@@ -30,24 +31,33 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
 from geocontact.analyses.motion.skeleton import MARKER, scene_of, skeleton
-from geocontact.analyses.prosthesis.leg_and_foot import numbers_table
+from geocontact.analyses.prosthesis.recorded_files import right_markers
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
-from geocontact.analyses.prosthesis.scale.standing import (
-    JointFound,
-    Stood,
-    as_standing,
-    fitted_pose,
-    joint_centres,
-    read,
-    standing_pose,
-    warn_of_legs,
-)
+from geocontact.analyses.prosthesis.stance_files import numbers_table
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
-from geocontact.below_knee_prosthesis.both_sides.standing import standing_amputee
+from geocontact.below_knee_prosthesis.both_sides.standing import (
+    NO_JOINTS,
+    FunctionalJoints,
+    standing_amputee,
+    standing_joints,
+)
+from geocontact.below_knee_prosthesis.both_sides.standing_model import (
+    JointFound,
+    as_standing,
+    doubts_of_legs,
+    joint_centres,
+    largest_motion,
+    model_poses,
+    sole_spheres,
+    standing_pose,
+)
 from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
+from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
+from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.errors import InputError
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.data.parameter import Number
 from geocontact.dynamics.inverse_kinematics import Poses
@@ -108,6 +118,46 @@ def _distances(tables: Mapping[str, pd.DataFrame]) -> list[Section]:
     table = tables["markers"].sort_values("off, rms [mm]", ascending=False)
     rows = [IntervalRow(name, float(off)) for name, off in table.itertuples(index=False)]
     return [Intervals("Markers of the functional trial off the model, root mean square", "mm", rows, bars=True)]
+
+
+MOVED = 0.02
+"""m that a marker may move while standing without a word."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stood:
+    """Markers of a person who stands, as of a right prosthesis, and what is known beside them."""
+
+    seen: MarkerTrajectories
+    moving: MarkerTrajectories | None
+    joints: FunctionalJoints
+    person: Person
+    foot: VariableStiffnessFoot
+    fulcrum: float
+
+
+def read(o: ProsthesisScaleOptions) -> Stood:
+    """Everything the options name."""
+    seen = right_markers("static", o.static, o.side, o.axes, o.markers_map, o.c3d_unit)
+    name, far = largest_motion(seen)
+    if far > MOVED:
+        what = f"{name} moves {1e3 * far:.0f} mm away from its median: is this standing still?"
+        reserve(f"{seen.source}: {what}")
+    moving = None
+    if o.functional is not None:
+        moving = right_markers("`functional`", o.functional, o.side, o.axes, o.markers_map, o.c3d_unit)
+    joints = NO_JOINTS if moving is None else standing_joints(seen, moving)
+    foot = vsf_foot()
+    keel = foot.keel.posterior_mass + foot.keel.joints * foot.keel.segment_mass
+    mass = cast(float, o.mass)
+    person = Person(mass, o.sex, o.residual)
+    if o.prosthesis_mass is not None:
+        if o.prosthesis_mass <= keel:
+            what = f"{o.prosthesis_mass:g} kg are less than the keel alone, {keel:.2f} kg"
+            raise InputError("", "`prosthesis_mass`", what, "give that of socket, pylon and foot")
+        person = Person(mass, o.sex, o.residual, o.prosthesis_mass - keel)
+    fulcrum = fulcrum_of(o.setting, "pinned") if o.fulcrum is None else o.fulcrum
+    return Stood(seen, moving, joints, person, foot, fulcrum)
 
 
 FREE, HELD = "amputee.osim", "amputee_ik.osim"
@@ -178,14 +228,8 @@ class ProsthesisScaleResult(Result):
 
     def _balls(self) -> list[ContactBall]:
         """Spheres of both soles on the bodies that carry them."""
-        side, keel, sole = self.options.side, self.amputee.foot.keel, self.amputee.foot.sole
-        own, other = ("_r", "_l") if side == "right" else ("_l", "_r")
-        sets = [(f"keel_{k}{own}" if k else f"calcn{own}", sole.on(k, keel)) for k in range(keel.joints + 1)]
-        sets += list(zip((f"calcn{other}", f"toes{other}"), self.amputee.intact.spheres(), strict=True))
-        found: list[ContactBall] = []
-        for body, spheres in sets:
-            if spheres is None:
-                continue
+        side, found = self.options.side, list[ContactBall]()
+        for body, spheres in sole_spheres(self.amputee, side):
             for centre, radius, zone in zip(spheres.centre, spheres.radius, spheres.zone, strict=True):
                 found.append(ContactBall(f"{zone}_{len(found) + 1}", body, of_side(centre, side), float(radius)))
         return found
@@ -200,11 +244,12 @@ def run(stood: Stood, o: ProsthesisScaleOptions) -> ProsthesisScaleResult:
         what = f"the legs leave {mass:.1f} kg of {made.mass:g} kg for all above them"
         raise InputError("", "`mass`", what, "check `mass` and `prosthesis_mass`")
     held = amputee_tree(made, o.side, held=True)
-    pose = standing_pose(held, stood, o)
-    moved = None if stood.moving is None else fitted_pose(held, as_right(stood.moving, o.side))
-    joints = joint_centres(stood, made, held, pose, o)
+    pose = standing_pose(held, stood.seen, o.side)
+    moved = None if stood.moving is None else model_poses(held, as_right(stood.moving, o.side))
+    joints = joint_centres(held, pose, stood.joints, o.side)
     numbers = made.numbers()
-    warn_of_legs(made, stood, o)
+    for line in doubts_of_legs(made, stood.joints, o.height, stood.seen.source):
+        reserve(line)
     invented = sum(number.source == "invented" for number in numbers.values())
     reserve(f"{invented} of {len(numbers)} numbers of the segments are invented, see numbers.csv")
     functional = [joint.how == "functional" for joint in joints]

@@ -27,18 +27,27 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.panels import curves_figure
-from geocontact.analyses.prosthesis.leg_and_foot import all_numbers, counted_twice, numbers_table, offset_words
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.show import stance_page
-from geocontact.analyses.prosthesis.simulate.walk import RecordedWalk, Walk, bushing_of, fitted_walk, read, simulated
-from geocontact.analyses.prosthesis.stance_files import write_coordinates, write_loads, write_plane, write_spheres
-from geocontact.below_knee_prosthesis.evaluation import StanceErrors, at_times, longest_stance, stance_errors
+from geocontact.analyses.prosthesis.simulate.walk import RecordedWalk, bushing_of, read, simulated, walk_of
+from geocontact.analyses.prosthesis.stance_files import (
+    counted_twice,
+    numbers_table,
+    offset_words,
+    write_coordinates,
+    write_loads,
+    write_plane,
+    write_spheres,
+)
+from geocontact.below_knee_prosthesis.evaluation import StanceErrors, at_times, stance_errors
+from geocontact.below_knee_prosthesis.foot_numbers import all_numbers
 from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.leg import Side
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, SOCKET
-from geocontact.below_knee_prosthesis.simulate import GATE, Stance
+from geocontact.below_knee_prosthesis.recorded_walk import Walk
+from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.below_knee_prosthesis.stance_model import FLOOR
-from geocontact.contact.bushing import PISTONING
+from geocontact.below_knee_prosthesis.stance_summary import doubts, summary
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Number
 
@@ -144,13 +153,9 @@ class ProsthesisSimulateResult(Result):
         super().write_files(folder)
 
 
-TURNED = np.radians(20.0)
-"""rad; of the socket, beyond which its bushing is doubted."""
-
-
 def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimulateResult:
     """The walk, and its stance from before touch-down to after toe-off."""
-    walk = fitted_walk(recorded, o)
+    walk = walk_of(recorded, o)
     numbers = all_numbers(walk.leg, walk.foot, walk.fulcrum, bushing_of(o))
     invented = sum(number.source == "invented" for number in numbers.values())
     reserve(f"{invented} of {len(numbers)} numbers of leg and foot are invented, see numbers.csv")
@@ -161,7 +166,8 @@ def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimul
             o.markers, "", "the foot never touches the floor", "is `ground` right, y = 0 without it, and `mass`?"
         )
     errors = None if walk.plate is None else stance_errors(found, walk.plate)
-    doubt(found)
+    for line in doubts(found):
+        reserve(line)
     if not limb.settled:
         reserve(counted_twice(limb))
     told = summary(found)
@@ -203,49 +209,6 @@ def _lasting(errors: StanceErrors) -> str:
     if np.isfinite(late):
         return f"stance {late:+.0f} ms"
     return f"over the first {errors.simulated:.0%} of the plate's stance, for the simulation ended before toe-off"
-
-
-def doubt(found: Stance) -> None:
-    """Reservations on a simulated stance."""
-    time, loads = found.time, found.loads
-    if loads.pressing[0].sum() > GATE:
-        reserve(f"the foot is on the floor at the start, with {loads.pressing[0].sum():.0f} N: begin earlier")
-    if found.on[-1]:
-        what = f"the foot is still on the floor with {found.force[-1, 1]:.0f} N where the simulation ends"
-        reserve(f"{what}, at {found.time[-1]:.2f} s: is `mass` right, and do the markers go on past toe-off?")
-    far, fast = found.beyond
-    if far.any():
-        most, limit = 1e3 * np.abs(found.pistoning).max(), 1e3 * PISTONING.travel
-        reserve(f"the socket pistons by {most:.0f} mm, past {limit:.0f} mm, first at {time[far][0]:.2f} s")
-    if fast.any():
-        limit = 1e3 * PISTONING.speed
-        reserve(f"the socket pistons faster than {limit:.0f} mm/s, first at {time[fast][0]:.2f} s")
-    turned = np.abs(found.found.q[:, 2:5]).max()
-    if turned > TURNED:
-        reserve(f"the socket turns by {np.degrees(turned):.0f} degrees on its bushing")
-    sunk = loads.depth > found.foot.sole.spheres.radius
-    if sunk.any():
-        reserve(
-            f"{int(sunk.any(axis=0).sum())} spheres sink beyond their radius, up to {1e3 * loads.depth.max():.0f} mm"
-        )
-    idle = [zone for zone, of in found.foot.sole.spheres.zones.items() if not (loads.pressing[:, of] > 0.0).any()]
-    if idle:
-        reserve(f"never loaded: {', '.join(idle)}; its numbers stay unknown")
-
-
-def summary(found: Stance) -> dict[str, float]:
-    """Numbers of the whole stance."""
-    weight = found.motion.leg.person.mass * GRAVITY
-    span = longest_stance(found.time, found.force[:, 1])
-    return {
-        "stance_s": float("nan") if span is None else span[1] - span[0],
-        "vertical_max_BW": float(found.force[:, 1].max() / weight),
-        "ankle_moment_max_N_m": float(found.ankle_moment.max()),
-        "stored_max_J": float(found.stored.max()),
-        "lost_J": float(found.lost[-1]),
-        "pistoning_max_mm": float(1e3 * np.abs(found.pistoning).max()),
-        "steps": float(found.found.steps),
-    }
 
 
 simulate = Job("prosthesis simulate", ProsthesisSimulateOptions, read, run)

@@ -1,0 +1,119 @@
+"""Stances of a study together: by setting of the foot, beside predictors without a model, mean and spread."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.below_knee_prosthesis.evaluation import (
+    ANOTHER,
+    MEAN,
+    QUANTITIES,
+    JudgedStance,
+    MeasuredCurve,
+    Oddness,
+    oddness,
+    trivial_curves,
+)
+from geocontact.identify.signals.agreement import Agreement, agreement
+
+PLAIN = (MEAN, ANOTHER)
+"""Predictors without a model."""
+PlainCurves = Mapping[str, Mapping[str, Float[np.ndarray, " s"]]]
+"""By stance and predictor, over the stance on the plate."""
+
+
+def plain_curves(stances: Sequence[JudgedStance], name: str) -> dict[str, dict[str, Float[np.ndarray, " s"]]]:
+    """Curves of a quantity by both predictors without a model, by stance."""
+    plates = [MeasuredCurve(each.name, each.person, each.setting, each.measured(name)) for each in stances]
+    return {one.name: trivial_curves(plates, one) for one in plates}
+
+
+def curves_of(plain: PlainCurves, own: Sequence[JudgedStance], label: str) -> list[Float[np.ndarray, " s"]]:
+    """Curves of one predictor for some stances; nothing where it has none of one of them."""
+    found = [plain[one.name].get(label) for one in own]
+    return [] if any(each is None for each in found) else [each for each in found if each is not None]
+
+
+def by_setting(stances: Sequence[JudgedStance]) -> dict[str, list[JudgedStance]]:
+    """Stances that nothing was fitted to, by setting; all of them where there are none such."""
+    kept = [one for one in stances if not one.calibrated] or list(stances)
+    found: dict[str, list[JudgedStance]] = {}
+    for one in kept:
+        found.setdefault(one.setting, []).append(one)
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class QuantityErrors:
+    """One quantity of one stance: errors of the model and of the predictors without one.
+
+    Parameters
+    ----------
+    r2, rmse
+        Of the model, over what was simulated; the error in the quantity's unit.
+    plain
+        By predictor, over the same samples; one that there is nothing for is missing.
+    """
+
+    stance: JudgedStance
+    quantity: str
+    r2: float
+    rmse: float
+    plain: Mapping[str, Agreement]
+
+    @property
+    def better(self) -> bool | None:
+        """Whether the model is nearer than every predictor; None where there is none."""
+        return all(self.rmse < each.rmsd for each in self.plain.values()) if self.plain else None
+
+
+def against_predictors(stances: Sequence[JudgedStance]) -> Iterator[QuantityErrors]:
+    """Every quantity of every stance, stance by stance."""
+    plain = {name: plain_curves(stances, name) for name in QUANTITIES}
+    for one in stances:
+        for name in QUANTITIES:
+            r2, off = one.errors.table[name]
+            seen = np.where(np.isfinite(one.simulated(name)), one.measured(name), np.nan)  # the same samples for all
+            curves = plain[name][one.name]
+            yield QuantityErrors(one, name, r2, off, {k: agreement(v, seen, 1.0, 0.0) for k, v in curves.items()})
+
+
+@dataclass(frozen=True, eq=False)
+class Ensemble:
+    """Mean and standard deviation of a quantity over some stances, at even shares of the stance on the plate.
+
+    `label` is the quantity, the quantity and "measured", or the quantity and a predictor.
+    """
+
+    quantity: str
+    label: str
+    mean: Float[np.ndarray, " s"]
+    sd: Float[np.ndarray, " s"]
+
+
+def ensembles(stances: Sequence[JudgedStance]) -> dict[str, list[Ensemble]]:
+    """By setting: simulated, measured, and by the predictors without a model, each over the same stances."""
+    plain = {name: plain_curves(stances, name) for name in QUANTITIES}
+    return {
+        setting: [one for name in QUANTITIES for one in _ensembles(own, name, plain[name])]
+        for setting, own in by_setting(stances).items()
+    }
+
+
+def _ensembles(own: Sequence[JudgedStance], name: str, plain: PlainCurves) -> Iterator[Ensemble]:
+    for label, curves in (
+        (name, [one.simulated(name) for one in own]),
+        (f"{name} measured", [one.measured(name) for one in own]),
+        *((f"{name} {label}", curves_of(plain, own, label)) for label in PLAIN),
+    ):
+        if curves:
+            yield Ensemble(name, label, np.mean(curves, axis=0), np.std(curves, axis=0))
+
+
+def odd_stances(stances: Sequence[JudgedStance]) -> dict[str, Oddness]:
+    """How far the force of each stance that nothing was fitted to stands out, by name."""
+    return oddness({one.name: one.errors.table["resultant"][1] for one in stances if not one.calibrated})

@@ -1,0 +1,82 @@
+"""Stances of a study together: beside predictors without a model, by setting, mean and spread."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from geocontact.below_knee_prosthesis.comparison import (
+    against_predictors,
+    by_setting,
+    curves_of,
+    ensembles,
+    odd_stances,
+    plain_curves,
+)
+from geocontact.below_knee_prosthesis.evaluation import ANOTHER, MEAN, QUANTITIES, JudgedStance, judged
+from tests.below_knee_prosthesis.stances import a_stance
+from tests.below_knee_prosthesis.test_stance_errors import plate_of, walked
+
+TIME = np.arange(0.0, 0.95, 0.002)
+
+
+def a_study(*rows: tuple[str, str, str, float, float]) -> list[JudgedStance]:
+    """Stances by name, person and setting, with factors on the simulated and on the measured force."""
+    found = []
+    for name, person, setting, own, seen in rows:
+        plate = plate_of(TIME)
+        plate = replace(plate, force=seen * plate.force)
+        found.append(judged(name, person, setting, a_stance(TIME, own * walked(TIME)), plate))
+    return found
+
+
+@pytest.fixture(scope="module")
+def study() -> list[JudgedStance]:
+    return a_study(("a", "P", "low", 1.0, 1.0), ("b", "P", "low", 1.1, 1.0), ("c", "P", "high", 1.2, 1.2))
+
+
+def test_predictors_know_the_other_trials_only(study: list[JudgedStance]) -> None:
+    plain = plain_curves(study, "vertical")
+    _, b, c = (one.measured("vertical") for one in study)
+    np.testing.assert_allclose(plain["a"][MEAN], 0.5 * (b + c), rtol=1e-12)
+    np.testing.assert_allclose(plain["a"][ANOTHER], c, rtol=1e-12)
+    assert len(curves_of(plain, study, MEAN)) == 3
+    alone = plain_curves(study[:2], "vertical")
+    assert curves_of(alone, study[:2], ANOTHER) == []  # nobody walked on another setting
+
+
+def test_the_model_is_better_where_it_is_nearer_than_every_predictor(study: list[JudgedStance]) -> None:
+    errors = {(each.stance.name, each.quantity): each for each in against_predictors(study)}
+    assert len(errors) == 3 * len(QUANTITIES)
+    size = np.sqrt(np.mean(study[0].measured("vertical") ** 2))
+    a, b = errors["a", "vertical"], errors["b", "vertical"]
+    assert a.rmse < 1e-3 * size and a.better
+    seen = [one.measured("vertical") for one in study]
+    off = [np.sqrt(np.mean((each - seen[0]) ** 2)) for each in (0.5 * (seen[1] + seen[2]), seen[2])]
+    assert (a.plain[MEAN].rmsd, a.plain[ANOTHER].rmsd) == pytest.approx(tuple(off), rel=1e-9)
+    assert b.rmse == pytest.approx(0.1 * size, rel=1e-2)
+    (only,) = (each for each in against_predictors(study[:1]) if each.quantity == "vertical")
+    assert only.plain == {} and only.better is None
+
+
+def test_what_a_sole_was_fitted_to_is_apart(study: list[JudgedStance]) -> None:
+    fitted = [replace(study[0], calibrated=True), *study[1:]]
+    assert {name: [one.name for one in own] for name, own in by_setting(fitted).items()} == {
+        "low": ["b"],
+        "high": ["c"],
+    }
+    assert list(by_setting([fitted[0]])) == ["low"]
+    assert list(odd_stances(fitted)) == ["b", "c"]
+
+
+def test_ensembles_are_means_over_a_setting(study: list[JudgedStance]) -> None:
+    low = {one.label: one for one in ensembles(study)["low"]}
+    own, seen = (
+        [each(one, "vertical") for one in study[:2]] for each in (JudgedStance.simulated, JudgedStance.measured)
+    )
+    np.testing.assert_allclose(low["vertical"].mean, 0.5 * (own[0] + own[1]), rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(low["vertical"].sd, 0.5 * np.abs(own[0] - own[1]), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(low["vertical measured"].mean, seen[0], atol=1e-12)
+    assert low["vertical another setting"].quantity == "vertical"
