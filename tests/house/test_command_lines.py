@@ -1,6 +1,6 @@
 """Every command line of README and documentation runs, and prints what the page shows below it.
 
-Blocks of the tutorial and of the how-to pages run as they stand, Python as well, from an empty folder with `meshes` in it.
+Blocks of the tutorial and of the how-to pages run as they stand, Python as well, from an empty folder beside `meshes`.
 """
 
 from __future__ import annotations
@@ -101,13 +101,8 @@ def test_what_is_not_run_is_little_and_there() -> None:
 def test_blocks_of_a_guide_can_be_typed(page: Path) -> None:
     """No dots in commands, and no command outside of blocks that run; what a settings file shows can be read."""
     assert [block.code for block in shell_blocks(page) if not block.whole] == []
-    text = page.read_text(encoding="utf-8")
-    assert (
-        re.findall(
-            r"^    +geocontact [^\n]*", re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL), re.MULTILINE
-        )
-        == []
-    )
+    outside = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    assert re.findall(r"^    +geocontact [^\n]*", outside, re.MULTILINE) == []
     for block in shell_blocks(page, "toml"):
         tomllib.loads(block.code)
 
