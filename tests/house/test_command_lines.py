@@ -64,8 +64,11 @@ LASTING = {
 }
 """Pages whose commands take a minute or more of one core."""
 
-QUICK = {f"docs/how-to/{name}.md" for name in ("cop", "fit", "inverse", "my_markers", "my_mat", "own_model", "units")}
-"""Pages whose commands take four seconds or less: run with every change, 17 s in all."""
+QUICK = {
+    f"docs/how-to/{name}.md"
+    for name in ("cop", "fit", "inverse", "loadcells", "my_markers", "my_mat", "own_model", "units")
+}
+"""Pages whose commands take four seconds or less: run with every change, about 18 CPU seconds in all."""
 
 
 def lasting(page: Path) -> tuple[pytest.MarkDecorator, ...]:
