@@ -9,6 +9,8 @@ from pathlib import Path
 from tests.house.first_screens import ROOT
 
 DOCUMENTS = (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
+GUIDES = (ROOT / "docs" / "tutorial.md", *sorted((ROOT / "docs" / "how-to").glob("*.md")))
+"""Pages on which every block runs as it stands, from an empty folder."""
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```\n(?:\n```text\n(.*?)^```$)?", re.MULTILINE | re.DOTALL)
 NAMED = re.compile(r"# ([\w/.-]+\.\w+)\n")
 INLINE = re.compile(r"`(geocontact [^`]*)`")
@@ -17,7 +19,7 @@ INDENTED = re.compile(r"^    +(geocontact [^\n]*)", re.MULTILINE)
 
 @dataclass(frozen=True)
 class ShellBlock:
-    """A block of commands, from 0 among those of its page, and the lines of output that the page shows below it."""
+    """A block of commands or of Python, from 0 among those of its page, and the output that the page shows below it."""
 
     page: str
     number: int
@@ -35,9 +37,9 @@ def name_of(page: Path) -> str:
     return page.relative_to(ROOT).as_posix()
 
 
-def shell_blocks(page: Path) -> list[ShellBlock]:
-    """All blocks in which commands are typed, in the order of the page."""
-    found = [match for match in BLOCK.finditer(page.read_text(encoding="utf-8")) if match[1] == "sh"]
+def shell_blocks(page: Path, language: str = "sh") -> list[ShellBlock]:
+    """All blocks in which commands are typed, or of `python`, in the order of the page."""
+    found = [match for match in BLOCK.finditer(page.read_text(encoding="utf-8")) if match[1] == language]
     return [ShellBlock(name_of(page), k, m[2], tuple((m[3] or "").splitlines())) for k, m in enumerate(found)]
 
 

@@ -1,11 +1,16 @@
-"""Every command line of README and documentation runs, and prints what the page shows below it."""
+"""Every command line of README and documentation runs, and prints what the page shows below it.
+
+Blocks of the tutorial and of the how-to pages run as they stand, Python as well, from an empty folder beside `meshes`.
+"""
 
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -17,16 +22,14 @@ from geocontact.cli.main import app
 from geocontact.cli.suggestions import commands
 from geocontact.dynamics.compiled import cache_folder
 from tests.house.first_screens import ROOT, missing
-from tests.house.shell_blocks import DOCUMENTS, calls_of, files_of, name_of, shell_blocks
+from tests.house.shell_blocks import DOCUMENTS, GUIDES, calls_of, files_of, name_of, shell_blocks
 from tests.house.warm_command import warm_command
 
-NOT_RUN = {
-    ("README.md", 0): "make installs the package and runs these tests",
-    ("docs/how-to/inverse.md", 1): "a static trial, a generic model and loads of one's own laboratory",
-    ("docs/how-to/mat.md", 1): "a second scan with the mat on",
-    ("docs/how-to/opensim_motion.md", 1): "real data that are not in the repository: run in tests/real",
-}
-"""Blocks that need what a reader has and the repository has not, and why."""
+NOT_RUN = {("README.md", 0): "make installs the package and runs these tests"}
+"""Blocks that are not run, and why."""
+
+ELSEWHERE = {"docs/how-to/cohort.md": "SLURMCluster"}
+"""Python that needs a cluster: tests/study/test_slurm.py runs it beside a stand-in for one."""
 
 STAND_INS = {
     "README.md": {
@@ -41,40 +44,16 @@ STAND_INS = {
 }
 """Shipped files that stand for a reader's own."""
 
-PLATE = """\
-import math
-rows = [[k / 100, 0, 600 + 400 * k / 100, 0, 0.05 + 0.2 * k / 100, 0, 0, 0, 0, 0] for k in range(61)]
-names = ["time", *(f"ground_force_r_{kind}{axis}" for kind in "vp" for axis in "xyz")]
-names += [f"ground_torque_r_{axis}" for axis in "xyz"]
-head = f"grf\\nversion=1\\nnRows={len(rows)}\\nnColumns={len(names)}\\ninDegrees=yes\\nendheader\\n"
-open("grf.mot", "w").write(head + "\\n".join("\\t".join(map(str, row)) for row in [names, *rows]) + "\\n")
-"""
-KNEE = """\
-import math
-rows = [f"{a},{5 * math.sin(math.radians(a)):.4f},{3 * math.cos(math.radians(a)):.4f}" for a in range(0, 121, 5)]
-open("knee.csv", "w").write("alpha [deg],x [mm],y [mm]\\n" + "\\n".join(rows) + "\\n")
-"""
 BONES = """\
 walk = {"talus": "0.5", "calcaneus": "-30"}
 rows = {bone: [f"1,0,0,{k},0,1,0,{y},0,0,1,0,0,0,0,1" for k in range(3)] for bone, y in walk.items()}
 for bone, lines in rows.items():
     open(f"{bone}.txt", "w").write("\\n".join(lines) + "\\n")
 """
-LOGGER = """\
-import csv
-rows = list(csv.DictReader(open("meshes/overhead_P1T1S100/truth.csv").read().splitlines()[1:]))
-lines = [f"{r['time [s]']},{r['elevation_right [deg]']},10" for r in rows]
-open("logger.csv", "w").write("time [s],exo_right [deg],mat [N]\\n" + "\\n".join(lines) + "\\n")
-"""
-MADE = {
-    "docs/how-to/cop.md": PLATE,
-    "docs/how-to/elbow_design.md": KNEE,
-    "docs/how-to/shoulder.md": LOGGER,
-    "docs/reference/input_files.md": BONES,
-}
-"""What makes files that a reader would have recorded."""
+MADE = {"docs/reference/input_files.md": BONES}
+"""What makes files that a reader of the reference would have recorded."""
 
-WITH_BLOCKS = [page for page in DOCUMENTS if shell_blocks(page)]
+WITH_BLOCKS = [page for page in DOCUMENTS if shell_blocks(page) or page in GUIDES]
 LASTING = {
     "docs/how-to/knee_chain.md",
     "docs/how-to/gap.md",
@@ -85,10 +64,17 @@ LASTING = {
 }
 """Pages whose commands take a minute or more of one core."""
 
+QUICK = {
+    f"docs/how-to/{name}.md"
+    for name in ("cop", "fit", "inverse", "loadcells", "my_markers", "my_mat", "own_model", "units")
+}
+"""Pages whose commands take four seconds or less: run with every change, about 18 CPU seconds in all."""
+
 
 def lasting(page: Path) -> tuple[pytest.MarkDecorator, ...]:
     """Marks of a page's test."""
-    return (pytest.mark.long,) if name_of(page) in LASTING else ()
+    name = name_of(page)
+    return () if name in QUICK else (pytest.mark.slow, *([pytest.mark.long] if name in LASTING else []))
 
 
 @pytest.mark.parametrize("page", DOCUMENTS, ids=name_of)
@@ -111,7 +97,17 @@ def names(of: App) -> set[str]:
 def test_what_is_not_run_is_little_and_there() -> None:
     blocks = {(each.page, each.number): each for page in DOCUMENTS for each in shell_blocks(page)}
     assert set(NOT_RUN) <= set(blocks)
-    assert len(NOT_RUN) <= 4 and all(not blocks[each].shown for each in NOT_RUN)
+    assert len(NOT_RUN) <= 1 and all(not blocks[each].shown for each in NOT_RUN)
+
+
+@pytest.mark.parametrize("page", GUIDES, ids=name_of)
+def test_blocks_of_a_guide_can_be_typed(page: Path) -> None:
+    """No dots in commands, and no command outside of blocks that run; what a settings file shows can be read."""
+    assert [block.code for block in shell_blocks(page) if not block.whole] == []
+    outside = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    assert re.findall(r"^    +geocontact [^\n]*", outside, re.MULTILINE) == []
+    for block in shell_blocks(page, "toml"):
+        tomllib.loads(block.code)
 
 
 @pytest.fixture(scope="session")
@@ -121,7 +117,6 @@ def command(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield words
 
 
-@pytest.mark.slow
 @pytest.mark.skipif(not (shutil.which("bash") and hasattr(os, "fork")), reason="the pages speak to a shell of Unix")
 @pytest.mark.parametrize("page", [pytest.param(page, marks=lasting(page)) for page in WITH_BLOCKS], ids=name_of)
 def test_every_block_prints_what_the_page_shows(tmp_path: Path, page: Path, command: str) -> None:
@@ -130,18 +125,28 @@ def test_every_block_prints_what_the_page_shows(tmp_path: Path, page: Path, comm
     (tmp_path / "meshes").symlink_to(ROOT / "meshes")
     for file, shipped in STAND_INS.get(name, {}).items():
         shutil.copy(ROOT / "meshes" / shipped, tmp_path / file)
-    for file, content in files_of(page).items():
-        (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / file).write_text(content, encoding="utf-8")
+    if page not in GUIDES:
+        for file, content in files_of(page).items():
+            (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / file).write_text(content, encoding="utf-8")
     environment = shell(tmp_path, command)
     if name in MADE:
         subprocess.run([sys.executable, "-c", MADE[name]], cwd=tmp_path, check=True)
     for block in shell_blocks(page):
         if block.whole and (name, block.number) not in NOT_RUN:
-            told = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
-            done = subprocess.run(["bash", "-eu", "-c", block.code], cwd=tmp_path, env=environment, **told)
-            assert done.returncode == 0, f"{block.code}\n{done.stdout}"
-            assert missing(block.shown, done.stdout) == [], done.stdout
+            run(["bash", "-eu", "-c", block.code], block.shown, tmp_path, environment)
+    scripts = [one for one in shell_blocks(page, "python") if ELSEWHERE.get(name, "\0") not in one.code]
+    if page in GUIDES and scripts:  # as typed in one session of Python
+        code, shown = "\n".join(one.code for one in scripts), tuple(line for one in scripts for line in one.shown)
+        run([sys.executable, "-c", code], shown, tmp_path, environment)
+
+
+def run(words: list[str], shown: tuple[str, ...], folder: Path, environment: dict[str, str]) -> None:
+    """Run it, and look for the lines that the page shows."""
+    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    done = subprocess.run(words, cwd=folder, env=environment, **streams)
+    assert done.returncode == 0, f"{words[-1]}\n{done.stdout}"
+    assert missing(shown, done.stdout) == [], done.stdout
 
 
 def shell(folder: Path, command: str) -> dict[str, str]:

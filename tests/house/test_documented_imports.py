@@ -35,7 +35,7 @@ def defined(module: str) -> set[str]:
 
 
 def test_there_are_some() -> None:
-    assert len(IMPORTS) > 20 and len(PATHS) > 10
+    assert len(IMPORTS) > 10 and len(PATHS) > 10  # pages call gc.… where they can
 
 
 @pytest.mark.parametrize(("module", "names"), IMPORTS, ids=lambda part: part.replace(" ", ""))

@@ -1,11 +1,11 @@
-"""The first screen of every how-to is a command that runs on shipped data, and what it prints."""
+"""The first screen of every how-to is a command that runs on shipped data, and what it prints.
+
+test_command_lines.py runs it, with all other blocks of the page.
+"""
 
 from __future__ import annotations
 
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -60,16 +60,3 @@ def test_lines_are_looked_for_in_order() -> None:
     assert missing(("a 1", "…", "c 3"), "a 1\nb 2\nc 3\n") == []
     assert missing(("c 3", "a 1"), "a 1\nb 2\nc 3\n") == ["a 1"]
     assert missing(("a 1", "d"), "a 1\nb 2\nc 3\n") == ["d"]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("page", [page for page in PAGES if page.stem in ABOUT_PYTHON], ids=name)
-def test_its_first_code_prints_what_it_shows(tmp_path: Path, page: Path) -> None:
-    """Pages that begin with commands are run by test_command_lines.py."""
-    screen = first_screen(page.read_text(encoding="utf-8"))
-    (tmp_path / "meshes").symlink_to(ROOT / "meshes")
-    environment = os.environ | {"PYTHONPATH": str(ROOT)}
-    told = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
-    done = subprocess.run([sys.executable, "-c", screen.code], cwd=tmp_path, env=environment, **told)
-    assert done.returncode == 0, done.stdout
-    assert missing(screen.shown, done.stdout) == [], done.stdout

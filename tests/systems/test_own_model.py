@@ -222,16 +222,19 @@ def test_listed_names_are_those_of_the_systems() -> None:
 
 
 def blocks() -> list[str]:
-    """Python of the page for users: a simulator, the model, a look at it, a law, an effect, and three more.
+    """Python of the page for users: a simulator, the model, a law, an effect, and three more.
 
-    They are a simulator, one that takes a law, and a program.
+    They are a simulator, one that takes a law, and a program, which commands write to a file.
     """
     page = Path(__file__).resolve().parents[2] / "docs" / "how-to" / "own_model.md"
-    return re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+    text = page.read_text(encoding="utf-8")
+    return re.findall(r"```python\n(.*?)```", text, re.DOTALL) + re.findall(
+        r"cat > simulator.py << 'END'\n(.*?)^END", text, re.DOTALL | re.MULTILINE
+    )
 
 
 def test_the_model_of_the_page_for_users_works(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    _, model, _, _, effect, _, _, _ = blocks()
+    _, model, _, effect, _, _, _ = blocks()
     monkeypatch.delitem(sys.modules, "own_orthosis", raising=False)
     text = effect + model.replace('"N m"},', '"N m"}, own=(SECOND_STRUT,),')
     (here / "own_orthosis.py").write_text(text, encoding="utf-8")

@@ -26,12 +26,16 @@ def test_every_page_stands_in_the_contents_once() -> None:
     assert sorted(named) == [page for page in pages() if page != Path(INDEX)]
 
 
-@pytest.mark.parametrize("what", ["implant", "mat", "simulator", "study"])
-def test_the_index_leads_from_what_a_reader_has_to_a_guide(what: str) -> None:
+@pytest.mark.parametrize(
+    ("title", "what"),
+    [(one, one) for one in ("implant", "mat", "exoskeleton", "prosthesis", "simulator", "study")]
+    + [("markers and plates", "markers")],
+)
+def test_the_index_leads_from_what_a_reader_has_to_a_guide(title: str, what: str) -> None:
     index = (ROOT / INDEX).read_text(encoding="utf-8")
-    _, _, below = index.partition(f"\n### My {what}\n")
+    _, _, below = index.partition(f"\n### My {title}\n")
     assert f"(how-to/my_{what}.md)" in below.partition("\n#")[0]
-    assert (ROOT / "docs" / "how-to" / f"my_{what}.md").read_text(encoding="utf-8").startswith(f"# My {what}\n")
+    assert (ROOT / "docs" / "how-to" / f"my_{what}.md").read_text(encoding="utf-8").startswith(f"# My {title}\n")
 
 
 def test_every_page_is_reached_from_another_one_than_the_index() -> None:

@@ -112,7 +112,7 @@ def test_samples_without_a_force_are_counted_and_named(tmp_path: Path) -> None:
 
 def test_the_people_of_the_how_to_are_those_of_the_benchmark(tmp_path: Path) -> None:
     text = (ROOT / "docs/how-to/elbow_design.md").read_text(encoding="utf-8")
-    (block,) = re.findall(r"```toml\n(.*?)```", text, re.DOTALL)
+    (block,) = re.findall(r"people.toml << 'END'\n(.*?)^END", text, re.DOTALL | re.MULTILINE)
     file = tmp_path / "people.toml"
     file.write_text(block)
     result = population(file, limit=10.0, samples=1000, seed=5)
