@@ -1,0 +1,93 @@
+"""A calibration by itself: which phases there are, what B holds of A, and a prediction with what is planted."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from geocontact.dynamics.collocation.solve import SolverOptions
+from geocontact.standing_up import calibration
+from geocontact.standing_up.calibrated_phase import PhaseSearch
+from geocontact.standing_up.calibration import calibrated_phases
+from geocontact.standing_up.chain import EVERY_PLANTED, FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN, Subject
+from geocontact.standing_up.exoskeleton import STRAP_PLANTED, strapped
+from geocontact.standing_up.phases import TRACKS, TRACKS_B
+from geocontact.standing_up.prediction import contact_parameters, predicted_trial
+from geocontact.standing_up.strap_sites import STRAP_SITES, THIGH_STRAP, ContactParameter, deviations
+from geocontact.standing_up.trials import StandingNoise, StandingTrial, StandingUpTrials, rising, seen_in, standing_up
+
+SUBJECT, OPTIONS = Subject(), SolverOptions("radau", 4, 1, 1e-7)
+FEET = np.array([each.searched(each.usual) for each in FOOT_PARAMETERS]) + 1e-3
+
+
+def trials(*, worn: bool) -> StandingUpTrials:
+    """One smooth rise; forces do not matter."""
+    time = np.linspace(0.0, 1.5, 76)
+    q = rising(1.5)(time)
+    if worn:
+        q = np.hstack([q, q[:, 3:]])
+    none = np.zeros(len(time))
+    force, torque = np.tile([0.0, 700.0], (len(time), 1)), np.zeros((len(time), q.shape[1] - 3))
+    trial = StandingTrial(time, q, 0.0 * q, force, none, "T1", torque, none if worn else None)
+    sought, tracks = (SOUGHT_WORN, TRACKS_B) if worn else (SOUGHT, TRACKS)
+    return StandingUpTrials(SUBJECT, StandingNoise(), (trial,), worn, sought, tracks)
+
+
+@pytest.mark.parametrize(("worn", "solved", "names"), [(False, True, "A"), (True, True, "AB"), (True, False, "A")])
+def test_b_follows_where_a_was_solved_and_holds_its_feet(
+    monkeypatch: pytest.MonkeyPatch, worn: bool, solved: bool, names: str
+) -> None:
+    given, bounds, told = trials(worn=worn), {}, list[tuple[object, ...]]()
+
+    def searched(name, model, each, noise, build, search, progress, held):  # type: ignore[no-untyped-def]
+        bounds[name] = build(each, None).control.p
+        progress(3, 2.0, 1.0)
+        found = SimpleNamespace(solved=solved, p=np.r_[FEET, np.zeros(len(model.parameters) - len(FEET))])
+        return SimpleNamespace(name=name, found=found, numbers=None, phase=SimpleNamespace(parameters=model.parameters))
+
+    monkeypatch.setattr(calibration, "calibrated_phase", searched)
+    monkeypatch.setattr(calibration, "held_covariance", lambda numbers, parameters: None)
+    found = calibrated_phases(given, PhaseSearch(OPTIONS), lambda *words: told.append(words))
+    assert "".join(phase.name for phase in found) == names  # type: ignore[misc]
+    assert told == [(name, 3, 2.0, 1.0) for name in names]
+    low, high = bounds["A"]
+    free = [each.name for each, lo, hi in zip(FOOT_PARAMETERS, low, high, strict=False) if lo < hi]
+    assert free == [each.name for each in FOOT_PARAMETERS if each.name in given.free]
+    if "B" in bounds:
+        low, high = bounds["B"]
+        np.testing.assert_array_equal(low[: len(FEET)], FEET)
+        np.testing.assert_array_equal(high[: len(FEET)], FEET)
+        assert (low[len(FEET) :] < high[len(FEET) :]).all(), "all of the strap's are sought"
+
+
+def test_parameters_stand_as_the_model_has_them() -> None:
+    for sites in ((THIGH_STRAP,), STRAP_SITES):
+        names = [each.name for each in contact_parameters(sites)]
+        assert names == [each.name for each in strapped(SUBJECT, sites).parameters]
+
+
+def test_deviations_are_a_part_of_the_interval_s_width() -> None:
+    """A length as it is, a stiffness as a logarithm, 1.95996 to either side at 95 %; nothing without an interval."""
+    place, stiff = (
+        ContactParameter("place", "m", 0.2, 0.1, 0.0, 1.0),
+        ContactParameter("k", "N/m", 3e3, 1.0, 1.0, 1e5, True),
+    )
+    found = deviations([place, stiff, place], {"place": (0.1, 0.3), "k": (1e3, 9e3)}, 0.95)
+    assert found == pytest.approx([0.1 / 1.95996, np.log(3.0) / 1.95996, 0.1 / 1.95996], rel=1e-5)
+    assert deviations([stiff], {}, 0.95) == pytest.approx([0.0])
+
+
+@pytest.mark.slow
+def test_a_trial_is_predicted_with_what_was_planted() -> None:
+    """The model's own motion, seen exactly: torques, ground reaction and both postures give the strap's force back."""
+    model, p = strapped(SUBJECT, (THIGH_STRAP,)), np.r_[EVERY_PLANTED, STRAP_PLANTED]
+    _, truth = standing_up(model, SUBJECT, planted=p, assistance=0.3, intervals=20)
+    assert truth.solved
+    seen = seen_in(model, truth.motions[0], truth.p, np.linspace(0.0, 1.5, 151), "P1")
+    found = predicted_trial("all given", model, SUBJECT, seen, StandingNoise(), p, OPTIONS, nodes=15.0)
+    assert found.solved and found.certified and found.name == "all given"
+    assert seen.strap is not None and found.trial.model.strap is not None
+    assert np.ptp(seen.strap) > 20.0
+    assert np.sqrt(np.mean((found.trial.model.strap - seen.strap) ** 2)) < 5.0
