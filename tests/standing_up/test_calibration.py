@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.dynamics.collocation.solve import SolverOptions
-from geocontact.standing_up import calibration
+from geocontact.standing_up import calibration, prediction
 from geocontact.standing_up.calibrated_phase import PhaseSearch
 from geocontact.standing_up.calibration import calibrated_phases
 from geocontact.standing_up.chain import EVERY_PLANTED, FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN, Subject
@@ -16,7 +16,7 @@ from geocontact.standing_up.exoskeleton import STRAP_PLANTED, strapped
 from geocontact.standing_up.phases import TRACKS, TRACKS_B
 from geocontact.standing_up.prediction import contact_parameters, predicted_trial
 from geocontact.standing_up.strap_sites import STRAP_SITES, THIGH_STRAP, ContactParameter, deviations
-from geocontact.standing_up.trials import StandingNoise, StandingTrial, StandingUpTrials, rising, seen_in, standing_up
+from geocontact.standing_up.trials import StandingNoise, StandingTrial, StandingUpTrials, rising
 
 SUBJECT, OPTIONS = Subject(), SolverOptions("radau", 4, 1, 1e-7)
 FEET = np.array([each.searched(each.usual) for each in FOOT_PARAMETERS]) + 1e-3
@@ -79,15 +79,42 @@ def test_deviations_are_a_part_of_the_interval_s_width() -> None:
     assert deviations([stiff], {}, 0.95) == pytest.approx([0.0])
 
 
-@pytest.mark.slow
-def test_a_trial_is_predicted_with_what_was_planted() -> None:
-    """The model's own motion, seen exactly: torques, ground reaction and both postures give the strap's force back."""
-    model, p = strapped(SUBJECT, (THIGH_STRAP,)), np.r_[EVERY_PLANTED, STRAP_PLANTED]
-    _, truth = standing_up(model, SUBJECT, planted=p, assistance=0.3, intervals=20)
-    assert truth.solved
-    seen = seen_in(model, truth.motions[0], truth.p, np.linspace(0.0, 1.5, 151), "P1")
-    found = predicted_trial("all given", model, SUBJECT, seen, StandingNoise(), p, OPTIONS, nodes=15.0)
-    assert found.solved and found.certified and found.name == "all given"
-    assert seen.strap is not None and found.trial.model.strap is not None
-    assert np.ptp(seen.strap) > 20.0
-    assert np.sqrt(np.mean((found.trial.model.strap - seen.strap) ** 2)) < 5.0
+@pytest.mark.parametrize("solved", [True, False])
+def test_a_prediction_is_phase_c_on_the_mesh_that_was_asked_for(monkeypatch: pytest.MonkeyPatch, solved: bool) -> None:
+    """15 intervals a second over 1.5 s, what is given and nothing else; certified only where the search was solved."""
+    given, model = trials(worn=True), strapped(SUBJECT, (THIGH_STRAP,))
+    (trial,), p, seen = given.trials, np.r_[EVERY_PLANTED, STRAP_PLANTED], dict[str, object]()
+    n = model.count
+
+    def course(time: np.ndarray) -> np.ndarray:
+        q = rising(1.5)(time)
+        return np.hstack([q, q[:, 3:], np.zeros((len(time), 2 * n))])
+
+    motion = SimpleNamespace(
+        state=course, control=lambda time: np.zeros((len(time), 2 * n - 3)), held_times=trial.time[:9]
+    )
+    found = SimpleNamespace(
+        motions=(motion,), p=p, objective=2.0, solved=solved, ending="solved", iterations=7, seconds=0.5
+    )
+
+    def solve(control, options, *, meshes, progress):  # type: ignore[no-untyped-def]
+        seen["mesh"] = len(meshes[0]) - 1
+        return "coarse"
+
+    def refined(control, coarse, options, turning, *, progress):  # type: ignore[no-untyped-def]
+        assert coarse == "coarse"
+        return found
+
+    def judged(equations, controlled, turning, phase, each, *, certify):  # type: ignore[no-untyped-def]
+        seen.update(certify=certify, terms=set(phase.terms), held=phase.control.p)
+        passed = SimpleNamespace(converged=True) if certify else None
+        return (SimpleNamespace(certificate=passed, time=trial.time),)
+
+    for each in (solve, refined, judged):
+        monkeypatch.setattr(prediction, each.__name__, each)
+    one = predicted_trial("w", model, SUBJECT, trial, given.noise, p, OPTIONS, nodes=15.0, tracks=("torque",))
+    assert seen["mesh"] == round(15.0 * 1.5) and seen["terms"] == {"torque", "energy", "jerk"}
+    assert seen["certify"] is solved and one.certified is solved and one.solved is solved
+    np.testing.assert_array_equal(seen["held"], (p, p))  # type: ignore[arg-type]
+    np.testing.assert_allclose(one.trial.model.q, trial.q, atol=1e-12)
+    assert one.trial.points.q.shape == (9, n) and (one.name, one.iterations, one.objective) == ("w", 7, 2.0)
