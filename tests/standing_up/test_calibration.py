@@ -1,7 +1,8 @@
-"""A calibration by itself: which phases there are, what B holds of A, and a prediction with what is planted."""
+"""Calibration and prediction without their searches: which phases there are, what B holds of A, what C is given."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,9 +18,17 @@ from geocontact.standing_up.phases import TRACKS, TRACKS_B
 from geocontact.standing_up.prediction import contact_parameters, predicted_trial
 from geocontact.standing_up.strap_sites import STRAP_SITES, THIGH_STRAP, ContactParameter, deviations
 from geocontact.standing_up.trials import StandingNoise, StandingTrial, StandingUpTrials, rising
+from tests.unchecked import unchecked
 
 SUBJECT, OPTIONS = Subject(), SolverOptions("radau", 4, 1, 1e-7)
 FEET = np.array([each.searched(each.usual) for each in FOOT_PARAMETERS]) + 1e-3
+
+
+@pytest.fixture(autouse=True)
+def stand_ins() -> Iterator[None]:
+    """Types are not checked: what is known stands in for searches."""
+    with unchecked():
+        yield
 
 
 def trials(*, worn: bool) -> StandingUpTrials:

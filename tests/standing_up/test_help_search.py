@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from types import SimpleNamespace
 
 import numpy as np
@@ -22,9 +23,17 @@ from geocontact.standing_up.help_search import (
     NoMovementError,
     gain_interval,
 )
+from tests.unchecked import unchecked
 
 P, SHARE = np.r_[EVERY_PLANTED, STRAP_PLANTED, 0.3, 0.25], NAMES.index("share")
 SD = np.where(np.arange(len(P)) == 0, 1.0, 0.0)
+
+
+@pytest.fixture(autouse=True)
+def stand_ins() -> Iterator[None]:
+    """Types are not checked: lines stand in for movements."""
+    with unchecked():
+        yield
 
 
 class Lines(Movements):

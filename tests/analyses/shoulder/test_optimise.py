@@ -358,7 +358,7 @@ def test_gaps_are_filled_up_to_a_limit(tmp_path: Path) -> None:
         ({"worst_share": 0.2}, "has no effect with `aim` mean; give `aim` cvar"),
         ({"aim": "cvar", "worst_share": 0.0}, "is not more than 0"),
         ({"reserve": 1.0}, "100 % leaves no support"),
-        ({"certainty": 1.5}, "150 % is not 0 to 100 %; give for example 95%"),
+        ({"certainty": 1.5}, "150 % is not 0 to 100 %; is 1.5 % meant?"),
         ({"dominant_share": 1.5}, "150 % is not 0 to 100 %"),
         ({"draws": 3}, "3 draws are too few for an interval; give 20 or more"),
         ({"cutoff": 0.0}, "0 leaves noise in accelerations"),
