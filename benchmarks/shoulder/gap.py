@@ -37,9 +37,9 @@ from benchmarks.shoulder.planted import (
 from benchmarks.shoulder.trials import dominant_arm, wearer_of
 from benchmarks.shoulder.truth import LOGGER, Measured
 from geocontact.analyses.shoulder.simulate.exports import write_plane
-from geocontact.analyses.shoulder.simulated_arm import SimulatedArm
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
 from geocontact.shoulder_exoskeleton.synthetic import OverheadTrial
+from geocontact.shoulder_exoskeleton.working_arm import SimulatedArm
 
 ROOT = Path(__file__).resolve().parents[2]
 RIGHT: dict[str, tuple[str, ...]] = {

@@ -96,9 +96,8 @@ def phases(seeds: int) -> dict[str, Any]:
 
 def profiles(draws: int) -> dict[str, Any]:
     """Factors by certainty, what they take away, held-out persons, seconds of a linear program and of a closed loop."""
-    from geocontact.analyses.shoulder.optimise.profiles import support_of
     from geocontact.shoulder_exoskeleton.device import lucy_new_cylinder
-    from geocontact.shoulder_exoskeleton.support.arm_trial import scales_of, support_case
+    from geocontact.shoulder_exoskeleton.support.arm_trial import scales_of, support_case, support_of
     from geocontact.shoulder_exoskeleton.support.best_profile import best_profile, uniform_profile
     from geocontact.shoulder_exoskeleton.support.closed_loop_profile import ClosedLoop
     from geocontact.shoulder_exoskeleton.support.held_out import judged
@@ -169,9 +168,8 @@ def simulated(seeds: int) -> dict[str, Any]:
     """
     import numpy as np
 
-    from geocontact.analyses.shoulder.optimise.profiles import support_of
     from geocontact.shoulder_exoskeleton.device import lucy_new_cylinder
-    from geocontact.shoulder_exoskeleton.support.arm_trial import support_case
+    from geocontact.shoulder_exoskeleton.support.arm_trial import support_case, support_of
     from geocontact.shoulder_exoskeleton.support.best_profile import best_profile, scaled
     from geocontact.shoulder_exoskeleton.support.closed_loop_profile import ClosedLoop
     from geocontact.shoulder_exoskeleton.support.controlled_arm import simulated_support

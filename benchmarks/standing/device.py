@@ -7,10 +7,9 @@ import time
 import numpy as np
 
 from benchmarks.machine import write_results
-from geocontact.analyses.sit_to_stand.device.motion import DeviceMotion
 from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.exoskeleton_torque import identified
-from meshes.standing_unloaded import RATE, TURN_NOISE, planted, synthetic_unloaded
+from geocontact.standing_up.exoskeleton_torque import DeviceMotion, identified_from
+from meshes.standing_unloaded import TURN_NOISE, planted, synthetic_unloaded
 
 SEEDS, CUTOFF, REACH = 30, 6.0, 1.96
 
@@ -46,14 +45,7 @@ def once(turn_noise: float, seed: int):  # type: ignore[no-untyped-def]
     """As the command does it."""
     subject = Subject()
     times, q, motors = synthetic_unloaded(subject, seed, turn_noise)
-    of = DeviceMotion.smoothed(times, q, motors, CUTOFF)
-    inner = of.inner(CUTOFF)
-
-    def through(values: np.ndarray) -> np.ndarray:
-        return of.smooth(values, CUTOFF)[inner]
-
-    left = 2.0 * CUTOFF / RATE
-    return identified(subject, of.q, of.u, of.a, motors, through=through, independent=left)
+    return identified_from(subject, DeviceMotion.smoothed(times, q, motors, CUTOFF), CUTOFF)
 
 
 if __name__ == "__main__":

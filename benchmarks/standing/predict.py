@@ -31,7 +31,7 @@ def measured() -> list[dict[str, Any]]:
     """A row for each predictor, cold, and from the first one's answer."""
     import numpy as np
 
-    from geocontact.analyses.sit_to_stand.predict.predictions import GIVEN, TOLERANCE
+    from geocontact.analyses.sit_to_stand.predict.predictions import TOLERANCE
     from geocontact.analyses.sit_to_stand.search_options import StandingSearchOptions
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.dynamics.collocation.blocks import sparse_program
@@ -42,6 +42,7 @@ def measured() -> list[dict[str, Any]]:
     from geocontact.standing_up.exoskeleton import STRAP_PLANTED, strapped
     from geocontact.standing_up.phase import judged
     from geocontact.standing_up.phases import phase_c
+    from geocontact.standing_up.prediction import GIVEN
 
     study = standing_trials(SAMPLES / "standing_up_held_out" / "study.toml", "study")
     model, trial, p = strapped(study.subject, study.sites), study.trials[0], np.r_[EVERY_PLANTED, STRAP_PLANTED]

@@ -158,7 +158,7 @@ def calibrated(out: Path, name: str, nodes: float) -> dict[str, Any]:
 def figures(out: Path, phase: str, trials: dict[str, tuple[Any, Any]], noise: Any) -> None:
     """Those of a phase, of trials as recorded and by the model."""
     from benchmarks.standing.figures import draw
-    from geocontact.analyses.sit_to_stand.trial_result import channels
+    from geocontact.analyses.sit_to_stand.trial_tables import channels
 
     time = {name: seen.time for name, (seen, _) in trials.items()}
     curves = {name: channels(seen, model, noise) for name, (seen, model) in trials.items()}
@@ -170,7 +170,7 @@ def predicted(out: Path, nodes: float) -> dict[str, Any]:
     import numpy as np
 
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
-    from geocontact.analyses.sit_to_stand.trial_result import TrialResult, errors_table
+    from geocontact.analyses.sit_to_stand.trial_tables import errors_table
     from geocontact.dynamics.collocation.solve import SolverOptions, refined, solve
     from geocontact.io.recordings.spheres import read_contact_parameters
     from geocontact.standing_up.chain import Subject
@@ -178,6 +178,7 @@ def predicted(out: Path, nodes: float) -> dict[str, Any]:
     from geocontact.standing_up.phase import judged
     from geocontact.standing_up.phases import phase_c
     from geocontact.standing_up.strap_sites import STRAP_SITES, searched
+    from geocontact.standing_up.trial_result import TrialResult
     from geocontact.standing_up.trials import seen_in
 
     study, model = (

@@ -26,6 +26,21 @@ def weight_and_inertia(s: ArmSimulation) -> tuple[Rows, Rows]:
     return (force * MIRROR, -moment * MIRROR) if s.motion.side == "left" else (force, moment)
 
 
+def forces_of_device(s: ArmSimulation) -> dict[str, tuple[Rows, Rows, Rows]]:
+    """All that one side of the device does to the person, in its own frame: force [N], where [m], and moment [N m].
+
+    Of the cuff on the upper arm, at the sphere's centre; of the same on the trunk, the opposite; and of the device that
+    the trunk carries, its weight and inertia at the first passive joint.
+    """
+    force, place, moment = s.told["force"], s.motion.interface, s.told["moment"]
+    carried, turned = weight_and_inertia(s)
+    return {
+        "cuff": (force, place, moment),
+        "trunk": (-force, place, -moment),
+        "device": (carried, s.told["joints"][:, :3], turned),
+    }
+
+
 def _of_a_right_arm(s: ArmSimulation, p: Float[np.ndarray, " p"]) -> tuple[Rows, Rows]:
     of, gravity = slices(), mirrored_arm(s.motion).gravity_at_frames()
     accelerations = _accelerations(s, p)

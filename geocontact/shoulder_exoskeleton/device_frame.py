@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float
+from scipy.spatial.transform import Rotation, Slerp
 
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
@@ -123,6 +124,27 @@ class DeviceFrame:
     def vectors(self, directions: Float[np.ndarray, "t 3"] | Float[np.ndarray, " 3"]) -> Float[np.ndarray, "t 3"]:
         """Directions of G in L."""
         return np.asarray(np.einsum("tij,tj->ti", self.rotation, np.broadcast_to(directions, self.origin.shape)))
+
+    def at(self, time: Float[np.ndarray, " t"], wanted: Float[np.ndarray, " e"]) -> DeviceFrame:
+        """The device in the laboratory at other times [s]: origin linear, turns along the shortest arcs.
+
+        Frames without a pose are bridged; before the first and after the last pose it stands still.
+
+        Parameters
+        ----------
+        time
+            Of the frames.
+        """
+        known = np.isfinite(self.rotation).all(axis=(1, 2)) & np.isfinite(self.origin).all(axis=1)
+        at = np.clip(wanted, time[known][0], time[known][-1])
+        origin = np.column_stack([np.interp(at, time[known], column) for column in self.origin[known].T])
+        turns = Slerp(time[known], Rotation.from_matrix(self.rotation[known]))(at)
+        return DeviceFrame(origin, turns.as_matrix())
+
+    def markers(self, seen: MarkerTrajectories, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t m 3"]:
+        """All markers in the device's frame [m], each as it was nearest to these times [s], which are the frame's."""
+        nearest = np.clip(np.searchsorted(0.5 * (seen.time[1:] + seen.time[:-1]), time), 0, len(seen) - 1)
+        return np.stack([self.points(each) for each in seen.positions[nearest].swapaxes(0, 1)], axis=1)
 
 
 def device_frame(

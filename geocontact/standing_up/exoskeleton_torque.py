@@ -19,8 +19,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Bool, Float
+from scipy.stats import norm
 
 from geocontact.data.multibody.model import GROUND, Multibody
+from geocontact.identify.signals.filters import zero_lag
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
 
@@ -40,6 +42,51 @@ ALONE = 1e-6
 
 Table = Float[np.ndarray, "t 3"]
 Rows = Float[np.ndarray, "_ ..."]
+
+
+MARGIN = 1.0
+"""Periods of the cut-off at either end that are not used: there the filter's own course is in the accelerations."""
+
+
+@dataclass(frozen=True, eq=False)
+class DeviceMotion:
+    """Over time: angles, smoothed, their rates and accelerations, and the motors' torques as recorded."""
+
+    time: Float[np.ndarray, " t"]
+    q: Table
+    u: Table
+    a: Table
+    motors: Table
+
+    @staticmethod
+    def smoothed(time: Float[np.ndarray, " t"], q: Table, motors: Table, cutoff: float) -> DeviceMotion:
+        """The motion from angles as recorded; ValueError where they cannot be filtered."""
+        step = float(np.ptp(time)) / (len(time) - 1)
+        smooth = zero_lag(q, step, cutoff)
+        u = np.gradient(smooth, step, axis=0)
+        return DeviceMotion(time, smooth, u, np.gradient(u, step, axis=0), motors)
+
+    @property
+    def step(self) -> float:
+        """Between two samples [s]."""
+        return float(np.ptp(self.time)) / (len(self.time) - 1)
+
+    def smooth(self, values: Float[np.ndarray, "t ..."], cutoff: float) -> Float[np.ndarray, "t ..."]:
+        """Values at the times, without what lies above the cut-off [Hz]."""
+        return zero_lag(values, self.step, cutoff)
+
+    def independent(self, cutoff: float) -> float:
+        """Part of the samples that is independent behind the filter.
+
+        What passes a filter at fc is correlated: of white noise 2 fc dt of the variance is left, in as many independent
+        samples, so that the variance of the unfiltered torque is that of the residual over 2 fc dt.
+        """
+        return min(2.0 * cutoff * self.step, 1.0)
+
+    def inner(self, cutoff: float) -> Bool[np.ndarray, " t"]:
+        """Where the ends do not show."""
+        margin = MARGIN / cutoff
+        return np.asarray((self.time >= self.time[0] + margin) & (self.time <= self.time[-1] - margin))
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,6 +127,15 @@ class ExoskeletonDynamics:
         """Torque of the exoskeleton at its hinges in a trial [N m]."""
         return np.asarray(motors - self.friction(u))
 
+    def in_trial(self, motion: DeviceMotion, cutoff: float) -> Table:
+        """The same of a motion whose motors go through a filter of this cut-off [Hz], as its angles did."""
+        return self.torque(motion.smooth(motion.motors, cutoff), motion.u)
+
+    def intervals(self, level: float) -> tuple[Float[np.ndarray, " p"], Float[np.ndarray, " p"]]:
+        """Ends of the intervals of a probability, in SI; NaN of parameters that are not identified by themselves."""
+        off = np.where(self.alone, float(norm.ppf(0.5 + 0.5 * level)) * self.deviations, np.nan)
+        return self.values - off, self.values + off
+
 
 def identified(
     subject: Subject,
@@ -118,6 +174,25 @@ def identified(
     alone = np.sum(right[told] ** 2, axis=0) > 1.0 - ALONE
     rank = int(told.sum())
     return ExoskeletonDynamics(subject, _names(), values / size, deviations, alone, rank, residual)
+
+
+def identified_from(subject: Subject, motion: DeviceMotion, cutoff: float) -> ExoskeletonDynamics:
+    """Parameters from a motion without a person, both sides of the equations through one filter, without the ends.
+
+    Parameters
+    ----------
+    subject
+        Says how long the exoskeleton's parts are.
+    cutoff
+        With which the motion was smoothed [Hz].
+    """
+    inner = motion.inner(cutoff)
+
+    def through(values: Rows) -> Rows:
+        return np.asarray(motion.smooth(values, cutoff)[inner])
+
+    part = motion.independent(cutoff)
+    return identified(subject, motion.q, motion.u, motion.a, motion.motors, through=through, independent=part)
 
 
 def human_torque(together: Table, exoskeleton: Table) -> Table:

@@ -23,6 +23,7 @@ from geocontact.standing_up.trials import StandingTrial
 
 DE_LEVA = "fractions of mass and height for men, both sides: de Leva (1996)"
 OF_BOTH = "of both sides"
+FROM_FILE = "as the file of parameters gives it"
 NOISE_UNITS = {
     "length": "m",
     "angle": "rad",

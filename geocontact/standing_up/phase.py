@@ -159,6 +159,13 @@ class PhaseProblem:
     sizes: PhaseSizes | None = None
 
 
+def sizes_of(phase: PhaseProblem) -> PhaseSizes:
+    """What its cost is measured by. ValueError where that is of another kind."""
+    if phase.sizes is None:
+        raise ValueError("this phase does not say what its cost is measured by")
+    return phase.sizes
+
+
 def standing_phase(
     model: StandingModel,
     subject: Subject,

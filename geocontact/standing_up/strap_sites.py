@@ -7,11 +7,12 @@ invented.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
+from scipy.stats import norm
 
 Vector = Float[np.ndarray, " p"]
 
@@ -52,6 +53,26 @@ class ContactParameter:
 def searched(parameters: Sequence[ContactParameter], values: Sequence[float]) -> Vector:
     """What stands for values in the search."""
     return np.array([each.searched(value) for each, value in zip(parameters, values, strict=True)])
+
+
+def deviations(
+    parameters: Sequence[ContactParameter], intervals: Mapping[str, tuple[float, float]], level: float
+) -> Vector:
+    """Standard deviations of what is searched, by intervals of a normal distribution; 0 without an interval.
+
+    Parameters
+    ----------
+    intervals
+        Both ends of each, by the parameter's name, in its unit.
+    level
+        Probability of the intervals.
+    """
+    reach, sd = 2.0 * float(norm.ppf(0.5 + 0.5 * level)), np.zeros(len(parameters))
+    for k, each in enumerate(parameters):
+        if each.name in intervals:
+            low, high = (each.searched(end) for end in intervals[each.name])
+            sd[k] = (high - low) / reach
+    return sd
 
 
 def usual(parameters: Sequence[ContactParameter]) -> Vector:

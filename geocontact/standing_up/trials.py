@@ -7,7 +7,7 @@ sizes and the course of the angles are invented.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -17,8 +17,9 @@ from geocontact.dynamics.collocation.multibody import jerk_controlled
 from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem, Course
 from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions, solve
 from geocontact.dynamics.symbols import residual
-from geocontact.standing_up.chain import COORDINATES, PLANTED, Subject
+from geocontact.standing_up.chain import COMPONENTS, COORDINATES, PLANTED, Subject
 from geocontact.standing_up.standing_model import StandingModel
+from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite
 
 SEATED = np.radians([22.0, 70.0, 45.0])
 """Lean of shank forwards, thigh backwards and trunk forwards at seat-off [rad]."""
@@ -95,6 +96,44 @@ class StandingNoise:
     centre: float = 1e-3
     torque: float = 2.0
     strap: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class StandingUpTrials:
+    """Trials of one person.
+
+    Parameters
+    ----------
+    exoskeleton
+        Whether it was worn, so that its strap is calibrated too.
+    free, tracks
+        Names of the feet's parameters, and channels.
+    sites
+        Where straps are, if an exoskeleton was worn.
+    """
+
+    subject: Subject
+    noise: StandingNoise
+    trials: tuple[StandingTrial, ...]
+    exoskeleton: bool
+    free: tuple[str, ...]
+    tracks: tuple[str, ...]
+    sites: tuple[StrapSite, ...] = (THIGH_STRAP,)
+
+    @property
+    def seated(self) -> bool:
+        """Whether a trial begins on the chair."""
+        return any(trial.chair is not None for trial in self.trials)
+
+
+def with_chairs(trials: Sequence[StandingTrial]) -> tuple[StandingTrial, ...]:
+    """Where one begins on the chair, the others have one that carries nothing."""
+    if all(trial.chair is None for trial in trials):
+        return tuple(trials)
+    return tuple(
+        trial if trial.chair is not None else replace(trial, chair=np.zeros((len(trial.time), COMPONENTS)))
+        for trial in trials
+    )
 
 
 def rising(seconds: float, seated: Float[np.ndarray, " 3"] = SEATED, p: Float[np.ndarray, " p"] = PLANTED) -> Course:

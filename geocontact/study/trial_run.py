@@ -121,7 +121,7 @@ def _evaluate(task: TrialTask, out: Path) -> None:
     result, _ = execute(job, options, out, call)
     told = {
         "analysis": task.analysis,
-        "tables": list(result.tables()),
+        "tables": [name for name, table in result.tables().items() if len(table.columns)],
         "sentences": list(result.sentences),
         "warnings": list(result.warnings),
         "accepted": result.accepted,

@@ -64,6 +64,13 @@ def test_units_are_attributes_as_cf_writes_them(written: netcdf_file) -> None:
     assert (written.title, written.Conventions) == (b"areas", b"CF-1.11")
 
 
+def test_a_table_without_columns_has_no_file(tmp_path: Path) -> None:
+    """As its .csv: `shoulder optimise` has no scales where all factors are the same, and nobody held out of one."""
+    tables = {"grid": GRID, "scales": pd.DataFrame([])}
+    TableForms(parquet=True, netcdf=True).write(tables, tmp_path, "shoulder optimise")
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["grid.nc", "grid.parquet"]
+
+
 def test_rows_that_are_no_grid_are_numbered(tmp_path: Path) -> None:
     holes = GRID.drop(index=3)
     assert coordinates_of(GRID) == ("time [s]", "threshold [mm]") and coordinates_of(holes) == ()

@@ -17,7 +17,9 @@ from geocontact.shoulder_exoskeleton.arms_from_markers import (
     ArmMotions,
     MarkerSettings,
     arm_motions,
+    filled_markers,
     longest_gap,
+    smoothed_arms,
 )
 from geocontact.shoulder_exoskeleton.device_frame import Attachment, virtual_reference
 from geocontact.shoulder_exoskeleton.synthetic import OverheadTrial, condition, participant, synthetic_trial, task
@@ -264,3 +266,37 @@ def test_an_arm_that_grows_in_a_gap_is_refused(trial: OverheadTrial) -> None:
     hidden[390:409, [half.names.index(f"humerus_{side}dn") for side in "rl"]] = np.nan
     with pytest.raises(InputError, match=r"upper arm are \d{3} mm apart at 4\.09 s, 167 mm in the median"):
         arm_motions(replace(half, positions=hidden), SETTINGS)
+
+
+def test_smoothed_arms_are_those_of_one_side_with_all_markers_in_their_frame(trial: OverheadTrial) -> None:
+    """A low-pass of 6 Hz leaves a lift where it is; without one the arm is the recorded one."""
+    plain = arm_motions(trial.markers, SETTINGS)
+    found = smoothed_arms(trial.markers, SETTINGS, None, "left")
+    (left,) = found.arms
+    np.testing.assert_allclose(left.interface, plain.of("left").interface, atol=1e-9)
+    place = found.markers[:, trial.markers.names.index("humerus_ldn")]
+    np.testing.assert_allclose(place, left.interface, atol=1e-9)
+    both = smoothed_arms(trial.markers, SETTINGS)
+    assert [arm.side for arm in both.arms] == ["right", "left"] and both.notes == plain.notes
+    moved = np.abs(both.arms[1].interface - left.interface).max()
+    assert 0.0 < moved < 0.005
+    one = without(trial.markers, "humerus_lup", "humerus_ldn")
+    assert smoothed_arms(one, SETTINGS).notes[-1] == "only the right arm was recorded"
+    with pytest.raises(InputError, match="the left arm was not recorded; recorded: right"):
+        smoothed_arms(one, SETTINGS, side="left")
+
+
+def test_gaps_of_markers_are_filled_and_late_ones_left_out() -> None:
+    time = np.arange(50) * 0.01
+    line = np.stack([time, 2.0 * time, -time], axis=1)
+    positions = np.stack([line, line, line], axis=1)
+    positions[10:15, 0] = np.nan
+    positions[0, 1] = np.nan
+    seen = MarkerTrajectories(time, positions, ("gap", "late", "whole"), "walk.trc")
+    found = filled_markers(seen, 0.1)
+    assert found.names == ("gap", "whole") and found.source == "walk.trc"
+    np.testing.assert_allclose(found.positions, np.stack([line, line], axis=1), atol=1e-12)
+    with pytest.raises(InputError, match=r"walk\.trc"):
+        filled_markers(seen, 0.03)
+    with pytest.raises(InputError, match="no marker is seen from the first to the last frame"):
+        filled_markers(without(seen, "gap", "whole"), 0.1)

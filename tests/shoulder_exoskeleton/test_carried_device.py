@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geocontact.shoulder_exoskeleton.arm_motion import Side
-from geocontact.shoulder_exoskeleton.carried_device import weight_and_inertia
+from geocontact.shoulder_exoskeleton.carried_device import forces_of_device, weight_and_inertia
 from geocontact.shoulder_exoskeleton.device import lucy
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 from tests.shoulder_exoskeleton.arms import FITTING, GRAVITY, lifted
@@ -31,3 +31,15 @@ def test_at_rest_it_is_the_weight() -> None:
     force, moment = weight_and_inertia(s)
     np.testing.assert_allclose(force[0], 1.3 * GRAVITY, atol=0.02)
     assert abs(moment[0, 2]) < 0.01
+
+
+def test_arm_and_trunk_together_carry_the_weight_only() -> None:
+    """The cuff acts on both, in opposite ways at one point; what is left is the device at its first joint."""
+    s = simulate_arm(lifted(seconds=4.0), lucy(), FITTING, 0.5)
+    found = forces_of_device(s)
+    assert list(found) == ["cuff", "trunk", "device"] and np.abs(found["cuff"][0]).max() > 5.0
+    force = sum(force for force, _, _ in found.values())
+    moment = sum(np.cross(place, force) + own for force, place, own in found.values())
+    np.testing.assert_allclose(force[0], 1.3 * GRAVITY, atol=0.02)
+    carried, joint, own = found["device"]
+    np.testing.assert_allclose(moment, np.cross(joint, carried) + own, atol=1e-9)

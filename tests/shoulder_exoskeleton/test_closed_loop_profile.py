@@ -5,11 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.analyses.shoulder.optimise.profiles import support_of
 from geocontact.shoulder_exoskeleton import cuff_contact as in_cuff
 from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
 from geocontact.shoulder_exoskeleton.device import lucy_new_cylinder
-from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial, ModelError, support_case, varied_case
+from geocontact.shoulder_exoskeleton.support.arm_trial import (
+    ArmTrial,
+    ModelError,
+    support_case,
+    support_of,
+    varied_case,
+)
 from geocontact.shoulder_exoskeleton.support.best_profile import best_profile, scaled, uniform_profile
 from geocontact.shoulder_exoskeleton.support.closed_loop_profile import JUMP, SLACK, ClosedLoop, SettledProfile
 from geocontact.shoulder_exoskeleton.support.controlled_arm import SimulatedSupport, simulated_support

@@ -15,6 +15,7 @@ from geocontact.shoulder_exoskeleton.device import (
     lucy_new_cylinder,
     piston_area,
 )
+from geocontact.shoulder_exoskeleton.support.arm_trial import support_of
 
 
 def test_the_papers_numbers_agree_with_each_other() -> None:
@@ -34,6 +35,13 @@ def test_the_devices_have_the_papers_peak_torques() -> None:
     arms = lever(angle, d["lever_a"], d["lever_b"], d["lever_phase"])
     assert arms.max() * d.peak_force == pytest.approx(d.peak_torque, rel=1e-6)
     assert arms[0] == 0.0
+
+
+def test_peak_torques_of_the_support_are_those_of_the_paper() -> None:
+    angles = np.linspace(0.0, np.pi, 2001)
+    for device, peak in ((lucy(), 7.8), (lucy_new_cylinder(), 12.8)):
+        assert support_of(device).torque(angles).max() == pytest.approx(peak, abs=0.02)
+        assert support_of(device).lag == device["lag"]
 
 
 def test_the_lever_is_the_slope_of_the_cylinders_length() -> None:

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.shoulder_exoskeleton.device_frame import (
+    DeviceFrame,
     about_x,
     aligned_with_x,
     device_frame,
@@ -87,3 +89,28 @@ def test_pitch_of_an_upright_wearer_makes_z_upright() -> None:
     assert pitch == pytest.approx(-np.arctan2(0.03, 0.25), abs=1e-14)
     vertical = device_frame(origin, left, below, pitch).vectors(up)
     np.testing.assert_allclose(vertical, np.tile([0.0, 0.0, 2.0], (FRAMES, 1)), atol=1e-14)
+
+
+def test_at_other_times_it_turns_and_moves_on_evenly() -> None:
+    """A turn of 1 rad/s about z and a way of 2 m/s: exact between the frames and across one that is not seen."""
+
+    def pose(time: np.ndarray) -> DeviceFrame:
+        turns = Rotation.from_rotvec(np.outer(time, [0.0, 0.0, 1.0])).as_matrix()
+        return DeviceFrame(np.outer(time, [2.0, 0.0, 0.0]), turns)
+
+    time = np.arange(5.0) * 0.5
+    frame = pose(time)
+    frame.rotation[2] = np.nan
+    wanted = np.array([-1.0, 0.3, 1.1, 1.9, 9.0])
+    found, truth = frame.at(time, wanted), pose(np.clip(wanted, 0.0, 2.0))
+    np.testing.assert_allclose(found.origin, truth.origin, atol=1e-12)
+    np.testing.assert_allclose(found.rotation, truth.rotation, atol=1e-12)
+
+
+def test_a_marker_on_the_device_stands_still_in_its_frame() -> None:
+    origin, left, below = placed(3)
+    frame = device_frame(origin, left, below)
+    place = np.array([0.1, -0.2, 0.3])
+    there = origin + np.einsum("tji,j->ti", frame.rotation, place)
+    seen = MarkerTrajectories(np.arange(float(FRAMES)), there[:, None], ("M",))
+    np.testing.assert_allclose(frame.markers(seen, seen.time + 0.4)[:, 0], np.tile(place, (FRAMES, 1)), atol=1e-12)

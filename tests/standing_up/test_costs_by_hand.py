@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import geocontact.standing_up.trials as trials_module
-from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, standing_trials
+from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.dynamics.collocation.problem import ControlledSystem, ControlProblem
 from geocontact.standing_up.assisted_model import assisted_model, habit
 from geocontact.standing_up.chain import EVERY_PLANTED, SOUGHT
@@ -18,6 +18,7 @@ from geocontact.standing_up.exoskeleton import STRAP_PLANTED, with_exoskeleton
 from geocontact.standing_up.first_fit import first_fit
 from geocontact.standing_up.phase import smooth_coordinates
 from geocontact.standing_up.strap_sites import usual
+from geocontact.standing_up.trials import StandingUpTrials
 from tests.cli.calls import MESHES
 
 P = np.r_[EVERY_PLANTED, STRAP_PLANTED, 0.3, 0.25]

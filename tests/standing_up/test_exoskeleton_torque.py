@@ -8,7 +8,7 @@ import pytest
 from geocontact.dynamics.tree import tree_of
 from geocontact.standing_up.chain import Subject, leg_chain
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, SHIFT, coupled_chain, two_chains
-from geocontact.standing_up.exoskeleton_torque import human_torque, identified, regressor
+from geocontact.standing_up.exoskeleton_torque import DeviceMotion, human_torque, identified, identified_from, regressor
 
 SUBJECT = Subject()
 VISCOUS, COULOMB = np.array([2.0, 3.0, 2.5]), np.array([1.5, 2.5, 2.0])
@@ -70,3 +70,24 @@ def test_person_has_what_the_exoskeleton_leaves() -> None:
     # the exoskeleton's knee is higher, which moves the torque of what is above it from one hinge to another
     above = 9.0 * (9.81 + np.abs(motion[2]).max() * 1.5 + np.abs(motion[1]).max() ** 2 * 1.5)
     assert np.abs(off).max() < SHIFT * above, np.abs(off).max()
+
+
+def test_friction_comes_back_through_the_filter() -> None:
+    """A slow motion at 100 Hz, a cut-off of 6 Hz on both sides: within three deviations; intervals are 1.96 of them."""
+    time = np.linspace(0.0, 10.0, 1001)
+    q, u, a = excited(1001)
+    motors = needed(two_chains(SUBJECT), EXO_JOINTS, [q, u, a]) + VISCOUS * u + COULOMB * np.tanh(u / np.radians(1.0))
+    noise = 0.2 * np.random.default_rng(3).normal(size=motors.shape)
+    motion = DeviceMotion.smoothed(time, q, motors + noise, 6.0)
+    assert motion.step == pytest.approx(0.01) and motion.independent(6.0) == pytest.approx(0.12)
+    inner = motion.inner(6.0)
+    assert inner.sum() == pytest.approx(1001 - 2 * 100 / 6.0, abs=2.0) and not inner[0]
+    np.testing.assert_allclose(motion.a[inner], a[inner], atol=0.05 * np.abs(a).max())
+    found = identified_from(SUBJECT, motion, 6.0)
+    off = found.values[12:] - np.column_stack([VISCOUS, COULOMB]).ravel()
+    assert np.abs(off).max() < 0.3 and found.alone[12:].all()
+    low, high = found.intervals(0.95)
+    np.testing.assert_allclose((high - low)[12:], 2.0 * 1.95996 * found.deviations[12:], rtol=1e-5)
+    assert np.isnan(low[~found.alone]).all()
+    left = motion.smooth(motors + noise, 6.0) - found.friction(motion.u)
+    np.testing.assert_array_equal(found.in_trial(motion, 6.0), left)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from benchmarks.same_outputs.inputs import area, elbow, exports, foot, gap, gather, knee, leg, mats, walk
+from benchmarks.same_outputs.inputs import area, elbow, exports, foot, gap, gather, knee, leg, mats, overhead, walk
 
 SHIPPED = (
     "*.stl",
@@ -30,7 +30,7 @@ def make(folder: Path, meshes: Path) -> None:
             there = folder / "meshes" / file.relative_to(meshes)
             there.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(file, there)
-    for kind in (area, knee, foot, leg, mats, exports, elbow, gap, gather, walk):
+    for kind in (area, knee, foot, leg, mats, exports, elbow, gap, gather, walk, overhead):
         home = folder / kind.__name__.rpartition(".")[2]
         home.mkdir(parents=True, exist_ok=True)
         kind.make(home, folder / "meshes")

@@ -35,12 +35,16 @@ class TableForms:
         return {name: True for name in ("parquet", "netcdf") if getattr(self, name)}
 
     def write(self, tables: Mapping[str, pd.DataFrame], folder: Path, command: str) -> None:
-        """Write the tables, each by its name, into the folder or the sub-folder that the name begins with."""
+        """Write the tables, each by its name, into the folder or the sub-folder that the name begins with.
+
+        One without columns has nothing that a file could hold, as in its .csv.
+        """
         if self.parquet:
             from geocontact.io.results import write_parquet
 
             for name, table in tables.items():
-                write_parquet(table, _file(folder, name, "parquet"))
+                if len(table.columns):
+                    write_parquet(table, _file(folder, name, "parquet"))
         if self.netcdf:
             from geocontact.io.results import over_time, write_netcdf
 

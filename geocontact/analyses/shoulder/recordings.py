@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from itertools import groupby
 from pathlib import Path
 
 import numpy as np
@@ -13,27 +11,16 @@ from jaxtyping import Bool, Float
 from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.frame.marks import AngleUnit, ForceUnit
 from geocontact.data.errors import InputError
-from geocontact.identify.signals.agreement import Agreement, agreement, over_stretches
 from geocontact.io.recordings.load_cells import column_in_newtons
 from geocontact.io.text.columns import angles_of, parse_map, resolve
 from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.io.text.units import split_header
-from geocontact.shoulder_exoskeleton.work_phases import PHASES
-
-ELEVATION, FORCE = "elevation", "force"
+from geocontact.shoulder_exoskeleton.beside_recording import ELEVATION, FORCE, Channels
 
 
 def shown_in(channel: str) -> tuple[str, float]:
     """Unit of a channel in tables and sentences, and how many of it one SI unit is."""
     return ("N", 1.0) if channel == FORCE else ("deg", float(np.degrees(1.0)))
-
-
-@dataclass(frozen=True, eq=False)
-class Channels:
-    """Channels over a clock of their own [rad, N]."""
-
-    time: Float[np.ndarray, " t"]
-    curves: Mapping[str, Float[np.ndarray, " t"]]
 
 
 def recorded_channels(
@@ -80,39 +67,6 @@ def _column(table: TextTable, channel: str, mapping: Mapping[str, tuple[float, s
 
 def _force(table: TextTable, name: str, unit: ForceUnit | None) -> Float[np.ndarray, " t"]:
     return column_in_newtons(table, name, unit)[0]
-
-
-ALL, WORK = "all", "work"
-"""The whole trial; from the beginning of lifting to the end of lowering, as the study of the exoskeleton takes it."""
-
-
-def phase_errors(
-    model: Float[np.ndarray, " t"],
-    measured: Float[np.ndarray, " t"],
-    step: float,
-    phase: np.ndarray,
-    inside: Bool[np.ndarray, " t"],
-) -> dict[str, Agreement]:
-    """Agreement by part: `ALL`, `WORK`, and each phase that there is.
-
-    Parameters
-    ----------
-    step
-        Between samples [s].
-    phase
-        Word of each sample, of `PHASES`.
-    inside
-        Samples that were recorded.
-    """
-    parts = {ALL: inside, WORK: inside & (phase != PHASES[0])} | {name: inside & (phase == name) for name in PHASES[1:]}
-    return {name: _agreement(model, measured, step, part) for name, part in parts.items() if part.any()}
-
-
-def _agreement(model: np.ndarray, measured: np.ndarray, step: float, part: Bool[np.ndarray, " t"]) -> Agreement:
-    if part.all():
-        return agreement(model, measured, step)
-    runs = [[i for i, _ in group] for inside, group in groupby(enumerate(part), lambda pair: bool(pair[1])) if inside]
-    return over_stretches(model, measured, step, [(run[0], run[-1] + 1) for run in runs])
 
 
 EVENT, CURRENT = "event", "current"

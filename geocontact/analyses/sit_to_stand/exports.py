@@ -16,7 +16,6 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.io.opensim.external_loads import write_external_loads
 from geocontact.io.opensim.osim_contact import bushing_force_between, smooth_sphere_force, torque_along
 from geocontact.io.opensim.osim_writer import ContactBall, write_osim
@@ -26,6 +25,7 @@ from geocontact.standing_up.chain import COORDINATES, FRICTION, SITS, TRUNK, TUR
 from geocontact.standing_up.exoskeleton import DAMPING, EXO_JOINTS, HEIGHT, two_chains
 from geocontact.standing_up.strap import StrapForce, StrapMotion, strap_force, strap_motion
 from geocontact.standing_up.strap_sites import StrapSite, sites_of
+from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.view.surfaces.vtp_series import LineSeries, write_line_series
 

@@ -12,9 +12,9 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.standing_up.chain import COORDINATES, FOOT, TRUNK, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import HEIGHT, STRAP_PARAMETERS, two_chains
+from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.view.page.content import Curve, Curves, Page, Section, Words
 from geocontact.view.page.scene import Linkage, Scene

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -12,21 +12,19 @@ from jaxtyping import Bool, Float
 from geocontact.analyses.frame.collector import add_input
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import Multibody
-from geocontact.identify.signals.filters import UNEVEN, zero_lag
-from geocontact.io.mocap.force_plates import LOADED, ForcePlate, plate_named, read_force_plates
+from geocontact.data.wrench import Wrench
+from geocontact.identify.signals.filters import UNEVEN
+from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
 from geocontact.io.opensim.coordinates import columns_of, motion_of
 from geocontact.io.recordings.standing_study import StandingTrialFiles, read_standing_study
 from geocontact.io.text.tables import read_table
-from geocontact.standing_up.chain import COMPONENTS, FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN, Subject, leg_chain
+from geocontact.standing_up.chain import FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.phases import TRACKS, TRACKS_B
-from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite, strap_sites
-from geocontact.standing_up.trials import StandingNoise, StandingTrial
+from geocontact.standing_up.strap_sites import strap_sites
+from geocontact.standing_up.trial_forces import chair_load, seat_off, under_the_feet
+from geocontact.standing_up.trials import StandingNoise, StandingTrial, StandingUpTrials, with_chairs
 
-SEATED = 5.0
-"""Force on the chair from which on one sits [N], the study's."""
-CHAIR_CUTOFF = 10.0
-"""Cut-off of the chair's force [Hz], ours: the load is given, so that a motion would have to follow its noise."""
 FEWEST = 20
 """Samples of a trial."""
 NORMAL, FORWARDS = "normal", "fx"
@@ -35,39 +33,8 @@ SCANS = {"thigh": "thigh", "shank": "shank", "pelvis": "torso"}
 """What a scan of a site is of."""
 CELL = "r0c0"
 """First cell in a mat's own recording."""
-BESIDE = 0.5
-"""Farther from the ankle than that [m] a centre of pressure is not under the foot."""
-
 Times = Float[np.ndarray, " t"]
 Table = Float[np.ndarray, "t c"]
-
-
-@dataclass(frozen=True, eq=False)
-class StandingUpTrials:
-    """Trials of one person.
-
-    Parameters
-    ----------
-    exoskeleton
-        Whether it was worn, so that its strap is calibrated too.
-    free, tracks
-        Names of the feet's parameters, and channels.
-    sites
-        Where straps are, if an exoskeleton was worn.
-    """
-
-    subject: Subject
-    noise: StandingNoise
-    trials: tuple[StandingTrial, ...]
-    exoskeleton: bool
-    free: tuple[str, ...]
-    tracks: tuple[str, ...]
-    sites: tuple[StrapSite, ...] = (THIGH_STRAP,)
-
-    @property
-    def seated(self) -> bool:
-        """Whether a trial begins on the chair."""
-        return any(trial.chair is not None for trial in self.trials)
 
 
 def standing_trials(file: Path, role: str, c3d_unit: str | None = None) -> StandingUpTrials:
@@ -88,16 +55,6 @@ def standing_trials(file: Path, role: str, c3d_unit: str | None = None) -> Stand
     names = tuple(site.name for site in sites[1:])
     trials = with_chairs([channels_of(each, chain, tracks, file, names, c3d_unit) for each in study.trials])
     return StandingUpTrials(subject, StandingNoise(**study.noise), trials, study.exoskeleton, free, tracks, sites)
-
-
-def with_chairs(trials: Sequence[StandingTrial]) -> tuple[StandingTrial, ...]:
-    """Where one begins on the chair, the others have one that carries nothing."""
-    if all(trial.chair is None for trial in trials):
-        return tuple(trials)
-    return tuple(
-        trial if trial.chair is not None else replace(trial, chair=np.zeros((len(trial.time), COMPONENTS)))
-        for trial in trials
-    )
 
 
 def _known(
@@ -141,7 +98,8 @@ def channels_of(
         _require_one_clock(files.plates, feet, time)
         if files.chair is not None:
             chair = plate_named(plates, files.chair, files.plates, f"{place} chair")
-            left = time >= seat_off(files.plates, chair)
+            with _named(files.plates, chair):
+                left = time >= seat_off(chair.time, np.abs(chair.wrench.force @ chair.normal))
             off = off if files.sitting else left
     used = off & _within(files, time)
     if used.sum() < FEWEST:
@@ -151,7 +109,8 @@ def channels_of(
     u = np.zeros_like(q) if files.rates is None else _rates(files.rates, chain, files.name, time)
     force, centre = np.zeros((len(time), 2)), np.zeros(len(time))
     if feet is not None and files.plates is not None:
-        force, centre = _under_the_feet(files.plates, feet, time, q[:, 0])
+        with _named(files.plates, feet):
+            force, centre = under_the_feet(_wrench(feet, time), time, q[:, 0])
     torque, strap, elsewhere = None, None, {}
     if "torque" in tracks and files.torques is not None:
         names = [c.name for c in chain.coordinates[3:]]
@@ -162,7 +121,8 @@ def channels_of(
         elsewhere = {s: site_force(files.elsewhere.get(s, ()), role, s, time) for s, role in roles.items()}
     sat_on = None
     if files.sitting and chair is not None and files.plates is not None:
-        sat_on = chair_load(files.plates, chair, time)
+        with _named(files.plates, chair):
+            sat_on = chair_load(_wrench(chair, time), time)
     return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on, elsewhere)
 
 
@@ -179,20 +139,18 @@ def _require_tracked(files: StandingTrialFiles, tracks: tuple[str, ...], study: 
             raise InputError(study, place, what, f"name its file as {key}, or leave {channel} out of tracks")
 
 
-def chair_load(file: Path, chair: ForcePlate, time: Times) -> Table:
-    """Force forwards and up [N] and moment about the ground's origin [N m] on the person, low-passed, (t, 3).
+def _wrench(plate: ForcePlate, time: Times) -> Wrench:
+    """Reaction at the times of the trial; beyond its own the nearest."""
+    return plate.at(np.clip(time, *plate.time[[0, -1]]))
 
-    300 N that are let go within 0.3 s from the first sample on are off by 1 N at most for it.
-    """
-    wrench = chair.at(np.clip(time, *chair.time[[0, -1]]))
-    load = np.nan_to_num(np.column_stack([wrench.force[:, :2], wrench.moment[:, 2]]))
-    step, remedy = float(np.median(np.diff(time))), "resample the coordinates evenly, at 50 Hz or more"
-    if np.abs(np.diff(time) - step).max() > 2.0 * UNEVEN * step:
-        raise InputError(file, chair.name, "is wanted at times that are not even, as a filter needs them", remedy)
+
+@contextmanager
+def _named(file: Path, plate: ForcePlate) -> Iterator[None]:
+    """InputErrors about a plate's values with its file and name."""
     try:
-        return zero_lag(load, step, CHAIR_CUTOFF)
-    except ValueError as error:
-        raise InputError(file, chair.name, str(error), remedy) from error
+        yield
+    except InputError as error:
+        raise InputError(file, plate.name, error.what, error.remedy) from error
 
 
 def site_force(files: Sequence[Path], role: str, site: str, time: Times) -> Times:
@@ -212,19 +170,6 @@ def strap_force(file: Path, role: str, site: str, time: Times) -> Times:
         remedy += " and `layout`, and give the wrench.csv that it writes"
         raise InputError(file, "", what, remedy)
     return _columns(file, [FORWARDS if FORWARDS in names else NORMAL], role, time)[:, 0]
-
-
-def seat_off(file: Path, chair: ForcePlate) -> float:
-    """When the chair's force falls below `SEATED` for good [s]; InputError where it never does or never was above."""
-    force = np.abs(chair.wrench.force @ chair.normal)
-    seated = np.flatnonzero(force >= SEATED)
-    if not len(seated):
-        what = f"seat-off not found: its force is never {SEATED:g} N"
-        raise InputError(file, chair.name, what, "check that this is the chair's plate, or give start")
-    if seated[-1] == len(force) - 1:
-        what = f"seat-off not found: its force is {force[-1]:.3g} N to the end"
-        raise InputError(file, chair.name, what, "check that the plate was set to zero, or give start")
-    return float(chair.time[seated[-1] + 1])
 
 
 def _within(files: StandingTrialFiles, time: Times) -> Bool[np.ndarray, " t"]:
@@ -276,20 +221,3 @@ def _require_one_clock(file: Path, plate: ForcePlate, time: Times) -> None:
     if begin > time[0] + step or end < time[-1] - step:
         what = f"runs from {begin:g} to {end:g} s, the coordinates from {time[0]:g} to {time[-1]:g} s"
         raise InputError(file, plate.name, what, "put plates and markers on one clock, or cut the coordinates")
-
-
-def _under_the_feet(file: Path, plate: ForcePlate, time: Times, ankle: Times) -> tuple[Table, Times]:
-    """Force forwards and up, and the centre of pressure on the ground y = 0."""
-    wrench = plate.at(np.clip(time, *plate.time[[0, -1]]))
-    force = wrench.force[:, :2]
-    if not np.isfinite(wrench.force).all() or not np.isfinite(wrench.moment[:, 2]).all():
-        raise InputError(file, plate.name, "has gaps within the trial", "fill them or cut the trial by start and end")
-    if force[:, 1].min() < LOADED:
-        what = f"carries {force[:, 1].min():.3g} N at {time[int(np.argmin(force[:, 1]))]:g} s"
-        raise InputError(file, plate.name, what, "the feet must stand on it throughout; check that it is theirs")
-    centre = wrench.moment[:, 2] / force[:, 1]
-    away = float(np.median(centre - ankle))
-    if abs(away) > BESIDE:
-        what = f"its centre of pressure is {away:.2f} m ahead of the ankle"
-        raise InputError(file, plate.name, what, "plates and coordinates must have one origin, x forwards, y up")
-    return force, centre

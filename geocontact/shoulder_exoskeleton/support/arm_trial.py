@@ -12,7 +12,7 @@ from geocontact.data.body_segments import Sex
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side, smoothed_motion
 from geocontact.shoulder_exoskeleton.arms_from_markers import MarkerSettings, arm_motions
-from geocontact.shoulder_exoskeleton.device import Wearer
+from geocontact.shoulder_exoskeleton.device import Device, Wearer, lever
 from geocontact.shoulder_exoskeleton.human_arm import (
     CUTOFF,
     ElevationTorque,
@@ -91,6 +91,16 @@ class Support:
 
     torque: Callable[[Float[np.ndarray, " t"]], Float[np.ndarray, " t"]]
     lag: float
+
+
+def support_of(device: Device) -> Support:
+    """Torque of the device's cylinder at full level over the elevation of its arm, and the lag of its pressure."""
+    a, b, phase = (np.array(device[name]) for name in ("lever_a", "lever_b", "lever_phase"))
+
+    def torque(elevation: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
+        return np.asarray(device.peak_force * lever(elevation, a, b, phase))
+
+    return Support(torque, device["lag"])
 
 
 @dataclass(frozen=True, eq=False)
@@ -248,13 +258,15 @@ def recorded_arms(
         load = hand_load(use.work, motion.side, worker.dominant, use.running[kept])
         needed = elevation_torque(track, load, mass=worker.mass, sex=worker.sex, gravity=gravity, cutoff=cutoff)
         own = smoothed_motion(motion, cutoff, settings.gap_limit)
-        lever = float(np.linalg.norm(motion.interface - motion.shoulder, axis=1).mean())
+        to_cuff = float(np.linalg.norm(motion.interface - motion.shoulder, axis=1).mean())
         hand: Hand = "dominant" if motion.side == worker.dominant else "other"
         label = f"{name} {motion.side}"
         current = use.current[kept]
         reach = float(np.linalg.norm(track.elbow - track.shoulder, axis=1).mean())
         moment = arm_moment(worker.mass, worker.sex, reach)
         found.append(
-            ArmTrial(label, worker.name, task, hand, needed, own.elevation, current, lever, own, worker.lengths, moment)
+            ArmTrial(
+                label, worker.name, task, hand, needed, own.elevation, current, to_cuff, own, worker.lengths, moment
+            )
         )
     return found, motions.notes

@@ -25,7 +25,7 @@ from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, move_arm, re
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome, outcome_of
 from geocontact.shoulder_exoskeleton.support.phase_machine import Sensing, Thresholds, detected, sensed
-from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey
+from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey, Hand
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
 PASSES = 50
@@ -62,6 +62,29 @@ class Controller:
         if self.sensing is not None:
             seen = sensed(time, *seen, self.sensing, np.random.default_rng(self.seed))
         return detected(time, *seen, self.thresholds)
+
+
+def hand_controller(
+    factors: Factors,
+    task: str,
+    hand: Hand,
+    current: Float[np.ndarray, " t"],
+    sensing: Sensing | None = None,
+    seed: int = 0,
+) -> Controller:
+    """The controller of one hand's arm in a task, with the usual thresholds; a phase without a factor has 0.
+
+    Parameters
+    ----------
+    current
+        Of the tool at the motion's frames [A].
+    sensing
+        Noise, steps and delay; None: exact.
+    seed
+        Of the noise.
+    """
+    shares = np.array([factors.get(FactorKey(task, hand, phase), 0.0) for phase in PHASES])
+    return Controller(shares, current, Thresholds(), sensing, seed)
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,9 +179,7 @@ def simulated_support(
 
     ArithmeticError as of `controlled_arm`.
     """
-    keys = [FactorKey(trial.task, trial.hand, phase) for phase in PHASES]
-    shares = np.array([factors.get(key, 0.0) for key in keys])
-    control = Controller(shares, trial.current, Thresholds(), sensing, seed)
+    control = hand_controller(factors, trial.task, trial.hand, trial.current, sensing, seed)
     arm, lost = controlled_arm(trial.motion, device, trial.wearer, 1.0, control, guess=guess, most_lost=1.0), False
     found = arm.simulation
     try:

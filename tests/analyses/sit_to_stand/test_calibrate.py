@@ -16,9 +16,6 @@ from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
 from geocontact.analyses.sit_to_stand.calibrate.phases import doubt_phase
 from geocontact.analyses.sit_to_stand.calibrate.result import read, run
-from geocontact.analyses.sit_to_stand.standing_trials import seat_off
-from geocontact.data.wrench import Wrench
-from geocontact.io.mocap.force_plates import ForcePlate
 from geocontact.io.opensim.storage_writer import write_moco_trajectory
 from geocontact.standing_up.calibrated_phase import Ended
 from geocontact.standing_up.chain import FOOT_PARAMETERS
@@ -116,13 +113,6 @@ def test_plates_that_do_not_belong_are_refused(tmp_path: Path, column: str, by: 
 def test_options_that_cannot_be_are_refused(given: dict[str, float], words: str) -> None:
     with pytest.raises(gc.InputError, match=words):
         gc.sit_to_stand.calibrate(STUDY, **given)
-
-
-def test_a_chair_that_nobody_sat_on_has_no_seat_off() -> None:
-    time, none = np.arange(5.0), np.zeros((5, 3))
-    chair = ForcePlate("chair", time, Wrench(none, none, none, "ground"), np.zeros(3), np.array([0.0, 1.0, 0.0]))
-    with pytest.raises(gc.InputError, match="seat-off not found: its force is never 5 N"):
-        seat_off(STUDY, chair)
 
 
 def test_trials_begin_when_the_chair_is_left(tmp_path: Path) -> None:

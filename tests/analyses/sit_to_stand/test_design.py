@@ -13,9 +13,9 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
+from geocontact.analyses.sit_to_stand.design.designs import read
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
 from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult, doubt, run
-from geocontact.analyses.sit_to_stand.design.search import read
 from tests.analyses.sit_to_stand.ctrl_c import Interrupting
 from tests.cli.calls import MESHES
 from tests.recording import opened

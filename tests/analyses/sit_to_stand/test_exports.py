@@ -11,7 +11,6 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.sit_to_stand.exports import write_motion, write_solution, write_standing_model
-from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.io.opensim.external_loads import read_external_loads
 from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import EVERY_PLANTED, Subject
@@ -19,6 +18,7 @@ from geocontact.standing_up.exoskeleton import LEGS, STRAP_PLANTED, WORN_PARAMET
 from geocontact.standing_up.phase import JudgedMotion
 from geocontact.standing_up.strap import strap_force
 from geocontact.standing_up.strap_sites import STRAP_SITES
+from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingTrial, seen_in, standing_up
 from tests import opensim_oracle
 from tests.elsewhere import Elsewhere

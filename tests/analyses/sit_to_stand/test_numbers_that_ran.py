@@ -22,11 +22,11 @@ from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult
 from geocontact.analyses.sit_to_stand.exports import write_solution
 from geocontact.analyses.sit_to_stand.predict.predictions import MEAN
 from geocontact.analyses.sit_to_stand.predict.result import StandingPredictResult
-from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation import solve as refinement
 from geocontact.dynamics.collocation.motion import CollocatedMotion
 from geocontact.io.text.results import write_table
 from geocontact.standing_up import phase as judged
+from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingTrial
 from tests.cli.calls import MESHES
 from tests.standing_up.from_table import Chains, belief, over, read, squares

@@ -13,9 +13,10 @@ import geocontact as gc
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.predict import predictions
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
-from geocontact.analyses.sit_to_stand.predict.predictions import ALL, read
+from geocontact.analyses.sit_to_stand.predict.predictions import read
 from geocontact.analyses.sit_to_stand.predict.result import run
 from geocontact.standing_up.phases import TRACKS_C
+from geocontact.standing_up.prediction import ALL
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.standing_up.trivial_trials import mean_trial
 from tests.analyses.sit_to_stand.ctrl_c import Interrupting

@@ -10,9 +10,7 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
-from geocontact.analyses.sit_to_stand.standing_trials import chair_load, standing_trials, strap_force
-from geocontact.data.wrench import Wrench
-from geocontact.io.mocap.force_plates import ForcePlate
+from geocontact.analyses.sit_to_stand.standing_trials import standing_trials, strap_force
 from geocontact.io.recordings.standing_study import read_standing_study
 from tests.cli.calls import MESHES
 from tests.recording import opened
@@ -78,17 +76,3 @@ def test_a_trial_may_begin_on_the_chair(tmp_path: Path) -> None:
     (tmp_path / "study.toml").write_text(text.replace('chair = "chair_force"\nsitting', "sitting", 1))
     with pytest.raises(gc.InputError, match="sitting without the force of a chair"):
         gc.sit_to_stand.calibrate(tmp_path / "study.toml")
-
-
-def test_noise_of_a_chair_is_not_given_to_the_motion() -> None:
-    """White noise of 0.5 N at 100 Hz is less than half of it; 300 N let go in 0.3 s are off by 1 N at most."""
-    time = np.arange(0.0, 10.0, 0.01)
-    up = 300.0 * np.clip(1.0 - time / 0.3, 0.0, 1.0) ** 3
-    force, still = np.column_stack([0.0 * up, up, 0.0 * up]), np.zeros((len(time), 3))
-    noise, loads = 0.5 * np.random.default_rng(3).normal(size=force.shape), []
-    for seen in (force, force + noise):
-        wrench = Wrench(seen, still, still, "ground")
-        plate = ForcePlate("chair", time, wrench, np.zeros(3), np.array([0.0, 1.0, 0.0]))
-        loads.append(chair_load(Path("plates.mot"), plate, time)[:, 1])
-    assert 0.1 < np.abs(loads[0] - up).max() < 1.0
-    assert np.std(loads[1] - loads[0]) < 0.25

@@ -17,37 +17,123 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pandas as pd
 
-from geocontact.analyses.frame.collector import note, say
+from geocontact.analyses.frame.collector import add_input, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.panels import curves_figure
-from geocontact.analyses.shoulder.compare.errors import (
-    ArmAndRecording,
-    ComparedChannel,
-    compared,
-    comparison_table,
-    read,
-)
 from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
-from geocontact.analyses.shoulder.recordings import ALL, WORK, shown_in
+from geocontact.analyses.shoulder.recordings import recorded_channels, shown_in
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
+from geocontact.data.errors import InputError
+from geocontact.io.text.side_table import read_side_table
+from geocontact.shoulder_exoskeleton.beside_recording import (
+    ALL,
+    ELEVATION,
+    FORCE,
+    WORK,
+    Channels,
+    ComparedChannel,
+    beside_recording,
+)
+from geocontact.shoulder_exoskeleton.work_phases import PHASES
 from geocontact.view.page.content import Curve, Curves, Page, Words
 from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+SIMULATED = {ELEVATION: "elevation [rad]", FORCE: "supporting [N]"}
+"""Columns of the simulated arm that the recorded channels are compared with."""
+OUT = "out of the cuff"
 MAT = (
     "The simulated force is the component that lifts the arm; a pressure mat also counts what presses from the sides, "
     "and is loaded by straps, sleeves and a push force on the tool that the simulation does not know."
 )
+
+
+@dataclass(frozen=True, eq=False)
+class ArmAndRecording:
+    """A simulated arm with its phases in words, and the recording.
+
+    Parameters
+    ----------
+    out_of_cuff
+        Share of the simulated time for which the sphere is out of the cuff.
+    """
+
+    simulated: Channels
+    phase: tuple[str, ...]
+    out_of_cuff: float
+    recorded: Channels
+
+
+def read(o: ShoulderCompareOptions) -> ArmAndRecording:
+    """Both files."""
+    simulated, phase, out = _simulated(o.simulated)
+    add_input("simulated", o.simulated, frames=len(phase))
+    recorded = recorded_channels(o.recorded, o.map, o.angles, o.unit, o.delay)
+    add_input("recorded", o.recorded, samples=len(recorded.time))
+    return ArmAndRecording(simulated, phase, out, recorded)
+
+
+def _simulated(path: Path) -> tuple[Channels, tuple[str, ...], float]:
+    needed = ("time [s]", "phase", *SIMULATED.values())
+    table = read_side_table(path, (*needed, OUT))
+    missing = [name for name in needed if name not in table]
+    if missing:
+        remedy = "give right.csv or left.csv of shoulder simulate"
+        raise InputError(path, "", f"no column {missing[0]}", remedy)
+    phase = tuple(map(str, table["phase"]))
+    odd = [name for name in phase if name not in PHASES]
+    if odd:
+        raise InputError(path, "phase", f"{odd[0]!r} is no phase", f"phases are {', '.join(PHASES)}")
+    values = {channel: np.asarray(table[name], float) for channel, name in SIMULATED.items()}
+    out = float(np.mean([str(each) != "0" for each in table[OUT]])) if OUT in table else 0.0
+    return Channels(np.asarray(table["time [s]"], float), values), phase, out
+
+
+def compared(both: ArmAndRecording, o: ShoulderCompareOptions) -> tuple[ComparedChannel, ...]:
+    """Every channel that was recorded, over the whole trial, over the work and in each phase."""
+    simulated = both.simulated
+    models = {channel: (channel, curve) for channel, curve in simulated.curves.items()}
+    found = beside_recording(simulated.time, models, both.phase, both.recorded)
+    if not found.channels:
+        ours, theirs = (f"{each.time[0]:g} to {each.time[-1]:g} s" for each in (simulated, both.recorded))
+        raise InputError(o.recorded, "", f"runs from {theirs}, the simulation from {ours}", "give `delay`")
+    if found.share < 1.0:
+        reserve(f"{o.recorded.name}: {found.share:.0%} of the simulated time was recorded")
+    return tuple(found.channels.values())
+
+
+def comparison_table(channels: Sequence[ComparedChannel]) -> pd.DataFrame:
+    """One row for each channel and part of the trial."""
+    rows = []
+    for one in channels:
+        unit, factor = shown_in(one.channel)
+        for phase, a in one.errors.items():
+            rows.append(
+                {
+                    "channel": one.channel,
+                    "phase": phase,
+                    "unit": unit,
+                    "mae": a.mae * factor,
+                    "rmsd": a.rmsd * factor,
+                    "bias": a.bias * factor,
+                    "r2 [-]": a.r2,
+                    "lag [s]": a.lag,
+                    "samples": a.samples,
+                }
+            )
+    return pd.DataFrame(rows)
 
 
 def channel_figure(channels: Sequence[ComparedChannel]) -> Figure:

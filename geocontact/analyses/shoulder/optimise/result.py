@@ -25,19 +25,12 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.shoulder.devices import factors_written
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.optimise.profiles import (
-    GROUP,
     OTHERS,
-    FrontPoint,
-    NamedProfile,
     WorkersAndDevice,
     closed_loop,
-    front_points,
     judged_held_out,
-    made_profiles,
-    planned_outcomes,
     read,
     sound,
-    with_sensors,
 )
 from geocontact.analyses.shoulder.optimise.show import (
     profile_figure,
@@ -47,6 +40,15 @@ from geocontact.analyses.shoulder.optimise.show import (
     say_simulated,
 )
 from geocontact.shoulder_exoskeleton.support.arm_trial import scales_of, support_case
+from geocontact.shoulder_exoskeleton.support.group_profiles import (
+    GROUP,
+    FrontPoint,
+    NamedProfile,
+    front_points,
+    made_profiles,
+    planned_outcomes,
+    with_sensors,
+)
 from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport
 from geocontact.shoulder_exoskeleton.support.outcome import SupportOutcome
 from geocontact.shoulder_exoskeleton.support.profile_limits import SupportCase
@@ -184,13 +186,13 @@ def _told(found: SupportOutcome) -> dict[str, float]:
 def run(workers: WorkersAndDevice, o: ShoulderOptimiseOptions) -> ShoulderOptimiseResult:
     """Profiles, what they do, their fronts, and how they fare with a person held out."""
     trials, loop = workers.trials, closed_loop(workers, o)
-    made = sound(o, lambda: made_profiles(workers, loop, by_arm=o.scale == "arm"))
+    made = sound(o, lambda: made_profiles(trials, loop, workers.unseen, by_arm=o.scale == "arm"))
     judged = sound(o, lambda: judged_held_out(workers, loop, o))
     corrected = tuple(support_case(each, workers.support, transfer=made.group.transfers[each.name]) for each in trials)
-    persons = dict.fromkeys(each.person for each in trials)
-    noisy = {GROUP: with_sensors(workers, dict.fromkeys(persons, made.group.profile.factors), o)}
+    by_person = {GROUP: dict.fromkeys((each.person for each in trials), made.group.profile.factors)}
     if judged:
-        noisy[OTHERS] = with_sensors(workers, {person: each.factors for person, each in judged.items()}, o)
+        by_person[OTHERS] = {person: each.factors for person, each in judged.items()}
+    noisy = sound(o, lambda: {name: with_sensors(trials, workers.device, f, o.seed) for name, f in by_person.items()})
     result = ShoulderOptimiseResult(
         options=o,
         cases=tuple(support_case(each, workers.support) for each in trials),

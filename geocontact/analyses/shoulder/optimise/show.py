@@ -12,11 +12,11 @@ from jaxtyping import Float
 from geocontact.analyses.frame.collector import reserve, say
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.shoulder.optimise.profiles import GROUP, MadeProfiles
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial
 from geocontact.shoulder_exoskeleton.support.best_profile import Aim, measured
 from geocontact.shoulder_exoskeleton.support.closed_loop_profile import SLACK, ClosedLoop, SettledProfile
+from geocontact.shoulder_exoskeleton.support.group_profiles import GROUP, MadeProfiles
 from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome
 from geocontact.shoulder_exoskeleton.support.phase_machine import SCREW

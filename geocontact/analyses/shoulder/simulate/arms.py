@@ -9,27 +9,25 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from jaxtyping import Bool, Float
-from scipy.spatial.transform import Rotation, Slerp
 
 from geocontact.analyses.frame.collector import add_input, note, reserve, say
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.analyses.shoulder.devices import device_named, read_profiles, wearer_named
 from geocontact.analyses.shoulder.recordings import current_at, tool_runs
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
-from geocontact.analyses.shoulder.simulated_arm import SimulatedArm, out_of_cuff_clause, warn_of
+from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_clause, warn_of
 from geocontact.data.errors import InputError
-from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side, smoothed_motion
-from geocontact.shoulder_exoskeleton.arms_from_markers import SIDES, MarkerSettings, arm_motions
+from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
+from geocontact.shoulder_exoskeleton.arms_from_markers import SIDES, MarkerSettings, smoothed_arms
 from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
 from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Wearer
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.sensitivity import Influence
-from geocontact.shoulder_exoskeleton.simulate import simulate_arm
-from geocontact.shoulder_exoskeleton.support.controlled_arm import Controller, controlled_arm
+from geocontact.shoulder_exoskeleton.support.controlled_arm import Controller, hand_controller
 from geocontact.shoulder_exoskeleton.support.outcome import Factors
-from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds
 from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey, Hand
-from geocontact.shoulder_exoskeleton.work_phases import PHASES, work_phases
+from geocontact.shoulder_exoskeleton.work_phases import PHASES
+from geocontact.shoulder_exoskeleton.working_arm import SCREWING, SimulatedArm, arm_at_work
 
 CURRENT = 1.0
 """A; a tool that idles takes less."""
@@ -74,38 +72,13 @@ def worn_along(o: ShoulderSimulateOptions, wearer: Wearer) -> Worn:
     device = device_named(o.device)
     seen = renamed_as_told(markers_given(o.markers, o.axes, o.time, o.c3d_unit), o.markers_map)
     add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
-    found = arm_motions(seen, MarkerSettings(upright=o.upright, gap_limit=o.gap_limit))
+    settings = MarkerSettings(upright=o.upright, gap_limit=o.gap_limit)
+    found = smoothed_arms(seen, settings, None if o.cutoff == 0.0 else o.cutoff, o.side)
     for line in found.notes:
         reserve(line)
-    wanted = tuple(arm for arm in found.arms if o.side in ("both", arm.side))
-    if not wanted:
-        have = " and ".join(arm.side for arm in found.arms)
-        raise InputError(o.markers, "`side`", f"the {o.side} arm was not recorded", f"recorded: {have}")
-    if o.side == "both" and len(wanted) == 1:
-        reserve(f"only the {wanted[0].side} arm was recorded")
-    arms = tuple(_smoothed(arm, o) for arm in wanted)
-    time = arms[0].time
-    frame = _frame_at(wanted[0].time, found.frame, time)
+    time = found.arms[0].time
     tool = None if o.tool is None else tool_runs(o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
-    nearest = np.clip(np.searchsorted(0.5 * (seen.time[1:] + seen.time[:-1]), time), 0, len(seen) - 1)
-    places = np.stack([frame.points(each) for each in seen.positions[nearest].swapaxes(0, 1)], axis=1)
-    return Worn(arms, frame, places, device, wearer, tool, controllers(o, time))
-
-
-def _smoothed(arm: ArmMotion, o: ShoulderSimulateOptions) -> ArmMotion:
-    try:
-        return smoothed_motion(arm, None if o.cutoff == 0.0 else o.cutoff, o.gap_limit)
-    except ValueError as error:
-        raise InputError(o.markers, "", f"{arm.side} arm: {error}", "give another `cutoff` or `gap_limit`") from error
-
-
-def _frame_at(time: Float[np.ndarray, " t"], frame: DeviceFrame, wanted: Float[np.ndarray, " e"]) -> DeviceFrame:
-    """The device in the laboratory at other times: origin linear, turns along the shortest arcs."""
-    known = np.isfinite(frame.rotation).all(axis=(1, 2)) & np.isfinite(frame.origin).all(axis=1)
-    at = np.clip(wanted, time[known][0], time[known][-1])
-    origin = np.column_stack([np.interp(at, time[known], column) for column in frame.origin[known].T])
-    turns = Slerp(time[known], Rotation.from_matrix(frame.rotation[known]))(at)
-    return DeviceFrame(origin, turns.as_matrix())
+    return Worn(found.arms, found.frame, found.markers, device, wearer, tool, controllers(o, time))
 
 
 def controllers(o: ShoulderSimulateOptions, time: Float[np.ndarray, " t"]) -> Mapping[Side, Controller] | None:
@@ -124,10 +97,9 @@ def controllers(o: ShoulderSimulateOptions, time: Float[np.ndarray, " t"]) -> Ma
     found: dict[Side, Controller] = {}
     for side in SIDES if o.side == "both" else (o.side,):
         hand: Hand = "dominant" if side == (o.dominant or "right") else "other"
-        keys = [FactorKey(task, hand, phase) for phase in PHASES]
-        if not any(key in factors for key in keys):
+        if not any(FactorKey(task, hand, phase) in factors for phase in PHASES):
             raise InputError(o.profile, name, f"no factors of the {hand} hand for {task}", "add a row")
-        found[side] = Controller(np.array([factors.get(key, 0.0) for key in keys]), current, Thresholds())
+        found[side] = hand_controller(factors, task, hand, current)
     return found
 
 
@@ -143,33 +115,26 @@ def _task(file: Path, factors: Factors, named: str | None) -> str:
 def simulated_along(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions) -> SimulatedArm:
     """One arm along the human one, and what is to be said of it."""
     control = None if worn.controllers is None else worn.controllers[arm.side]
-    detected, factor = None, None
     try:
-        if control is None:
-            found = simulate_arm(arm, worn.device, worn.wearer, o.level, cuff=o.cuff)
-        else:
-            led = controlled_arm(arm, worn.device, worn.wearer, o.level, control, o.cuff)
-            found, detected, factor = led.simulation, led.phase, led.factor
+        one = arm_at_work(arm, worn.device, worn.wearer, o.level, tool=worn.tool, controller=control, cuff=o.cuff)
     except OutOfCuffError as error:
         raise InputError(o.markers, "", f"{arm.side} arm: {error.what}", error.cause) from error
     except ArithmeticError as error:
         remedy = "check `person`, `device`, and the unit and names of the markers"
         raise InputError(o.markers, "", f"{arm.side} arm: {error}", remedy) from error
-    try:
-        phase = work_phases(arm.elevation, worn.tool)
     except ValueError as error:
         raise InputError(o.tool or o.markers, "`tool`", f"{arm.side} arm: {error}", "check its clock") from error
+    found = one.simulation
     warn_of(found)
-    one = SimulatedArm(found, phase, detected, factor)
     told = summary_of(one)
     say(
         f"{arm.side} arm: elevation up to {told['elevation_max_deg']:.1f} deg (shoulder "
         f"{told['shoulder_max_deg']:.1f}), supporting force {told['supporting_min_N']:.1f} … "
         f"{told['supporting_max_N']:.1f} N, slip {told['slip_mm']:.0f} mm{out_of_cuff_clause(found)}"
     )
-    if control is not None and detected is not None:
+    if control is not None and one.detected is not None:
         shares = ", ".join(f"{name} {share:.2f}" for name, share in zip(PHASES, control.factors, strict=True))
-        changes = f"{np.count_nonzero(np.diff(detected))} changes"
+        changes = f"{np.count_nonzero(np.diff(one.detected))} changes"
         say(f"{arm.side} arm: support by phase: {shares}; {changes}{out_of_cuff_clause(found)}")
     return one
 
@@ -177,7 +142,7 @@ def simulated_along(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions) -> S
 def summary_of(one: SimulatedArm) -> dict[str, float]:
     """Numbers of the whole trial, and means of the screw-in."""
     s = one.simulation
-    working = one.phase == PHASES.index("screw-in")
+    working = one.phase == SCREWING
     told = {
         "elevation_max_deg": np.degrees(s.elevation.max()),
         "shoulder_max_deg": np.degrees(s.motion.elevation.max()),

@@ -8,16 +8,15 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.shoulder.simulated_arm import SimulatedArm
 from geocontact.io.opensim.external_loads import write_external_loads as write_loads_file
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.text.results import write_table
-from geocontact.shoulder_exoskeleton.carried_device import weight_and_inertia
+from geocontact.shoulder_exoskeleton.carried_device import forces_of_device
 from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.plane import plane_arm
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
-from geocontact.shoulder_exoskeleton.work_phases import PHASES
+from geocontact.shoulder_exoskeleton.working_arm import SCREWING, SimulatedArm
 from geocontact.view.surfaces.vtp_series import LineSeries, write_line_series
 
 HUMERUS, TRUNK = {"right": "humerus_r", "left": "humerus_l"}, "torso"
@@ -44,19 +43,13 @@ def write_external_loads(folder: Path, arms: Sequence[ArmSimulation], frame: Dev
     columns, loads = [], {}
     for arm in arms:
         side = arm.motion.side
-        force, place, moment = arm.told["force"], arm.motion.interface, arm.told["moment"]
-        carried, turned = weight_and_inertia(arm)
-        for what, body, wrench in (
-            ("cuff", HUMERUS[side], (force, place, moment)),
-            ("trunk", TRUNK, (-force, place, -moment)),
-            ("device", TRUNK, (carried, arm.told["joints"][:, :3], turned)),
-        ):
+        for what, wrench in forces_of_device(arm).items():
             acting, at, turning = (np.einsum("tij,ti->tj", frame.rotation, each) for each in wrench)
             stem = f"{what}_{side}_force"
             names += [f"{stem}_{kind}{axis}" for kind in "vp" for axis in "xyz"]
             names += [f"{what}_{side}_torque_{axis}" for axis in "xyz"]
             columns += [acting, frame.origin + at, turning]
-            loads[stem] = body
+            loads[stem] = HUMERUS[side] if what == "cuff" else TRUNK
     title = "Forces of a shoulder exoskeleton on the upper arms and on the trunk"
     time, values = arms[0].motion.time, np.hstack(columns)
     write_storage(folder / f"{LOADS}.mot", time, names, values, title=title, degrees=False)
@@ -122,7 +115,7 @@ def write_plane(folder: Path, arm: SimulatedArm) -> None:
     s, side = arm.simulation, arm.side
     found = plane_arm(s)
     folder.mkdir(parents=True, exist_ok=True)
-    event = (arm.phase == PHASES.index("screw-in")).astype(int)
+    event = (arm.phase == SCREWING).astype(int)
     time = s.motion.time
     inputs = {"time [s]": time, "arm [deg]": np.degrees(s.motion.elevation), "event [-]": event}
     write_table(pd.DataFrame(inputs), folder, side)

@@ -37,11 +37,11 @@ from geocontact.analyses.shoulder.simulate.arms import (
 from geocontact.analyses.shoulder.simulate.exports import write_angles, write_external_loads, write_lines, write_plane
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.simulate.show import arm_figure, simulation_page
-from geocontact.analyses.shoulder.simulated_arm import SimulatedArm
 from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.sensitivity import Influence, influences
+from geocontact.shoulder_exoskeleton.working_arm import SimulatedArm
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

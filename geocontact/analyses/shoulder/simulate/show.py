@@ -13,9 +13,9 @@ from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.panels import curves_figure
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
-from geocontact.analyses.shoulder.simulated_arm import SimulatedArm
 from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
+from geocontact.shoulder_exoskeleton.working_arm import SimulatedArm
 from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Words
 from geocontact.view.page.scene import Linkage, Scene, Tone
 from geocontact.view.page.tables import frame_table

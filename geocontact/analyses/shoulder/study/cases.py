@@ -7,36 +7,27 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Bool, Float
 
 from geocontact.analyses.frame.collector import add_input, collecting, current, reserve
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.shoulder.devices import wearer_of_lengths
-from geocontact.analyses.shoulder.recordings import (
-    ELEVATION,
-    FORCE,
-    Channels,
-    phase_errors,
-    recorded_channels,
-    shown_in,
-)
+from geocontact.analyses.shoulder.recordings import recorded_channels, shown_in
 from geocontact.analyses.shoulder.shared_options import level
 from geocontact.analyses.shoulder.simulate.arms import Worn, worn_along
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
-from geocontact.analyses.shoulder.simulated_arm import SimulatedArm, warn_of
+from geocontact.analyses.shoulder.simulated_arm import warn_of
 from geocontact.analyses.shoulder.study.options import StudyOptions
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import Agreement
-from geocontact.identify.signals.filters import at_times, even_times
 from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
+from geocontact.shoulder_exoskeleton.beside_recording import ELEVATION, FORCE, Channels, beside_recording
 from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
 from geocontact.shoulder_exoskeleton.device import JOINTS
-from geocontact.shoulder_exoskeleton.simulate import simulate_arm
-from geocontact.shoulder_exoskeleton.work_phases import PHASES, work_phases
+from geocontact.shoulder_exoskeleton.work_phases import PHASES
+from geocontact.shoulder_exoskeleton.working_arm import SimulatedArm, arm_at_work, screw_in
 
-SCREWING = PHASES.index("screw-in")
 COPIED = "elevation, copied from the shoulder"
 """What stands beside the simulated elevation: joint angles of the human taken as those of the exoskeleton."""
 DEG = float(np.degrees(1.0))
@@ -162,8 +153,7 @@ def study_case(each: StudyTrialInputs, arm: ArmMotion, o: StudyOptions) -> Study
 
 def _simulated(each: StudyTrialInputs, worn: Worn, arm: ArmMotion, o: StudyOptions) -> SimulatedArm:
     try:
-        found = simulate_arm(arm, worn.device, worn.wearer, each.level)
-        return SimulatedArm(found, work_phases(arm.elevation, worn.tool))
+        return arm_at_work(arm, worn.device, worn.wearer, each.level, tool=worn.tool)
     except OutOfCuffError as error:
         raise InputError(
             o.study, f"[[trials]] {each.trial.name}", f"{arm.side} arm: {error.what}", error.cause
@@ -174,49 +164,21 @@ def _simulated(each: StudyTrialInputs, worn: Worn, arm: ArmMotion, o: StudyOptio
         raise InputError(o.study, f"[[trials]] {each.trial.name}", what, remedy) from error
 
 
-def _errors(each: StudyTrialInputs, within: SimulatedArm, recorded: Channels) -> dict[str, dict[str, Agreement]]:
-    s = within.simulation
-    time, step = even_times(s.motion.time)
-    inside = (time >= recorded.time[0] - 1e-9) & (time <= recorded.time[-1] + 1e-9)
-    if inside.sum() < 2:
-        what = f"was recorded from {recorded.time[0]:g} to {recorded.time[-1]:g} s"
-        remedy = f"its markers are from {time[0]:g} to {time[-1]:g} s"
-        raise InputError("", f"{each.trial.name}, {s.motion.side} arm", what, remedy)
-    if not inside.all():
-        reserve(f"{each.trial.name}, {s.motion.side} arm: {inside.mean():.0%} of the simulated time was recorded")
-    words = np.array(PHASES)[within.phase]
-    _, recorded_step = even_times(recorded.time)
+def _errors(each: StudyTrialInputs, within: SimulatedArm, recorded: Channels) -> dict[str, Mapping[str, Agreement]]:
+    s, time = within.simulation, within.simulation.motion.time
     models = {
         ELEVATION: (ELEVATION, s.elevation),
         COPIED: (ELEVATION, s.motion.elevation),
         FORCE: (FORCE, s.supporting),
     }
-    found = {}
-    for name, (channel, model) in models.items():
-        if channel in recorded.curves:
-            measured = at_times(recorded.time, recorded.curves[channel], time, recorded_step)
-            found[name] = phase_errors(model, measured, step, words, inside)
-    return found
-
-
-@dataclass(frozen=True)
-class ScrewIn:
-    """Means over the screw-in, of one arm: elevations of exoskeleton and shoulder [rad], supporting force [N]."""
-
-    exoskeleton: float
-    shoulder: float
-    force: float
-
-
-def screw_in(arm: SimulatedArm) -> ScrewIn:
-    """Means over the screw-in; NaN where it was not told."""
-    working = arm.phase == SCREWING
-    s = arm.simulation
-    return ScrewIn(_mean(s.elevation, working), _mean(s.motion.elevation, working), _mean(s.supporting, working))
-
-
-def _mean(values: Float[np.ndarray, " t"], of: Bool[np.ndarray, " t"]) -> float:
-    return float(values[of].mean()) if of.any() else float("nan")
+    found = beside_recording(time, models, [PHASES[number] for number in within.phase], recorded)
+    if not found.channels:
+        what = f"was recorded from {recorded.time[0]:g} to {recorded.time[-1]:g} s"
+        remedy = f"its markers are from {time[0]:g} to {time[-1]:g} s"
+        raise InputError("", f"{each.trial.name}, {s.motion.side} arm", what, remedy)
+    if found.share < 1.0:
+        reserve(f"{each.trial.name}, {s.motion.side} arm: {found.share:.0%} of the simulated time was recorded")
+    return {name: one.errors for name, one in found.channels.items()}
 
 
 def error_table(cases: Sequence[StudyCase]) -> pd.DataFrame:

@@ -28,8 +28,7 @@ from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.shoulder.recordings import ELEVATION, FORCE
-from geocontact.analyses.shoulder.simulated_arm import SimulatedArm, out_of_cuff_clause
+from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_clause
 from geocontact.analyses.shoulder.study.cases import (
     StudyCase,
     StudyTrialInputs,
@@ -41,7 +40,9 @@ from geocontact.analyses.shoulder.study.cases import (
     summary_table,
 )
 from geocontact.analyses.shoulder.study.options import StudyOptions
+from geocontact.shoulder_exoskeleton.beside_recording import ELEVATION, FORCE
 from geocontact.shoulder_exoskeleton.device import Device
+from geocontact.shoulder_exoskeleton.working_arm import SimulatedArm
 from geocontact.view.curves.sheet import sheet
 from geocontact.view.curves.style import PALETTE, in_style
 from geocontact.view.page.content import Page, Picture, Words

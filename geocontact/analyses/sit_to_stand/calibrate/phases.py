@@ -6,67 +6,32 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import reserve, say
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
-from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
-from geocontact.analyses.sit_to_stand.trial_result import certificate_rows, not_certified, sizes_of
+from geocontact.analyses.sit_to_stand.trial_tables import certificate_rows, not_certified
 from geocontact.dynamics.collocation.solve import SolverOptions
-from geocontact.standing_up.calibrated_phase import DOUBTFUL, CalibratedPhase, PhaseSearch, calibrated_phase
-from geocontact.standing_up.chain import FOOT_PARAMETERS, feet_on_ground
-from geocontact.standing_up.contact_numbers import ContactNumber, believed_covariance, held_covariance
-from geocontact.standing_up.exoskeleton import strapped
-from geocontact.standing_up.numbers_that_ran import (
-    Ran,
-    belief_numbers,
-    model_numbers,
-    parameter_numbers,
-    search_numbers,
-    size_numbers,
-)
-from geocontact.standing_up.phase import MOST_OF_IT, PhaseProblem
-from geocontact.standing_up.phases import TRACKS, phase_a, phase_b
-from geocontact.standing_up.trials import StandingTrial
+from geocontact.standing_up.calibrated_phase import DOUBTFUL, CalibratedPhase, PhaseSearch
+from geocontact.standing_up.calibration import calibrated_phases
+from geocontact.standing_up.chain import FOOT_PARAMETERS
+from geocontact.standing_up.contact_numbers import ContactNumber
+from geocontact.standing_up.phase import MOST_OF_IT
+from geocontact.standing_up.trials import StandingUpTrials
 
 TOLERANCE = 1e-7
-Start = Float[np.ndarray, " p"] | None
 
 
 def phases_sought(
     given: StandingUpTrials, o: StandingCalibrateOptions, stage: Callable[[str], None]
 ) -> tuple[CalibratedPhase, ...]:
-    """A, and with an exoskeleton B on what A found; only A where its search has no answer."""
+    """A, and with an exoskeleton B, as the options have it."""
     options = SolverOptions("radau", o.degree, 1, TOLERANCE, o.iterations, o.time_limit)
     search = PhaseSearch(options, o.nodes, o.starts, o.resamples, o.seed, o.level, o.profiles)
-    if given.exoskeleton:
-        model = strapped(given.subject, given.sites, seated=given.seated)
-    else:
-        model = feet_on_ground(given.subject, seated=given.seated)
-    in_a = tuple(name for name in TRACKS if name in given.tracks)
 
-    def told(phase: str) -> Callable[[int, float, float], None]:
-        return lambda iteration, objective, residual: stage(
-            f"phase {phase}, iteration {iteration}, objective {objective:.5g}, residual {residual:.2g}"
-        )
+    def tell(phase: str, iteration: int, objective: float, residual: float) -> None:
+        stage(f"phase {phase}, iteration {iteration}, objective {objective:.5g}, residual {residual:.2g}")
 
-    def build_a(trials: Sequence[StandingTrial], start: Start) -> PhaseProblem:
-        return phase_a(model, given.subject, trials, given.noise, free=given.free, tracks=in_a, start=start)
-
-    of_feet = [each.name for each in FOOT_PARAMETERS if each.name not in given.free]
-    believed = believed_covariance(model.parameters, of_feet)
-    first = calibrated_phase("A", model, given.trials, given.noise, build_a, search, told("A"), believed)
-    if not given.exoskeleton or not first.found.solved:
-        return (first,)
-    feet, straps = first.found.p[: len(FOOT_PARAMETERS)], [name for site in given.sites for name in site.names]
-
-    def build_b(trials: Sequence[StandingTrial], start: Start) -> PhaseProblem:
-        strap = None if start is None else start[len(feet) :]
-        noise, tracks = given.noise, given.tracks
-        return phase_b(model, given.subject, trials, noise, feet, free=straps, tracks=tracks, start=strap)
-
-    known = held_covariance(first.numbers, first.phase.parameters)
-    return first, calibrated_phase("B", model, given.trials, given.noise, build_b, search, told("B"), known)
+    return calibrated_phases(given, search, tell)
 
 
 def doubt_phase(one: CalibratedPhase) -> None:
@@ -174,14 +139,3 @@ def certificate_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
     for phase in phases:
         rows += certificate_rows(phase.name, [motion.name for motion in phase.found.motions], phase.motions)
     return pd.DataFrame(rows)
-
-
-def calibration_numbers(phases: Sequence[CalibratedPhase], trials: Sequence[StandingTrial]) -> list[Ran]:
-    """The model once; for each phase what it sought, its priors and weights, and its meshes."""
-    rows = model_numbers(phases[-1].model)
-    for one in phases:
-        prefix = f"phase {one.name} "
-        rows += parameter_numbers(one.phase.parameters, one.found.p, prefix, free=one.phase.free)
-        rows += belief_numbers(one.phase, prefix) + size_numbers(sizes_of(one.phase), prefix)
-        rows += search_numbers(one.found.motions, trials, prefix)
-    return rows

@@ -21,7 +21,6 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
 from geocontact.analyses.sit_to_stand.calibrate.phases import (
-    calibration_numbers,
     certificate_table,
     correlation_table,
     doubt_phase,
@@ -31,9 +30,8 @@ from geocontact.analyses.sit_to_stand.calibrate.phases import (
 )
 from geocontact.analyses.sit_to_stand.calibrate.show import calibration_page, standing_figure
 from geocontact.analyses.sit_to_stand.exports import write_motion, write_standing_model, write_strap_case
-from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, standing_trials
-from geocontact.analyses.sit_to_stand.trial_result import (
-    TrialResult,
+from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+from geocontact.analyses.sit_to_stand.trial_tables import (
     errors_table,
     mesh_table,
     ran_table,
@@ -41,7 +39,9 @@ from geocontact.analyses.sit_to_stand.trial_result import (
 )
 from geocontact.dynamics.collocation.solve import CollocationResult
 from geocontact.standing_up.calibrated_phase import CalibratedPhase
-from geocontact.standing_up.trials import seen_in
+from geocontact.standing_up.calibration import calibrated_trials, calibration_numbers
+from geocontact.standing_up.trial_result import TrialResult
+from geocontact.standing_up.trials import StandingUpTrials
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -125,18 +125,7 @@ def run(given: StandingUpTrials, o: StandingCalibrateOptions) -> StandingCalibra
     """Parameters and motions of all trials."""
     with listener().stages("calibrating") as stage:
         phases = phases_sought(given, o, stage)
-    last = phases[-1]
-    n = last.model.count
-    trials = tuple(
-        TrialResult(
-            recorded=trial,
-            model=seen_in(last.model, motion, last.found.p, trial.time, trial.name),
-            points=seen_in(last.model, motion, last.found.p, motion.held_times, trial.name),
-            acceleration=motion.state(motion.held_times)[:, 2 * n : 3 * n],
-            judged=seen,
-        )
-        for trial, motion, seen in zip(given.trials, last.found.motions, last.motions, strict=True)
-    )
+    trials = calibrated_trials(phases[-1], given.trials)
     result = StandingCalibrateResult(options=o, given=given, phases=phases, trials=trials)
     for phase in phases:
         doubt_phase(phase)

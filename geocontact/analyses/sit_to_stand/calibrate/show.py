@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from geocontact.analyses.sit_to_stand.show import motion_page, standing_curves, standing_scene
-from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
-from geocontact.analyses.sit_to_stand.trial_result import TrialResult
+from geocontact.standing_up.trial_result import TrialResult
+from geocontact.standing_up.trials import StandingUpTrials
 from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
 from geocontact.view.page.content import Page, Section
 from geocontact.view.page.tables import frame_table

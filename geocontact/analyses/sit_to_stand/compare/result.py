@@ -23,22 +23,19 @@ from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.compare.options import StandingCompareOptions
 from geocontact.analyses.sit_to_stand.compare.show import compared_figure, compared_page
 from geocontact.analyses.sit_to_stand.predict.predictions import (
-    ALL,
-    GIVEN,
     MEAN,
     HeldOutTrials,
-    PredictedTrial,
     certificates_table,
     complete,
     predicted,
     predicted_meshes,
-    prediction_numbers,
     read,
     trials_begun,
 )
-from geocontact.analyses.sit_to_stand.trial_result import channels, ran_table
+from geocontact.analyses.sit_to_stand.trial_tables import channels, ran_table
 from geocontact.identify.signals.agreement import agreement
 from geocontact.io.text.results import write_table
+from geocontact.standing_up.prediction import ALL, GIVEN, PredictedTrial, prediction_numbers
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.standing_up.trivial_trials import mean_trial, nearest_trial
 from geocontact.view.page.content import Page

@@ -10,8 +10,8 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.sit_to_stand.show import motion_page, standing_curves, standing_scene
-from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.standing_up.chain import COORDINATES, JOINTS, Subject
+from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, panels
 from geocontact.view.page.content import Page, Picture, Section

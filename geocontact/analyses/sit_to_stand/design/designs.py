@@ -1,4 +1,4 @@
-"""Exoskeletons with their certified movements, what draws make of the gain, and tables."""
+"""Trials whose movement is to be kept, as they are read, and tables of the exoskeletons that are chosen for them."""
 
 from __future__ import annotations
 
@@ -9,80 +9,64 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.sit_to_stand.trial_result import FROM_FILE, TrialResult, certificate_rows
-from geocontact.standing_up.assistance_design import KNEE, NAMES, HelpDesign
+from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
+from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+from geocontact.analyses.sit_to_stand.trial_tables import certificate_rows
+from geocontact.data.errors import InputError
+from geocontact.io.recordings.spheres import read_contact_intervals, read_contact_parameters
+from geocontact.standing_up.assistance_design import KNEE, NAMES
 from geocontact.standing_up.assistance_room import ROOM
-from geocontact.standing_up.assisted_model import ASSISTED_PARAMETERS, AssistedModel, HabitSizes
-from geocontact.standing_up.assisted_movement import MEASURES, UNITS, Movement
-from geocontact.standing_up.numbers_that_ran import Ran, model_numbers, parameter_numbers, search_numbers
-from geocontact.standing_up.trials import StandingTrial
+from geocontact.standing_up.assisted_model import ASSISTANCE_PARAMETERS, ASSISTED_PARAMETERS
+from geocontact.standing_up.assisted_movement import MEASURES, UNITS
+from geocontact.standing_up.exoskeleton import WORN_PARAMETERS
+from geocontact.standing_up.help_search import CertifiedDesign, DrawnGain
+from geocontact.standing_up.strap_sites import deviations, searched, usual
+from geocontact.standing_up.trials import StandingUpTrials
 
-WORN, ALONE, BEST, ROBUST = "without help", "share alone", "chosen", "chosen for the draws"
-
-
-@dataclass(frozen=True, eq=False)
-class CertifiedDesign:
-    """One exoskeleton and the movement with it.
-
-    Parameters
-    ----------
-    name
-        As tables call it.
-    limit
-        Of the knee's true peak, as part of that without help; not a number without a limit.
-    design
-        None where nothing was sought.
-    trials
-        By the calibrated parameters.
-    """
-
-    name: str
-    limit: float
-    design: HelpDesign | None
-    movement: Movement
-    trials: tuple[TrialResult, ...]
-
-    @property
-    def certified(self) -> bool:
-        """Whether every movement is."""
-        seen = [trial.judged.certificate for trial in self.trials]
-        return all(each is not None and each.converged for each in seen)
+LEVEL = 0.95
+"""Probability of a calibration's intervals."""
 
 
 @dataclass(frozen=True, eq=False)
-class DrawnGain:
-    """The aim with one drawn set of parameters, by the exoskeleton that is compared with and by the chosen one.
+class TrialsToHelp:
+    """Trials whose movement is to be kept.
 
     Parameters
     ----------
-    reference, chosen, knee
-        Smooth peaks, or mean energy, and the knee's torque with the chosen one.
-    largest_reference, largest_chosen, largest_knee
-        True peaks.
+    p
+        What is searched of all parameters of the assisted model, help as it usually is.
+    sd
+        Standard deviations of those that the calibration has intervals of, 0 for the others.
     """
 
-    reference: float
-    chosen: float
-    knee: float
-    largest_reference: float
-    largest_chosen: float
-    largest_knee: float
-
-    @property
-    def gain(self) -> float:
-        """Part of the reference that is saved."""
-        return 1.0 - self.chosen / self.reference
+    trials: StandingUpTrials
+    p: Float[np.ndarray, " p"]
+    sd: Float[np.ndarray, " p"]
 
 
-def gain_interval(draws: tuple[DrawnGain, ...], level: float = 0.95) -> tuple[float, float]:
-    """In which the gain of another draw lies, by Student's distribution; not numbers for fewer than two."""
-    if len(draws) < 2:
-        return float("nan"), float("nan")
-    from scipy.stats import t
-
-    gains: Float[np.ndarray, " d"] = np.array([each.gain for each in draws])
-    reach = float(t.ppf(0.5 + 0.5 * level, len(gains) - 1) * gains.std(ddof=1) * np.sqrt(1.0 + 1.0 / len(gains)))
-    return float(gains.mean()) - reach, float(gains.mean()) + reach
+def read(o: StandingDesignOptions) -> TrialsToHelp:
+    """Everything the options name; InputError where no exoskeleton is worn or draws lack intervals."""
+    trials = standing_trials(o.study, "study", o.c3d_unit)
+    if not trials.exoskeleton:
+        what, remedy = "is not of a person with an exoskeleton", "write exoskeleton = true, and torques and strap"
+        raise InputError(o.study, "", what, remedy)
+    if len(trials.sites) > 1:
+        remedy = f"leave out {', '.join(f'strap_{site.name}' for site in trials.sites[1:])}"
+        raise InputError(o.study, "", "a design has one strap, at the thigh", remedy)
+    if trials.seated:
+        remedy = "leave sitting out: a movement that is kept begins at seat-off"
+        raise InputError(o.study, "sitting", "has no effect on a design", remedy)
+    bounds = {each.name: (each.least, each.most) for each in WORN_PARAMETERS}
+    values = read_contact_parameters(o.parameters, {each.name: each.unit for each in WORN_PARAMETERS}, bounds)
+    ends = read_contact_intervals(o.parameters, values)
+    add_input("`parameters`", o.parameters, parameters=len(values))
+    if o.draws and not ends:
+        remedy = "give parameters.csv of a calibration, or no draws"
+        raise InputError(o.parameters, "lower, upper", "has no intervals to draw from", remedy)
+    p = searched(WORN_PARAMETERS, [values[each.name] for each in WORN_PARAMETERS])
+    sd = deviations(WORN_PARAMETERS, ends, LEVEL)
+    return TrialsToHelp(trials, np.r_[p, usual(ASSISTANCE_PARAMETERS)], np.r_[sd, np.zeros(len(ASSISTANCE_PARAMETERS))])
 
 
 def in_units(one: CertifiedDesign) -> list[tuple[str, float, str]]:
@@ -173,38 +157,3 @@ def certificates_table(designs: Sequence[CertifiedDesign]) -> pd.DataFrame:
         names = [trial.recorded.name for trial in one.trials]
         rows += certificate_rows(one.name, names, [trial.judged for trial in one.trials])
     return pd.DataFrame(rows).rename(columns={"phase": "design"})
-
-
-def design_numbers(
-    model: AssistedModel, designs: Sequence[CertifiedDesign], trials: Sequence[StandingTrial]
-) -> list[Ran]:
-    """Model, held parameters and the movement's cost once; what may vary and the meshes for each design."""
-    first = designs[0].movement
-    chosen = {parameter for parameter, _, _ in ROOM.values()}
-    rows = model_numbers(model.standing)
-    rows.append(Ran("help width", model.width, "-", "invented", "of the help, in parts of the movement"))
-    held = parameter_numbers(ASSISTED_PARAMETERS, first.found.p, note=FROM_FILE)
-    rows += [row for row in held if row.number not in chosen]
-    rows += [*_habit(first.sizes)]
-    rows.append(Ran("peak order", float(first.asked.order), "-", "invented", "of the norm that smooths peaks"))
-    rows.append(Ran("peak places", float(first.asked.places), "-", "invented", "of an interval, for true peaks"))
-    for one in designs:
-        prefix = f"{one.name} "
-        own = parameter_numbers(ASSISTED_PARAMETERS, one.movement.found.p, note="as chosen, or as given", prefix=prefix)
-        rows += [row for row in own if row.number.removeprefix(prefix) in chosen]
-        if one.design is not None:
-            note = "true peak of the person's knee torque at most"
-            rows.append(Ran(f"{prefix}limit of the knee", one.design.task.knee, "N m", "derived", note))
-        rows += search_numbers(one.movement.found.motions, trials, prefix)
-    return rows
-
-
-def _habit(sizes: HabitSizes) -> list[Ran]:
-    units = {"place": "m", "turn": "rad", "lean": "rad", "jerk": "(m/s^3)^-2 and (rad/s^3)^-2", "torque": "1/(N m)^2"}
-    counts = dict.fromkeys(("place", "turn", "lean"), "deviation that counts as 1")
-    rows = [
-        Ran(f"habit {name}", getattr(sizes, name), unit, "invented", counts.get(name, "weight of the square"))
-        for name, unit in units.items()
-    ]
-    note = "of the polynomials through the recorded coordinates"
-    return [*rows, Ran("habit degree", float(sizes.degree), "-", "invented", note)]

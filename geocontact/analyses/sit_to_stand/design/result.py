@@ -9,7 +9,8 @@ peak force of the strap, smooth: without help … N, chosen … N
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -22,32 +23,41 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.design.designs import (
-    ROBUST,
-    CertifiedDesign,
-    DrawnGain,
+    TrialsToHelp,
     certificates_table,
     chosen_table,
-    design_numbers,
     designs_table,
     draws_table,
-    gain_interval,
     in_units,
+    read,
     sensitivity_table,
 )
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
-from geocontact.analyses.sit_to_stand.design.search import DesignSearch, TrialsToHelp, read
 from geocontact.analyses.sit_to_stand.design.show import choice_page, design_figure
 from geocontact.analyses.sit_to_stand.exports import write_motion, write_standing_model
-from geocontact.analyses.sit_to_stand.trial_result import mesh_table, not_certified, ran_table
-from geocontact.dynamics.collocation.solve import stopped_by_ctrl_c
+from geocontact.analyses.sit_to_stand.trial_tables import mesh_table, not_certified, ran_table
+from geocontact.data.errors import InputError
+from geocontact.dynamics.collocation.solve import SolverOptions, stopped_by_ctrl_c
 from geocontact.standing_up.assisted_model import ASSISTED_PARAMETERS, AssistedModel
-from geocontact.standing_up.assisted_movement import MEASURES, UNITS
+from geocontact.standing_up.assisted_movement import MEASURES, UNITS, StoppedByHandError
+from geocontact.standing_up.help_search import (
+    ROBUST,
+    WORN,
+    CertifiedDesign,
+    DrawnGain,
+    HelpSearch,
+    HelpSettings,
+    NoMovementError,
+    design_numbers,
+    gain_interval,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from geocontact.view.page.content import Page
 
+TOLERANCE = 1e-8
 PARTS = {"share": "of the person's knee torque", "timing": "of the movement"}
 """What numbers without a unit are parts of."""
 AIMS = {"strap": ("peak force of the strap", "smooth", "true"), "energy": ("energy of the strap", "mean", "largest")}
@@ -147,12 +157,15 @@ def run(given: TrialsToHelp, o: StandingDesignOptions) -> StandingDesignResult:
 
     Ctrl-C ends the search: what was found until then is the result. KeyboardInterrupt where nothing was.
     """
+    settings = HelpSettings(o.varied, o.aim, o.knee, o.nodes, o.draws, o.seed)
+    options = SolverOptions("radau", o.degree, 1, TOLERANCE, o.iterations, o.time_limit)
     with listener().stages("choosing") as stage:
-        search = DesignSearch(given, o, stage)
-        with stopped_by_ctrl_c(search):
+        kept = given.trials
+        search = HelpSearch(kept.subject, kept.trials, given.p, given.sd, settings, options, stage)
+        with stopped_by_ctrl_c(search), _in_terms_of(o):
             worn = search.worn()
-            designs = [worn, *search.chosen(worn)]
-            front = search.front(worn, next(one for one in designs[::-1] if one.name != ROBUST))
+            designs = [worn, *search.chosen(worn, robust=o.robust)]
+            front = search.front(worn, next(one for one in designs[::-1] if one.name != ROBUST), o.front)
             draws = search.drawn(designs)
     result = StandingDesignResult(
         options=o, given=given, model=search.model, designs=tuple(designs), front=front, draws=draws
@@ -160,6 +173,21 @@ def run(given: TrialsToHelp, o: StandingDesignOptions) -> StandingDesignResult:
     doubt(result, stopped=search.stop)
     _say(result, search.movements.solved, search.movements.seconds)
     return result
+
+
+@contextmanager
+def _in_terms_of(o: StandingDesignOptions) -> Iterator[None]:
+    """InputError for parameters or designs without a movement, KeyboardInterrupt where nothing is there to keep."""
+    try:
+        yield
+    except StoppedByHandError as error:
+        raise KeyboardInterrupt from error
+    except NoMovementError as error:
+        if error.design == WORN:
+            remedy = "check that they are of this person"
+            raise InputError(o.parameters, "", f"nobody stands up with these: {error}", remedy) from error
+        remedy = "vary less, or give more `nodes`"
+        raise InputError("", f"`vary`, {error.design}", f"a movement is not found: {error}", remedy) from error
 
 
 def doubt(r: StandingDesignResult, *, stopped: bool) -> None:

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.sit_to_stand.design.designs import CertifiedDesign
 from geocontact.analyses.sit_to_stand.show import at_parts, motion_page, standing_scene
 from geocontact.standing_up.assisted_model import KNEE
 from geocontact.standing_up.assisted_movement import MEASURES, UNITS
 from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.help_search import CertifiedDesign
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, panels
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section
 from geocontact.view.page.tables import frame_table

@@ -18,26 +18,30 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import note, reserve, say
+from geocontact.analyses.frame.collector import add_input, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.sit_to_stand.device.motion import MARGIN, DeviceMotion, DeviceRecordings, read
 from geocontact.analyses.sit_to_stand.device.options import StandingDeviceOptions
 from geocontact.analyses.sit_to_stand.show import motion_page
-from geocontact.analyses.sit_to_stand.trial_result import ran_table
-from geocontact.identify.signals.filters import ORDER
+from geocontact.analyses.sit_to_stand.trial_tables import ran_table
+from geocontact.data.errors import InputError
+from geocontact.identify.signals.filters import ORDER, UNEVEN
+from geocontact.io.opensim.coordinates import columns_of, coordinates_of
 from geocontact.io.opensim.storage_writer import write_storage
-from geocontact.standing_up.chain import JOINTS
-from geocontact.standing_up.exoskeleton import EXO_JOINTS
+from geocontact.io.text.tables import read_table
+from geocontact.standing_up.chain import JOINTS, Subject
+from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
 from geocontact.standing_up.exoskeleton_torque import (
     ALONE,
+    MARGIN,
     TURNS,
     UNITS,
     UNTOLD,
+    DeviceMotion,
     ExoskeletonDynamics,
     device_alone,
     human_torque,
-    identified,
+    identified_from,
 )
 from geocontact.standing_up.numbers_that_ran import Ran, joint_numbers
 from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
@@ -60,8 +64,79 @@ MEANT = [
     "In a trial the torque at a hinge is that of its motor less its friction.",
 ]
 TORQUES = "torques.sto"
+FEWEST = 50
+"""Samples of a motion."""
 POORLY = 0.2
 """Part of the torque's own spread: a residual above it says that the motion is not this model's."""
+
+
+@dataclass(frozen=True, eq=False)
+class DeviceRecordings:
+    """The motion without a person, and a trial with one and the moments of both together there; None where not given.
+
+    Parameters
+    ----------
+    subject
+        Its mass plays no part.
+    """
+
+    subject: Subject
+    unloaded: DeviceMotion
+    trial: DeviceMotion | None
+    together: Float[np.ndarray, "t 3"] | None
+
+
+def read(o: StandingDeviceOptions) -> DeviceRecordings:
+    """Everything the options name; InputError where files are on different clocks or too short."""
+    subject = Subject(height=o.height)
+    unloaded = _motion((o.unloaded, "unloaded"), (o.motors, "motors"), subject, o.cutoff)
+    used = int(unloaded.inner(o.cutoff).sum())
+    if used < FEWEST:
+        what = f"{used} samples are left without {MARGIN / o.cutoff:.2g} s at either end"
+        raise InputError(o.unloaded, "", what, f"{FEWEST} are needed: record for longer")
+    trial = together = None
+    if o.trial is not None and o.trial_motors is not None:
+        trial = _motion((o.trial, "trial"), (o.trial_motors, "trial_motors"), subject, o.cutoff)
+        if o.together is not None:
+            together = _columns((o.together, "together"), [f"{n}_moment [N m]" for n in JOINTS], trial.time)
+    return DeviceRecordings(subject, unloaded, trial, together)
+
+
+def _motion(angles: tuple[Path, str], motors: tuple[Path, str], subject: Subject, cutoff: float) -> DeviceMotion:
+    file, role = angles
+    table = read_table(file)
+    add_input(f"`{role}`", file, frames=len(table.time))
+    joints = [joint for joint in two_chains(subject).joints if joint.name in EXO_JOINTS]
+    known = columns_of(table, joints)
+    lacking = [name for name in EXO_JOINTS if name not in known]
+    if lacking:
+        raise InputError(file, "", f"no column for {', '.join(lacking)}", "all three hinges must be recorded")
+    found = coordinates_of(table, joints, known, None)
+    time, raw = table.time, np.column_stack([found[name] for name in EXO_JOINTS])
+    step = float(np.ptp(time)) / max(len(time) - 1, 1)
+    if len(time) < FEWEST or np.abs(np.diff(time) - step).max() > UNEVEN * step:
+        what = f"{len(time)} frames that are not {step:g} s apart everywhere"
+        raise InputError(file, "", what, f"give at least {FEWEST} evenly spaced ones")
+    torque = _columns(motors, list(EXO_JOINTS), time)
+    try:
+        return DeviceMotion.smoothed(time, raw, torque, cutoff)
+    except ValueError as error:
+        raise InputError(file, "", str(error), "give another `cutoff`") from error
+
+
+def _columns(given: tuple[Path, str], names: list[str], time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t 3"]:
+    """At times that the file must cover."""
+    file, role = given
+    table = read_table(file)
+    add_input(f"`{role}`", file, frames=len(table.time))
+    bare = [name if name in table.channels else name.partition(" [")[0] for name in names]
+    values = [table.needed(name) for name in bare]
+    begin, end = table.time[[0, -1]]
+    step = float(np.ptp(time)) / (len(time) - 1)
+    if begin > time[0] + step or end < time[-1] - step:
+        what = f"runs from {begin:g} to {end:g} s, the angles from {time[0]:g} to {time[-1]:g} s"
+        raise InputError(file, "", what, "put both on one clock")
+    return np.column_stack([np.interp(time, table.time, column) for column in values])
 
 
 @in_style
@@ -94,7 +169,7 @@ class StandingDeviceResult(Result):
         trial = self.given.trial
         if trial is None:
             return np.zeros((0, 3))
-        return self.dynamics.torque(trial.smooth(trial.motors, self.options.cutoff), trial.u)
+        return self.dynamics.in_trial(trial, self.options.cutoff)
 
     @property
     def smooth(self) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, "t 3"], Float[np.ndarray, "t 3"]]:
@@ -130,17 +205,15 @@ class StandingDeviceResult(Result):
         return found
 
     def _parameters(self) -> pd.DataFrame:
-        from scipy.stats import norm
-
-        fit, reach = self.dynamics, float(norm.ppf(0.5 + 0.5 * self.options.level))
-        found, off = fit.values, np.where(fit.alone, reach * fit.deviations, np.nan)  # noqa: PD011
+        fit, found = self.dynamics, self.dynamics.values  # noqa: PD011
+        lower, upper = fit.intervals(self.options.level)
         return pd.DataFrame(
             {
                 "parameter": fit.names,
                 "unit": UNITS,
                 "value": found,
-                "lower": found - off,
-                "upper": found + off,
+                "lower": lower,
+                "upper": upper,
                 "told": np.where(fit.alone, "by itself", np.where(found == 0.0, "not at all", "in sums only")),
             }
         )
@@ -197,12 +270,7 @@ def _numbers(of: DeviceMotion, fit: ExoskeletonDynamics, o: StandingDeviceOption
 def run(given: DeviceRecordings, o: StandingDeviceOptions) -> StandingDeviceResult:
     """Fit, doubt, tell."""
     of = given.unloaded
-    inner, part = of.inner(o.cutoff), of.independent(o.cutoff)
-
-    def through(values: Float[np.ndarray, "t ..."]) -> Float[np.ndarray, "s ..."]:
-        return np.asarray(of.smooth(values, o.cutoff)[inner])
-
-    dynamics = identified(given.subject, of.q, of.u, of.a, of.motors, through=through, independent=part)
+    dynamics = identified_from(given.subject, of, o.cutoff)
     spread = float(np.std(of.motors, axis=0).max())
     if dynamics.residual > POORLY * spread:
         reserve(

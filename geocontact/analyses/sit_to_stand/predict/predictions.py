@@ -12,44 +12,20 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, listener, reserve
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
-from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, standing_trials
-from geocontact.analyses.sit_to_stand.trial_result import (
-    FROM_FILE,
-    TrialResult,
-    certificate_rows,
-    mesh_table,
-    not_certified,
-    sizes_of,
-)
+from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+from geocontact.analyses.sit_to_stand.trial_tables import certificate_rows, mesh_table, not_certified
 from geocontact.data.errors import InputError
-from geocontact.dynamics.collocation.motion import CollocatedMotion
-from geocontact.dynamics.collocation.solve import SolverOptions, refined, solve, stopped_by_ctrl_c
+from geocontact.dynamics.collocation.solve import SolverOptions, stopped_by_ctrl_c
 from geocontact.io.recordings.spheres import read_contact_parameters
 from geocontact.standing_up.calibrated_phase import INTERRUPTED
-from geocontact.standing_up.chain import FOOT_PARAMETERS
 from geocontact.standing_up.exoskeleton import strapped
-from geocontact.standing_up.numbers_that_ran import (
-    Ran,
-    end_numbers,
-    model_numbers,
-    parameter_numbers,
-    search_numbers,
-    size_numbers,
-)
-from geocontact.standing_up.phase import PhaseProblem, judged
-from geocontact.standing_up.phases import TRACKS_C, phase_c
+from geocontact.standing_up.prediction import GIVEN, PredictedTrial, contact_parameters, predicted_trial
 from geocontact.standing_up.standing_model import StandingModel
-from geocontact.standing_up.strap_sites import ContactParameter, StrapSite, searched
-from geocontact.standing_up.trials import StandingTrial, seen_in
+from geocontact.standing_up.strap_sites import searched
+from geocontact.standing_up.trials import StandingTrial, StandingUpTrials
 
-ALL, MEAN = "all given", "mean of the calibration"
+MEAN = "mean of the calibration"
 TOLERANCE = 1e-7
-GIVEN: dict[str, tuple[str, ...]] = {
-    ALL: TRACKS_C,
-    "without ground reaction": ("torque",),
-    "without torques": ("force", "centre"),
-}
-"""Channels by what the predictor is called."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,12 +47,8 @@ class HeldOutTrials:
     @property
     def values(self) -> dict[str, float]:
         """Values of all parameters by name, in SI."""
-        every = _parameters(self.known.sites)
+        every = contact_parameters(self.known.sites)
         return {each.name: each.value(float(p)) for each, p in zip(every, self.p, strict=True)}
-
-
-def _parameters(sites: Sequence[StrapSite]) -> tuple[ContactParameter, ...]:
-    return (*FOOT_PARAMETERS, *(each for site in sites for each in site.parameters))
 
 
 def read(o: StandingPredictOptions) -> HeldOutTrials:
@@ -93,48 +65,11 @@ def read(o: StandingPredictOptions) -> HeldOutTrials:
     if lacking:
         what = f"has a strap at the {min(lacking)}, which the calibration has not"
         raise InputError(o.study, "", what, f"leave strap_{min(lacking)} out, or calibrate with it")
-    every = _parameters(known.sites)
+    every = contact_parameters(known.sites)
     bounds = {each.name: (each.least, each.most) for each in every}
     values = read_contact_parameters(o.parameters, {each.name: each.unit for each in every}, bounds)
     add_input("`parameters`", o.parameters, parameters=len(values))
     return HeldOutTrials(trials, searched(every, [values[each.name] for each in every]), known)
-
-
-@dataclass(frozen=True, eq=False)
-class PredictedTrial:
-    """One trial by one predictor.
-
-    Parameters
-    ----------
-    name
-        Of the predictor.
-    model, phase
-        What moved, and the problem that was solved.
-    motion, p, objective
-        Its solution, and what it costs.
-    ending
-        How the search ended, in words.
-    seconds
-        CPU time.
-    """
-
-    name: str
-    model: StandingModel
-    phase: PhaseProblem
-    motion: CollocatedMotion
-    p: Float[np.ndarray, " p"]
-    objective: float
-    trial: TrialResult
-    solved: bool
-    ending: str
-    iterations: int
-    seconds: float
-
-    @property
-    def certified(self) -> bool:
-        """Whether the motion passes."""
-        seen = self.trial.judged.certificate
-        return seen is not None and seen.converged
 
 
 def trials_begun(predictions: Sequence[PredictedTrial]) -> tuple[StandingTrial, ...]:
@@ -209,37 +144,14 @@ def _predicted(
     o: StandingPredictOptions,
     stage: Callable[[str], None],
 ) -> PredictedTrial:
-    name, tracks = predictor
-    phase = phase_c(model, given.trials.subject, trial, given.trials.noise, given.p, tracks=tracks)
     options = SolverOptions("radau", o.degree, 1, TOLERANCE, o.iterations, o.time_limit)
 
-    def told(iteration: int, objective: float, residual: float) -> None:
+    def tell(iteration: int, objective: float, residual: float) -> None:
         stage(f"iteration {iteration}, objective {objective:.5g}, residual {residual:.2g}")
 
-    mesh = np.linspace(0.0, 1.0, round(o.nodes * float(trial.time[-1])) + 1)
-    coarse = solve(phase.control, options, meshes=(mesh,), progress=told)
-    found = refined(phase.control, coarse, options, model.turning, progress=told)
-    motion, n = found.motions[0], model.count
-    (seen,) = judged(model.equations, range(n - 3), model.turning, phase, found, certify=found.solved)
-    result = TrialResult(
-        recorded=trial,
-        model=seen_in(model, motion, found.p, trial.time, trial.name),
-        points=seen_in(model, motion, found.p, motion.held_times, trial.name),
-        acceleration=motion.state(motion.held_times)[:, 2 * n : 3 * n],
-        judged=seen,
-    )
-    ended = found.solved, found.ending, found.iterations, found.seconds
-    return PredictedTrial(name, model, phase, motion, found.p, found.objective, result, *ended)
-
-
-def prediction_numbers(predictions: Sequence[PredictedTrial]) -> list[Ran]:
-    """Model, parameters and cost once, which all predictors share; the mesh of each motion."""
-    first = predictions[0]
-    rows = model_numbers(first.model) + parameter_numbers(first.phase.parameters, first.p, note=FROM_FILE)
-    rows += size_numbers(sizes_of(first.phase)) + end_numbers(first.phase.control)
-    for one in predictions:
-        rows += search_numbers([one.motion], [one.trial.recorded], f"{one.name} ")
-    return rows
+    name, tracks = predictor
+    known = name, model, given.trials.subject, trial, given.trials.noise, given.p
+    return predicted_trial(*known, options, nodes=o.nodes, tracks=tracks, progress=tell)
 
 
 def predicted_meshes(predictions: Sequence[PredictedTrial]) -> pd.DataFrame:

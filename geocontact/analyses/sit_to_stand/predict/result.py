@@ -25,22 +25,18 @@ from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.exports import write_motion
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.predict.predictions import (
-    ALL,
     MEAN,
     HeldOutTrials,
-    PredictedTrial,
     certificates_table,
     complete,
     predicted,
     predicted_meshes,
-    prediction_numbers,
     read,
     trials_begun,
 )
 from geocontact.analyses.sit_to_stand.show import motion_page, standing_curves, standing_scene
-from geocontact.analyses.sit_to_stand.trial_result import (
+from geocontact.analyses.sit_to_stand.trial_tables import (
     DEGREE,
-    TrialResult,
     errors_table,
     ran_table,
     trial_table,
@@ -48,6 +44,8 @@ from geocontact.analyses.sit_to_stand.trial_result import (
 from geocontact.io.text.results import write_table
 from geocontact.standing_up.chain import COORDINATES
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
+from geocontact.standing_up.prediction import ALL, PredictedTrial, prediction_numbers
+from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.standing_up.trivial_trials import mean_trial
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, panels

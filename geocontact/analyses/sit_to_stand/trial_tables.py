@@ -1,4 +1,4 @@
-"""One trial as it was recorded and as the model moves: its channels, and tables of motions and numbers."""
+"""Tables of trials: channels as recorded and by the model, certificates of motions, numbers and meshes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from geocontact.dynamics.collocation.solve import MOST_HALVINGS
 from geocontact.standing_up.chain import COORDINATES
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from geocontact.standing_up.numbers_that_ran import Ran
-from geocontact.standing_up.phase import JudgedMotion, PhaseProblem, PhaseSizes
+from geocontact.standing_up.phase import JudgedMotion
+from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
 DEGREE, MILLIMETRE = float(np.degrees(1.0)), 1e3
@@ -31,39 +32,6 @@ BEYOND = (
 """Departures of coordinates from another integrator [rad, m], the growth of deviations, and the mesh."""
 Meshes = Sequence[tuple[str, Sequence[CollocatedMotion]]]
 """Motions by the name of their phase, predictor or design."""
-FROM_FILE = "as the file of parameters gives it"
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class TrialResult:
-    """One trial.
-
-    Parameters
-    ----------
-    recorded, model
-        Channels at the same times; torques of the model are those of both legs.
-    points
-        Channels of the model at `CollocatedMotion.held_times`, where the equations hold.
-    acceleration
-        Of the coordinates there [m/s^2, rad/s^2].
-    judged
-        Certificate, and residual between the points.
-    """
-
-    recorded: StandingTrial
-    model: StandingTrial
-    points: StandingTrial
-    acceleration: Float[np.ndarray, "t n"]
-    judged: JudgedMotion
-
-    def residual(self, of: Float[np.ndarray, " f"]) -> Float[np.ndarray, " t"]:
-        """Largest of a residual of `judged` nearest to each time of the recording."""
-        time = self.recorded.time
-        edges = np.r_[-np.inf, 0.5 * (time[:-1] + time[1:]), np.inf]
-        place = np.searchsorted(edges, self.judged.time, "right") - 1
-        largest = np.zeros(len(time))
-        np.maximum.at(largest, place, of)
-        return largest
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,13 +142,6 @@ def mesh_table(of: str, meshes: Meshes) -> pd.DataFrame:
     """Ends of the intervals, from the start of each motion to its end; `of` is what the motions are named by."""
     rows = [(name, motion.name, float(at)) for name, motions in meshes for motion in motions for at in motion.breaks]
     return pd.DataFrame(rows, columns=[of, "trial", "break [s]"])
-
-
-def sizes_of(phase: PhaseProblem) -> PhaseSizes:
-    """What its cost is measured by. ValueError where that is of another kind."""
-    if phase.sizes is None:
-        raise ValueError("this phase does not say what its cost is measured by")
-    return phase.sizes
 
 
 def not_certified(place: str, seen: Certificate) -> str:
