@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.data.motion import Course
+from geocontact.data.trial import mean_and_sd
 from geocontact.view.extremes import FRAMES, with_extremes
 
 HUES, DASHES = 5, 8
@@ -139,6 +140,46 @@ def _fewer(points: Points, most: int) -> Points:
     return replace(points, time=points.time[kept], values=points.values[kept])
 
 
-def at_frames(panels: Sequence[Curves], kept: Int[np.ndarray, " k"]) -> list[Curves]:
-    """Panels at some of the page's frames."""
-    return [panel.at(kept) for panel in panels]
+@dataclass(frozen=True, eq=False)
+class CurveSheet:
+    """Panels that belong together: a static figure, and cards of the page.
+
+    Parameters
+    ----------
+    over
+        Along what the panels run that have no axis of their own: the page's time.
+    columns
+        Panels in a row of the figure; by their number unless given.
+    """
+
+    panels: Sequence[Curves]
+    over: Course | None = None
+    columns: int | None = None
+
+    def at(self, kept: Int[np.ndarray, " k"]) -> list[Curves]:
+        """The panels at some of the page's frames."""
+        return [panel.at(kept) for panel in self.panels]
+
+
+def mean_curve(
+    name: str, trials: Float[np.ndarray, "n t"], stroke: int | None = None, factor: float = 1.0, count: bool = True
+) -> Curve:
+    """Mean of trials as a line, mean ± SD (n - 1) as a band; a single trial has no band. NaN is a missing sample.
+
+    Parameters
+    ----------
+    factor
+        What 1 of the trials' unit is in the panel's.
+    count
+        The name goes on with what is drawn and how many trials there are: "n = 3–5" where some samples are missing.
+    """
+    known = np.isfinite(trials).sum(axis=0)
+    if known.max(initial=0) == 0:
+        raise ValueError(f"{name!r}: every sample is NaN")
+    mean, sd = (factor * each for each in mean_and_sd(trials))
+    least, most = int(known.min()), int(known.max())
+    words = f"n = {most}" if least == most else f"n = {least}–{most}"
+    if count:
+        name = f"{name}, mean ± SD ({words})" if most > 1 else f"{name} ({words})"
+    band = (mean - sd, mean + sd) if most > 1 else (None, None)
+    return Curve(name, mean, *band, stroke=stroke)

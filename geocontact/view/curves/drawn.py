@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.motion import Course
-from geocontact.view.curves.declared import DASHES, Curves, Points
+from geocontact.view.curves.declared import DASHES, Curves, CurveSheet, Points
 from geocontact.view.curves.quantity import WRAP
 from geocontact.view.curves.sheet import plain
 from geocontact.view.curves.style import BLACK, COLOURS, DOUBLE, GREY, in_style, legend, panels
@@ -35,46 +36,49 @@ LINES: tuple[tuple[float, ...], ...] = (
 """Dashes of strokes in widths of the line, those of the page; a test compares both."""
 MARKS = "os^"
 """Marks of points by their place, those of the page."""
-TALL, LOW = 0.056, 0.046
-"""Height of a row of panels [m]: alone, and among others."""
+TALL, LOW, LOWEST = 0.056, 0.046, 0.038
+"""Height of a row of panels [m]: alone, among others, among more than `ROWS`."""
+ROWS = 4
+WORDS = 82
+"""Letters that stand side by side in the width of a figure."""
 MANY = 6
 """Panels above which three stand in a row."""
 NAMED = 8
 """Curves of a panel that its legend names at most."""
 
-Entries = list[tuple["Artist | tuple[Artist, ...]", str]]
+SHARED = 10
+"""Entries of a legend of all panels at most."""
+HANDLE = 8
+"""Width of a line and its distances in a legend, in letters."""
+
+
+@dataclass(frozen=True, eq=False)
+class Entry:
+    """What a legend says of a line, a mark or a span; `look` tells those apart that look alike."""
+
+    artist: Artist | tuple[Artist, ...]
+    name: str
+    look: tuple[object, ...]
 
 
 @in_style
-def drawn(panels_shown: Sequence[Curves], over: Course | None = None, columns: int | None = None) -> Figure:
-    """Draw a panel for each set of curves, all `over` one axis unless a panel has its own.
-
-    Parameters
-    ----------
-    over
-        Along what curves run that have no axis of their own.
-    columns
-        Panels in a row; one, two or three by their number unless given.
-
-    Returns
-    -------
-    Figure
-        Two columns wide, for `view.curves.style.save`.
-    """
-    if not panels_shown:
+def drawn(sheet: CurveSheet) -> Figure:
+    """Draw a panel for each set of curves, two columns wide, for `view.curves.style.save`."""
+    count = len(sheet.panels)
+    if not count:
         raise ValueError("no curves to draw")
-    count = len(panels_shown)
-    wide = columns or (1 if count == 1 else 2 if count <= MANY else 3)
+    wide = sheet.columns or (1 if count == 1 else 2 if count <= MANY else 3)
     rows = -(-count // wide)
-    alike = _alike(panels_shown)
-    figure, axes = panels(rows, wide, DOUBLE, TALL + LOW * (rows - 1) + 0.008 * rows)
-    for k, (panel, own) in enumerate(zip(panels_shown, axes, strict=False)):
-        entries = _curves(own, panel, over)
-        if not alike:
-            legend(own, entries) if entries else None
-        elif k == 0:
-            handles, names = zip(*entries, strict=True)
-            figure.legend(handles, [plain(name, 110) for name in names], loc="outside upper center", ncols=len(names))
+    height = 0.012 + (TALL if rows == 1 else rows * ((LOW if rows <= ROWS else LOWEST) + 0.008))
+    figure, axes = panels(rows, wide, DOUBLE, height)
+    entries = [_curves(own, panel, sheet.over) for panel, own in zip(sheet.panels, axes, strict=False)]
+    shared = _shared(entries) if count > 1 else None
+    if shared:
+        names = [plain(entry.name, WORDS) for entry in shared]
+        columns = max(1, min(len(names), WORDS // (max(map(len, names)) + HANDLE)))
+        figure.legend([entry.artist for entry in shared], names, loc="outside upper center", ncols=columns)
+    for panel, own, found in zip(sheet.panels, axes, entries, strict=False):
+        _head(own, panel, found if shared is None else ())
     for spare in axes[count:]:
         spare.remove()
     return figure
@@ -83,27 +87,36 @@ def drawn(panels_shown: Sequence[Curves], over: Course | None = None, columns: i
 @in_style
 def draw_on(axes: Axes, panel: Curves, over: Course | None = None) -> None:
     """Draw one panel with its legend on axes that are there, such as those beside a map."""
-    entries = _curves(axes, panel, over)
+    _head(axes, panel, _curves(axes, panel, over))
+
+
+def _head(axes: Axes, panel: Curves, entries: Sequence[Entry]) -> None:
+    """Title of a panel, and below it what is drawn."""
+    grid = axes.get_subplotspec()
+    title = plain(panel.title, WORDS // (grid.get_gridspec().ncols if grid is not None else 1))
     if entries:
-        legend(axes, entries)
+        legend(axes, [(entry.artist, entry.name) for entry in entries], title)
+    else:
+        axes.set_title(title, loc="left")
 
 
-def _alike(panels_shown: Sequence[Curves]) -> bool:
-    """Whether one legend says what is in every panel."""
-    named = {tuple((c.name, _stroke(c.stroke, k)) for k, c in enumerate(p.curves) if not c.thin) for p in panels_shown}
-    others = any(p.points or p.limits or p.spans for p in panels_shown)
-    return len(panels_shown) > 1 and len(named) == 1 and 1 < len(next(iter(named))) <= 4 and not others
+def _shared(panels_shown: Sequence[Sequence[Entry]]) -> list[Entry] | None:
+    """What one legend says of all panels; None where a name or a look means several things, or where it is long."""
+    found = list({(entry.name, entry.look): entry for entries in panels_shown for entry in entries}.values())
+    unique = len({entry.name for entry in found}) == len({entry.look for entry in found}) == len(found)
+    return found if unique and len(found) <= SHARED else None
 
 
-def _curves(axes: Axes, panel: Curves, over: Course | None) -> Entries:
+def _curves(axes: Axes, panel: Curves, over: Course | None) -> list[Entry]:
     """Everything of a panel but its legend, whose entries are returned."""
     along = panel.over or over
     if along is None:
         raise ValueError(f"{panel.title}: along what do its curves run?")
-    entries: Entries = []
-    x = along.values  # noqa: PD011
+    entries: list[Entry] = []
+    x = along.values
     for k, curve in enumerate(panel.curves):
-        look = _look(_stroke(curve.stroke, k))
+        number = _stroke(curve.stroke, k)
+        look = _look(number)
         band = None
         if curve.lower is not None and curve.upper is not None:
             band = axes.fill_between(x, curve.lower, curve.upper, color=look["color"], alpha=0.2, lw=0)
@@ -112,13 +125,13 @@ def _curves(axes: Axes, panel: Curves, over: Course | None) -> Entries:
             continue
         line = axes.plot(*thinned_line(x, curve.values), **look, zorder=3)[0]
         _alone(axes, x, curve.values, look["color"])
-        entries.append((line if band is None else (band, line), curve.name))
+        entries.append(Entry(line if band is None else (band, line), curve.name, (number % (len(HUES) * DASHES),)))
     entries = entries if len(entries) <= NAMED else []
-    if len(entries) == 1 and entries[0][1].lower() in panel.title.lower():
+    if len(entries) == 1 and entries[0].name.lower() in panel.title.lower():
         entries = []  # the axis says it
     entries += [_points(axes, points, k) for k, points in enumerate(panel.points)]
     for limit in panel.limits:
-        entries.append((axes.axhline(limit.value, color=BLACK, lw=0.8, ls="--"), limit.name))
+        entries.append(Entry(axes.axhline(limit.value, color=BLACK, lw=0.8, ls="--"), limit.name, ("limit",)))
     entries += _spans(axes, panel)
     _frame(axes, panel, along)
     return entries
@@ -132,20 +145,21 @@ def _alone(axes: Axes, x: Float[np.ndarray, " t"], values: Float[np.ndarray, " t
         axes.plot(x[single], values[single], ".", color=colour, markersize=2.5)
 
 
-def _points(axes: Axes, points: Points, k: int) -> tuple[Artist, str]:
+def _points(axes: Axes, points: Points, k: int) -> Entry:
     if points.joined:
-        look = _look(_stroke(points.stroke, k))
+        number = _stroke(points.stroke, k)
         mark = "." if len(points.time) == 1 else None
-        return axes.plot(points.time, points.values, marker=mark, **look)[0], points.name
+        line = axes.plot(points.time, points.values, marker=mark, **_look(number))[0]
+        return Entry(line, points.name, (number % (len(HUES) * DASHES),))
     colour = BLACK if points.stroke is None else HUES[points.stroke % len(HUES)]
     mark = MARKS[k % len(MARKS)]
     dots = axes.plot(
         points.time, points.values, mark, color=colour, markersize=3.0, markerfacecolor="white", markeredgewidth=0.8
     )
-    return dots[0], points.name
+    return Entry(dots[0], points.name, (mark, colour))
 
 
-def _spans(axes: Axes, panel: Curves) -> Entries:
+def _spans(axes: Axes, panel: Curves) -> list[Entry]:
     """Shaded stretches and lines; those that follow each other are shaded in turns."""
     named: dict[str, Artist] = {}
     for k, span in enumerate(panel.spans):
@@ -154,7 +168,7 @@ def _spans(axes: Axes, panel: Curves) -> Entries:
         else:
             artist = axes.axvspan(span.start, span.end, color=GREY, alpha=0.24 if k % 2 else 0.14, lw=0, zorder=0)
         named.setdefault(span.name, artist)
-    return [(artist, name) for name, artist in named.items() if name]
+    return [Entry(artist, name, (type(artist).__name__,)) for name, artist in named.items() if name]
 
 
 def _frame(axes: Axes, panel: Curves, along: Course) -> None:
@@ -169,7 +183,7 @@ def _frame(axes: Axes, panel: Curves, along: Course) -> None:
         if low < 0.0 < high:
             axes.axhline(0.0, color=GREY, lw=0.6, zorder=1)
     axes.set_xlabel(plain(along.label, WRAP))
-    axes.set_ylabel(plain(f"{panel.title} [{panel.unit or '–'}]", WRAP))
+    axes.set_ylabel(f"[{plain(panel.unit or '–')}]")
     if panel.beside is not None:
         factor = panel.beside.factor
         other = axes.secondary_yaxis("right", functions=(lambda y: y * factor, lambda y: y / factor))

@@ -120,8 +120,10 @@ def on(axes: Axes | None, width: float = SINGLE, height: float = 0.06) -> tuple[
     return figure_of, axes
 
 
-def legend(axes: Axes, entries: Sequence[tuple[Artist | tuple[Artist, ...], str]]) -> None:
-    """Legend above the axes, where it covers nothing; names as they stand, wrapped to the width there is."""
+def legend(
+    axes: Axes, entries: Sequence[tuple[Artist | tuple[Artist, ...], str]], title: str | None = None
+) -> None:
+    """Legend above the axes, where it covers nothing, headed by `title`; names are wrapped to the width there is."""
     grid = axes.get_subplotspec()
     columns = grid.get_gridspec().ncols if grid is not None else 1
     width = (on(axes)[0].get_size_inches()[0] * INCH / columns - 0.016) / POINT
@@ -140,6 +142,8 @@ def legend(axes: Axes, entries: Sequence[tuple[Artist | tuple[Artist, ...], str]
         borderpad=0.2,
         labelspacing=0.3,
         columnspacing=1.4,
+        title=title,
+        alignment="left",
     )
 
 

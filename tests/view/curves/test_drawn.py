@@ -14,7 +14,18 @@ from matplotlib.figure import Figure
 
 from geocontact.data.motion import Course
 from geocontact.view.curves import drawn as module
-from geocontact.view.curves.declared import INK, Curve, Curves, Limit, Points, Scale, Span, at_frames, stroke
+from geocontact.view.curves.declared import (
+    INK,
+    Curve,
+    Curves,
+    CurveSheet,
+    Limit,
+    Points,
+    Scale,
+    Span,
+    mean_curve,
+    stroke,
+)
 from geocontact.view.curves.drawn import draw_on, drawn
 from geocontact.view.curves.style import panels
 from geocontact.view.extremes import FRAMES
@@ -58,12 +69,12 @@ def of_values(axes: Axes, values: np.ndarray) -> list[object]:
 
 
 def test_every_curve_of_a_declaration_is_drawn_where_it_is_declared() -> None:
-    (axes,) = drawn([force()], TIME).axes
+    (axes,) = drawn(CurveSheet([force()], TIME)).axes
     for values in (SINE, RAMP):
         (line,) = of_values(axes, values)
         assert np.array_equal(line.get_xdata(), TIME.values)  # type: ignore[attr-defined]
     assert list(lines(axes)) == ["recorded", "model", "by hand", "limit 4 N", "tool runs", "present"]
-    assert axes.get_xlabel() == "time [s]" and axes.get_ylabel() == "Force on the body [N]"
+    assert axes.get_xlabel() == "time [s]" and axes.get_ylabel() == "[N]"
     assert any(np.array_equal(line.get_ydata(), [4.0, 4.0]) for line in axes.lines)
     (band,) = [each for each in axes.collections]
     low, high = band.get_paths()[0].get_extents().get_points()[:, 1]
@@ -71,7 +82,7 @@ def test_every_curve_of_a_declaration_is_drawn_where_it_is_declared() -> None:
 
 
 def test_a_panel_with_an_axis_of_its_own_is_drawn_over_it() -> None:
-    _, own = drawn([force(), over_cycle()], TIME).axes
+    _, own = drawn(CurveSheet([force(), over_cycle()], TIME)).axes
     assert own.get_xlabel() == "cycle [%]" and own.get_xlim() == (0.0, 100.0)
     thin = of_values(own, over_cycle().curves[1].values)[0]
     assert thin.get_linewidth() < 1.0  # type: ignore[attr-defined]
@@ -81,21 +92,21 @@ def test_values_over_another_count_of_places_are_refused() -> None:
     with pytest.raises(ValueError, match=r"curve mean: 3 values over 21 of time"):
         Curves("Moment", "N m", [Curve("mean", np.zeros(3))], over=TIME)
     with pytest.raises(ValueError, match="along what"):
-        drawn([force()])
+        drawn(CurveSheet([force()]))
     with pytest.raises(ValueError, match="no curves"):
-        drawn([])
+        drawn(CurveSheet([]))
 
 
 def test_one_legend_says_what_is_in_panels_that_are_alike() -> None:
     pair = [Curves(title, "N", [Curve("model", SINE), Curve("plate", RAMP)]) for title in ("Force x", "Force y")]
-    figure = drawn(pair, TIME)
+    figure = drawn(CurveSheet(pair, TIME))
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["model", "plate"]
     assert not any(axes.get_legend() for axes in figure.axes)
 
 
 def test_a_second_scale_and_a_logarithm_reach_the_axes() -> None:
     panel = Curves("Moment", "N m", [Curve("hip", RAMP + 1.0)], beside=Scale("N m/kg", 0.5), log=True)
-    (axes,) = drawn([panel], TIME).axes
+    (axes,) = drawn(CurveSheet([panel], TIME)).axes
     assert axes.get_yscale() == "log"
     (other,) = axes.child_axes
     other.figure.draw_without_rendering()  # type: ignore[union-attr]
@@ -143,7 +154,7 @@ def test_the_page_gets_spans_strokes_and_its_own_axis() -> None:
 
 def test_some_frames_are_taken_of_what_runs_along_the_page_alone() -> None:
     kept = np.array([0, 10, 20])
-    along, own = at_frames([force(), over_cycle()], kept)
+    along, own = CurveSheet([force(), over_cycle()]).at(kept)
     model = along.curves[1]
     assert np.array_equal(model.values, RAMP[kept]) and np.array_equal(model.lower, RAMP[kept] - 1.0)
     assert len(own.curves[0].values) == 101
@@ -157,3 +168,15 @@ def test_a_long_axis_of_its_own_keeps_its_peaks() -> None:
     (panel,) = bounded(page).sections
     assert isinstance(panel, Curves) and panel.over is not None
     assert len(panel.over.values) <= 1.2 * FRAMES and panel.curves[0].values.max() == 7.0
+
+
+def test_mean_and_band_of_trials_count_what_is_there() -> None:
+    trials = np.array([[1.0, 2.0, 3.0], [3.0, 6.0, np.nan], [5.0, 4.0, 6.0]])
+    curve = mean_curve("walk", trials, factor=10.0)
+    assert curve.name == "walk, mean ± SD (n = 2–3)"
+    assert curve.values == pytest.approx([30.0, 40.0, 45.0])
+    assert curve.upper - curve.values == pytest.approx([20.0, 20.0, 10.0 * np.std([3.0, 6.0], ddof=1)])  # type: ignore[operator]
+    single = mean_curve("one", trials[:1])
+    assert single.name == "one (n = 1)" and single.lower is None
+    with pytest.raises(ValueError, match="every sample is NaN"):
+        mean_curve("none", np.full((2, 3), np.nan))
