@@ -17,7 +17,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import pandas as pd
 
@@ -27,7 +26,6 @@ from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.motion.panels import curves_figure
 from geocontact.analyses.shoulder.compare.errors import (
     ArmAndRecording,
     ComparedChannel,
@@ -38,11 +36,10 @@ from geocontact.analyses.shoulder.compare.errors import (
 from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
 from geocontact.analyses.shoulder.recordings import ALL, WORK, shown_in
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
-from geocontact.view.page.content import Curve, Curves, Page, Words
+from geocontact.data.motion import Course
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet
+from geocontact.view.page.content import Page, Words
 from geocontact.view.page.tables import frame_table
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 MAT = (
     "The simulated force is the component that lifts the arm; a pressure mat also counts what presses from the sides, "
@@ -50,26 +47,23 @@ MAT = (
 )
 
 
-def channel_figure(channels: Sequence[ComparedChannel]) -> Figure:
+def channel_curves(channels: Sequence[ComparedChannel]) -> CurveSheet:
     """Each channel, recorded and simulated."""
-    panels = {}
+    panels = []
     for one in channels:
         unit, factor = shown_in(one.channel)
-        both = {"recorded": factor * one.measured, "simulated": factor * one.model}
-        panels[f"{one.channel} [{unit.replace('deg', '°')}]"] = pd.DataFrame(both)
-    return curves_figure(channels[0].time, panels)
+        curves = [
+            Curve("recorded", factor * one.measured, stroke=INK),
+            Curve("simulated", factor * one.model, stroke=0),
+        ]
+        panels.append(Curves(one.channel.capitalize(), unit, curves))
+    return CurveSheet(panels, Course("time", "s", channels[0].time))
 
 
 def comparison_page(recorded: str, channels: Sequence[ComparedChannel], sentences: Sequence[str]) -> Page:
     """Both curves of each channel, and errors by phase; `recorded` is the name of the recording."""
     time = channels[0].time
     shown = thinned(len(time), [values for one in channels for values in (one.measured, one.model)])
-    panels = []
-    for one in channels:
-        unit, factor = shown_in(one.channel)
-        both = (("recorded", one.measured), ("simulated", one.model))
-        curves = [Curve(name, factor * values[shown]) for name, values in both]
-        panels.append(Curves(one.channel.capitalize(), unit, curves))
     return Page(
         title=f"Simulated arm beside {recorded}",
         subtitle="Shoulder exoskeleton: elevation of its arm, force in its cuff",
@@ -77,7 +71,7 @@ def comparison_page(recorded: str, channels: Sequence[ComparedChannel], sentence
         time_label="time [s]",
         headline=headline(sentences, most=2),
         sections=(
-            *panels,
+            *channel_curves(channels).at(shown),
             frame_table("Errors by channel and phase", comparison_table(channels)),
             INPUTS,
             OPTIONS,
@@ -99,9 +93,9 @@ class ShoulderCompareResult(Result):
         """`comparison`: one row per channel and phase."""
         return {"comparison": comparison_table(self.channels)}
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`comparison`: each channel, recorded and simulated."""
-        return {"comparison": channel_figure(self.channels)}
+        return {"comparison": channel_curves(self.channels)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Both curves of each channel, and errors by phase."""
