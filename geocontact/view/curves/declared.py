@@ -50,7 +50,7 @@ class Curve:
 class Points:
     """Values known at places of their own, such as measured ones: marks beside the curves, or `joined` to a line.
 
-    Marks are in ink, a line has the colour of its place, unless `stroke` gives another.
+    Marks are in ink, a line has the colour of its place, unless `stroke` gives another. The key leaves out names of "".
     """
 
     name: str

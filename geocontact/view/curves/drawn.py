@@ -129,7 +129,7 @@ def _curves(axes: Axes, panel: Curves, over: Course | None) -> list[Entry]:
     entries = entries if len(entries) <= NAMED else []
     if len(entries) == 1 and entries[0].name.lower() in panel.title.lower():
         entries = []  # the axis says it
-    entries += [_points(axes, points, k) for k, points in enumerate(panel.points)]
+    entries += [entry for k, points in enumerate(panel.points) if (entry := _points(axes, points, k)).name]
     for limit in panel.limits:
         entries.append(Entry(axes.axhline(limit.value, color=BLACK, lw=0.8, ls="--"), limit.name, ("limit",)))
     entries += _spans(axes, panel)

@@ -120,9 +120,7 @@ def on(axes: Axes | None, width: float = SINGLE, height: float = 0.06) -> tuple[
     return figure_of, axes
 
 
-def legend(
-    axes: Axes, entries: Sequence[tuple[Artist | tuple[Artist, ...], str]], title: str | None = None
-) -> None:
+def legend(axes: Axes, entries: Sequence[tuple[Artist | tuple[Artist, ...], str]], title: str | None = None) -> None:
     """Legend above the axes, where it covers nothing, headed by `title`; names are wrapped to the width there is."""
     grid = axes.get_subplotspec()
     columns = grid.get_gridspec().ncols if grid is not None else 1

@@ -26,7 +26,7 @@ export function curves(figure, part, pageTime, pageLabel, { go, plays }) {
       "ul",
       "key",
       ...named.map((c, k) => html("li", "", sample(c.stroke), html("bdi", "", c.name), values[k])),
-      ...part.points.map((p, k) => html("li", "", pointsSample(p, k), html("bdi", "", p.name))),
+      ...part.points.flatMap((p, k) => (p.name ? [html("li", "", pointsSample(p, k), html("bdi", "", p.name))] : [])),
       ...spans.map((span) => html("li", "", spanSample(span), html("bdi", "", span.name))),
     ),
   );
