@@ -17,7 +17,7 @@ from geocontact.data.text import seconds
 from geocontact.data.trial import mean_and_sd
 from geocontact.identify.signals.cycles import STEPS
 from geocontact.identify.signals.filters import broken, gaps
-from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Span, mean_curve
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Span, mean_curve
 from geocontact.view.extremes import FRAMES
 from geocontact.view.page.content import (
     Choices,
@@ -119,7 +119,7 @@ def beside_their_mean(
     for each in (mean, lower, upper):
         each[~known] = np.nan
     band = (lower, upper) if np.isfinite(lower).any() else (None, None)
-    return [Curve("as recorded", values), Curve("mean of the cycles ± SD", mean, *band)]
+    return [Curve("as recorded", values, stroke=INK), Curve("mean of the cycles ± SD", mean, *band, stroke=0)]
 
 
 PLACES = {"PM": (-1.0, -1.0), "AM": (-1.0, 1.0), "AL": (1.0, 1.0), "PL": (1.0, -1.0)}
@@ -309,7 +309,7 @@ def _curves(
 
 def _times(curve: Curve, per: float) -> Curve:
     lower, upper = (None if each is None else each * per for each in (curve.lower, curve.upper))
-    return Curve(curve.name, curve.values * per, lower, upper)
+    return replace(curve, values=curve.values * per, lower=lower, upper=upper)
 
 
 def _headline(recorded: RecordedCells, cuts: list[Cut], unit: ForceUnit) -> list[str]:
