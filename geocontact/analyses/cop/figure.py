@@ -80,7 +80,7 @@ def stance_curves(r: FootLoads) -> list[Curves]:
     if r.axis is not None:
         along = f"{NAMES[r.options.point]}{SHARE}"
         panels.append((along, "Centre from the heel over the stance", "% of foot length", PERCENT))
-    found = []
+    found: list[Curves] = []
     for name, title, unit, factor in panels:
         trials = factor * np.array([one[name].to_numpy(float) for one in each])
         curves = [Curve(f"stance {k + 1}", one, stroke=0, thin=True) for k, one in enumerate(trials)]

@@ -118,8 +118,9 @@ def beside_their_mean(
     known = np.isfinite(values)
     for each in (mean, lower, upper):
         each[~known] = np.nan
-    band = (lower, upper) if np.isfinite(lower).any() else (None, None)
-    return [Curve("as recorded", values, stroke=INK), Curve("mean of the cycles ± SD", mean, *band, stroke=0)]
+    spread = bool(np.isfinite(lower).any())
+    both = Curve("mean of the cycles ± SD", mean, lower if spread else None, upper if spread else None, stroke=0)
+    return [Curve("as recorded", values, stroke=INK), both]
 
 
 PLACES = {"PM": (-1.0, -1.0), "AM": (-1.0, 1.0), "AL": (1.0, 1.0), "PL": (1.0, -1.0)}

@@ -210,7 +210,7 @@ def modulus_page(title: str, found: Identified, curves: CurveSheet, tables: Sequ
         Results first.
     """
     first = next(iter(found.curves().values()))
-    forces = curves.panels
+    forces: list[Section] = [*curves.panels]
     intervals = modulus_intervals(found)
     sections: list[Section] = [
         *([*forces, intervals] if undescribed(found) else [intervals, *forces]),

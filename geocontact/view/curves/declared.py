@@ -181,5 +181,5 @@ def mean_curve(
     words = f"n = {most}" if least == most else f"n = {least}–{most}"
     if count:
         name = f"{name}, mean ± SD ({words})" if most > 1 else f"{name} ({words})"
-    band = (mean - sd, mean + sd) if most > 1 else (None, None)
-    return Curve(name, mean, *band, stroke=stroke)
+    lower, upper = (mean - sd, mean + sd) if most > 1 else (None, None)
+    return Curve(name, mean, lower, upper, stroke)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from jaxtyping import Float
@@ -76,7 +76,8 @@ def drawn(sheet: CurveSheet) -> Figure:
     if shared:
         names = [plain(entry.name, WORDS) for entry in shared]
         columns = max(1, min(len(names), WORDS // (max(map(len, names)) + HANDLE)))
-        figure.legend([entry.artist for entry in shared], names, loc="outside upper center", ncols=columns)
+        handles: list[Any] = [entry.artist for entry in shared]  # a pair of band and line is one, too
+        figure.legend(handles, names, loc="outside upper center", ncols=columns)
     for panel, own, found in zip(sheet.panels, axes, entries, strict=False):
         _head(own, panel, found if shared is None else ())
     for spare in axes[count:]:
@@ -186,7 +187,8 @@ def _frame(axes: Axes, panel: Curves, along: Course) -> None:
     axes.set_ylabel(f"[{plain(panel.unit or '–')}]")
     if panel.beside is not None:
         factor = panel.beside.factor
-        other = axes.secondary_yaxis("right", functions=(lambda y: y * factor, lambda y: y / factor))
+        both = lambda y: np.asarray(y) * factor, lambda y: np.asarray(y) / factor
+        other = axes.secondary_yaxis("right", functions=both)
         other.set_ylabel(f"[{plain(panel.beside.unit)}]")
 
 
@@ -194,6 +196,6 @@ def _stroke(given: int | None, place: int) -> int:
     return place if given is None else given
 
 
-def _look(number: int) -> dict[str, object]:
+def _look(number: int) -> dict[str, Any]:
     dashes = LINES[number % DASHES]
     return {"color": HUES[number % len(HUES)], "ls": (0, dashes) if dashes else "-"}

@@ -61,7 +61,7 @@ def lines(axes: Axes) -> dict[str, np.ndarray]:
     legend = axes.get_legend()
     handles = legend.legend_handles if legend else handles
     names = [text.get_text() for text in legend.get_texts()] if legend else names
-    return {name: handle for name, handle in zip(names, handles, strict=True)}
+    return dict(zip(names, handles, strict=True))
 
 
 def of_values(axes: Axes, values: np.ndarray) -> list[object]:
@@ -76,7 +76,7 @@ def test_every_curve_of_a_declaration_is_drawn_where_it_is_declared() -> None:
     assert list(lines(axes)) == ["recorded", "model", "by hand", "limit 4 N", "tool runs", "present"]
     assert axes.get_xlabel() == "time [s]" and axes.get_ylabel() == "[N]"
     assert any(np.array_equal(line.get_ydata(), [4.0, 4.0]) for line in axes.lines)
-    (band,) = [each for each in axes.collections]
+    (band,) = list(axes.collections)
     low, high = band.get_paths()[0].get_extents().get_points()[:, 1]
     assert (low, high) == pytest.approx((-1.0, 7.0))
 

@@ -45,7 +45,7 @@ def force_curves(d: Designed) -> Curves:
 @in_style
 def map_figure(d: Designed) -> Figure:
     """Draw largest |F| [N] over the offsets with the limit alone."""
-    figure, (plane,) = panels(1, 1, 0.11, 0.085)
+    figure, (plane,) = panels(1, 1, DOUBLE, 0.105)
     _map(figure, plane, d)
     return figure
 

@@ -95,9 +95,9 @@ def told_figure(
     """
     figure, (bars, along, shape) = panels(1, 3, DOUBLE, 0.07)
     bars.bar(range(len(directions.names)), directions.least, color=PALETTE[0])
-    bars.set_xticks(range(len(directions.names)), [f"log |{name}|" for name in directions.names], fontsize=SMALL)
+    bars.set_xticks(range(len(directions.names)), list(directions.names))
     bars.axhline(0.0, color=GREY, lw=0.6)
-    bars.set_ylabel("direction told least")
+    bars.set_ylabel("least known direction, in logarithms")
     ratio = directions.singular_values[-1] / directions.singular_values[0]
     bars.set_title(f"singular value {ratio:.0e} of the largest", fontsize=SMALL)
     flat = along.plot(line[:, 0], line_r2, color=PALETTE[0])[0]
