@@ -13,7 +13,7 @@ from geocontact.analyses.area.contact import MotionResult
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Course
 from geocontact.data.version import VERSION
-from geocontact.view.curves.declared import Curve, Curves
+from geocontact.view.curves.declared import Curve, Curves, stroke
 from geocontact.view.curves.drawn import draw_on
 from geocontact.view.curves.sheet import plain
 from geocontact.view.curves.style import COLOURS, empty, in_style
@@ -84,15 +84,24 @@ def area_curves(e: AreaEvolution, main: int, moving: bool = True) -> Curves:
 
     def within(k: int) -> Curve:
         name = f"fixed body, {e.thresholds[k] * MM:g} mm"
-        return Curve(name, *(side[:, k] * MM2 for side in (e.fixed.area, e.fixed.lower, e.fixed.upper)))
+        own, lower, upper = (side[:, k] * MM2 for side in (e.fixed.area, e.fixed.lower, e.fixed.upper))
+        return Curve(name, own, lower, upper, stroke(_hue(e, main, k)))
 
     parts = {"medial": e.medial, "lateral": e.lateral} if e.medial_side else {}
     if moving:
         parts["moving body"] = e.moving.area
     areas = [within(main)]
-    areas += [Curve(f"{name}, {e.thresholds[main] * MM:g} mm", part[:, main] * MM2) for name, part in parts.items()]
+    areas += [
+        Curve(f"{name}, {e.thresholds[main] * MM:g} mm", part[:, main] * MM2, stroke=stroke(0, 1 + j))
+        for j, (name, part) in enumerate(parts.items())
+    ]
     areas += [within(k) for k in range(len(e.thresholds)) if k != main]
     return Curves("Contact area", "mm²", areas)
+
+
+def _hue(e: AreaEvolution, main: int, k: int) -> int:
+    """Colour of threshold `k`, of its curve and of its contour: that of `main` comes first."""
+    return ([main, *(j for j in range(len(e.thresholds)) if j != main)].index(k)) % len(COLOURS)
 
 
 def distance_curves(e: AreaEvolution) -> Curves:
@@ -148,7 +157,7 @@ def _patch(
         axes.figure.colorbar(colours, ax=axes, label=signed, shrink=0.7)
     for k, threshold in enumerate(e.thresholds):
         if near.any() and shown.min() < threshold < shown.max():
-            colour, level = COLOURS[k % len(COLOURS)], [threshold * 1e3]
+            colour, level = COLOURS[_hue(e, int(np.argmax(e.thresholds)), k)], [threshold * 1e3]
             axes.tricontour(Triangulation(x, y, seen), shown * 1e3, levels=level, colors=colour, linewidths=1.2)
     axes.set_aspect("equal")
     axes.set_xlabel(f"{'xyz'[right]} [mm]")

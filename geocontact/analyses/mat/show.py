@@ -59,7 +59,7 @@ def mat_figure(r: MatFindings) -> Figure:
 @in_style
 def cells_figure(r: MatFindings) -> Figure:
     """The mat unrolled with the largest pressure of each cell, alone."""
-    figure, (axes,) = panels(1, 1, DOUBLE, 0.09)
+    figure, (axes,) = panels(1, 1, 0.11, 0.09)
     _cells(figure, axes, r)
     return figure
 
@@ -170,7 +170,7 @@ def mat_curves(r: MatFindings) -> CurveSheet:
             FORCE,
             "N",
             [
-                Curve("perpendicular to the interface", w.perpendicular, stroke=INK),
+                Curve("perpendicular", w.perpendicular, stroke=INK),
                 *(Curve(axis, w.wrench.force[:, k], stroke=own) for k, (axis, own) in enumerate(by_axis)),
             ],
         ),

@@ -97,6 +97,7 @@ def _panel(
         if not curves:
             continue
         mean, sd = factor * np.mean(curves, axis=0), factor * np.std(curves, axis=0)
-        band = (mean - sd, mean + sd) if len(own) > 1 and label in ("model", "plate") else (None, None)
-        found.append(Curve(label, mean, *band, stroke=STROKES[label]))
+        spread = len(own) > 1 and label in ("model", "plate")
+        lower, upper = (mean - sd, mean + sd) if spread else (None, None)
+        found.append(Curve(label, mean, lower, upper, STROKES[label]))
     return Curves(f"{title}: {where}", unit, found, words=WORDS if name == next(iter(SHOWN)) and len(own) > 1 else "")

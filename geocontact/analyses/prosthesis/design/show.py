@@ -35,7 +35,10 @@ def design_curves(
     present = Span("present value", factor * sweep.knob.present, factor * sweep.knob.present)
     panels = []
     for k, answer in enumerate(answers):
-        curves = [Curve(response, *bands[:, j, :, k], stroke=STROKES[j]) for j, response in enumerate(RESPONSES)]
+        curves = [
+            Curve(response, bands[0, j, :, k], bands[1, j, :, k], bands[2, j, :, k], STROKES[j])
+            for j, response in enumerate(RESPONSES)
+        ]
         best = answer.choice
         spans = [Span("interval of the best", factor * best.lower, factor * best.upper)] if best.told else []
         measure = MEASURES[AIMS[k]]
@@ -48,7 +51,9 @@ def _shapes(ends: Knob, carried: Sequence[CarriedLoad]) -> Curves:
     factor, unit = SHOWN[ends.vary]
     paths = [1e3 * shank_path(found) for found in carried]
     lines = [
-        Points(f"{factor * value:.{DIGITS[ends.vary]}f} {unit}".strip(), *path.T, stroke=stroke(4, k), joined=True)
+        Points(
+            f"{factor * value:.{DIGITS[ends.vary]}f} {unit}".strip(), path[:, 0], path[:, 1], stroke(4, k), joined=True
+        )
         for k, (value, path) in enumerate(zip(ends.settings, paths, strict=True))
     ]
     x = np.concatenate([path[:, 0] for path in paths])
