@@ -39,6 +39,8 @@ MARKS = "os^"
 TALL, LOW, LOWEST = 0.056, 0.046, 0.038
 """Height of a row of panels [m]: alone, among others, among more than `ROWS`."""
 ROWS = 4
+ROUNDED = 0.1
+"""Part of a decade that the margin of an axis may take."""
 WORDS = 82
 """Letters that stand side by side in the width of a figure."""
 MANY = 6
@@ -179,6 +181,9 @@ def _frame(axes: Axes, panel: Curves, along: Course) -> None:
         axes.set_xlim(known[0], known[-1])
     if panel.log:
         axes.set_yscale("log")
+        low, high = np.log10(axes.get_ylim())
+        axes.set_ylim(10.0 ** np.floor(low + ROUNDED), 10.0 ** np.ceil(high - ROUNDED))  # whole decades, as on the page
+        axes.yaxis.set_minor_formatter(lambda *_: "")
     else:
         low, high = axes.get_ylim()
         if low < 0.0 < high:
