@@ -202,7 +202,7 @@ def test_a_panel_with_an_axis_of_its_own_is_read_there_alone(opened: Open) -> No
     assert here.tab.locator("#section-1 .key li").count() == 1, "thin curves have no name"
     ticks = here.tab.locator("#section-1 .tick[text-anchor=end]").all_text_contents()
     assert ticks == ["1", "10", "100"], "whole decades"
-    assert here.tab.locator("#section-0 rect.span, #section-0 line.edge").count() == 2
+    assert here.tab.locator("#section-0 .plot .span, #section-0 .plot .edge").count() == 2
     assert here.tab.locator("#section-0 .key").text_content().endswith("worknow")  # type: ignore[union-attr]
 
 

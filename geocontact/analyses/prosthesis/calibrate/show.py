@@ -17,12 +17,12 @@ from geocontact.view.page.content import Page, Section, Words
 from geocontact.view.page.tables import frame_table
 
 QUANTITIES = (
-    ("Force along x, the walk", "N", 1.0),
-    ("Force along y, upwards", "N", 1.0),
-    ("Force along z, to the right", "N", 1.0),
-    ("Centre of pressure from the heel", "% of the foot", 100.0),
+    (1, "Force along y, upwards", "N", 1.0),
+    (0, "Force along x, the walk", "N", 1.0),
+    (2, "Force along z, to the right", "N", 1.0),
+    (3, "Centre of pressure from the heel", "% of the foot", 100.0),
 )
-"""Title, unit and factor of what a plate measures and the model predicts."""
+"""Column, title, unit and factor of what a plate measures and the model predicts."""
 
 
 def stance_curves(stance: RecordedStance, predicted: Float[ndarray, "t 4"]) -> CurveSheet:
@@ -33,10 +33,10 @@ def stance_curves(stance: RecordedStance, predicted: Float[ndarray, "t 4"]) -> C
             unit,
             [
                 Curve("plate", factor * stance.measured[:, k], stroke=INK),
-                Curve("model, the foot with the numbers below", factor * predicted[:, k], stroke=0),
+                Curve("model", factor * predicted[:, k], stroke=0),
             ],
         )
-        for k, (title, unit, factor) in enumerate(QUANTITIES)
+        for k, title, unit, factor in QUANTITIES
     ]
     return CurveSheet(panels, Course("time", "s", stance.time))
 
