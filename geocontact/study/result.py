@@ -39,7 +39,7 @@ from geocontact.study.collect import collect
 from geocontact.study.curves import STEPS, StudyCurves, curves_of
 from geocontact.study.description import StudyFile, read_study_file
 from geocontact.study.options import CohortOptions
-from geocontact.study.show import study_figure, study_page
+from geocontact.study.show import study_curves, study_page
 from geocontact.study.store import RESULTS, Store
 from geocontact.study.surface import (
     SurfaceValues,
@@ -64,8 +64,7 @@ from geocontact.study.workers import outcomes, workers_of
 from geocontact.view.surfaces.points_vtp import write_points_vtp
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 MANIFEST = "trials"
@@ -113,7 +112,7 @@ class CohortResult(Result):
         In the order of the description.
     store
         Where their results are.
-    curves
+    ensembles
         Of the columns that the summary is about.
     surface
         Distances at points that correspond, None where the study asks for none.
@@ -126,7 +125,7 @@ class CohortResult(Result):
     planned: PlannedStudy
     trials: tuple[StudiedTrial, ...]
     store: Store
-    curves: tuple[StudyCurves, ...]
+    ensembles: tuple[StudyCurves, ...]
     surface: SurfaceValues | None
     scratch: Scratch | None
     held: ExitStack
@@ -159,11 +158,11 @@ class CohortResult(Result):
         """The same, made once: tests of differences take their time."""
         found = {
             MANIFEST: self._manifest(),
-            "ensemble": ensemble_table(self.curves),
-            "values": value_table(self.curves),
-            "differences": difference_table(self.curves),
-            "agreement": agreement_table(self.curves),
-            "outliers": outlier_table(self.curves),
+            "ensemble": ensemble_table(self.ensembles),
+            "values": value_table(self.ensembles),
+            "differences": difference_table(self.ensembles),
+            "agreement": agreement_table(self.ensembles),
+            "outliers": outlier_table(self.ensembles),
         }
         if self.surface is not None:
             found["surface"] = surface_table(self.surface)
@@ -190,14 +189,14 @@ class CohortResult(Result):
         """Heading that the description has."""
         return self.planned.file.heading
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`ensemble`: mean curves, where a trial has a whole one."""
-        drawn = study_figure(self.curves)
-        return {} if drawn is None else {"ensemble": drawn}
+        drawn = study_curves(self.ensembles)
+        return {"ensemble": drawn} if drawn.panels else {}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Mean curves, statistics, and all trials with a link to the page of each."""
-        return {REPORT: study_page(self.title, self.curves, self.tables())}
+        return {REPORT: study_page(self.title, self.ensembles, self.tables())}
 
     def write_files(self, folder: Path) -> None:
         """Also the tables of all trials together; then other studies may write into the folder."""
@@ -244,7 +243,7 @@ def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
         planned=planned,
         trials=trials,
         store=store,
-        curves=curves,
+        ensembles=curves,
         surface=surface,
         scratch=scratch,
         held=kept,

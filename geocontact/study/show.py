@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
@@ -11,17 +10,13 @@ import pandas as pd
 from geocontact.analyses.frame.collector import current
 from geocontact.analyses.frame.result import REPORT
 from geocontact.analyses.frame.words import headline
-from geocontact.data.trial import mean_and_sd
+from geocontact.data.motion import Course
 from geocontact.io.text.units import split_header
 from geocontact.study.curves import STEPS, StudyCurves
-from geocontact.view.curves.over_cycle import mean_over_cycle
-from geocontact.view.curves.quantity import CYCLE, Quantity
-from geocontact.view.curves.style import DOUBLE, PALETTE, in_style, panels
-from geocontact.view.page.content import Curve, Curves, Page, Section, Table
+from geocontact.view.curves.declared import Curves, CurveSheet, mean_curve
+from geocontact.view.curves.style import PALETTE
+from geocontact.view.page.content import Page, Section, Table
 from geocontact.view.page.tables import frame_table
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 DRAWN = len(PALETTE)
 """Conditions that curves are drawn of."""
@@ -31,7 +26,7 @@ ROWS = 500
 
 def study_page(title: str, curves: Sequence[StudyCurves], tables: Mapping[str, pd.DataFrame]) -> Page:
     """The page, with curves that can be read by pointing at them."""
-    sections: list[Section] = [section for one in curves if (section := _panel(one)).curves]
+    sections: list[Section] = [*study_curves(curves).panels]
     for name, words in (
         ("values", "Mean and largest value of the subjects"),
         ("agreement", "Agreement of conditions"),
@@ -53,13 +48,8 @@ def study_page(title: str, curves: Sequence[StudyCurves], tables: Mapping[str, p
 
 def _panel(one: StudyCurves) -> Curves:
     name, unit = split_header(one.column)
-    drawn = []
-    for condition, values in _drawn(one).items():
-        mean, sd = mean_and_sd(values)
-        several = len(values) > 1
-        words = f"{condition} (n = {len(values)})"
-        drawn.append(Curve(words, mean, mean - sd if several else None, mean + sd if several else None))
-    return Curves(f"{name}: mean ± SD over subjects", _printed(unit), drawn)
+    drawn = [mean_curve(condition, values, k) for k, (condition, values) in enumerate(_drawn(one).items())]
+    return Curves(f"{name.replace('_', ' ')} over the cycle, subjects", _printed(unit), drawn)
 
 
 def _drawn(one: StudyCurves) -> dict[str, np.ndarray]:
@@ -81,14 +71,6 @@ def _trials(manifest: pd.DataFrame) -> Table:
     return Table(told.title, told.header, told.rows, links=links)
 
 
-@in_style
-def study_figure(curves: Sequence[StudyCurves]) -> Figure | None:
-    """Mean ± SD of every quantity and condition; None where no trial has a whole curve."""
-    curves = [one for one in curves if _drawn(one)]
-    if not curves:
-        return None
-    figure, axes = panels(1, len(curves), DOUBLE, 0.06)
-    for one, own in zip(curves, axes, strict=True):
-        name, unit = split_header(one.column)
-        mean_over_cycle(STEPS, _drawn(one), Quantity(name.replace("_", " "), _printed(unit)), own, CYCLE)
-    return figure
+def study_curves(curves: Sequence[StudyCurves]) -> CurveSheet:
+    """Mean ± SD of every quantity and condition, of those that have a whole curve."""
+    return CurveSheet([_panel(one) for one in curves if _drawn(one)], Course("cycle", "%", STEPS))

@@ -73,7 +73,9 @@ def test_stances_run_from_gate_to_gate(tmp_path: Path) -> None:
     inside = table["ground_point_share [-]"].to_numpy()[2:99]
     np.testing.assert_allclose(inside, 0.5, atol=1e-9)
     sections = cop_page(found).sections
-    assert [s.title for s in sections if isinstance(s, Picture)] == ["Over the stance"]
+    over = [s for s in sections if isinstance(s, Curves) and s.over is not None]
+    assert [s.title for s in over] == ["Normal force over the stance", "Centre from the heel over the stance"]
+    assert not any(isinstance(s, Picture) for s in sections)
     (curve,) = [s for s in sections if isinstance(s, Curves) and "along the foot" in s.title]
     assert curve.unit == "% of foot length" and np.nanmax(curve.curves[0].values) == pytest.approx(50.0)
 

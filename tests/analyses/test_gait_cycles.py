@@ -9,13 +9,15 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.motion.gait_cycles import (
-    cycles_figure,
+    cycles_curves,
     cycles_table,
     strikes_marked,
     strikes_typed,
 )
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.gait_cycles import gait_cycles
+from geocontact.view.curves.declared import CurveSheet
+from geocontact.view.curves.drawn import drawn
 from tests import legs
 
 TIME = np.arange(501) / 100.0
@@ -29,8 +31,16 @@ def test_the_table_and_the_figure_of_both_sides() -> None:
     cycles = gait_cycles(TIME, ("knee_r", "knee_l", "pelvis_tilt"), ("deg",) * 3, values, strikes)
     table = cycles_table(cycles)
     assert table["knee_l_mean [deg]"][0] == pytest.approx(-1.0, abs=2e-3) and table["knee_l_sd [deg]"].max() < 1e-3
-    shown = [axes for axes in cycles_figure(cycles).axes if axes.axison]
-    assert [axes.get_ylabel() for axes in shown] == ["knee [deg]", "pelvis_tilt [deg]"]
+    knee, pelvis = cycles_curves(cycles)
+    assert (knee.title, knee.unit, pelvis.title) == (
+        "knee over the gait cycle",
+        "deg",
+        "pelvis_tilt over the gait cycle",
+    )
+    assert [curve.name for curve in knee.curves] == ["right, mean ± SD (n = 4)", "left, mean ± SD (n = 3)"]
+    assert knee.over is not None and knee.over.values[[0, -1]].tolist() == [0.0, 100.0]
+    assert np.array_equal(knee.curves[1].values, table["knee_l_mean [deg]"])
+    assert [axes.get_title(loc="left") for axes in drawn(CurveSheet([knee, pelvis])).axes] == [knee.title, pelvis.title]
 
 
 def test_typed_strikes() -> None:
@@ -65,7 +75,7 @@ def test_cycles_stand_on_the_page_and_in_a_table(tmp_path: Path) -> None:
     assert angles.table("cycles").shape == (101, 1 + 2 * 11)
     folder = angles.write(tmp_path / "ik")
     assert (folder / "cycles.csv").exists()
-    assert "Over the gait cycle" in (folder / "report.html").read_text(encoding="utf-8")
+    assert "over the gait cycle" in (folder / "report.html").read_text(encoding="utf-8")
     with pytest.warns(gc.InputWarning, match="nothing but gravity acts"):
         moments = gc.inverse_dynamics(folder / "ik.mot", model=file, events=("right=0.1,0.3,0.5",))
     assert [name for name in moments.table("cycles") if name.startswith("knee_")] == [

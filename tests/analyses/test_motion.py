@@ -34,7 +34,7 @@ def test_the_chain_returns_to_where_it_began(markers: Path, tmp_path: Path) -> N
     assert moments.table()["ty_force [N]"].mean() == pytest.approx(23.0 * 9.80665, rel=0.02), "nothing else carries it"
     np.testing.assert_array_equal(moments.moments["knee_moment"], moments.table()["knee_moment [N m]"])
     np.testing.assert_array_equal(moments.time, moments.table()["time [s]"])
-    assert [axes.get_ylabel() for axes in moments.figure().axes] == ["moment [N m]"], "no force but at the ground"
+    assert {axes.get_ylabel() for axes in moments.figure().axes} == {"[N m]"}, "no force but at the ground"
 
 
 def test_angles_and_moments_are_those_of_the_commands(markers: Path, tmp_path: Path) -> None:

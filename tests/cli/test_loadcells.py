@@ -37,8 +37,7 @@ def unpictured() -> Iterator[None]:
     """Neither figures nor pages are made."""
     room = "geocontact.analyses.loadcells.result"
     with ExitStack() as stack:
-        for name in ("loadcell_figure", "ensemble_figure"):
-            stack.enter_context(mock.patch(f"{room}.{name}", return_value=b""))
+        stack.enter_context(mock.patch(f"{room}.LoadcellResult.figures", return_value={}))
         stack.enter_context(unwritten())
         yield
 

@@ -42,7 +42,7 @@ def modulus(
 @contextmanager
 def unpictured() -> Iterator[None]:
     """Neither figure nor page are made."""
-    with mock.patch("geocontact.analyses.modulus.result.modulus_figure", return_value=None), unwritten():
+    with mock.patch("geocontact.analyses.modulus.result.ModulusResult.figures", return_value={}), unwritten():
         yield
 
 

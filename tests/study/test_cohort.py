@@ -15,7 +15,7 @@ import pytest
 from scipy.io import netcdf_file
 
 from geocontact.study.curves import StudyCurves
-from geocontact.study.show import study_figure, study_page
+from geocontact.study.show import study_curves, study_page
 from geocontact.study.store import LOCK, sole_writer
 from geocontact.view.page.content import Curves
 from tests.cli.calls import Call, call
@@ -145,8 +145,9 @@ def test_a_folder_that_takes_no_files_is_refused(tmp_path: Path) -> None:
 def test_a_quantity_that_no_trial_has_whole_is_not_drawn() -> None:
     names = ("A",), ("A",), ("all",)
     whole, gaps = (StudyCurves("area [mm^2]", *names, np.full((1, 101), value)) for value in (1.0, np.nan))
-    drawn = study_figure([gaps, whole])
-    assert drawn is not None and len(drawn.axes) == 1 and study_figure([gaps]) is None
+    (panel,) = study_curves([gaps, whole]).panels
+    assert panel.unit == "mm²" and [curve.name for curve in panel.curves] == ["all (n = 1)"]
+    assert not study_curves([gaps]).panels
 
 
 def test_results_are_those_of_one_by_one(tmp_path: Path, scheduler: str, monkeypatch: pytest.MonkeyPatch) -> None:

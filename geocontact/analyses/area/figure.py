@@ -10,10 +10,13 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.area.bodies import Bodies
 from geocontact.analyses.area.contact import MotionResult
-from geocontact.data.evolution import AreaEvolution
+from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Course
 from geocontact.data.version import VERSION
-from geocontact.view.curves.sheet import sheet
+from geocontact.view.curves.declared import Curve, Curves, stroke
+from geocontact.view.curves.drawn import draw_on
+from geocontact.view.curves.sheet import plain
+from geocontact.view.curves.style import COLOURS, empty, in_style
 from geocontact.view.surfaces.camera import View, camera_directions
 from geocontact.view.surfaces.legend import distance_colours
 from geocontact.view.surfaces.scene import ContactScene, ContactSeries, MappedBody
@@ -37,9 +40,11 @@ def colour_span(e: AreaEvolution) -> tuple[float, float]:
     return float(-np.ceil(-deepest / TICK) * TICK), farthest
 
 
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")  # Okabe-Ito: told apart by colour-blind readers
+WIDE = 0.22
+"""Width of the figure [m]: curves beside a map."""
 
 
+@in_style
 def area_figure(
     evolution: AreaEvolution,
     vertices: Float[np.ndarray, "n 3"],
@@ -63,50 +68,48 @@ def area_figure(
     span
         Ends of the colours [m], those of the page.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
-    figure = sheet(11.0, 6.4)
-    FigureCanvasAgg(figure)
-    panels = figure.subplot_mosaic([["area", "map"], ["gap", "map"]], height_ratios=[2, 1], width_ratios=[3, 2])
-    _areas(panels["area"], evolution, course.values)
-    _separation(panels["gap"], evolution, course)
+    figure = empty(WIDE, 0.115)
+    panels = figure.subplot_mosaic([["area", "map"], ["gap", "map"]], height_ratios=[3, 2], width_ratios=[3, 2])
+    draw_on(panels["area"], area_curves(evolution, int(np.argmax(evolution.thresholds))), course)
+    panels["area"].set_ylim(bottom=0.0)
+    draw_on(panels["gap"], distance_curves(evolution), course)
     _patch(panels["map"], evolution, vertices, faces, distance, span)
-    panels["map"].set_title(f"FIXED at {_plain(course.at(frame))}, {panels['map'].get_title()}", fontsize=9)
-    figure.suptitle(_plain(title), fontsize=11)
+    panels["map"].set_title(f"FIXED at {plain(course.at(frame))},\n{panels['map'].get_title()}")
+    figure.suptitle(f"{plain(title)}; signed: {evolution.signed}, shaded: certified bounds", fontsize=9.0)
     return figure
 
 
-def _plain(text: str) -> str:
-    """Text that stays text: a dollar sign in a file name would start a formula."""
-    return text.replace("$", r"\$")
+def area_curves(e: AreaEvolution, main: int, moving: bool = True) -> Curves:
+    """Areas with their bounds, those of threshold `main` first; of MOVING where that is wanted."""
+
+    def within(k: int) -> Curve:
+        name = f"fixed body, {e.thresholds[k] * MM:g} mm"
+        own, lower, upper = (side[:, k] * MM2 for side in (e.fixed.area, e.fixed.lower, e.fixed.upper))
+        return Curve(name, own, lower, upper, stroke(_hue(e, main, k)))
+
+    parts = {"medial": e.medial, "lateral": e.lateral} if e.medial_side else {}
+    if moving:
+        parts["moving body"] = e.moving.area
+    areas = [within(main)]
+    areas += [
+        Curve(f"{name}, {e.thresholds[main] * MM:g} mm", part[:, main] * MM2, stroke=stroke(0, 1 + j))
+        for j, (name, part) in enumerate(parts.items())
+    ]
+    areas += [within(k) for k in range(len(e.thresholds)) if k != main]
+    return Curves("Contact area", "mm²", areas)
 
 
-def _areas(axes: Axes, e: AreaEvolution, along: Float[np.ndarray, " t"]) -> None:
-    for k, threshold in enumerate(e.thresholds):
-        colour = COLOURS[k % len(COLOURS)]
-        label = f"FIXED, {threshold * 1e3:g} mm"
-        axes.fill_between(along, e.fixed.lower[:, k] * 1e6, e.fixed.upper[:, k] * 1e6, color=colour, alpha=0.25, lw=0)
-        axes.plot(along, e.fixed.area[:, k] * 1e6, color=colour, label=label)
-        axes.plot(along, e.moving.area[:, k] * 1e6, color=colour, lw=0.9, ls=":", label="MOVING" if k == 0 else None)
-        if e.medial_side:
-            sides = (("medial", e.medial, "--"), ("lateral", e.lateral, "-."))
-            for name, part, style in sides:
-                axes.plot(along, part[:, k] * 1e6, color=colour, lw=0.9, ls=style, label=name if k == 0 else None)
-    axes.set_ylabel("contact area [mm²]")
-    axes.set_ylim(bottom=0.0)
-    axes.set_title(f"signed: {e.signed}; shaded: certified bounds", fontsize=9)
-    axes.legend(fontsize=8, frameon=False, ncols=2)
-    axes.tick_params(labelbottom=False)
+def _hue(e: AreaEvolution, main: int, k: int) -> int:
+    """Colour of threshold `k`, of its curve and of its contour: that of `main` comes first."""
+    return ([main, *(j for j in range(len(e.thresholds)) if j != main)].index(k)) % len(COLOURS)
 
 
-def _separation(axes: Axes, e: AreaEvolution, course: Course) -> None:
-    axes.plot(course.values, e.min_distance * 1e3, color="black", label="smallest distance")
+def distance_curves(e: AreaEvolution) -> Curves:
+    """The smallest distance, and how deep FIXED is penetrated where that is known."""
+    curves = [Curve("smallest distance", e.min_distance * MM)]
     if np.isfinite(e.max_penetration_fixed).any():
-        axes.plot(course.values, -e.max_penetration_fixed * 1e3, color="grey", ls="--", label="− penetration of FIXED")
-    axes.axhline(0.0, color="grey", lw=0.6)
-    axes.set_xlabel(_plain(course.label))
-    axes.set_ylabel("distance [mm]")
-    axes.legend(fontsize=8, frameon=False)
+        curves.append(Curve("− penetration of the fixed body", -e.max_penetration_fixed * MM))
+    return Curves("Smallest distance (negative: overlap)", "mm", curves)
 
 
 def _patch(
@@ -154,7 +157,7 @@ def _patch(
         axes.figure.colorbar(colours, ax=axes, label=signed, shrink=0.7)
     for k, threshold in enumerate(e.thresholds):
         if near.any() and shown.min() < threshold < shown.max():
-            colour, level = COLOURS[k % len(COLOURS)], [threshold * 1e3]
+            colour, level = COLOURS[_hue(e, int(np.argmax(e.thresholds)), k)], [threshold * 1e3]
             axes.tricontour(Triangulation(x, y, seen), shown * 1e3, levels=level, colors=colour, linewidths=1.2)
     axes.set_aspect("equal")
     axes.set_xlabel(f"{'xyz'[right]} [mm]")

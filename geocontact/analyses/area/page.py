@@ -10,11 +10,11 @@ from jaxtyping import Int
 from geocontact.analyses.area import pressure_page as pressure
 from geocontact.analyses.area.bodies import Compared
 from geocontact.analyses.area.congruence import CongruenceEvolution
+from geocontact.analyses.area.figure import distance_curves
 from geocontact.analyses.area.page_sections import (
     Told,
-    area_curves,
+    compared_areas,
     comparison_tables,
-    distance_curve,
     in_mm,
     rows,
     scene,
@@ -279,7 +279,7 @@ def contact_page(told: Told, title: str) -> Page:
     shared = [strip(told)] if e.sensitivity_thresholds else []
     after = [meshes_table(told.moving, told.fixed), *comparison_tables(told), INPUTS, OPTIONS]
     pressed = [] if pressures is None else pressure_sections(pressures, frames)
-    distance = distance_curve(e, frames)
+    distance = distance_curves(e).at(frames)
     foundation = [] if pressures is None else [pressure_words(pressures)]
 
     def sections(k: int) -> list[Section]:
@@ -289,7 +289,7 @@ def contact_page(told: Told, title: str) -> Page:
             *before,
             numbers,
             *pressed,
-            area_curves(told, k),
+            compared_areas(told, k),
             *uncertainty_curves(told, k),
             distance,
             *shared,

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from geocontact.analyses.area.bodies import Compared
 from geocontact.analyses.area.congruence import CongruenceEvolution
-from geocontact.analyses.area.figure import colour_span
+from geocontact.analyses.area.figure import area_curves, colour_span
 from geocontact.analyses.area.pose_error import NORMAL, AreaUncertainty
 from geocontact.analyses.area.pressure_page import Pressures, face_map, pressure_rows
 from geocontact.data.evolution import MM, MM2, AreaEvolution
@@ -142,26 +142,11 @@ def rows(told: Told, k: int) -> list[Row]:
     return found
 
 
-def area_curves(told: Told, main: int) -> Curves:
+def compared_areas(told: Told, main: int) -> Curves:
     """Areas with their bounds, those of threshold `main` first, and measured ones as points."""
-    e, frames = told.evolution, told.frames
-
-    def within(k: int) -> Curve:
-        side = e.fixed
-        name = f"fixed body, {in_mm(e, k)}"
-        return Curve(name, side.area[frames, k] * MM2, side.lower[frames, k] * MM2, side.upper[frames, k] * MM2)
-
-    areas = [within(main)]
-    if e.medial_side:
-        areas += [
-            Curve(f"medial, {in_mm(e, main)}", e.medial[frames, main] * MM2),
-            Curve(f"lateral, {in_mm(e, main)}", e.lateral[frames, main] * MM2),
-        ]
     measured = _measured(told, main)
-    if any(each.name.startswith("measured, moving") for each in measured):
-        areas.append(Curve(f"moving body, {in_mm(e, main)}", e.moving.area[frames, main] * MM2))
-    areas += [within(k) for k in range(len(e.thresholds)) if k != main]
-    return Curves("Contact area", "mm²", areas, measured)
+    moving = any(each.name.startswith("measured, moving") for each in measured)
+    return replace(area_curves(told.evolution, main, moving).at(told.frames), points=measured)
 
 
 def uncertainty_curves(told: Told, main: int) -> list[Curves]:
@@ -208,12 +193,6 @@ def comparison_tables(told: Told) -> list[Table]:
     rows = told.compared.rows
     texts = rows.map(lambda value: f"{value:.6g}" if isinstance(value, float) else str(value))
     return [Table("Beside the measured areas", tuple(map(str, rows.columns)), texts.to_numpy().tolist())]
-
-
-def distance_curve(e: AreaEvolution, frames: Int[np.ndarray, " k"]) -> Curves:
-    """The smallest distance."""
-    distance = [Curve("smallest distance", e.min_distance[frames] * MM)]
-    return Curves("Smallest distance (negative: overlap)", "mm", distance)
 
 
 def strip(told: Told) -> Strip:

@@ -2,111 +2,89 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.cop.loads import NAMES, SHARE, FootLoads, loads_table, stance_table, stances
-from geocontact.analyses.frame.pages import drawing
-from geocontact.view.curves.sheet import sheet
-from geocontact.view.page.content import Picture
+from geocontact.data.motion import Course
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet, mean_curve
+from geocontact.view.curves.drawn import draw_on
+from geocontact.view.curves.style import DOUBLE, GREY, empty, in_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-COLOURS = ("#0072B2", "#D55E00", "#009E73")  # Okabe-Ito: told apart by colour-blind readers
+ROWS = 3  # of panels beside the path
 
 
-@dataclass(frozen=True)
-class LoadCurves:
-    """Load over time in SI units; NaN where there is no centre of pressure."""
-
-    time: Float[np.ndarray, " t"]
-    force: Float[np.ndarray, "t 3"]
-    centre: Float[np.ndarray, "t 3"]
-    free_moment: Float[np.ndarray, " t"]
-
-
-def cop_figure(ours: LoadCurves, plate: LoadCurves | None, normal: Float[np.ndarray, "t 3"], title: str) -> Figure:
+@in_style
+def cop_figure(
+    sheet: CurveSheet, time: Float[np.ndarray, " t"], centre: Float[np.ndarray, "t 3"], normal: Float[np.ndarray, "t 3"]
+) -> Figure:
     """Forces, centre and free moment over time, and the path.
 
     Parameters
     ----------
-    ours, plate
-        The spheres' load, and a force plate's beside it (dashed).
+    sheet
+        Curves over time.
+    centre
+        Centre of pressure [m], NaN where there is none.
     normal
         Normal of the ground in each frame, NaN without contact: the path is seen along the axis nearest to it.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
-    figure = sheet(11.0, 6.4)
-    FigureCanvasAgg(figure)
-    panels = figure.subplot_mosaic([["force", "path"], ["centre", "path"], ["free", "path"]], width_ratios=[3, 2])
     known = normal[np.isfinite(normal[:, 0])]
     up = int(np.argmax(np.abs(known.mean(axis=0)))) if len(known) else 1
     right, ahead = ((2, 1), (2, 0), (0, 1))[up]
-    for curves, style, whose in ((ours, "-", "spheres"), (plate, "--", "plate")):
-        if curves is None:
-            continue
-        for k, axis in enumerate("xyz"):
-            panels["force"].plot(curves.time, curves.force[:, k], style, color=COLOURS[k], label=f"{axis}, {whose}")
-        for k in (ahead, right):
-            panels["centre"].plot(
-                curves.time, curves.centre[:, k] * 1e3, style, color=COLOURS[k], label=f"{'xyz'[k]}, {whose}"
-            )
-        panels["free"].plot(curves.time, curves.free_moment, style, color="black", label=whose)
-        panels["path"].plot(
-            curves.centre[:, right] * 1e3, curves.centre[:, ahead] * 1e3, style, color="grey", lw=0.8, zorder=1
-        )
-    _path(panels["path"], ours, right, ahead)
-    panels["path"].set_title(f"centre of pressure seen along {'xyz'[up]}", fontsize=9)
-    for name, label in (("force", "force on the foot [N]"), ("centre", "centre [mm]"), ("free", "free moment [N m]")):
-        panels[name].set_ylabel(label)
-        panels[name].axhline(0.0, color="grey", lw=0.6)
-        panels[name].legend(fontsize=8, frameon=False, ncols=2)
-    panels["free"].set_xlabel("time [s]")
-    figure.suptitle(title.replace("$", r"\$"), fontsize=11)
+    columns = -(-len(sheet.panels) // ROWS)
+    figure = empty((columns + 1) * 0.45 * DOUBLE, 0.055 * ROWS)
+    grid = figure.add_gridspec(ROWS, columns + 1)
+    for k, panel in enumerate(sheet.panels):
+        draw_on(figure.add_subplot(grid[k % ROWS, k // ROWS]), panel, sheet.over)
+    path = figure.add_subplot(grid[:, -1])
+    _path(path, time, centre * 1e3, right, ahead)
+    path.set_title(f"Centre of pressure seen along {'xyz'[up]}", loc="left")
     return figure
 
 
-def _path(axes: Axes, curves: LoadCurves, right: int, ahead: int) -> None:
-    found = np.isfinite(curves.centre[:, 0])
+def _path(axes: Axes, time: Float[np.ndarray, " t"], centre: Float[np.ndarray, "t 3"], right: int, ahead: int) -> None:
+    found = np.isfinite(centre[:, 0])
     axes.set_xlabel(f"{'xyz'[right]} [mm]")
     axes.set_ylabel(f"{'xyz'[ahead]} [mm]")
     if not found.any():
         axes.text(0.5, 0.5, "no centre of pressure", ha="center", va="center", transform=axes.transAxes)
         return
-    x, y = curves.centre[found, right] * 1e3, curves.centre[found, ahead] * 1e3
-    dots = axes.scatter(x, y, c=curves.time[found], s=9, cmap="viridis", zorder=2)
+    x, y = centre[found, right], centre[found, ahead]
+    axes.plot(x, y, color=GREY, lw=0.8, zorder=1)
+    dots = axes.scatter(x, y, c=time[found], s=9, cmap="viridis", zorder=2)
     axes.figure.colorbar(dots, ax=axes, label="time [s]", shrink=0.7)
     axes.set_aspect("equal", adjustable="datalim")
 
 
 PERCENT = 100.0
 STANCES = (
-    "Every complete stance as a line, from where the normal force reaches the gate until it falls below: 0 to 100 % of "
-    "its own duration. stances.csv has the values."
+    "Every complete stance as a thin line and their mean, from where the normal force reaches the gate until it falls "
+    "below: 0 to 100 % of its own duration. stances.csv has the values."
 )
 
 
-def stance_pictures(r: FootLoads) -> list[Picture]:
+def stance_curves(r: FootLoads) -> list[Curves]:
     """Normal force, and the centre along the foot where that is known, over the stance; none without a stance."""
     if not r.options.stances or not stances(r):
         return []
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
     table = stance_table(r, loads_table(r))
-    panels = [("normal [N]", "normal force [N]", 1.0)]
+    each = [one for _, one in table.groupby("stance [-]")]
+    panels = [("normal [N]", "Normal force over the stance", "N", 1.0)]
     if r.axis is not None:
-        panels.append((f"{NAMES[r.options.point]}{SHARE}", "centre from the heel [% of foot length]", PERCENT))
-    figure = sheet(4.6 * len(panels), 3.2)
-    FigureCanvasAgg(figure)
-    for axes, (name, label, factor) in zip(np.ravel(figure.subplots(1, len(panels))), panels, strict=True):
-        for _, one in table.groupby("stance [-]"):
-            axes.plot(one["cycle [%]"], one[name] * factor, lw=1.0)
-        axes.set_xlabel("stance [%]")
-        axes.set_ylabel(label)
-    return [Picture("Over the stance", STANCES, drawing(figure), wide=len(panels) > 1)]
+        along = f"{NAMES[r.options.point]}{SHARE}"
+        panels.append((along, "Centre from the heel over the stance", "% of foot length", PERCENT))
+    found: list[Curves] = []
+    for name, title, unit, factor in panels:
+        trials = factor * np.array([one[name].to_numpy(float) for one in each])
+        curves = [Curve(f"stance {k + 1}", one, stroke=0, thin=True) for k, one in enumerate(trials)]
+        mean = [mean_curve("stances", trials, 0)] if np.isfinite(trials).any() else []
+        over = Course("stance", "%", each[0]["cycle [%]"].to_numpy(float))
+        found.append(Curves(title, unit, [*mean, *curves], over=over, words="" if found else STANCES))
+    return found

@@ -6,16 +6,16 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial import ConvexHull
 
-from geocontact.analyses.cop.figure import PERCENT, stance_pictures
+from geocontact.analyses.cop.figure import PERCENT, stance_curves
 from geocontact.analyses.cop.foot import root_mean_squares
 from geocontact.analyses.cop.loads import SHARE, FootLoads, along_foot
 from geocontact.analyses.frame.pages import thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted, rounded
+from geocontact.data.motion import Course
 from geocontact.data.text import seconds
 from geocontact.loads.centre_of_pressure import path_length, points_in_foot
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet
 from geocontact.view.page.content import (
-    Curve,
-    Curves,
     Mark,
     Page,
     Plan,
@@ -222,15 +222,14 @@ def facts(r: FootLoads) -> list[tuple[str, str]]:
     return lines
 
 
-def foot_curves(r: FootLoads, shown: Int[np.ndarray, " k"]) -> list[Curves]:
+def foot_curves(r: FootLoads) -> list[Curves]:
     """Place of each centre from the heel [% of the foot's length]."""
     within = along_foot(r)
     if within is None:
         return []
     shares = [str(name) for name in within.columns if str(name).endswith(SHARE)]
     curves = [
-        Curve(name.removesuffix(SHARE).replace("_", " "), within[name].to_numpy(float)[shown] * PERCENT)
-        for name in shares
+        Curve(name.removesuffix(SHARE).replace("_", " "), within[name].to_numpy(float) * PERCENT) for name in shares
     ]
     return [Curves("Centre of pressure along the foot, from the heel", "% of foot length", curves)]
 
@@ -252,9 +251,9 @@ def cop_page(r: FootLoads) -> Page:
         foot_plan(r, shown),
         Readout(_rows(r, shown)),
         *([] if forces is None else [forces]),
-        *_curves(r, shown),
-        *foot_curves(r, shown),
-        *stance_pictures(r),
+        *load_curves(r).at(shown),
+        *_further_curves(r).at(shown),
+        *stance_curves(r),
         *_comparison(r),
         Words("What the numbers rest on", [LAW, NOT_A_DEVICE]),
     ]
@@ -288,44 +287,50 @@ def _rows(r: FootLoads, shown: Int[np.ndarray, " k"]) -> list[Row]:
     ]
 
 
-def _curves(r: FootLoads, shown: Int[np.ndarray, " k"]) -> list[Curves]:
-    """Forces, force of each zone, centre and free moment; each beside the plate's where there is one."""
-    c, zones = r.centre, r.zones
-    of_zones = [Curve(name, force[shown]) for name, force in zones.items()]
-    centre = [Curve(axis, c.centre[shown, k] * MM) for k, axis in enumerate("xyz")]
-    plate = r.plate
+def load_curves(r: FootLoads) -> CurveSheet:
+    """Force, centre and free moment over time, each beside the plate's where there is one."""
+    c, plate, axes = r.centre, r.plate, "xyz"
+    force, centre, moment = c.wrench.force, c.centre * MM, _plain(c.free_moment)
     if plate is None:
-        forces = [Curve(axis, c.wrench.force[shown, k]) for k, axis in enumerate("xyz")]
-        panels = [Curves("Force on the foot", "N", forces)]
-        after = [
-            Curves("Centre of pressure on the ground", "mm", centre),
-            Curves("Free moment", "N m", [Curve("free moment", _plain(c.free_moment[shown]))]),
+        panels = [
+            Curves("Force on the foot", "N", [Curve(axis, force[:, k]) for k, axis in enumerate(axes)]),
+            Curves(
+                "Centre of pressure on the ground", "mm", [Curve(axis, centre[:, k]) for k, axis in enumerate(axes)]
+            ),
+            Curves("Free moment", "N m", [Curve("free moment", moment)]),
         ]
     else:
-        moments = c.free_moment, _plate_at(r, plate.free_moment[:, None])[:, 0]
-        theirs = _plate_at(r, plate.force)[shown], _plate_at(r, plate.centre)[shown] * MM
+        theirs = _plate_at(r, plate.force), _plate_at(r, plate.centre) * MM
+        turning = _plain(_plate_at(r, plate.free_moment[:, None])[:, 0])
 
-        def both(ours: Float[np.ndarray, " k"], plates: Float[np.ndarray, " k"]) -> list[Curve]:
-            return [Curve(SPHERES, ours), Curve(PLATE, plates)]
+        def both(ours: Float[np.ndarray, " t"], plates: Float[np.ndarray, " t"]) -> list[Curve]:
+            return [Curve(SPHERES, ours, stroke=0), Curve(PLATE, plates, stroke=INK)]
 
         panels = [
-            Curves(f"Force on the foot, {axis}", "N", both(c.wrench.force[shown, k], theirs[0][:, k]))
-            for k, axis in enumerate("xyz")
-        ]
-        after = [
             *(
-                Curves(f"Centre of pressure on the ground, {axis}", "mm", both(centre[k].values, theirs[1][:, k]))
-                for k, axis in enumerate("xyz")
+                Curves(f"Force on the foot, {axis}", "N", both(force[:, k], theirs[0][:, k]))
+                for k, axis in enumerate(axes)
+            ),
+            *(
+                Curves(f"Centre of pressure on the ground, {axis}", "mm", both(centre[:, k], theirs[1][:, k]))
+                for k, axis in enumerate(axes)
                 if k != _upward(r)
             ),
-            Curves("Free moment", "N m", both(*(_plain(each[shown]) for each in moments))),
-            Curves(
-                "Difference in force (spheres − plate)",
-                "N",
-                [Curve(axis, c.wrench.force[shown, k] - theirs[0][:, k]) for k, axis in enumerate("xyz")],
-            ),
+            Curves("Free moment", "N m", both(moment, turning)),
         ]
-    return [*panels, *([Curves("Normal force of each zone", "N", of_zones)] if len(zones) > 1 else []), *after]
+    return CurveSheet(panels, Course("time", "s", r.foot.motion.time))
+
+
+def _further_curves(r: FootLoads) -> CurveSheet:
+    """Force of each zone, difference to the plate, and the centres along the foot."""
+    force, panels = r.centre.wrench.force, []
+    if len(r.zones) > 1:
+        panels.append(Curves("Normal force of each zone", "N", [Curve(name, own) for name, own in r.zones.items()]))
+    if r.plate is not None:
+        off = force - _plate_at(r, r.plate.force)
+        curves = [Curve(axis, off[:, k]) for k, axis in enumerate("xyz")]
+        panels.append(Curves("Difference in force (spheres − plate)", "N", curves))
+    return CurveSheet([*panels, *foot_curves(r)])
 
 
 def _plate_at(r: FootLoads, values: Float[np.ndarray, "f n"]) -> Float[np.ndarray, "t n"]:

@@ -24,11 +24,11 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.cop.figure import LoadCurves, cop_figure
+from geocontact.analyses.cop.figure import cop_figure
 from geocontact.analyses.cop.foot import Foot, comparison_table, low_passed, plate_curves, read, root_mean_squares
 from geocontact.analyses.cop.loads import NAMES, SHARE, FootLoads, along_foot, loads_table, stance_table, stances
 from geocontact.analyses.cop.options import CopOptions
-from geocontact.analyses.cop.page import cop_page
+from geocontact.analyses.cop.page import cop_page, load_curves
 from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT
@@ -84,13 +84,7 @@ class CopResult(FootLoads):
     def figures(self) -> dict[str, Figure]:
         """`cop`: forces, centre and free moment over time, and the path seen from above."""
         time, c = self.foot.motion.time, self.centre
-        ours, theirs = LoadCurves(time, c.wrench.force, c.centre, c.free_moment), None
-        if self.plate is not None:
-            p = self.plate
-            theirs = LoadCurves(time[p.frames], p.force, p.centre, p.free_moment)
-        return {
-            "cop": cop_figure(ours, theirs, c.normal, f"{self.foot.name} on the ground, {self.options.motion.name}")
-        }
+        return {"cop": cop_figure(load_curves(self), time, c.centre, c.normal)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The path under the foot, the forces along it, and their numbers in every frame."""

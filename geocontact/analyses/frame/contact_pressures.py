@@ -14,9 +14,11 @@ from geocontact.data.motion import Course
 from geocontact.io.opensim.external_loads import write_external_loads
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.loads.pressure_load import PressureLoad
-from geocontact.view.curves.quantity import FORCE, PRESSURE
-from geocontact.view.curves.sheet import plain, sheet
-from geocontact.view.curves.style import DOUBLE, INCH, LINES, PALETTE, in_style, legend
+from geocontact.view.curves.declared import INK, Curve, Curves
+from geocontact.view.curves.drawn import draw_on
+from geocontact.view.curves.quantity import PRESSURE
+from geocontact.view.curves.sheet import plain
+from geocontact.view.curves.style import DOUBLE, empty, in_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -86,19 +88,15 @@ def pressure_figure(
     shown: PressureMap,
 ) -> Figure:
     """Force of the whole and of compartments [N], largest pressure [Pa], and the map of one frame."""
-    figure = sheet(DOUBLE / INCH, 0.09 / INCH)
+    figure = empty(DOUBLE, 0.1)
     axes = figure.subplot_mosaic([["force", "map"], ["peak", "map"]], width_ratios=[3, 2])
-    drawn = [
-        (axes["force"].plot(course.values, values, color=PALETTE[k], ls=LINES[k])[0], name)
-        for k, (name, values) in enumerate(force.items())
-    ]
-    axes["force"].set_ylabel(FORCE.label)
-    legend(axes["force"], drawn)
-    axes["peak"].plot(course.values, PRESSURE.shown(peak), color="black")
-    axes["peak"].set_ylabel(plain("largest contact pressure [MPa]", 20))
-    axes["peak"].set_xlabel(plain(course.label))
-    for panel in ("force", "peak"):
-        axes[panel].set_ylim(bottom=0.0)
+    forces = Curves("Contact force", "N", [Curve(name, values) for name, values in force.items()])
+    largest = Curves(
+        "Largest contact pressure", "MPa", [Curve("largest contact pressure", PRESSURE.shown(peak), stroke=INK)]
+    )
+    for name, panel in (("force", forces), ("peak", largest)):
+        draw_on(axes[name], panel, course)
+        axes[name].set_ylim(bottom=0.0)
     _map(axes["map"], shown)
     axes["map"].set_title(plain(f"FIXED at {course.at(shown.frame)}"))
     return figure

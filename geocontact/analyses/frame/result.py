@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from geocontact.analyses.frame.pages import Thinned
+    from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 REPORT = "report.html"
@@ -100,9 +101,15 @@ class Result(ABC):
             raise KeyError(f"no table {name!r}; there are {', '.join(tables)}")
         return tables[name or next(iter(tables))]
 
-    def figures(self) -> dict[str, Figure]:
-        """Static figures by the name of their file, the main one first."""
+    def curves(self) -> Mapping[str, CurveSheet]:
+        """Sets of curves by the name of their figure's file, the main one first; the page shows them as well."""
         return {}
+
+    def figures(self) -> dict[str, Figure]:
+        """Static figures by the name of their file, the main one first: those of `curves`, unless there are others."""
+        from geocontact.view.curves.drawn import drawn  # late, like all that draws
+
+        return {name: drawn(sheet) for name, sheet in self.curves().items()}
 
     def figure(self) -> Figure | None:
         """The main figure; None where there is nothing to draw."""

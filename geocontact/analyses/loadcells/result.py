@@ -21,7 +21,6 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.pages import drawing
 from geocontact.analyses.frame.result import Result
 from geocontact.analyses.loadcells.forces import (
     SIDES,
@@ -45,8 +44,8 @@ from geocontact.analyses.loadcells.show import (
     SHIFTS,
     STYLES,
     ForceUnit,
-    ensemble_figure,
-    loadcell_figure,
+    ensemble_curves,
+    loadcell_curves,
     loadcell_page,
 )
 from geocontact.data.cell_regression import CellRegression
@@ -56,8 +55,7 @@ from geocontact.view.page.tables import frame_table
 ROWS = 100  # cycles that the page lists; cycles.csv has all
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 
@@ -107,10 +105,10 @@ class LoadcellResult(Result):
         found = {_named(each, "forces"): each.table() for each in self.recordings}
         return {**found, **self._over_cycles()}
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`ensemble`, the mean over the cycle, where cycles are asked for; `loadcells` of each recording over time."""
         mean = self._ensemble()
-        each = {_named(one, "loadcells"): self._over_time(one) for one in self.recordings}
+        each = {_named(one, "loadcells"): loadcell_curves(one, self.regression, self.cuts) for one in self.recordings}
         return each if mean is None else {"ensemble": mean, **each}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
@@ -118,12 +116,9 @@ class LoadcellResult(Result):
         found, titles = self._over_cycles(), {"cycles": CYCLES, "styles": STYLES, "shifts": SHIFTS}
         tables = [frame_table(title, found[name], 5, ROWS) for name, title in titles.items() if name in found]
 
-        def drawn(unit: ForceUnit) -> bytes | None:
-            return drawings.get("ensemble") if unit is NEWTON else self._drawn(unit)
-
         return {
             _named(one, "report.html"): loadcell_page(
-                one, self.regression, self.cuts, drawn, self.options.body_weight, tables
+                one, self.regression, self.cuts, self._ensemble, self.options.body_weight, tables
             )
             for one in self.recordings
         }
@@ -136,22 +131,14 @@ class LoadcellResult(Result):
             return found
         return {**found, "styles": style_table(self.cuts), "shifts": shift_table(self.cuts)}
 
-    def _ensemble(self, unit: ForceUnit = NEWTON) -> Figure | None:
+    def _ensemble(self, unit: ForceUnit = NEWTON) -> CurveSheet | None:
         """Mean over the cycle; None without cycles, and where there are more styles than a figure tells apart."""
         sides = {side: stacked(self.cuts, side) for side in SIDES[:2]}
         if not 0 < len(sides[SIDES[0]]) <= SERIES:
             return None
         part = self.options.part
         along = "cycle" if part is None else f"first {100.0 * part:g}% of the cycle"
-        return ensemble_figure(sides, along, unit.name, unit.per_newton)
-
-    def _drawn(self, unit: ForceUnit) -> bytes | None:
-        figure = self._ensemble(unit)
-        return None if figure is None else drawing(figure)
-
-    def _over_time(self, each: RecordedCells) -> Figure:
-        mine = tuple(cut.span for cut in self.cuts if cut.recording == each.file.stem)
-        return loadcell_figure(each.forces.time, each.by_cell(self.regression), each.forces.curves, mine)
+        return ensemble_curves(sides, along, unit.name, unit.per_newton)
 
 
 def _named(one: RecordedCells, file: str) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -13,68 +12,24 @@ from geocontact.analyses.frame.pages import thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
 from geocontact.analyses.loadcells.forces import SIDES, Cut, RecordedCells, stacked
 from geocontact.data.cell_regression import CellRegression
+from geocontact.data.motion import Course
 from geocontact.data.text import seconds
 from geocontact.data.trial import mean_and_sd
-from geocontact.identify.signals.cycles import STEPS, Span
+from geocontact.identify.signals.cycles import STEPS
 from geocontact.identify.signals.filters import broken, gaps
-from geocontact.view.curves.over_cycle import mean_over_cycle
-from geocontact.view.curves.quantity import CYCLE, FORCE, TIME, Quantity
-from geocontact.view.curves.sheet import plain
-from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, legend, panels
-from geocontact.view.extremes import FRAMES, thinned_line
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Span, mean_curve
+from geocontact.view.extremes import FRAMES
 from geocontact.view.page.content import (
     Choices,
-    Curve,
-    Curves,
     Mark,
     Page,
     PageChoice,
-    Picture,
     Plan,
     Section,
     Table,
     Track,
     Words,
 )
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-
-@in_style
-def loadcell_figure(
-    time: Float[np.ndarray, " t"],
-    cells: Mapping[str, Float[np.ndarray, " t"]],
-    sides: Mapping[str, Float[np.ndarray, " t"]],
-    spans: tuple[Span, ...] = (),
-) -> Figure:
-    """Forces of the cells above, those of the compartments below [N]; cycles are shaded in turns."""
-    figure, (above, below) = panels(2, 1, DOUBLE, 0.12)
-    for axes, curves in ((above, cells), (below, sides)):
-        _lines(axes, time, curves)
-        for k, span in enumerate(spans):
-            axes.axvspan(span.start, span.end, color=GREY, alpha=0.12 if k % 2 else 0.2, lw=0, zorder=0)
-    above.set_ylabel("force of a cell [N]")
-    below.set_ylabel(FORCE.label)
-    below.set_xlabel(TIME.label)
-    return figure
-
-
-def _lines(axes: Axes, time: Float[np.ndarray, " t"], curves: Mapping[str, Float[np.ndarray, " t"]]) -> None:
-    drawn = [
-        (
-            axes.plot(*thinned_line(*broken(time, values)), color=PALETTE[k % len(PALETTE)], ls=LINES[k % len(LINES)])[
-                0
-            ],
-            plain(name),
-        )
-        for k, (name, values) in enumerate(curves.items())
-    ]
-    axes.set_xlim(time[0], time[-1])
-    axes.axhline(0.0, color=GREY, lw=0.6, zorder=1)
-    legend(axes, drawn)
-
 
 SINGLE = 8
 """Single cycles of a style that are drawn at most: more lines tell no more, and a file must not grow with them."""
@@ -88,25 +43,26 @@ def some_cycles(trials: Float[np.ndarray, "n t"]) -> Float[np.ndarray, "k t"]:
     return np.asarray(trials[np.sort(by_peak[np.linspace(0, len(trials) - 1, SINGLE).astype(int)])])
 
 
-@in_style
-def ensemble_figure(
+def ensemble_curves(
     sides: Mapping[str, Mapping[str, Float[np.ndarray, "_ 101"]]],
     along: str = "cycle",
     unit: str = "N",
     per_newton: float = 1.0,
-) -> Figure:
+) -> CurveSheet:
     """Mean and SD over the cycle and, thin, single cycles; a panel per compartment, a colour per gait style.
 
     Forces are shown in `unit`, of which one newton is `per_newton`.
     """
-    figure, row = panels(1, len(sides), DOUBLE, 0.07)
-    for axes, (side, styles) in zip(row, sides.items(), strict=True):
-        shown = Quantity(f"{side} contact force", unit, per_newton)
-        mean_over_cycle(STEPS, styles, shown, axes, replace(CYCLE, name=along))
-        for k, trials in enumerate(styles.values()):
-            if len(trials) > 1:
-                axes.plot(STEPS, shown.shown(some_cycles(trials)).T, color=PALETTE[k], lw=0.5, alpha=0.6, zorder=2)
-    return figure
+    panels = []
+    for side, styles in sides.items():
+        curves = [mean_curve(style, trials, k, per_newton) for k, (style, trials) in enumerate(styles.items())]
+        curves += [
+            Curve(style, per_newton * one, stroke=k, thin=True)
+            for k, (style, trials) in enumerate(styles.items())
+            for one in (some_cycles(trials) if len(trials) > 1 else ())
+        ]
+        panels.append(Curves(f"{side.capitalize()} contact force over the {along}", unit, curves))
+    return CurveSheet(panels, Course(along, "%", STEPS))
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,8 +118,9 @@ def beside_their_mean(
     known = np.isfinite(values)
     for each in (mean, lower, upper):
         each[~known] = np.nan
-    band = (lower, upper) if np.isfinite(lower).any() else (None, None)
-    return [Curve("as recorded", values), Curve("mean of the cycles ± SD", mean, *band)]
+    spread = bool(np.isfinite(lower).any())
+    both = Curve("mean of the cycles ± SD", mean, lower if spread else None, upper if spread else None, stroke=0)
+    return [Curve("as recorded", values, stroke=INK), both]
 
 
 PLACES = {"PM": (-1.0, -1.0), "AM": (-1.0, 1.0), "AL": (1.0, 1.0), "PL": (1.0, -1.0)}
@@ -251,15 +208,15 @@ def body_weight(weight: float) -> ForceUnit:
     return ForceUnit("% of body weight", 100.0 / weight)
 
 
-Drawn = Callable[[ForceUnit], bytes | None]
-"""The figure of the mean over the cycle (SVG) in a unit; None where there is none."""
+Ensemble = Callable[[ForceUnit], CurveSheet | None]
+"""Means over the cycle in a unit; None where there are none."""
 
 
 def loadcell_page(
     recorded: RecordedCells,
     regression: CellRegression,
     cuts: list[Cut],
-    ensemble: Drawn,
+    ensemble: Ensemble,
     weight: float | None = None,
     results: Sequence[Table] = (),
 ) -> Page:
@@ -274,22 +231,20 @@ def loadcell_page(
     results
         Cycles and styles.
     """
-    forces, by_cell = recorded.forces, recorded.by_cell(regression)
-    curves = [forces.total, *forces.curves.values(), *by_cell.values()]
-    shown = samples(forces.time, curves, FRAMES if weight is None else BOTH_UNITS)
-    cells = {name: shown.of(values) for name, values in by_cell.items()}
+    forces, shown = recorded.forces, _samples(recorded, regression, FRAMES if weight is None else BOTH_UNITS)
+    cells = {name: shown.of(values) for name, values in recorded.by_cell(regression).items()}
     tray = tray_plan(cells)
     many = cuts and max(len(trials) for trials in stacked(cuts, SIDES[0]).values()) > SINGLE
     words = ENSEMBLE + (SOME if many else "")
 
     def sections(unit: ForceUnit) -> list[Section]:
-        drawn = ensemble(unit)
+        means = ensemble(unit)
         forces_over_time, *others = _curves(recorded, shown, cells, cuts, unit)
         return [
             forces_over_time,
             *([] if tray is None else [tray]),
             *others,
-            *([] if drawn is None else [Picture("Over the cycle", words, drawn, wide=True)]),
+            *([] if means is None else [replace(each, over=means.over, words=words) for each in means.panels]),
         ]
 
     own, choices = sections(NEWTON), None
@@ -322,14 +277,29 @@ def loadcell_page(
     )
 
 
+def _samples(recorded: RecordedCells, regression: CellRegression, most: int) -> Samples:
+    """Samples with the extremes of all forces."""
+    forces = recorded.forces
+    return samples(forces.time, [forces.total, *forces.curves.values(), *recorded.by_cell(regression).values()], most)
+
+
+def loadcell_curves(recorded: RecordedCells, regression: CellRegression, cuts: list[Cut]) -> CurveSheet:
+    """Forces of the compartments and of the cells over time, cycles shaded in turns."""
+    shown = _samples(recorded, regression, FRAMES)
+    cells = {name: shown.of(values) for name, values in recorded.by_cell(regression).items()}
+    return CurveSheet(_curves(recorded, shown, cells, cuts, NEWTON), Course("time", "s", shown.time), 1)
+
+
 def _curves(
     recorded: RecordedCells, shown: Samples, cells: dict[str, np.ndarray], cuts: list[Cut], unit: ForceUnit
 ) -> list[Curves]:
     """Compartments, cells, and the total beside the mean of its cycles; broken where samples are missing."""
     per = unit.per_newton
     sides = {name: shown.of(values) for name, values in recorded.forces.curves.items()}
-    panels = [Curves("Contact force", unit.name, [Curve(name, values * per) for name, values in sides.items()])]
-    if any(cut.recording == recorded.file.stem for cut in cuts):
+    spans = [Span("cycle", cut.span.start, cut.span.end) for cut in cuts if cut.recording == recorded.file.stem]
+    curves = [Curve(name, values * per) for name, values in sides.items()]
+    panels = [Curves("Contact force", unit.name, curves, spans=spans)]
+    if spans:
         beside = beside_their_mean(shown.time, sides["total"], cuts, recorded.file.stem, "total")
         panels.append(
             Curves("Total force, each cycle beside the mean", unit.name, [_times(one, per) for one in beside])
@@ -340,7 +310,7 @@ def _curves(
 
 def _times(curve: Curve, per: float) -> Curve:
     lower, upper = (None if each is None else each * per for each in (curve.lower, curve.upper))
-    return Curve(curve.name, curve.values * per, lower, upper)
+    return replace(curve, values=curve.values * per, lower=lower, upper=upper)
 
 
 def _headline(recorded: RecordedCells, cuts: list[Cut], unit: ForceUnit) -> list[str]:

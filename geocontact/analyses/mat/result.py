@@ -21,14 +21,14 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import listener, reserve
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.pages import Thinned
+from geocontact.analyses.frame.pages import Thinned, drawing
 from geocontact.analyses.frame.result import REPORT
 from geocontact.analyses.mat.comparison import compared
 from geocontact.analyses.mat.loads import MatFindings, loads, mat_tables
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placed import MatInputs, closest_point, placed, read
 from geocontact.analyses.mat.recording import followed, made_ready
-from geocontact.analyses.mat.show import FRAMES, mat_figure, mat_page, shown_frames
+from geocontact.analyses.mat.show import FRAMES, cells_figure, mat_figure, mat_page, shown_frames
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
 from geocontact.io.text.results import CASES
@@ -71,12 +71,12 @@ class MatResult(MatFindings):
 
     def figures(self) -> dict[str, Figure]:
         """`mat`: force, pressure and area over time, and the cells with their largest pressure."""
-        largest = float(self.on_faces.max())
-        return {"mat": mat_figure(self.frames.time, self.loads, self.drape, self.pressure, self.cells, largest)}
+        return {"mat": mat_figure(self)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Thinned]:
         """The animated page."""
-        return {REPORT: Thinned(lambda most: mat_page(self, shown_frames(self, most), drawings["mat"]), FRAMES)}
+        cells = drawing(cells_figure(self))
+        return {REPORT: Thinned(lambda most: mat_page(self, shown_frames(self, most), cells), FRAMES)}
 
     def units(self, table: str) -> Mapping[str, str]:
         """Those of gap cases for cells, which such cases hold."""

@@ -12,15 +12,13 @@ from geocontact.analyses.frame.collector import spelled
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.mat.loads import MatFindings
+from geocontact.data.motion import Course
 from geocontact.geometry.drape.cells import Drape
 from geocontact.loads.closest_point_mat import ClosestPoint
-from geocontact.loads.mat_load import MatLoad
-from geocontact.loads.mat_map import MatMap
-from geocontact.view.curves.sheet import sheet
-from geocontact.view.extremes import thinned_line
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, stroke
+from geocontact.view.curves.drawn import draw_on
+from geocontact.view.curves.style import DOUBLE, empty, in_style, panels
 from geocontact.view.page.content import (
-    Curve,
-    Curves,
     FaceMap,
     Page,
     Picture,
@@ -34,63 +32,56 @@ from geocontact.view.page.content import (
 )
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
-COLOURS = ("#0072B2", "#D55E00", "#009E73")  # Okabe-Ito: told apart by colour-blind readers
+FORCE, PRESSURE, AREA = FIGURED = ("Force on the body", "Pressure", "Area under pressure")
+"""Titles of the panels that the static figure shows."""
 
 
 UNTOUCHED = "#c9cdd2"  # of cells without pressure, as of faces on the page
 
 
-def mat_figure(
-    time: Float[np.ndarray, " t"],
-    load: MatLoad,
-    laid: Drape,
-    pressure: Float[np.ndarray, "t n"],
-    placed: MatMap,
-    largest: float,
-) -> Figure:
-    """Force with its components, area and largest pressure over time; beside them the largest pressure of each cell.
+@in_style
+def mat_figure(r: MatFindings) -> Figure:
+    """Force, largest pressure and area over time; beside them the largest pressure of each cell."""
+    figure = empty(1.3 * DOUBLE, 0.13)
+    grid = figure.add_gridspec(len(FIGURED), 2, width_ratios=(3, 2))
+    sheet = mat_curves(r)
+    shown = [panel for panel in sheet.panels if panel.title in FIGURED]
+    for k, panel in enumerate(shown):
+        draw_on(figure.add_subplot(grid[k, 0]), panel, sheet.over)
+    _cells(figure, figure.add_subplot(grid[:, 1]), r)
+    return figure
 
-    `largest` is the upper end of the colours [Pa]: the largest pressure of a face in all frames, as on the page.
-    """
+
+@in_style
+def cells_figure(r: MatFindings) -> Figure:
+    """The mat unrolled with the largest pressure of each cell, alone."""
+    figure, (axes,) = panels(1, 1, 0.11, 0.09)
+    _cells(figure, axes, r)
+    return figure
+
+
+def _cells(figure: Figure, axes: Axes, r: MatFindings) -> None:
+    """The largest pressure of each cell, in the colours of the page, which end at that of a face in all frames."""
     from matplotlib import colormaps
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-    figure = sheet(11.0, 6.0)
-    FigureCanvasAgg(figure)
-    panels = figure.subplot_mosaic([["force", "cells"], ["peak", "cells"], ["area", "cells"]], width_ratios=[3, 2])
-    for k, axis in enumerate("xyz"):
-        panels["force"].plot(*thinned_line(time, load.wrench.force[:, k]), color=COLOURS[k], label=axis)
-    panels["force"].plot(*thinned_line(time, load.perpendicular), color="black", label="perpendicular to the interface")
-    panels["force"].axhline(0.0, color="grey", lw=0.6)
-    panels["force"].legend(fontsize=8, frameon=False, ncols=2)
-    panels["peak"].plot(*thinned_line(time, load.peak * 1e-3), color="black", label="largest")
-    panels["peak"].plot(*thinned_line(time, load.mean * 1e-3), color="grey", label="mean where it touches")
-    panels["peak"].legend(fontsize=8, frameon=False)
-    panels["area"].plot(*thinned_line(time, load.area * 1e4), color="black")
-    grid = np.full(laid.area.shape, np.nan)
-    grid[placed.cell[:, 0], placed.cell[:, 1]] = pressure.max(axis=0) * 1e-3
+    grid = np.full(r.drape.area.shape, np.nan)
+    grid[r.cells.cell[:, 0], r.cells.cell[:, 1]] = r.pressure.max(axis=0) * KPA
     grid[grid == 0.0] = -1.0
     colours = colormaps["inferno_r"].with_extremes(under=UNTOUCHED)
-    image = panels["cells"].imshow(grid, cmap=colours, vmin=0.0, vmax=largest * 1e-3 or 1.0)
-    figure.colorbar(image, ax=panels["cells"], label="largest pressure [kPa]", shrink=0.8)
-    panels["cells"].set_xlabel("column")
-    panels["cells"].set_ylabel("row")
-    for name, label in (("force", "force on the body [N]"), ("peak", "pressure [kPa]"), ("area", "area [cm²]")):
-        panels[name].set_ylabel(label)
-    panels["area"].set_xlabel("time [s]")
-    return figure
+    image = axes.imshow(grid, cmap=colours, vmin=0.0, vmax=float(r.on_faces.max()) * KPA or 1.0)
+    figure.colorbar(image, ax=axes, label="largest pressure [kPa]", shrink=0.8)
+    axes.set_xlabel("column")
+    axes.set_ylabel("row")
 
 
 FRAMES = 201  # frames that the page animates at most
 KPA, CM2, MM = 1e-3, 1e4, 1e3
 NEAR = 1e-3  # m; a scene asks for a distance, and nothing here has one
-FIGURE = (
-    "Force, pressure and area over time; right, the mat unrolled with the largest pressure of each cell, in the "
-    "colours of the picture above."
-)
+CELLS = "The mat unrolled, with the largest pressure of each cell in the colours of the picture above."
 AXES: Mapping[str, Sequence[float]] = {
     "+x": (1.0, 0.0, 0.0),
     "−x": (-1.0, 0.0, 0.0),
@@ -106,10 +97,10 @@ def shown_frames(r: MatFindings, most: int) -> Int[np.ndarray, " k"]:
     return thinned(len(r.frames.time), [r.loads.pressing, r.loads.peak], [r.heaviest, int(np.argmax(r.on_faces))], most)
 
 
-def mat_page(r: MatFindings, shown: Int[np.ndarray, " k"], drawing: bytes) -> Page:
-    """The page before it becomes a file."""
-    sections: list[Section] = [_scene(r, shown), Readout(_rows(r, shown)), *_curves(r, shown)]
-    sections.append(Picture("The mat", FIGURE, drawing, wide=True))
+def mat_page(r: MatFindings, shown: Int[np.ndarray, " k"], cells: bytes) -> Page:
+    """The page before it becomes a file; `cells` is the drawing of `cells_figure` (SVG)."""
+    sections: list[Section] = [_scene(r, shown), Readout(_rows(r, shown)), *mat_curves(r).at(shown)]
+    sections.append(Picture("Largest pressure of each cell", CELLS, cells))
     if r.closest_point is not None:
         sections.append(_two_ways(r, r.closest_point))
     sections += [INPUTS, OPTIONS]
@@ -169,23 +160,37 @@ def _rows(r: MatFindings, shown: Int[np.ndarray, " k"]) -> list[Row]:
     return rows + [Row(f"force, {name}", "N", _texts(part.pressing[shown], 1)) for name, part in r.segments.items()]
 
 
-def _curves(r: MatFindings, shown: Int[np.ndarray, " k"]) -> list[Curves]:
+def mat_curves(r: MatFindings) -> CurveSheet:
+    """Forces, moment, pressures, area and centre of pressure over time."""
     w = r.loads
-    parts = [Curve(name, part.pressing[shown]) for name, part in r.segments.items()]
-    return [
+    parts = [Curve(name, part.pressing) for name, part in r.segments.items()]
+    by_axis = [(axis, stroke(k, k)) for k, axis in enumerate("xyz")]
+    panels = [
         Curves(
-            "Force on the body",
+            FORCE,
             "N",
             [
-                Curve("perpendicular", w.perpendicular[shown]),
-                *(Curve(axis, w.wrench.force[shown, k]) for k, axis in enumerate("xyz")),
+                Curve("perpendicular", w.perpendicular, stroke=INK),
+                *(Curve(axis, w.wrench.force[:, k], stroke=own) for k, (axis, own) in enumerate(by_axis)),
             ],
         ),
         *([Curves("Force of each segment", "N", parts)] if parts else []),
-        Curves("Moment", "N m", [Curve(axis, w.wrench.moment[shown, k]) for k, axis in enumerate("xyz")]),
-        Curves("Largest pressure", "kPa", [Curve("largest pressure", w.peak[shown] * KPA)]),
-        Curves("Centre of pressure", "mm", [Curve(axis, w.centre[shown, k] * MM) for k, axis in enumerate("xyz")]),
+        Curves(
+            "Moment", "N m", [Curve(axis, w.wrench.moment[:, k], stroke=own) for k, (axis, own) in enumerate(by_axis)]
+        ),
+        Curves(
+            PRESSURE,
+            "kPa",
+            [Curve("largest", w.peak * KPA, stroke=INK), Curve("mean where it touches", w.mean * KPA, stroke=0)],
+        ),
+        Curves(AREA, "cm²", [Curve("area", w.area * CM2, stroke=INK)]),
+        Curves(
+            "Centre of pressure",
+            "mm",
+            [Curve(axis, w.centre[:, k] * MM, stroke=own) for k, (axis, own) in enumerate(by_axis)],
+        ),
     ]
+    return CurveSheet(panels, Course("time", "s", r.frames.time))
 
 
 def _facts(r: MatFindings) -> list[tuple[str, str]]:

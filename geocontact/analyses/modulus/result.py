@@ -35,7 +35,7 @@ from geocontact.analyses.modulus.numbers import (
     sensitivity_table,
 )
 from geocontact.analyses.modulus.options import ModulusOptions
-from geocontact.analyses.modulus.show import moduli, modulus_figure, modulus_page, told_apart
+from geocontact.analyses.modulus.show import moduli, modulus_curves, modulus_page, told_apart
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
 from geocontact.data.text import seconds
@@ -46,8 +46,7 @@ from geocontact.identify.signals.filters import gaps
 from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 
@@ -93,17 +92,16 @@ class ModulusResult(Result):
         found = {"modulus": modulus_table(f), "curves": curve_table(f), "sensitivity": sensitivity_table(f)}
         return {**found, "prediction": prediction_table(f)} if f.predictions else found
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`modulus`: force measured and by the law, and how well E* is known."""
-        profiles = {side: i.profiles[MODULUS] for side, i in self.sides.items()}
-        return {"modulus": modulus_figure(self.found.curves(), profiles)}
+        return {"modulus": modulus_curves(self.found)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """How well the law meets the forces, what it tells, and what it cannot tell."""
         sensitivity = frame_table("Threshold and reading: what E* depends on", self.table("sensitivity"))
         tables = [moduli(self.found), told_apart(self.found), sensitivity, INPUTS, OPTIONS]
         title = f"E* from {self.options.area[0].name} and {self.options.force.name}"
-        return {REPORT: modulus_page(title, self.found, drawings["modulus"], tables)}
+        return {REPORT: modulus_page(title, self.found, self.curves()["modulus"], tables)}
 
     def write_files(self, folder: Path) -> None:
         """modulus.json besides."""

@@ -3,54 +3,55 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
 
 from geocontact.analyses.frame.words import NOT_A_DEVICE, rounded
-from geocontact.analyses.modulus.identified import ForcePair, Identified, constant
+from geocontact.analyses.modulus.identified import Identified, constant
 from geocontact.analyses.modulus.numbers import PER_SI, UNITS
+from geocontact.data.motion import Course
 from geocontact.elastic_modulus.area_force import MODULUS
 from geocontact.elastic_modulus.identify import Identification, agreement
 from geocontact.identify.identifiability import Identifiability
-from geocontact.identify.intervals.profile_likelihood import Profile
-from geocontact.view.curves.quantity import FORCE, TIME
-from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, legend, panels
-from geocontact.view.page.content import Curve, Curves, IntervalRow, Intervals, Page, Picture, Section, Table, Words
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Limit, Points, Span, stroke
+from geocontact.view.page.content import IntervalRow, Intervals, Page, Section, Table, Words
 
-if TYPE_CHECKING:
-    from matplotlib.artist import Artist
-    from matplotlib.figure import Figure
+RISE = 2.0
+"""Largest rise of a profile that is drawn, in cuts."""
 
 
-@in_style
-def modulus_figure(pairs: Mapping[str, ForcePair], profiles: Mapping[str, Profile]) -> Figure:
-    """Draw forces over time on the left (measured solid, predicted dashed), profiles of E* on the right.
+def modulus_curves(found: Identified) -> CurveSheet:
+    """Forces of each side over time, measured and by the law, and the profiles of E*.
 
     A profile is the rise of the sum of squares in units of the cut: the interval of 95 % ends where it is 1.
     """
-    figure, (forces, shape) = panels(1, 2, DOUBLE, 0.075)
-    entries: list[tuple[Artist | tuple[Artist, ...], str]] = []
-    for k, (side, pair) in enumerate(pairs.items()):
-        line = forces.plot(pair.time, pair.measured, color=PALETTE[k], label="_")[0]
-        dashed = forces.plot(pair.time, pair.predicted, color=PALETTE[k], ls="--", lw=1.0)[0]
-        entries += [(line, f"{side}, measured"), (dashed, f"{side}, by the law")]
-    forces.set_xlabel(TIME.label)
-    forces.set_ylabel(FORCE.label)
-    legend(forces, entries)
-    curves: list[tuple[Artist | tuple[Artist, ...], str]] = []
-    for k, (side, p) in enumerate(profiles.items()):
-        marker = "." if len(p.values) == 1 else ""
-        curve = shape.plot(p.values * 1e-6, p.rise, color=PALETTE[k], ls=LINES[k], marker=marker)[0]
-        shape.axvline(p.best * 1e-6, color=PALETTE[k], lw=0.5, ls=":")
-        curves.append((curve, side))
-    shape.axhline(1.0, color=GREY, lw=0.6)
-    shape.set_ylim(0.0, 2.0)
-    shape.set_xlabel("E* [MPa]")
-    shape.set_ylabel("rise of the profile / cut at 95 %")
-    legend(shape, curves)
-    return figure
+    pairs = found.curves()
+    panels = [
+        Curves(
+            f"Contact force, {side}",
+            "N",
+            [Curve("measured", pair.measured, stroke=INK), Curve("by the law", pair.predicted, stroke=0)],
+        )
+        for side, pair in pairs.items()
+    ]
+    profiles = {side: each.profiles[MODULUS] for side, each in found.sides.items()}
+    lines = [
+        Points(side, p.values * MPA, np.where(p.rise <= RISE, p.rise, np.nan), stroke(k + 1, k), joined=True)
+        for k, (side, p) in enumerate(profiles.items())
+    ]
+    reach = np.concatenate([line.time for line in lines])
+    profile = Curves(
+        "Rise of the sum of squares beside the best E*",
+        "cuts at 95 %",
+        [],
+        points=lines,
+        limits=[Limit("95 % interval ends", 1.0)],
+        spans=[Span("best values", p.best * MPA, p.best * MPA) for p in profiles.values()],
+        over=Course("E*", "MPa", np.array([reach.min(), reach.max()])),
+        words=PROFILE,
+    )
+    return CurveSheet([*panels, profile], Course("time", "s", next(iter(pairs.values())).time))
 
 
 DESCRIBES = 0.5
@@ -190,10 +191,7 @@ def _span(low: float, high: float) -> str:
     return f"{low:.4g} … {high:.4g}"
 
 
-FIGURE = (
-    "Left: measured force as a line, force by the law dashed. Right: how far the sum of squares rises when E* is held "
-    "beside its best value, in units of the cut: the interval of 95 % ends at 1."
-)
+PROFILE = "How far the sum of squares rises when E* is held beside its best value: an interval of 95 % ends at 1."
 LAW = (
     "The law turns one area into one force. It has no friction, no damping, no liner that creeps, and it takes the "
     "area of rigid surfaces within a threshold for that of an elastic contact: what E* says of a material is only as "
@@ -201,28 +199,23 @@ LAW = (
 )
 
 
-def modulus_page(title: str, found: Identified, drawing: bytes, tables: Sequence[Table]) -> Page:
+def modulus_page(title: str, found: Identified, curves: CurveSheet, tables: Sequence[Table]) -> Page:
     """The page before it becomes a file; it opens with E*, or with the forces where the law does not describe them.
 
     Parameters
     ----------
-    drawing
-        The figure (SVG).
+    curves
+        Those of `modulus_curves`.
     tables
         Results first.
     """
-    pairs = found.curves()
-    first = next(iter(pairs.values()))
-    forces: list[Section] = [
-        Curves(f"Contact force, {side}", "N", [Curve("measured", pair.measured), Curve("by the law", pair.predicted)])
-        for side, pair in pairs.items()
-    ]
+    first = next(iter(found.curves().values()))
+    forces: list[Section] = [*curves.panels]
     intervals = modulus_intervals(found)
     sections: list[Section] = [
         *([*forces, intervals] if undescribed(found) else [intervals, *forces]),
         tables[0],
         Words("What the data cannot tell", found.not_identifiable()),
-        Picture("Force by the law and profile of E*", FIGURE, drawing, wide=True),
         *tables[1:],
         Words("What the numbers do not contain", [LAW, NOT_A_DEVICE]),
     ]

@@ -3,27 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Float
 
-from geocontact.analyses.frame.pages import drawing
 from geocontact.analyses.frame.quantities import number
 from geocontact.data.errors import InputError
+from geocontact.data.motion import Course
 from geocontact.data.sides import LEFT, RIGHT, stem_and_side
 from geocontact.data.trial import mean_and_sd
 from geocontact.identify.signals.cycles import STEPS
 from geocontact.identify.signals.gait_cycles import GaitCycles, Strikes
 from geocontact.io.mocap.c3d_events import read_c3d_strikes
-from geocontact.view.curves.over_cycle import mean_over_cycle
-from geocontact.view.curves.quantity import Quantity
-from geocontact.view.curves.style import DOUBLE, in_style, panels
-from geocontact.view.page.content import Picture, Section
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from geocontact.view.curves.declared import Curves, mean_curve, stroke
 
 ONSET = 20.0
 """N at which a foot is on the ground; gait laboratories use 10 to 30 N."""
@@ -51,9 +43,6 @@ def strikes_marked(file: Path) -> Strikes:
     return read_c3d_strikes(file) if file.suffix.lower() == ".c3d" else {}
 
 
-ACROSS, TALL = 3, 0.048  # panels in a row, and their height [m]
-
-
 def cycles_table(cycles: GaitCycles) -> pd.DataFrame:
     """Mean and SD of every coordinate at each per cent, lengths in mm; the SD is empty where there is one cycle."""
     columns: dict[str, object] = {"cycle [%]": STEPS}
@@ -64,35 +53,29 @@ def cycles_table(cycles: GaitCycles) -> pd.DataFrame:
     return pd.DataFrame(columns)
 
 
-@in_style
-def cycles_figure(cycles: GaitCycles) -> Figure:
-    """Mean ± SD over the gait cycle, both sides of a coordinate in one panel."""
-    grouped: dict[str, dict[str, Float[np.ndarray, "_ 101"]]] = {}
-    units: dict[str, str] = {}
-    for name, trials in cycles.curves.items():
+def cycles_curves(cycles: GaitCycles) -> list[Curves]:
+    """Mean ± SD over the gait cycle, both sides of a coordinate in one panel; nothing without cycles."""
+    grouped: dict[str, dict[str, str]] = {}
+    for name in cycles.curves:
         stem, side = stem_and_side(name)
-        title = stem if side else name
-        grouped.setdefault(title, {})[side or next(iter(cycles.starts))] = trials
-        units[title] = cycles.units[name]
-    rows = -(-len(grouped) // ACROSS)
-    figure, axes = panels(rows, min(ACROSS, len(grouped)), DOUBLE, TALL * rows)
-    for axis, (title, sides) in zip(axes, grouped.items(), strict=False):
-        ordered = {side: sides[side] for side in (RIGHT, LEFT) if side in sides}
-        mean_over_cycle(STEPS, ordered, Quantity(title, units[title]), axis)
-    for spare in axes[len(grouped) :]:
-        spare.set_axis_off()
-        for letter in spare.texts:
-            letter.set_visible(False)
-    return figure
-
-
-def cycles_pictured(cycles: GaitCycles) -> list[Section]:
-    """Mean and SD over the cycles of both sides; nothing without cycles."""
-    if not cycles:
-        return []
+        grouped.setdefault(stem if side else name, {})[side or next(iter(cycles.starts))] = name
     counts = " and ".join(f"{count} of the {side} side" for side, count in cycles.counts.items())
     words = (
         f"From one heel strike of a side to its next: mean as a line, mean ± SD as a band, {counts}. What has no side "
-        f"is cut at the heel strikes of the {next(iter(cycles.starts))} side."
+        f"is cut at the heel strikes of the {next(iter(cycles.starts), RIGHT)} side."
     )
-    return [Picture("Over the gait cycle", words, drawing(cycles_figure(cycles)), wide=True)]
+    over = Course("gait cycle", "%", STEPS)
+    return [
+        Curves(
+            f"{title} over the gait cycle",
+            cycles.units[next(iter(sides.values()))],
+            [
+                mean_curve(side, cycles.curves[sides[side]], stroke(k, k))
+                for k, side in enumerate((RIGHT, LEFT))
+                if side in sides
+            ],
+            over=over,
+            words="" if place else words,
+        )
+        for place, (title, sides) in enumerate(grouped.items())
+    ]

@@ -35,7 +35,7 @@ from geocontact.analyses.shape.fitting import (
     sagittal_about,
 )
 from geocontact.analyses.shape.options import ShapeOptions
-from geocontact.analyses.shape.show import fit_figure, fit_page, profile_figure
+from geocontact.analyses.shape.show import fit_figure, fit_page, profile_curves
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
 from geocontact.geometry.fit.catalogue import SHAPES
@@ -49,6 +49,7 @@ from geocontact.view.surfaces.points_vtp import write_fit_vtp
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 
@@ -97,11 +98,16 @@ class ShapeResult(Result):
     def figures(self) -> dict[str, Figure]:
         """`profile`, radius over flexion, where it is asked for; `fit`, the section and the residuals."""
         fit = {"fit": fit_figure(self.fit, self.fitting.patch.points, self.title)}
-        return {"profile": profile_figure(self.profiles, self.fit), **fit} if self.profiles else fit
+        return super().figures() | fit
+
+    def curves(self) -> dict[str, CurveSheet]:
+        """`profile`, radius over flexion, where it is asked for."""
+        return {"profile": profile_curves(self.profiles, self.fit)} if self.profiles else {}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The surface coloured by its distance to the shape, the numbers, and what they depend on."""
-        return {REPORT: fit_page(self.fitting, drawings, self.title, self.sentences)}
+        curves = [panel for sheet in self.curves().values() for panel in sheet.panels]
+        return {REPORT: fit_page(self.fitting, drawings, self.title, self.sentences, curves)}
 
     def write_files(self, folder: Path) -> None:
         """fit.json besides, and residuals for ParaView."""

@@ -12,27 +12,23 @@ from jaxtyping import Float, Int
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.shape.fitting import Fitting
+from geocontact.data.motion import Course
 from geocontact.geometry.fit.found import OUTLYING, ShapeFit
 from geocontact.geometry.fit.profile import SagittalProfile
 from geocontact.geometry.fit.solver import across
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Limit, stroke
 from geocontact.view.curves.sheet import plain
 from geocontact.view.curves.style import (
     BLACK,
     DOUBLE,
     GREY,
-    LINES,
-    MARKERS,
-    PALETTE,
-    SINGLE,
+    SMALL,
     empty,
     in_style,
-    legend,
-    panels,
 )
 from geocontact.view.page.content import Page, Picture, Scene, SceneBody, Section, Table, Words
 
 if TYPE_CHECKING:
-    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -157,27 +153,24 @@ def _distribution(axes: Axes, fit: ShapeFit, residual: Float[np.ndarray, " n"], 
     words = [f"rms {fit.rms * MM:.3g} mm", f"inliers {int(fit.quality.inlier.sum())} of {len(residual)}"]
     if fit.radius is not None:
         words.insert(0, f"R = {fit.radius * MM:.2f} mm")
-    axes.set_title("\n".join(words), fontsize=7)
+    axes.set_title("\n".join(words), fontsize=SMALL)
 
 
-@in_style
-def profile_figure(profiles: Mapping[str, SagittalProfile], whole: ShapeFit) -> Figure:
-    """Draw the radius over flexion with its 95 % intervals, and the one radius of the whole patch."""
-    figure, (axes,) = panels(1, 1, SINGLE, 0.065)
-    entries: list[tuple[Artist | tuple[Artist, ...], str]] = []
+def profile_curves(profiles: Mapping[str, SagittalProfile], whole: ShapeFit) -> CurveSheet:
+    """The radius over flexion with its 95 % intervals, and the one radius of the whole patch."""
+    angle = np.unique(np.concatenate([p.angle for p in profiles.values()]))
+    curves = []
     for k, (name, p) in enumerate(profiles.items()):
-        degrees, radius, half = np.degrees(p.angle), p.radius * MM, p.half_width * MM
-        axes.fill_between(degrees, radius - half, radius + half, color=PALETTE[k], alpha=0.2, lw=0)
-        line = axes.plot(degrees, radius, color=PALETTE[k], ls=LINES[k], marker=MARKERS[k], markersize=2.5)[0]
-        entries.append((line, name))
-    if whole.radius is not None and whole.axis is not None:
-        line = axes.axhline(whole.radius * MM, color=GREY, lw=0.8, ls=":")
-        entries.append((line, f"one cylinder, {whole.radius * MM:.2f} mm"))
-    axes.set_xlabel("flexion [°]")
-    axes.set_ylabel("sagittal radius [mm]")
-    axes.set_ylim(bottom=0.0)
-    legend(axes, entries)
-    return figure
+        radius, lower, upper = np.full((3, len(angle)), np.nan)
+        there = np.searchsorted(angle, p.angle)
+        radius[there], lower[there], upper[there] = (
+            MM * each for each in (p.radius, p.radius - p.half_width, p.radius + p.half_width)
+        )
+        curves.append(Curve(name, radius, lower, upper, stroke(k, k)))
+    one = whole.radius is not None and whole.axis is not None
+    limits = [Limit(f"one cylinder, {whole.radius * MM:.2f} mm", whole.radius * MM)] if one and whole.radius else []
+    over = Course("flexion", "°", np.degrees(angle))
+    return CurveSheet([Curves("Sagittal radius", "mm", curves, limits=limits, over=over, words=OVER_FLEXION)])
 
 
 ROUND = 72  # sides of the drawn cylinder, rings of the drawn sphere
@@ -195,7 +188,6 @@ WAYS = {  # by axis: which way a mesh's axes point in the body is not known here
     for axis in "xyz"
     for sign, turn in (("+", 1.0), ("−", -1.0))
 }
-DRAWINGS = {"fit": ("The fit", BESIDE), "profile": ("Radius over flexion", OVER_FLEXION)}
 DISTANCES = (
     "Distances are geometric. Points far off do not count (biweight, its scale from the median distance), unless plain "
     "least squares was asked for."
@@ -206,18 +198,26 @@ INTERVAL = (
 )
 
 
-def fit_page(fitted: Fitting, drawings: Mapping[str, bytes], title: str, sentences: Sequence[str] = ()) -> Page:
+def fit_page(
+    fitted: Fitting,
+    drawings: Mapping[str, bytes],
+    title: str,
+    sentences: Sequence[str] = (),
+    curves: Sequence[Curves] = (),
+) -> Page:
     """The page of one fit.
 
     Parameters
     ----------
     drawings
-        SVG of the figures by name; those that `DRAWINGS` names are shown.
+        SVG of the figures by name, of which `fit` is shown where it is there.
+    curves
+        Those of `profile_curves`, where they were asked for.
     sentences
         What was found.
     """
-    sections: list[Section] = [_scene(fitted)]
-    sections += [Picture(*DRAWINGS[name], drawings[name], wide=name == "fit") for name in DRAWINGS if name in drawings]
+    sections: list[Section] = [_scene(fitted), *curves]
+    sections += [Picture("The fit", BESIDE, drawings[name], wide=True) for name in ("fit",) if name in drawings]
     sections += [_fits(fitted), INPUTS, OPTIONS, Words("How far to trust it", _words(fitted))]
     patch = fitted.patch
     chosen = f"Fitted to {int(patch.faces.sum())} of {len(patch.faces)} faces of {patch.surface.name}"

@@ -12,15 +12,19 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
+from geocontact.data.motion import Course
 from geocontact.standing_up.chain import COORDINATES, FOOT, TRUNK, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import HEIGHT, STRAP_PARAMETERS, two_chains
 from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingTrial
-from geocontact.view.page.content import Curve, Curves, Page, Section, Words
+from geocontact.view.curves.declared import Curve, Curves, stroke
+from geocontact.view.page.content import Page, Section, Words
 from geocontact.view.page.scene import Linkage, Scene
 
 Of = Callable[[Any], Any]
 FRAMES = 101
+PARTS = Course("part of the movement", "%", np.linspace(0.0, 100.0, FRAMES))
+"""Along what pages and figures run: trials last differently long."""
 METRES_PER_NEWTON = 6e-4
 """A force of 1 kN is drawn 0.6 m long."""
 BESIDE = 0.7
@@ -49,8 +53,8 @@ def motion_page(
     return Page(
         title=title,
         subtitle=subtitle,
-        time=np.linspace(0.0, 100.0, FRAMES),
-        time_label="part of the movement [%]",
+        time=PARTS.values,
+        time_label=PARTS.label,
         headline=headline(sentences),
         facts=list(facts),
         sections=(*sections, INPUTS, OPTIONS, Words("What the numbers mean", [*words, NOT_A_DEVICE])),
@@ -74,7 +78,11 @@ def _as_one(alike: Sequence[Linkage]) -> Linkage:
 
 def at_parts(trial: TrialResult, values: Float[np.ndarray, "t ..."]) -> Float[np.ndarray, "f ..."]:
     """At the page's parts of the movement."""
-    time = trial.recorded.time
+    return over_parts(trial.recorded.time, values)
+
+
+def over_parts(time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t ..."]) -> Float[np.ndarray, "f ..."]:
+    """The same of what is known at times of its own."""
     at = np.linspace(time[0], time[-1], FRAMES)
     columns = values.reshape(len(time), -1).T
     return np.stack([np.interp(at, time, each) for each in columns], axis=1).reshape(FRAMES, *values.shape[1:])
@@ -134,6 +142,11 @@ def _open(points: int) -> Int[np.ndarray, "k 2"]:
     return np.array([(i, i + 1) for i in range(points - 1)], np.int64)
 
 
+def of_trial(k: int, recorded: bool = False) -> int:
+    """Stroke of a trial: its colour, as a line for the model, dashed as recorded."""
+    return stroke(k % 4, 3 * (k // 4) + int(recorded))
+
+
 def standing_curves(trials: Sequence[TrialResult]) -> list[Curves]:
     """Forces and centre of pressure by model and recording, residuals and torques."""
     panels = []
@@ -150,10 +163,10 @@ def standing_curves(trials: Sequence[TrialResult]) -> list[Curves]:
         curves = []
         for k, trial in enumerate(trials):
             name = trial.recorded.name
-            curves.append(Curve(f"{name} model", factor * at_parts(trial, of(trial.model)), stroke=2 * k))
+            curves.append(Curve(f"{name} model", factor * at_parts(trial, of(trial.model)), stroke=of_trial(k)))
             recorded = at_parts(trial, of(trial.recorded))
             if np.isfinite(recorded).all():
-                curves.append(Curve(f"{name} recorded", factor * recorded, stroke=2 * k + 1))
+                curves.append(Curve(f"{name} recorded", factor * recorded, stroke=of_trial(k, recorded=True)))
         panels.append(Curves(title, unit, curves))
     single: list[tuple[str, str, Of]] = [
         ("Residual of the forces between the points", "N", lambda t: t.residual(t.judged.force)),
@@ -161,9 +174,10 @@ def standing_curves(trials: Sequence[TrialResult]) -> list[Curves]:
         ("Knee torque of both legs", "N m", lambda t: t.model.torque[:, 1]),
         ("Hip torque of both legs", "N m", lambda t: t.model.torque[:, 2]),
     ]
-    for title, unit, of_trial in single:
+    for title, unit, of_one in single:
         curves = [
-            Curve(trial.recorded.name, at_parts(trial, of_trial(trial)), stroke=2 * k) for k, trial in enumerate(trials)
+            Curve(f"{trial.recorded.name} model", at_parts(trial, of_one(trial)), stroke=of_trial(k))
+            for k, trial in enumerate(trials)
         ]
-        panels.append(Curves(title, unit, curves))
+        panels.append(Curves(title, unit, curves, log=title.startswith("Residual")))
     return panels

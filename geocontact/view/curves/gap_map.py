@@ -207,7 +207,7 @@ def gap_residuals(
             having = panel.plot(100.0 * phase, quantity.shown(named[:, :, c]).T, color=PALETTE[0], lw=0.8)
             entries.insert(1, (having[0], f"with {effect}"))
         panel.set_ylabel(plain(f"{quantity.name}, measured − predicted [{quantity.unit}]", 22), fontsize=SMALL)
-        handles, labels = [e[0] for e in entries], [plain(e[1], 80) for e in entries]
+        handles, labels = [e[0] for e in entries], [plain(e[1], 44) for e in entries]
     panels[0].set_xlim(0.0, 100.0)
     panels[-1].set_xlabel(PHASE.label)
     figure.legend(handles, labels, loc="outside upper left", ncols=3)

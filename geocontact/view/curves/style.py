@@ -1,6 +1,6 @@
 """One look for every figure, and the files that it is saved into.
 
-Widths are those of a single and a double column in most journals of the field, type is 7 and 8 pt. Colours are those
+Widths are those of a single and a double column in most journals of the field, type is 8 pt. Colours are those
 of Okabe and Ito (2008), "Color Universal Design"; line styles and markers repeat what they say, for print in grey.
 """
 
@@ -34,7 +34,7 @@ PALETTE = (*COLOURS, "#E69F00", "#56B4E9")
 LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)))
 MARKERS = ("o", "s", "^", "D", "v", "P")
 BLACK, GREY = "black", "0.45"
-SMALL = 7.0  # size of legends, ticks and notes [pt]
+SMALL = 8.0  # size of legends, ticks and notes [pt]: the least that is read with ease
 
 STYLE: dict[RcKeyType, Any] = {
     "font.family": ["sans-serif", "DejaVu Sans"],  # the second comes with matplotlib and has the rarer letters
@@ -120,12 +120,12 @@ def on(axes: Axes | None, width: float = SINGLE, height: float = 0.06) -> tuple[
     return figure_of, axes
 
 
-def legend(axes: Axes, entries: Sequence[tuple[Artist | tuple[Artist, ...], str]]) -> None:
-    """Legend above the axes, where it covers nothing; names as they stand, wrapped to the width there is."""
+def legend(axes: Axes, entries: Sequence[tuple[Artist | tuple[Artist, ...], str]], title: str | None = None) -> None:
+    """Legend above the axes, where it covers nothing, headed by `title`; names are wrapped to the width there is."""
     grid = axes.get_subplotspec()
     columns = grid.get_gridspec().ncols if grid is not None else 1
     width = (on(axes)[0].get_size_inches()[0] * INCH / columns - 0.016) / POINT
-    letter, handle = 0.5 * SMALL, 3.8 * SMALL  # mean width of a letter; line, gap and distance to the next column
+    letter, handle = 0.56 * SMALL, 3.8 * SMALL  # mean width of a letter; line, gap and distance to the next column
     labels = [plain(text, width=max(12, int((width - handle) / letter))) for _, text in entries]
     longest = max(len(line) for label in labels for line in label.split("\n"))
     fitting = int(np.clip(width / (longest * letter + handle), 1, len(entries)))
@@ -140,6 +140,8 @@ def legend(axes: Axes, entries: Sequence[tuple[Artist | tuple[Artist, ...], str]
         borderpad=0.2,
         labelspacing=0.3,
         columnspacing=1.4,
+        title=title,
+        alignment="left",
     )
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.view.curves.declared import Curve, Curves, Limit, Points, Scale, Span
 from geocontact.view.page.plan import Length, Mark, Plan, Track
 from geocontact.view.page.scene import FaceMap, Linkage, Scene, SceneBody
 
@@ -72,62 +73,12 @@ __all__ = [
     "Scene",
     "SceneBody",
     "Section",
+    "Span",
     "Strip",
     "Table",
     "Track",
     "Words",
 ]
-
-
-@dataclass(frozen=True, eq=False)
-class Curve:
-    """One line over time in the unit of its panel, with a band where bounds are known; NaN is a gap.
-
-    `stroke` is the number of its colour and dashes, its place unless given: one thing looks alike in all panels.
-    """
-
-    name: str
-    values: Float[np.ndarray, " t"]
-    lower: Float[np.ndarray, " t"] | None = None
-    upper: Float[np.ndarray, " t"] | None = None
-    stroke: int | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class Points:
-    """Values known at times of their own, such as measured ones: marks beside the curves."""
-
-    name: str
-    time: Float[np.ndarray, " k"]
-    values: Float[np.ndarray, " k"]
-
-
-@dataclass(frozen=True)
-class Limit:
-    """A level line across a panel, in its unit."""
-
-    name: str
-    value: float
-
-
-@dataclass(frozen=True)
-class Scale:
-    """A second axis of a panel: its unit, and what 1 in the panel's unit is in it."""
-
-    unit: str
-    factor: float
-
-
-@dataclass(frozen=True, eq=False)
-class Curves:
-    """A panel of curves with one axis, marks and level lines; `beside` is a second scale of the same values."""
-
-    title: str
-    unit: str
-    curves: Sequence[Curve]
-    points: Sequence[Points] = ()
-    limits: Sequence[Limit] = ()
-    beside: Scale | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -365,7 +316,7 @@ def _lengths(sections: Sequence[Section]) -> list[tuple[str, int]]:
                 found += [(f"poses of {b.name}", len(b.poses)) for b in bodies if b.poses is not None]
                 found += [(f"distance of {b.name}", len(b.distance)) for b in bodies if b.distance is not None]
                 found += [(f"points of {one.name}", len(one.points)) for one in linkages if len(one.points) > 1]
-            case Curves(curves=curves):
+            case Curves(curves=curves, over=None):
                 found += [(f"curve {c.name}", len(c.values)) for c in curves]
                 found += [(f"band of {c.name}", len(x)) for c in curves for x in (c.lower, c.upper) if x is not None]
             case Strip(title=title, values=values):

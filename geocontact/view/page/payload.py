@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 from jaxtyping import Float
@@ -205,14 +205,25 @@ def _curves(panel: Curves) -> dict[str, object]:
             "lower": None if curve.lower is None else _numbers(curve.lower),
             "upper": None if curve.upper is None else _numbers(curve.upper),
             "stroke": k if curve.stroke is None else curve.stroke,
+            "thin": curve.thin,
         }
         for k, curve in enumerate(panel.curves)
     ]
-    points = [{"name": p.name, "time": _numbers(p.time), "values": _numbers(p.values)} for p in panel.points]
-    limits = [{"name": limit.name, "value": limit.value} for limit in panel.limits]
-    beside = None if panel.beside is None else {"unit": panel.beside.unit, "factor": panel.beside.factor}
-    described = {"title": panel.title, "unit": panel.unit, "curves": curves, "points": points, "limits": limits}
-    return described | {"beside": beside}
+    points = [
+        {"name": p.name, "time": _numbers(p.time), "values": _numbers(p.values), "stroke": p.stroke, "joined": p.joined}
+        for p in panel.points
+    ]
+    return {
+        "title": panel.title,
+        "unit": panel.unit,
+        "curves": curves,
+        "points": points,
+        "limits": [asdict(limit) for limit in panel.limits],
+        "spans": [asdict(span) for span in panel.spans],
+        "beside": None if panel.beside is None else asdict(panel.beside),
+        "over": None if panel.over is None else {"label": panel.over.label, "values": _numbers(panel.over.values)},
+        "log": panel.log,
+    }
 
 
 def _track(track: Track) -> dict[str, object]:

@@ -16,14 +16,12 @@ from jaxtyping import Int
 from geocontact.view.extremes import FRAMES, with_extremes
 from geocontact.view.page.content import (
     Choices,
-    Curve,
     Curves,
     Intervals,
     Page,
     PageChoice,
     Picture,
     Plan,
-    Points,
     Readout,
     Scene,
     Section,
@@ -49,12 +47,11 @@ def bounded(page: Page) -> Page:
     others = () if page.choices is None else page.choices.others
     every = [*page.sections, *(section for other in others for section in other.instead.values())]
     count = len(page.time)
-    dense = any(
-        len(points.time) > SPARE * FRAMES for each in every if isinstance(each, Curves) for points in each.points
-    )
+    dense = any(_dense(each) for each in every if isinstance(each, Curves))
     if count <= SPARE * FRAMES and not dense:
         return page
-    curves = [curve.values for section in page.sections if isinstance(section, Curves) for curve in section.curves]
+    along = [section for section in page.sections if isinstance(section, Curves) and section.over is None]
+    curves = [curve.values for section in along for curve in section.curves]
     kept = np.arange(count) if count <= SPARE * FRAMES else with_extremes(count, curves, always=(page.start_frame,))
 
     def fewer(section: Section) -> Section:
@@ -81,8 +78,8 @@ def bounded(page: Page) -> Page:
 def _fewer(section: Section, kept: Int[np.ndarray, " k"]) -> Section:
     """A section at some of its frames; one that does not change over time as it is."""
     match section:
-        case Curves(curves=curves, points=points):
-            return replace(section, curves=[_curve(c, kept) for c in curves], points=[_points(p) for p in points])
+        case Curves():
+            return section.at(kept).bounded() if _dense(section) else section.at(kept)
         case Strip(values=values):
             return replace(section, values=values[kept])
         case Plan(tracks=tracks):
@@ -98,16 +95,10 @@ def _fewer(section: Section, kept: Int[np.ndarray, " k"]) -> Section:
     return section
 
 
-def _curve(curve: Curve, kept: Int[np.ndarray, " k"]) -> Curve:
-    lower, upper = (None if each is None else each[kept] for each in (curve.lower, curve.upper))
-    return replace(curve, values=curve.values[kept], lower=lower, upper=upper)
-
-
-def _points(points: Points) -> Points:
-    if len(points.time) <= SPARE * FRAMES:
-        return points
-    kept = with_extremes(len(points.time), [points.values])
-    return replace(points, time=points.time[kept], values=points.values[kept])
+def _dense(panel: Curves) -> bool:
+    """Whether marks, or curves along an axis of their own, have more samples than a page shows."""
+    own = [len(points.time) for points in panel.points] + [0 if panel.over is None else len(panel.over.values)]
+    return max(own) > SPARE * FRAMES
 
 
 def _scene(scene: Scene, kept: Int[np.ndarray, " k"]) -> Scene:
@@ -189,6 +180,7 @@ def page_html(page: Page) -> str:
         scene=next((each.section for each in placed if each.kind == "scene"), None),
         opacities=_opacities(packed.data),
         lead=[each for each in shown_here if each.lead and each.kind != "scene"],
+        pictured=any(each.lead and isinstance(each.section, Picture) and not each.section.wide for each in shown_here),
         panels=[each for each in shown_here if each.kind in PANELS and not each.lead],
         reading=[each for each in shown_here if each.kind in ("picture", "table", "words") and not each.lead],
         packed=packed,

@@ -20,7 +20,7 @@ from tests.analyses.loadcells.synthetic_walk import HEAD, gait, recorded
 def page_of(file: Path, **options: Any) -> Page:
     result = load_cells(file, unit="N", **options)
     (each,) = result.recordings
-    return loadcell_page(each, result.regression, result.cuts, result._drawn, result.options.body_weight)
+    return loadcell_page(each, result.regression, result.cuts, result._ensemble, result.options.body_weight)
 
 
 def test_the_tray_shows_where_each_side_bears() -> None:
@@ -101,7 +101,7 @@ def test_the_page_of_a_long_recording_stays_below_a_megabyte(tmp_path: Path) -> 
     assert (tmp_path / "report.html").stat().st_size < 1_000_000
     listed = frame_table("Cycles", result.table("cycles"), 5, ROWS)
     assert len(listed.rows) == ROWS and listed.title == "Cycles, 100 of 908 rows"
-    in_both_units = loadcell_page(each, result.regression, result.cuts, result._drawn, 70.0 * 9.80665, [listed])
+    in_both_units = loadcell_page(each, result.regression, result.cuts, result._ensemble, 70.0 * 9.80665, [listed])
     assert write_page(in_both_units, tmp_path / "report.html") < 1_000_000
 
 

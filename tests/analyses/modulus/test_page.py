@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from geocontact.analyses.modulus.result import ModulusResult, modulus
-from geocontact.analyses.modulus.show import moduli, modulus_page
+from geocontact.analyses.modulus.show import moduli, modulus_curves, modulus_page
 from geocontact.data.errors import InputWarning
 from geocontact.view.page.content import Curves, Intervals, Page
 from tests.analyses.modulus.synthetic_step import areas, forces
@@ -17,7 +17,7 @@ from tests.identify.synthetic_contact import TRUE
 
 
 def page_of(result: ModulusResult) -> Page:
-    return modulus_page("E*", result.found, b"<svg/>", [moduli(result.found)])
+    return modulus_page("E*", result.found, modulus_curves(result.found), [moduli(result.found)])
 
 
 def test_a_law_that_holds_gives_its_modulus_and_the_interval(tmp_path: Path) -> None:

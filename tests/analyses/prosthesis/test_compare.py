@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.prosthesis.compare.show import comparison_panels
+from geocontact.analyses.prosthesis.compare.show import comparison_curves
 from tests.cli.calls import MESHES
 
 PERSON = '[persons.P1]\nmass = {{ value = 77.3, unit = "kg" }}\nstatic = "{meshes}/gait_P1_medium_1/standing.trc"\n'
@@ -97,8 +97,9 @@ def test_shipped_stances_from_markers_to_files(tmp_path: Path) -> None:
     ensembles = found.table("ensembles").set_index("setting")
     high = found.stances[1].measured("resultant")
     np.testing.assert_allclose(ensembles.loc["low", "resultant another setting [-]"], high, rtol=1e-12)
-    panels = {each.title.rpartition(": ")[2]: each.curves for each in comparison_panels(found.stances)[:2]}
-    assert [each.name for each in panels["low"]] == ["model", "plate", "mean of the others", "another setting"]
+    sheet = comparison_curves(found.stances)
+    panels = {each.title.rpartition(": ")[2].partition(",")[0]: each.curves for each in sheet.panels[:2]}
+    assert [each.name for each in panels["low"]] == ["plate", "model", "mean of the others", "another setting"]
     np.testing.assert_allclose(panels["low"][3].values, found.stances[1].measured("vertical"))
     found.write(tmp_path / "out")
     assert (tmp_path / "out" / "trials" / "P1_high_1" / "ground_reaction.xml").is_file()

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from geocontact.analyses.shape.fitting import Fitting, Patch
-from geocontact.analyses.shape.show import drawn, fit_figure, fit_page
+from geocontact.analyses.shape.show import drawn, fit_figure, fit_page, profile_curves
 from geocontact.geometry.fit.catalogue import SHAPES
+from geocontact.geometry.fit.profile import SagittalProfile
 from geocontact.view.page.content import Scene
 from meshes.simple_shapes import block, cylinder, sphere
 from tests.geometry.bodies import moved, surface, turned
@@ -38,3 +39,14 @@ def test_shape_is_drawn_where_it_is_and_colours_are_distances(shape: str) -> Non
     limits = 1e3 * scene.span[1]
     assert all(each.get_clim() == pytest.approx((-limits, limits)) for each in dots), "figure and page alike"
     assert dots
+
+
+def test_profiles_are_drawn_where_they_are_known() -> None:
+    angle, one = np.radians([0.0, 30.0, 60.0]), np.ones(3)
+    radius = np.array([0.024, np.nan, 0.020])
+    profile = SagittalProfile(angle, np.zeros((3, 3)), radius, 1e-3 * one, one, np.zeros((3, 3)), angle)
+    (panel,) = profile_curves({"medial": profile}, SHAPES["sphere"](BODIES["sphere"][0], True)).panels
+    (curve,) = panel.curves
+    assert panel.over is not None and panel.over.values == pytest.approx([0.0, 30.0, 60.0])
+    np.testing.assert_allclose(curve.values, [24.0, np.nan, 20.0])
+    np.testing.assert_allclose(curve.upper, [25.0, np.nan, 21.0])

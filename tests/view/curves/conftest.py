@@ -12,9 +12,12 @@ import pytest
 from matplotlib.figure import Figure
 
 from geocontact.data.gap_cells import Cell
+from geocontact.data.motion import Course
 from geocontact.view.curves.before_after import before_after
 from geocontact.view.curves.bland_altman import bland_altman
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Limit, Points, Span
 from geocontact.view.curves.diagnosis_answers import Ranked, ranking_figure
+from geocontact.view.curves.drawn import drawn
 from geocontact.view.curves.gap_map import gap_map_figure, gap_residuals
 from geocontact.view.curves.over_cycle import mean_over_cycle
 from geocontact.view.curves.path import contact_path
@@ -102,10 +105,28 @@ def gap_left_over(name: str) -> Figure:
     return gap_residuals(phase, channels, base, 0.3 * base, {name: 1.0, "cop_x": 1e-4}, {name: (0.2, 0.5)}, name)
 
 
+def declared(name: str) -> Figure:
+    """Panels of their own axes, with marks, spans and limits, each with a legend of its own."""
+    time = Course(name, "s", PERCENT)
+    curves = [Curve(name, np.sin(ANGLE), np.sin(ANGLE) - 0.2, np.sin(ANGLE) + 0.2), Curve("b", np.cos(ANGLE))]
+    marked = Curves(
+        name,
+        "N",
+        curves,
+        [Points("by hand", PERCENT[::9], np.cos(ANGLE)[::9])],
+        [Limit("limit 1 N", 1.0)],
+        spans=[Span(name, 10.0, 30.0), Span("present", 50.0, 50.0)],
+    )
+    own = Curves("Moment", "mm", [Curve("mean", ANGLE)], over=Course("cycle", "%", PERCENT), log=True)
+    joined = Curves("Path", "mm", [], [Points("way", np.cos(ANGLE), np.sin(ANGLE), joined=True)], over=time)
+    return drawn(CurveSheet([marked, own, joined], time))
+
+
 RESIDUAL = np.random.default_rng(5).normal(0.2e-3, 1.5e-3, 120)
 SPECIMENS: dict[str, Callable[[str], Figure]] = {
     "over_cycle": over_cycle,
     "two_panels": two_panels,
+    "declared": declared,
     "path": path,
     "centre_of_pressure": centre_of_pressure,
     "before_after": before_and_after,

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from geocontact.data.motion import Course
 from geocontact.view.page.content import (
     Choices,
     Curve,
@@ -26,6 +27,7 @@ from geocontact.view.page.content import (
     Readout,
     Row,
     Scene,
+    Span,
     Table,
     Words,
 )
@@ -175,6 +177,41 @@ def test_marks_and_limits_stand_in_the_curves(opened: Open) -> None:
     box, plot = (here.tab.locator(s).last.bounding_box() for s in (".plot .mark", ".plot svg"))
     assert box and plot
     assert plot["x"] < box["x"] and box["x"] + box["width"] <= plot["x"] + plot["width"], "the axis holds all marks"
+
+
+def test_a_panel_with_an_axis_of_its_own_is_read_there_alone(opened: Open) -> None:
+    time = np.linspace(0.0, 1.0, 5)
+    cycle = Course("cycle", "%", np.linspace(0.0, 100.0, 101))
+    own = Curves(
+        "M",
+        "N m",
+        [Curve("mean", cycle.values), Curve("one", 1.0 + 0.9 * cycle.values, thin=True)],
+        over=cycle,
+        log=True,
+    )
+    timed = Curves("F", "N", [Curve("f", time)], spans=[Span("work", 0.25, 0.5), Span("now", 0.75, 0.75)])
+    here = opened(Page("a", "", time, "time [s]", sections=[timed, own]))
+    plot = here.tab.locator("#section-1 .plot svg")
+    plot.scroll_into_view_if_needed()
+    assert here.text("#section-1 .value") == "100", "it opens where the first curve is farthest from zero"
+    box = plot.bounding_box()
+    assert box
+    here.tab.mouse.click(box["x"] + box["width"] / 2, box["y"] + 20)
+    assert 40.0 < float(here.text("#section-1 .value")) < 60.0
+    assert here.frame() == 0, "the page's time stays"
+    assert here.tab.locator("#section-1 .key li").count() == 1, "thin curves have no name"
+    ticks = here.tab.locator("#section-1 .tick[text-anchor=end]").all_text_contents()
+    assert ticks == ["1", "10", "100"], "whole decades"
+    assert here.tab.locator("#section-0 .plot .span, #section-0 .plot .edge").count() == 2
+    assert here.tab.locator("#section-0 .key").text_content().endswith("worknow")  # type: ignore[union-attr]
+
+
+def test_a_picture_is_as_wide_as_its_card(opened: Open) -> None:
+    svg = b'<svg xmlns="http://www.w3.org/2000/svg" width="100pt" height="400pt" viewBox="0 0 100 400"></svg>'
+    here = opened(Page("a", "", np.zeros(1), "", sections=[Picture("Tall", "words", svg, wide=True)]))
+    card, image = (here.tab.locator(s).bounding_box() for s in ("#section-0", "#section-0 img"))
+    assert card and image
+    assert image["width"] > 0.95 * card["width"], "a cap of its height makes a strip of it"
 
 
 def test_a_plan_has_one_scale(opened: Open) -> None:

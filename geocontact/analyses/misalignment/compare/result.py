@@ -29,7 +29,9 @@ from geocontact.analyses.misalignment.compare.pairs import (
     comparison_table,
     read,
 )
-from geocontact.analyses.misalignment.compare.show import comparison_figure, comparison_page
+from geocontact.analyses.misalignment.compare.show import channel_curves, comparison_page
+from geocontact.view.curves.declared import CurveSheet
+from geocontact.view.curves.drawn import drawn
 from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
@@ -64,19 +66,20 @@ class CompareResult(Result):
         """One channel over the angle, all trials; KeyError names those that there are."""
         if channel not in self.channels:
             raise KeyError(f"no channel {channel!r}; there are {', '.join(self.channels)}")
-        mine = [p for p in self.pairs if p.channel == channel]
-        beta, measured, model = zip(*(p.binned(self.options.bin).T for p in mine), strict=True)
-        return comparison_figure([p.trial for p in mine], beta, measured, model, QUANTITIES[channel])
+        return drawn(self._sheet(channel))
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`comparison_force` and so on, a channel each."""
-        return {f"comparison_{each}": self.figure(each) for each in self.channels}
+        return {f"comparison_{each}": self._sheet(each) for each in self.channels}
+
+    def _sheet(self, channel: str) -> CurveSheet:
+        return CurveSheet([channel_curves([p for p in self.pairs if p.channel == channel], self.options.bin)])
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The first trial over time, figures and errors."""
         shown = frame_table("Errors by trial and channel", self.table())
-        drawn = {each: drawings[f"comparison_{each}"] for each in self.channels}
-        return {REPORT: comparison_page(self.pairs, drawn, [shown])}
+        channels = [panel for sheet in self.curves().values() for panel in sheet.panels]
+        return {REPORT: comparison_page(self.pairs, channels, [shown])}
 
 
 def run(both: Both, o: CompareOptions) -> CompareResult:

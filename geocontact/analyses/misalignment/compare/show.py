@@ -2,71 +2,54 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Float
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.misalignment.compare.pairs import QUANTITIES, Pair
-from geocontact.analyses.misalignment.page import ANGLE, FRAMES, NOT_IN_THE_NUMBERS, elbow_page
-from geocontact.view.curves.quantity import FORCE, Quantity
-from geocontact.view.curves.sheet import plain
-from geocontact.view.curves.style import DOUBLE, GREY, LINES, MARKERS, PALETTE, in_style, legend, panels
+from geocontact.analyses.misalignment.page import FRAMES, NOT_IN_THE_NUMBERS, elbow_page
+from geocontact.data.motion import Course
+from geocontact.view.curves.declared import INK, Curve, Curves, Points, stroke
 from geocontact.view.page.content import (
-    Curve,
-    Curves,
     IntervalRow,
     Intervals,
     Page,
-    Picture,
     Readout,
     Row,
     Section,
     Table,
 )
 
-if TYPE_CHECKING:
-    from matplotlib.artist import Artist
-    from matplotlib.figure import Figure
+NAMED = 4
+"""Trials that the legend names, a colour each."""
 
 
-Entries = list[tuple["Artist | tuple[Artist, ...]", str]]
-
-
-@in_style
-def comparison_figure(
-    names: Sequence[str],
-    beta: Sequence[Float[np.ndarray, " _"]],
-    measured: Sequence[Float[np.ndarray, " _"]],
-    model: Sequence[Float[np.ndarray, " _"]],
-    quantity: Quantity = FORCE,
-) -> Figure:
-    """Draw one channel over the angle in bins, a colour per trial: measured as marks, the model as lines."""
-    figure, (axes,) = panels(1, 1, DOUBLE, 0.08)
-    entries: Entries = []
-    for k, (name, b, m, s) in enumerate(zip(names, beta, measured, model, strict=True)):
-        colour = PALETTE[k % len(PALETTE)]
-        dots = axes.plot(np.degrees(b), quantity.shown(m), MARKERS[k % len(MARKERS)], color=colour, markersize=2.5)[0]
-        line = axes.plot(np.degrees(b), quantity.shown(s), color=colour, ls=LINES[k % len(LINES)])[0]
-        if k < len(PALETTE):
-            entries.append(((dots, line), plain(name)))
-    axes.axhline(0.0, color=GREY, lw=0.6)
-    axes.set_xlabel(ANGLE)
-    axes.set_ylabel(quantity.label)
-    legend(axes, entries)
-    return figure
+def channel_curves(pairs: Sequence[Pair], width: float) -> Curves:
+    """One channel over the angle in bins of this width [rad], a colour per trial: measured as marks, the model as
+    lines.
+    """
+    q = QUANTITIES[pairs[0].channel]
+    marks, lines = [], []
+    for k, pair in enumerate(pairs):
+        angle, measured, model = pair.binned(width).T
+        names = [f"{pair.trial}, {what}" if k < NAMED else "" for what in ("measured", "by the model")]
+        marks.append(Points(names[0], np.degrees(angle), q.per_si * measured, stroke(k % NAMED)))
+        lines.append(Points(names[1], np.degrees(angle), q.per_si * model, stroke(k % NAMED, k // NAMED), joined=True))
+    reach = np.concatenate([mark.time for mark in marks])
+    over = Course("exoskeleton angle β", "°", np.array([reach.min(), reach.max()]))
+    title = f"{q.name.capitalize()} over the angle"
+    return Curves(title, q.unit, [], points=[*marks, *lines], over=over, words=COMPARED)
 
 
 COMPARED = "Means over bins of the angle: measured as marks, the model as lines, a colour per trial."
 
 
-def comparison_page(pairs: Sequence[Pair], drawings: Mapping[str, bytes], tables: Sequence[Table]) -> Page:
+def comparison_page(pairs: Sequence[Pair], channels: Sequence[Curves], tables: Sequence[Table]) -> Page:
     """The page of a comparison, the trial with the largest error over time.
 
-    `drawings` are the SVG of each channel's figure.
+    `channels` are those of `channel_curves`.
     """
     first = max((p for p in pairs if p.channel == pairs[0].channel), key=lambda p: p.agreement.rmsd)
     shown = slice(None, None, -(-len(first.time) // FRAMES))
@@ -76,11 +59,15 @@ def comparison_page(pairs: Sequence[Pair], drawings: Mapping[str, bytes], tables
     rows = {**both, "model less measured": off}
     name = f"{q.name.capitalize()}, {first.trial}"
     sections: list[Section] = [
-        Curves(name, q.unit, [Curve(each, values) for each, values in both.items()]),
+        Curves(
+            name,
+            q.unit,
+            [Curve(each, values, stroke=own) for (each, values), own in zip(both.items(), (INK, 0), strict=True)],
+        ),
         *_errors(pairs),
         Curves(f"{name}: model less measured", q.unit, [Curve("error", off, stroke=1)]),
         Readout([Row(each, q.unit, [f"{v:.2f}" for v in values]) for each, values in rows.items()]),
-        *(Picture(QUANTITIES[each].name.capitalize(), COMPARED, svg, wide=True) for each, svg in drawings.items()),
+        *channels,
         *tables,
         INPUTS,
         OPTIONS,

@@ -10,8 +10,11 @@ from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.analyses.misalignment.design.designed import Designed, sensitivity_table, stroke_words
 from geocontact.analyses.misalignment.planar import MODEL, page_table
-from geocontact.view.curves.style import BLACK, DOUBLE, GREY, PALETTE, in_style, legend, panels
-from geocontact.view.page.content import Curve, Curves, Limit, Page, Picture, Readout, Row, Section, Table, Words
+from geocontact.data.motion import Course
+from geocontact.view.curves.declared import Curve, Curves, Limit
+from geocontact.view.curves.drawn import draw_on
+from geocontact.view.curves.style import DOUBLE, PALETTE, in_style, legend, panels
+from geocontact.view.page.content import Page, Picture, Readout, Row, Section, Table, Words
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -30,21 +33,19 @@ def design_figure(d: Designed) -> Figure:
     """Draw largest |F| [N] over the offsets with the limit, and force, lowest, highest over the angle."""
     figure, (plane, course) = panels(1, 2, DOUBLE, 0.08)
     _map(figure, plane, d)
-    beta, limit = np.degrees(d.beta), d.task.limit
-    band = course.fill_between(beta, *d.band, color=PALETTE[0], alpha=0.25, lw=0)
-    curve = course.plot(beta, d.force, color=PALETTE[0])[0]
-    ends = [course.axhline(side * limit, color=BLACK, lw=0.8, ls="--") for side in (-1.0, 1.0)]
-    course.axhline(0.0, color=GREY, lw=0.5)
-    course.set_xlabel("angle of the exoskeleton [°]")
-    course.set_ylabel("force on the limb [N]")
-    legend(course, [(curve, "at the offsets"), (band, "within the uncertainty"), (ends[0], f"limit {limit:g} N")])
+    draw_on(course, force_curves(d), Course("angle of the exoskeleton", "°", np.degrees(d.beta)))
     return figure
+
+
+def force_curves(d: Designed) -> Curves:
+    """Force over the angle at the offsets, within the uncertainty, beside the limits."""
+    return Curves("Force on the limb", "N", [Curve("at the offsets", d.force, *d.band)], limits=_limits(d))
 
 
 @in_style
 def map_figure(d: Designed) -> Figure:
     """Draw largest |F| [N] over the offsets with the limit alone."""
-    figure, (plane,) = panels(1, 1, 0.11, 0.085)
+    figure, (plane,) = panels(1, 1, DOUBLE, 0.105)
     _map(figure, plane, d)
     return figure
 
@@ -99,7 +100,7 @@ def design_page(d: Designed, summary: dict[str, Any], drawing: bytes) -> Page:
     numbers = _numbers(summary)
     sections: list[Section] = [
         Picture("Admissible offsets", FIGURE, drawing),
-        Curves("Force on the limb", "N", [Curve("at the offsets", d.force, *d.band)], limits=_limits(d)),
+        force_curves(d),
         Readout([Row(name, "N", [f"{v:.2f}" for v in values]) for name, values in force.items()], "At this angle"),
         numbers,
         Words("Stroke of the compensation joint", [summary["needed_stroke"]["words"]]),

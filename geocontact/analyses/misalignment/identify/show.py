@@ -26,7 +26,7 @@ from geocontact.axis_misalignment.uncertainty import Direction
 from geocontact.identify.intervals.profile_likelihood import Profile
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.curves.residuals import residual_histogram, residual_quantiles
-from geocontact.view.curves.style import BLACK, DOUBLE, GREY, LINES, MARKERS, PALETTE, in_style, legend, panels
+from geocontact.view.curves.style import BLACK, DOUBLE, GREY, LINES, MARKERS, PALETTE, SMALL, in_style, legend, panels
 from geocontact.view.page.content import Curve, Curves, Length, Mark, Page, Picture, Plan, Section, Track, Words
 from geocontact.view.page.tables import frame_table
 
@@ -65,7 +65,7 @@ def force_figure(over: Over, boxes: Boxes) -> Figure:
     line = left.plot(np.degrees(over.curve_beta), over.curve_force, color=BLACK)[0]
     legend(left, [(dots, "bin means of the trials"), (line, "explicit model")])
     _boxed(right, boxes, 0.0, 0.7, PALETTE[0])
-    right.set_title("samples: 5, 25, 50, 75, 95 %", fontsize=7.0)
+    right.set_title("samples: 5, 25, 50, 75, 95 %", fontsize=SMALL)
     for panel in (left, right):
         panel.axhline(0.0, color=GREY, lw=0.6)
         panel.set_xlabel(ANGLE)
@@ -95,11 +95,11 @@ def told_figure(
     """
     figure, (bars, along, shape) = panels(1, 3, DOUBLE, 0.07)
     bars.bar(range(len(directions.names)), directions.least, color=PALETTE[0])
-    bars.set_xticks(range(len(directions.names)), [f"log |{name}|" for name in directions.names], fontsize=6.0)
+    bars.set_xticks(range(len(directions.names)), list(directions.names))
     bars.axhline(0.0, color=GREY, lw=0.6)
-    bars.set_ylabel("direction told least")
+    bars.set_ylabel("least known direction, in logarithms")
     ratio = directions.singular_values[-1] / directions.singular_values[0]
-    bars.set_title(f"singular value {ratio:.0e} of the largest", fontsize=7.0)
+    bars.set_title(f"singular value {ratio:.0e} of the largest", fontsize=SMALL)
     flat = along.plot(line[:, 0], line_r2, color=PALETTE[0])[0]
     alone = along.plot(line[:, 0], np.maximum(alone_r2, -0.5), color=PALETTE[1], ls="--")[0]
     along.set_xscale("log")
@@ -169,7 +169,7 @@ def conditions_figure(locked: BinMeans, stroke: RecordedStroke, locked_boxes: Bo
     spread.axhline(0.0, color=GREY, lw=0.6)
     spread.set_xlabel(ANGLE)
     spread.set_ylabel(CONSTRAINT.label)
-    spread.set_title("samples: 5, 25, 50, 75, 95 %", fontsize=7.0)
+    spread.set_title("samples: 5, 25, 50, 75, 95 %", fontsize=SMALL)
     free = stroke.curve
     pairs: Entries = []
     for k, (curve, name) in enumerate(((locked, "joint locked"), (free, "joint free"))):
@@ -187,7 +187,7 @@ def conditions_figure(locked: BinMeans, stroke: RecordedStroke, locked_boxes: Bo
             (np.degrees(stop.first), stop.position * 1e3),
             xytext=(4, 6),
             textcoords="offset points",
-            fontsize=7.0,
+            fontsize=SMALL,
         )
     below.set_xlabel(ANGLE)
     below.set_ylabel("displacement of the joint [mm]")

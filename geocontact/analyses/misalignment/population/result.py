@@ -38,13 +38,12 @@ from geocontact.analyses.misalignment.population.drawn import (
     sample_table,
 )
 from geocontact.analyses.misalignment.population.options import PopulationOptions
-from geocontact.analyses.misalignment.population.show import population_figure, population_page
+from geocontact.analyses.misalignment.population.show import population_curves, population_page
 from geocontact.axis_misalignment.planar_joint import FATES
 from geocontact.identify.intervals.quantile_intervals import IntervalEstimate
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 
@@ -70,14 +69,13 @@ class PopulationResult(Result):
         found = {"quantiles": quantile_table(d), "exceedance": exceedance_table(d), "influence": influence_table(d)}
         return {**found, "samples": sample_table(d)} if self.options.keep else found
 
-    def figures(self) -> dict[str, Figure]:
-        """`population`: density of the largest force, and the probability of more."""
-        d = self.drawn
-        return {"population": population_figure(d.peak[np.isfinite(d.peak)], d.levels, d.exceedance, d.limit)}
+    def curves(self) -> dict[str, CurveSheet]:
+        """`population`: the probability of more, and density of the largest force."""
+        return {"population": population_curves(self.drawn)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Exceedance, figure, quantiles, where the spread comes from."""
-        return {REPORT: population_page(self.drawn, drawings["population"])}
+        return {REPORT: population_page(self.drawn)}
 
     def write_files(self, folder: Path) -> None:
         """population.json besides."""

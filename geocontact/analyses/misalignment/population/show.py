@@ -2,26 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
-
 import numpy as np
-from jaxtyping import Float
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.analyses.misalignment.planar import MODEL, STATES, WITHOUT_FORCE, page_table
 from geocontact.analyses.misalignment.population.drawn import Drawn, influence_table, quantile_table
-from geocontact.identify.intervals.quantile_intervals import IntervalEstimate
+from geocontact.data.motion import Course
 from geocontact.identify.intervals.sampling import Indices
-from geocontact.view.curves.style import BLACK, DOUBLE, PALETTE, in_style, legend, panels
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Span
 from geocontact.view.page.content import (
-    Curve,
-    Curves,
     IntervalRow,
     Intervals,
     Page,
-    Picture,
     Readout,
     Row,
     Section,
@@ -29,42 +22,33 @@ from geocontact.view.page.content import (
     Words,
 )
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-
 BINS = 80
 
 
-@in_style
-def population_figure(
-    peak: Float[np.ndarray, " n"], levels: Float[np.ndarray, " k"], exceedance: Sequence[IntervalEstimate], limit: float
-) -> Figure:
-    """Draw finite largest forces [N] on the left, probabilities of passing the levels [N] on the right."""
-    figure, (shape, tail) = panels(1, 2, DOUBLE, 0.07)
-    counts, edges = np.histogram(peak, BINS, (0.0, float(levels[-1])))
-    shape.stairs(counts / (max(len(peak), 1) * np.diff(edges)), edges, color=PALETTE[0], fill=True, alpha=0.5)
-    line = shape.axvline(limit, color=BLACK, lw=0.8, ls="--")
-    shape.set_xlabel("largest |F| [N]")
-    shape.set_ylabel("density [1/N]")
-    legend(shape, [(line, f"limit {limit:g} N")])
-    value, lower, upper = (np.array([getattr(one, end) for one in exceedance]) for end in ("value", "lower", "upper"))
-    band = tail.fill_between(levels, lower, upper, color=PALETTE[0], alpha=0.3, lw=0)
-    curve = tail.plot(levels, np.where(value > 0.0, value, np.nan), color=PALETTE[0])[0]
-    tail.axvline(limit, color=BLACK, lw=0.8, ls="--")
-    tail.set_yscale("log")
-    positive = value[value > 0.0]
-    tail.set_ylim(0.5 * float(positive.min()) if len(positive) else 1e-6, 1.2)
-    tail.set_xlabel("force [N]")
-    tail.set_ylabel("probability of more")
-    legend(tail, [(curve, "share of the samples"), (band, "95 %, exact")])
-    return figure
+def population_curves(d: Drawn) -> CurveSheet:
+    """Probability that the largest force is above a level, with its interval, and density of the finite ones."""
+    value, lower, upper = (
+        100.0 * np.array([getattr(one, end) for one in d.exceedance]) for end in ("value", "lower", "upper")
+    )
+    limit = [Span(f"limit {d.limit:g} N", d.limit, d.limit)]
+    known = d.peak[np.isfinite(d.peak)]
+    counts, edges = np.histogram(known, BINS, (0.0, float(d.levels[-1])))
+    density = Curve("density", np.repeat(counts / (max(len(known), 1) * np.diff(edges)), 2))
+    tail = Curve("share of the samples, 95 % interval", np.where(value > 0.0, value, np.nan), lower, upper)
+    panels = [
+        Curves("Probability of more", "%", [tail], spans=limit, log=True, words=TAIL),
+        Curves(
+            "Density of the largest |F|",
+            "1/N",
+            [density],
+            spans=limit,
+            over=Course("largest |F|", "N", np.repeat(edges, 2)[1:-1]),
+        ),
+    ]
+    return CurveSheet(panels, Course("force", "N", d.levels))
 
 
-FIGURE = (
-    "Left: density of the largest |F| over the range of angles. Right: probability that it is above a force; the band "
-    "is what the number of samples leaves open."
-)
+TAIL = "The band is what the number of samples leaves open (exact interval)."
 DRAWN = (
     "The people are synthetic: drawn from the distributions in the description, which are as good as what they were "
     "taken from. Intervals tell the error of drawing a finite number of them, nothing else. Samples whose limb or link "
@@ -78,21 +62,17 @@ INFLUENCE = (
 )
 
 
-def population_page(d: Drawn, drawing: bytes) -> Page:
-    """The page of a population, whose slider goes along the forces.
-
-    `drawing` is the figure (SVG).
-    """
+def population_page(d: Drawn) -> Page:
+    """The page of a population, whose slider goes along the forces."""
     shares = [100.0 * np.array([getattr(one, end) for one in d.exceedance]) for end in ("value", "lower", "upper")]
     names = ("probability of more", "lower end, 95 %", "upper end, 95 %")
     readout = [Row(name, "%", [f"{v:.4f}" for v in values]) for name, values in zip(names, shares, strict=True)]
     numbers = _numbers(d)
     sections: list[Section] = [
-        Curves("Probability of more", "%", [Curve("share of the samples", shares[0], shares[1], shares[2])]),
+        *population_curves(d).panels,
         *_shares(d),
         Readout(readout, "At this force"),
         numbers,
-        Picture("Distribution of the largest force", FIGURE, drawing, wide=True),
         page_table("Quantiles of the largest |F|", quantile_table(d)),
         page_table("Where the spread comes from", influence_table(d)),
         INPUTS,

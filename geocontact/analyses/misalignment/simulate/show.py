@@ -14,7 +14,7 @@ from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.analyses.misalignment.page import ANGLE, FRAMES, NOT_IN_THE_NUMBERS, elbow_page
 from geocontact.analyses.misalignment.simulate.trials import LoadedTrial, Surfaces
 from geocontact.data.elbow_recording import ElbowRecording
-from geocontact.view.curves.style import BLACK, DOUBLE, empty, in_style
+from geocontact.view.curves.style import BLACK, DOUBLE, SMALL, empty, in_style
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
 
 if TYPE_CHECKING:
@@ -43,12 +43,12 @@ def surface_figure(s: Surfaces) -> Figure:
         panel = figure.add_subplot(2, 2, 3 + column)
         shown = panel.pcolormesh(degrees, offset, values, shading="gouraud", **colours)
         lines = panel.contour(degrees, offset, values, levels=LEVELS, colors=BLACK, linewidths=0.5)
-        panel.clabel(lines, fontsize=6.0, fmt="%g")
+        panel.clabel(lines, fontsize=SMALL, fmt="%g")
         for axes in (space, panel):
             axes.set_ylabel(f"offset {name} [mm]")
         space.set_xlabel("β [°]")
         panel.set_xlabel(ANGLE)
-        space.set_title(f"{other} = 0, l = {s.l * 1e3:g} mm, z = {s.z * 1e3:g} mm", fontsize=7.0)
+        space.set_title(f"{other} = 0, l = {s.l * 1e3:g} mm, z = {s.z * 1e3:g} mm", fontsize=SMALL)
         maps.append(panel)
     figure.colorbar(shown, ax=maps, label="displacement d_tot [mm]")
     return figure

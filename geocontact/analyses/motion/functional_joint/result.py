@@ -25,12 +25,12 @@ from geocontact.analyses.frame.json_file import finite, plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.functional_joint.options import JointOptions
 from geocontact.analyses.motion.functional_joint.read import MovedPair, Segment, marker_list, means_of, read
-from geocontact.analyses.motion.functional_joint.show import joint_page
-from geocontact.analyses.motion.panels import curves_figure
+from geocontact.analyses.motion.functional_joint.show import joint_curves, joint_page
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.functional_joint import JointPoints, apart_in_halves, axis_points, centre_points, segment_poses
 from geocontact.io.mocap.trc import write_trc
+from geocontact.view.curves.drawn import drawn
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -88,7 +88,7 @@ class JointResult(Result):
 
     def figure(self) -> Figure:
         """Distance between what both segments say, over time."""
-        return curves_figure(self.pair.time, {"apart [mm]": self.table()[["apart [mm]"]]})
+        return drawn(joint_curves(self.pair, self.table()["apart [mm]"].to_numpy()))
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Both segments and the joint as they move, and how far it is off itself."""

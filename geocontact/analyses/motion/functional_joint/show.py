@@ -12,8 +12,10 @@ from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.analyses.motion.functional_joint.read import MovedPair, Segment
 from geocontact.analyses.motion.skeleton import JOINT, MARKER, RAY, scene_over
+from geocontact.data.motion import Course
 from geocontact.dynamics.functional_joint import JointPoints
-from geocontact.view.page.content import Curve, Curves, Linkage, Page, Scene, Section, Words
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet
+from geocontact.view.page.content import Linkage, Page, Scene, Section, Words
 
 SKIN = (
     "Segments are taken to be rigid. Skin slides over bone by centimetres at the thigh, smoothly and alike in every "
@@ -33,7 +35,7 @@ def joint_page(
     shown = thinned(len(pair.time), [apart])
     sections: list[Section] = [
         _picture(pair, points, shown),
-        Curves("Distance between the joint of one segment and of the other", "mm", [Curve("apart", apart[shown])]),
+        *joint_curves(pair, apart).at(shown),
         INPUTS,
         OPTIONS,
         Words("What the numbers do not contain", [SKIN, NOT_A_DEVICE]),
@@ -49,6 +51,12 @@ def joint_page(
         numbers=shown + 1,
         total=len(pair.time),
     )
+
+
+def joint_curves(pair: MovedPair, apart: Float[np.ndarray, " t"]) -> CurveSheet:
+    """Distance between what both segments say, over time; `apart` is in mm."""
+    panel = Curves("Distance between the joint of one segment and of the other", "mm", [Curve("apart", apart)])
+    return CurveSheet([panel], Course("time", "s", pair.time))
 
 
 def _picture(pair: MovedPair, points: JointPoints, shown: Int[np.ndarray, " k"]) -> Scene:

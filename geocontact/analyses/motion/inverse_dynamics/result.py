@@ -26,8 +26,7 @@ from geocontact.analyses.motion.gait_cycles import cycles_table
 from geocontact.analyses.motion.inverse_dynamics.forces import warn_of_residuals, words, write_setup
 from geocontact.analyses.motion.inverse_dynamics.loads import Loaded, read, warn_of_other_feet
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
-from geocontact.analyses.motion.inverse_dynamics.show import forces_page
-from geocontact.analyses.motion.panels import curves_figure
+from geocontact.analyses.motion.inverse_dynamics.show import forces_curves, forces_page
 from geocontact.data.multibody.model import PassiveForces
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.inverse_dynamics import forces_along
@@ -36,6 +35,7 @@ from geocontact.dynamics.tree import tree_of
 from geocontact.identify.signals.gait_cycles import GaitCycles, gait_cycles
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.text.tables import listed
+from geocontact.view.curves.drawn import drawn
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -93,11 +93,7 @@ class IdResult(Result):
 
     def figure(self) -> Figure:
         """Moments and forces over time, without those at the ground."""
-        table = self.table().iloc[:, 1:].loc[:, ~self.forces.at_ground]
-        return curves_figure(
-            self.forces.time,
-            {"moment [N m]": table.filter(like="_moment ["), "force [N]": table.filter(like="_force [")},
-        )
+        return drawn(forces_curves(self.forces))
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Moments and forces over time, and what is left over."""

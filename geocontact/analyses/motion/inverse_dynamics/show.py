@@ -9,13 +9,15 @@ from jaxtyping import Bool, Float, Int
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.motion.gait_cycles import cycles_pictured
+from geocontact.analyses.motion.gait_cycles import cycles_curves
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import forces_on, scene_of, skeleton
+from geocontact.data.motion import Course
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.residuals import GeneralisedForces, force_residual, moment_residual, verdict
 from geocontact.identify.signals.gait_cycles import GaitCycles
-from geocontact.view.page.content import Curve, Curves, Page, Scale, Section, Table, Words
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Scale
+from geocontact.view.page.content import Page, Section, Table, Words
 
 LEFT = (
     "The joint to the ground has no muscle: what is found along its coordinates is what motion, masses and plates do "
@@ -43,12 +45,10 @@ def forces_page(
     base = forces.at_ground
     values = np.asarray(forces.values)[shown]
     model = forces.model
-    by_mass = Scale("N m/kg", 1.0 / model.mass) if model.mass > 0.0 else None
     sections: list[Section] = [
         scene_of(model, [skeleton(model, coordinates[shown]), *forces_on(model, loads, shown)]),
-        *panels_of(model, "N m", values, turning & ~base, by_mass),
-        *panels_of(model, "N", values, ~turning & ~base),
-        *cycles_pictured(cycles),
+        *forces_curves(forces).at(shown),
+        *cycles_curves(cycles),
         *_left_over(forces, values, turning, base),
         *_residuals(forces),
         INPUTS,
@@ -67,6 +67,18 @@ def forces_page(
         numbers=shown + 1,
         total=len(forces.time),
     )
+
+
+def forces_curves(forces: GeneralisedForces) -> CurveSheet:
+    """Moments, with a second scale over the model's mass, and forces over time, without those at the ground."""
+    model, base, values = forces.model, forces.at_ground, np.asarray(forces.values)
+    turning = np.array([c.kind == "rotational" for c in model.coordinates], dtype=bool)
+    by_mass = Scale("N m/kg", 1.0 / model.mass) if model.mass > 0.0 else None
+    panels = [
+        *panels_of(model, "N m", values, turning & ~base, by_mass),
+        *panels_of(model, "N", values, ~turning & ~base),
+    ]
+    return CurveSheet(panels, Course("time", "s", forces.time))
 
 
 def answer(forces: GeneralisedForces, turning: Bool[np.ndarray, " n"]) -> list[str]:

@@ -30,10 +30,10 @@ from geocontact.analyses.motion.gait_cycles import cycles_table
 from geocontact.analyses.motion.inverse_kinematics.knees import knee_table
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.inverse_kinematics.read import KinematicsInputs, read
-from geocontact.analyses.motion.inverse_kinematics.show import kinematics_page
+from geocontact.analyses.motion.inverse_kinematics.show import kinematics_curves, kinematics_page
 from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
 from geocontact.analyses.motion.markers import exchange_question, warn_of_tilt
-from geocontact.analyses.motion.panels import curves_figure, printed
+from geocontact.analyses.motion.panels import printed
 from geocontact.data.errors import InputError
 from geocontact.dynamics.exchanged_markers import exchanged_markers
 from geocontact.dynamics.inverse_kinematics import Poses
@@ -45,6 +45,7 @@ from geocontact.io.opensim.osim_scaler import write_scaled_model
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.opensim.tool_setup_writer import write_ik_setup
 from geocontact.io.text.tables import listed
+from geocontact.view.curves.drawn import drawn
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -109,10 +110,7 @@ class IkResult(Result):
 
     def figure(self) -> Figure:
         """Angles of all joints over time, and how far the markers are from the model."""
-        angles = self.table("coordinates").filter(like="[deg]")
-        return curves_figure(
-            self.poses.time, {"angle [deg]": angles, "markers [mm]": self.table("markers").iloc[:, 1:]}
-        )
+        return drawn(kinematics_curves(self.seen.model, self.poses))
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Coordinates over time, and how far each marker is from the model."""

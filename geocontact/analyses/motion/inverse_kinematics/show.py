@@ -9,14 +9,16 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.motion.gait_cycles import cycles_pictured
+from geocontact.analyses.motion.gait_cycles import cycles_curves
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
+from geocontact.data.motion import Course
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.identify.signals.gait_cycles import GaitCycles
-from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Scene, Section, Table, Words
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet
+from geocontact.view.page.content import Page, Readout, Row, Scene, Section, Table, Words
 
 SKIN = (
     "Markers lie on skin, which slides over bone by centimetres, and the model's joints are not the subject's: the "
@@ -35,16 +37,12 @@ def kinematics_page(
 ) -> Page:
     """The page of coordinates over time."""
     shown = thinned(len(found.time), [*np.asarray(found.values).T, *found.distances.T])
-    angular = np.array([c.kind == "rotational" for c in model.coordinates])
     off = 1e3 * found.distances
-    values = np.asarray(found.values)[shown]
     sections: list[Section] = [
         _picture(model, found, seen, shown),
         Readout([Row("markers, root mean square", "mm", [_size(row) for row in off[shown]])]),
-        *panels_of(model, "deg", np.degrees(values), angular),
-        *panels_of(model, "m", values, ~angular),
-        Curves("Distance of markers", "mm", [Curve(n, d) for n, d in zip(found.markers, off[shown].T, strict=True)]),
-        *cycles_pictured(cycles),
+        *kinematics_curves(model, found).at(shown),
+        *cycles_curves(cycles),
         _markers(found),
         INPUTS,
         OPTIONS,
@@ -64,6 +62,18 @@ def kinematics_page(
         numbers=shown + 1,
         total=len(found.time),
     )
+
+
+def kinematics_curves(model: Multibody, found: Poses) -> CurveSheet:
+    """Angles and shifts of joints, and how far each marker is from the model, over time."""
+    angular = np.array([c.kind == "rotational" for c in model.coordinates])
+    values, off = np.asarray(found.values), 1e3 * found.distances
+    panels = [
+        *panels_of(model, "deg", np.degrees(values), angular),
+        *panels_of(model, "m", values, ~angular),
+        Curves("Distance of markers", "mm", [Curve(n, d) for n, d in zip(found.markers, off.T, strict=True)]),
+    ]
+    return CurveSheet(panels, Course("time", "s", found.time))
 
 
 def _picture(model: Multibody, found: Poses, seen: MarkerTrajectories, shown: Int[np.ndarray, " k"]) -> Scene:

@@ -20,9 +20,8 @@ from jaxtyping import Float
 from geocontact.analyses.frame.collector import add_input, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.motion.panels import curves_figure
 from geocontact.analyses.motion.virtual_markers.options import MarkersOptions
-from geocontact.analyses.motion.virtual_markers.show import markers_page
+from geocontact.analyses.motion.virtual_markers.show import markers_curves, markers_page
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
@@ -30,6 +29,7 @@ from geocontact.io.mocap.trc import write_trc
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import TextTable, read_table
+from geocontact.view.curves.drawn import drawn
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -63,8 +63,7 @@ class MarkersResult(Result):
 
     def figure(self) -> Figure:
         """Every axis over time."""
-        table = self.table()
-        return curves_figure(self.markers.time, {f"{axis} [m]": table.filter(like=f"_{axis} [") for axis in "xyz"})
+        return drawn(markers_curves(self.markers))
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The model as it moves, with its markers."""

@@ -8,9 +8,11 @@ from jaxtyping import Float, Int
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
 from geocontact.analyses.motion.skeleton import JOINT, MARKER, scene_of, skeleton
+from geocontact.data.motion import Course
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
-from geocontact.view.page.content import Curve, Curves, Linkage, Page, Scene, Section, Words
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet
+from geocontact.view.page.content import Linkage, Page, Scene, Section, Words
 
 MODELLED = "Markers sit on rigid segments: they do not slide as those on skin do, and hold no noise of cameras."
 
@@ -24,13 +26,9 @@ def markers_page(
     """The page along coordinates [rad, m]."""
     shown = thinned(len(markers.time), list(markers.positions.reshape(len(markers.time), -1).T))
     places = markers.positions[shown]
-    panels = [
-        Curves(f"{axis} of the markers", "m", [Curve(n, places[:, k, i]) for k, n in enumerate(markers.names)])
-        for i, axis in enumerate("xyz")
-    ]
     sections: list[Section] = [
         _picture(model, values[shown], places),
-        *panels,
+        *markers_curves(markers).at(shown),
         INPUTS,
         OPTIONS,
         Words("What the numbers do not contain", [MODELLED, NOT_A_DEVICE]),
@@ -45,6 +43,17 @@ def markers_page(
         numbers=shown + 1,
         total=len(markers.time),
     )
+
+
+def markers_curves(markers: MarkerTrajectories) -> CurveSheet:
+    """Every axis of the markers over time."""
+    panels = [
+        Curves(
+            f"{axis} of the markers", "m", [Curve(n, markers.positions[:, k, i]) for k, n in enumerate(markers.names)]
+        )
+        for i, axis in enumerate("xyz")
+    ]
+    return CurveSheet(panels, Course("time", "s", markers.time))
 
 
 def answer(model: Multibody, markers: MarkerTrajectories) -> list[str]:

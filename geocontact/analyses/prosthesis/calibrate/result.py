@@ -27,7 +27,7 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.prosthesis.calibrate.foot_on_plate import FootOnPlate, along_poses, on_whole_model, read
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
-from geocontact.analyses.prosthesis.calibrate.show import calibration_page, stance_figure
+from geocontact.analyses.prosthesis.calibrate.show import calibration_page, stance_curves
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
 from geocontact.below_knee_prosthesis.calibration.fit import (
     doubts_of_fit,
@@ -43,8 +43,7 @@ from geocontact.below_knee_prosthesis.leg import FootOffset
 from geocontact.identify.signals.agreement import Agreement
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 HEAD = """\
@@ -157,14 +156,14 @@ class ProsthesisCalibrateResult(Result):
                 row |= {"along poses": before.value, "along poses verdict": before.verdict}
         return {"numbers": pd.DataFrame(rows), "stance": pd.DataFrame(columns)}
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`stance`: measured and modelled force and centre of pressure."""
-        return {"stance": stance_figure(self.stance, self.predicted)}
+        return {"stance": stance_curves(self.stance, self.predicted)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Curves, numbers, and what they mean."""
         numbers, walked = self.tables()["numbers"], self.whole is not None
-        page = calibration_page(drawings["stance"], self.stance, self.predicted, numbers, self.sentences, walked)
+        page = calibration_page(self.stance, self.curves()["stance"], numbers, self.sentences, walked)
         return {REPORT: page}
 
     def write_files(self, folder: Path) -> None:

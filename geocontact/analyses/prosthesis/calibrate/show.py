@@ -3,43 +3,44 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import pandas as pd
 from jaxtyping import Float
-from numpy import ndarray
+from numpy import argmax, ndarray
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import headline
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
-from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
-from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
+from geocontact.data.motion import Course
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet
+from geocontact.view.page.content import Page, Section, Words
 from geocontact.view.page.tables import frame_table
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-HEIGHT = 0.09
-"""Height of the drawing [m]."""
-TITLES = ("x, along the walk", "y, upwards", "z, to the right")
-
-
-@in_style
-def stance_figure(stance: RecordedStance, predicted: Float[ndarray, "t 4"]) -> Figure:
-    """Grey the plate, coloured the model."""
-    figure, axes = panels(2, 2, DOUBLE, HEIGHT)
-    for k, title in enumerate((*TITLES, "centre of pressure")):
-        factor = 1.0 if k < 3 else 100.0
-        axes[k].plot(stance.time, factor * stance.measured[:, k], color=GREY, lw=1.6, label="plate")
-        axes[k].plot(stance.time, factor * predicted[:, k], color=PALETTE[0], lw=1.0, label="model")
-        axes[k].set_title(title)
-        axes[k].set_xlabel("time [s]")
-        axes[k].set_ylabel("force [N]" if k < 3 else "from the heel [% of the foot]")
-    axes[0].legend(fontsize=6, frameon=False)
-    return figure
+QUANTITIES = (
+    (1, "Force along y, upwards", "N", 1.0),
+    (0, "Force along x, the walk", "N", 1.0),
+    (2, "Force along z, to the right", "N", 1.0),
+    (3, "Centre of pressure from the heel", "% of the foot", 100.0),
+)
+"""Column, title, unit and factor of what a plate measures and the model predicts."""
 
 
-FIGURE = "Grey the plate, coloured the foot with the numbers below."
+def stance_curves(stance: RecordedStance, predicted: Float[ndarray, "t 4"]) -> CurveSheet:
+    """Force and centre of pressure by plate and model."""
+    panels = [
+        Curves(
+            title,
+            unit,
+            [
+                Curve("plate", factor * stance.measured[:, k], stroke=INK),
+                Curve("model", factor * predicted[:, k], stroke=0),
+            ],
+        )
+        for k, title, unit, factor in QUANTITIES
+    ]
+    return CurveSheet(panels, Course("time", "s", stance.time))
+
+
 POSES = [
     "The keel is in equilibrium in every frame: its inertia is left out.",
     "The foot may slip beside its recorded speed, within its error, so that the force along the floor is the plate's.",
@@ -63,9 +64,8 @@ READ = [
 
 
 def calibration_page(
-    drawn: bytes,
     stance: RecordedStance,
-    predicted: Float[ndarray, "t 4"],
+    curves: CurveSheet,
     numbers: pd.DataFrame,
     sentences: Sequence[str],
     walked: bool,
@@ -74,25 +74,13 @@ def calibration_page(
 
     Parameters
     ----------
-    drawn
-        The figure (SVG).
+    curves
+        Those of `stance_curves`.
     walked
         Whether the numbers were found on the whole model.
     """
-    curves = [
-        Curves(title, unit, [Curve("plate", factor * stance.measured[:, k]), Curve("model", factor * predicted[:, k])])
-        for k, (title, unit, factor) in enumerate(
-            (
-                ("Force along x", "N", 1.0),
-                ("Force along y", "N", 1.0),
-                ("Force along z", "N", 1.0),
-                ("Centre of pressure from the heel", "% of the foot", 100.0),
-            )
-        )
-    ]
     sections: list[Section] = [
-        Picture("Plate and model", FIGURE, drawn),
-        *curves,
+        *curves.panels,
         frame_table("Numbers of the zones", numbers, 3),
         INPUTS,
         OPTIONS,
@@ -104,6 +92,7 @@ def calibration_page(
         time=stance.time,
         time_label="time [s]",
         headline=headline(sentences),
+        start_frame=int(argmax(stance.measured[:, 1])),
         sections=tuple(sections),
         plays=False,
     )

@@ -31,7 +31,7 @@ from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.workers import each
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
-from geocontact.analyses.prosthesis.compare.show import comparison_page, ensemble_figure
+from geocontact.analyses.prosthesis.compare.show import comparison_curves, comparison_page
 from geocontact.analyses.prosthesis.compare.stances import (
     ALL,
     StudiedStance,
@@ -59,8 +59,7 @@ from geocontact.data.errors import InputError
 from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 TRIALS = "trials"
@@ -94,13 +93,13 @@ class ProsthesisCompareResult(Result):
             "ensembles": ensembles_table(self.stances),
         }
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`ensembles`: means and bands over the stances of each setting."""
-        return {"ensembles": ensemble_figure(self.stances)}
+        return {"ensembles": comparison_curves(self.stances)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Ensembles, errors beside trivial predictors, outliers."""
-        return {REPORT: comparison_page(drawings["ensembles"], self.stances, self.tables(), self.sentences)}
+        return {REPORT: comparison_page(self.stances, self.tables(), self.sentences)}
 
     def write_files(self, folder: Path) -> None:
         """Coordinates, loads, spheres and numbers of each stance besides, as `prosthesis simulate` writes them."""

@@ -21,7 +21,7 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
-from geocontact.analyses.prosthesis.design.show import design_figure, design_page, stance_share
+from geocontact.analyses.prosthesis.design.show import design_curves, design_page, stance_share
 from geocontact.analyses.prosthesis.design.sweep import (
     OF_ONE_STEP,
     SHOWN,
@@ -53,8 +53,7 @@ from geocontact.below_knee_prosthesis.foot_numbers import leg_numbers, numbers_w
 from geocontact.data.parameter import Number
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 
@@ -112,13 +111,13 @@ class ProsthesisDesignResult(Result):
             tables["together"] = together_table(self.together, vary)
         return tables
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`design`: outcomes with bands, roll-over shapes."""
-        return {"design": design_figure(self.sweep, self.answers, self.ends, self.shapes)}
+        return {"design": design_curves(self.sweep, self.answers, self.ends, self.shapes)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Outcomes, answers, what they hang on, numbers."""
-        return {REPORT: design_page(drawings["design"], self.sweep, self.tables(), self.sentences)}
+        return {REPORT: design_page(self.curves()["design"], self.sweep, self.tables(), self.sentences)}
 
     def _shapes(self) -> pd.DataFrame:
         vary = self.ends.vary

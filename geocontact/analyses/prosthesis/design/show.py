@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
@@ -16,58 +15,51 @@ from geocontact.below_knee_prosthesis.design.foot_task import words
 from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES, Knob, Response
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, shank_path
 from geocontact.below_knee_prosthesis.design.sweep import AimAnswer, Sweep
-from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, panels
-from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
+from geocontact.data.motion import Course
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Points, Span, stroke
+from geocontact.view.page.content import Page, Section, Words
 from geocontact.view.page.tables import frame_table
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-HEIGHT = 0.1
-"""Height of the drawing [m]."""
-HUES = (PALETTE[0], PALETTE[1], PALETTE[3])
-"""Blue, orange and pink, of the responses."""
+STROKES = (stroke(0), stroke(1, 1), stroke(3, 3))
+"""Blue, orange and pink, of the responses; green is left to what is best."""
+SHAPE = "Roll-over shape in the shank, above the ankle"
 
 
-@in_style
-def design_figure(
+def design_curves(
     sweep: Sweep,
     answers: Sequence[AimAnswer],
     ends: Knob,
     shapes: Mapping[Response, tuple[CarriedLoad, ...]],
-) -> Figure:
-    """One colour for each response of the person; grey the present value, green the interval of the best."""
-    figure, axes = panels(2, 3, DOUBLE, HEIGHT)
-    factor, bands = SHOWN[sweep.knob.vary][0], sweep.bands
+) -> CurveSheet:
+    """Outcomes over what is varied with bands, the present value, the interval of the best; roll-over shapes."""
+    vary, factor, bands = sweep.knob.vary, SHOWN[sweep.knob.vary][0], sweep.bands
+    present = Span("present value", factor * sweep.knob.present, factor * sweep.knob.present)
+    panels = []
     for k, answer in enumerate(answers):
-        panel, measure = axes[k], MEASURES[AIMS[k]]
-        for j, response in enumerate(RESPONSES):
-            median, lower, upper = bands[:, j, :, k]
-            panel.plot(shown_values(sweep), median, color=HUES[j], ls=LINES[j], label=response)
-            panel.fill_between(shown_values(sweep), lower, upper, color=HUES[j], alpha=0.2, lw=0)
-        panel.axvline(factor * sweep.knob.present, color=GREY, lw=0.7)
-        if answer.choice.told:
-            panel.axvspan(factor * answer.choice.lower, factor * answer.choice.upper, color=PALETTE[2], alpha=0.2, lw=0)
-        panel.set_title(measure.words.partition(",")[0], fontsize=7)
-        panel.set_ylabel(measure.unit)
-        panel.set_xlabel(f"{sweep.knob.vary} [{UNITS[sweep.knob.vary]}]")
-    axes[0].legend(fontsize=6, frameon=False)
-    _shapes(axes[-1], ends, shapes["angles kept"])
-    return figure
+        curves = [
+            Curve(response, bands[0, j, :, k], bands[1, j, :, k], bands[2, j, :, k], STROKES[j])
+            for j, response in enumerate(RESPONSES)
+        ]
+        best = answer.choice
+        spans = [Span("interval of the best", factor * best.lower, factor * best.upper)] if best.told else []
+        measure = MEASURES[AIMS[k]]
+        title = f"{measure.words[:1].upper()}{measure.words[1:]}"
+        panels.append(Curves(title, measure.unit, curves, spans=[*spans, present], words="" if k else FIGURE))
+    return CurveSheet([*panels, _shapes(ends, shapes["angles kept"])], Course(vary, UNITS[vary], shown_values(sweep)))
 
 
-def _shapes(panel: Axes, ends: Knob, carried: Sequence[CarriedLoad]) -> None:
+def _shapes(ends: Knob, carried: Sequence[CarriedLoad]) -> Curves:
     factor, unit = SHOWN[ends.vary]
-    for k, (value, found) in enumerate(zip(ends.settings, carried, strict=True)):
-        x, y = 1e3 * shank_path(found).T
-        label = f"{factor * value:.{DIGITS[ends.vary]}f} {unit}".strip()
-        panel.plot(x, y, color=PALETTE[k], ls=LINES[k], label=label)
-    panel.set_aspect("equal", adjustable="datalim")
-    panel.set_title("roll-over shape in the shank", fontsize=7)
-    panel.set_xlabel("forward of the ankle [mm]")
-    panel.set_ylabel("above it [mm]")
-    panel.legend(fontsize=6, frameon=False)
+    paths = [1e3 * shank_path(found) for found in carried]
+    lines = [
+        Points(
+            f"{factor * value:.{DIGITS[ends.vary]}f} {unit}".strip(), path[:, 0], path[:, 1], stroke(4, k), joined=True
+        )
+        for k, (value, path) in enumerate(zip(ends.settings, paths, strict=True))
+    ]
+    x = np.concatenate([path[:, 0] for path in paths])
+    reach = np.array([np.nanmin(x), np.nanmax(x)])
+    return Curves(SHAPE, "mm", [], points=lines, over=Course("forward of the ankle", "mm", reach))
 
 
 def stance_share(found: CarriedLoad) -> np.ndarray:
@@ -76,10 +68,7 @@ def stance_share(found: CarriedLoad) -> np.ndarray:
     return np.asarray((time - time[0]) / (time[-1] - time[0]))
 
 
-FIGURE = (
-    "Blue with the person's angles kept, orange with the ankle's torque kept, pink with the torques of hip and knee; "
-    "bands over the draws. A grey line is the present value, green the interval of the best one."
-)
+FIGURE = "Medians and bands over the draws, by what the person keeps."
 PAIRS = "The foot turned on the socket as well: what the best pair gains over the best value alone"
 INTACT = "What a step of the intact foot has, which is aimed at"
 LIMITS = [
@@ -105,25 +94,15 @@ LIMITS = [
 ]
 
 
-def design_page(drawn: bytes, sweep: Sweep, tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]) -> Page:
-    """Outcomes, answers, what they hang on, numbers; `drawn` is the figure (SVG)."""
-    bands = sweep.bands
-    curves = [
-        Curves(
-            f"{MEASURES[aim].words[:1].upper()}{MEASURES[aim].words[1:]}",
-            MEASURES[aim].unit,
-            [Curve(response, *bands[:, j, :, k]) for j, response in enumerate(RESPONSES)],
-        )
-        for k, aim in enumerate(AIMS)
-    ]
+def design_page(curves: CurveSheet, sweep: Sweep, tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]) -> Page:
+    """Outcomes, answers, what they hang on, numbers; `curves` are those of `design_curves`."""
     sections: list[Section] = [
-        Picture("Outcomes and roll-over shapes", FIGURE, drawn, wide=True),
+        *curves.panels,
         frame_table("What is best, and whether that can be told", tables["answers"], 3),
         *(frame_table(INTACT, tables["intact"], 3) for _ in range("intact" in tables)),
         *(frame_table(PAIRS, tables["pairs"], 3) for _ in range("pairs" in tables)),
         frame_table("Between which ends each outcome lies, whatever the person keeps", tables["ranges"], 3),
         frame_table("On what the outcomes of the present foot hang", tables["sensitivities"], 3),
-        *curves,
         frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
         INPUTS,
         OPTIONS,

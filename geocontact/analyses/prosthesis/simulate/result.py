@@ -26,10 +26,15 @@ from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.motion.panels import curves_figure
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
-from geocontact.analyses.prosthesis.simulate.show import stance_page
-from geocontact.analyses.prosthesis.simulate.walk import RecordedWalk, bushing_of, read, simulated, walk_of
+from geocontact.analyses.prosthesis.simulate.show import stance_curves, stance_page
+from geocontact.analyses.prosthesis.simulate.walk import (
+    RecordedWalk,
+    bushing_of,
+    read,
+    simulated,
+    walk_of,
+)
 from geocontact.analyses.prosthesis.stance_files import (
     counted_twice,
     numbers_table,
@@ -39,11 +44,11 @@ from geocontact.analyses.prosthesis.stance_files import (
     write_plane,
     write_spheres,
 )
-from geocontact.below_knee_prosthesis.evaluation import StanceErrors, at_times, stance_errors
+from geocontact.below_knee_prosthesis.evaluation import StanceErrors, stance_errors
 from geocontact.below_knee_prosthesis.foot_numbers import all_numbers
 from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.leg import Side
-from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, SOCKET
+from geocontact.below_knee_prosthesis.leg_tree import SOCKET
 from geocontact.below_knee_prosthesis.recorded_walk import Walk
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.below_knee_prosthesis.stance_model import FLOOR
@@ -52,8 +57,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.parameter import Number
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 UNITS = {"impulse": "s"}
@@ -125,17 +129,9 @@ class ProsthesisSimulateResult(Result):
             told |= {"errors": errors_table(self.errors), "curves": curves_table(self.errors)}
         return told
 
-    def figures(self) -> dict[str, Figure]:
-        """`stance`: ground reaction and centre of pressure over time, beside the plate's."""
-        s, plate = self.stance, self.walk.plate
-        weight = s.motion.leg.person.mass * GRAVITY
-        force = {"vertical": s.force[:, 1] / weight, "fore and aft": s.force[:, 0] / weight}
-        if plate is not None:
-            seen = at_times(s.time, plate.time, plate.force) / weight
-            force |= {"vertical, plate": seen[:, 1], "fore and aft, plate": seen[:, 0]}
-        along = {name: 1e2 * s.along_foot(name) for name in ("ground", "sphere")}
-        panels = {"force [BW]": pd.DataFrame(force), "centre of pressure [% of the foot]": pd.DataFrame(along)}
-        return {"stance": curves_figure(s.time, panels)}
+    def curves(self) -> dict[str, CurveSheet]:
+        """`stance`: ground reaction and centre of pressure over time, beside the plate's, and what moves in the leg."""
+        return {"stance": stance_curves(self.stance, self.walk.plate)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The moving foot with its forces and the path of the centre of pressure, curves, tables."""

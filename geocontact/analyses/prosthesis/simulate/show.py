@@ -15,8 +15,10 @@ from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times
 from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Stance
+from geocontact.data.motion import Course
 from geocontact.loads.ground import Stairs
-from geocontact.view.page.content import Curve, Curves, Page, Section, Words
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet
+from geocontact.view.page.content import Page, Section, Words
 from geocontact.view.page.scene import Linkage, Scene
 from geocontact.view.page.tables import frame_table
 
@@ -63,9 +65,10 @@ def stance_page(
 ) -> Page:
     """The moving foot with its forces and the path of the centre of pressure, curves, tables."""
     shown = thinned(len(s.time), [s.force[:, 1], s.ankle_moment], most=FRAMES)
+    curves = stance_curves(s, plate)
     sections: list[Section] = [
         Scene(directions=DIRECTIONS, up=(0.0, 1.0, 0.0), view=(0.3, 0.2, 1.0), linkages=_lines(s, o, shown)),
-        *_curves(s, plate, shown),
+        *curves.at(shown),
         *([frame_table("Beside the force plate", tables["errors"])] if "errors" in tables else []),
         frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
         INPUTS,
@@ -156,19 +159,21 @@ def _chain(points: int) -> Int[np.ndarray, "k 2"]:
     return np.array([(i, i + 1) for i in range(points - 1)], np.int64)
 
 
-def _curves(s: Stance, plate: PlateStance | None, shown: Int[np.ndarray, " k"]) -> list[Curves]:
-    def panel(title: str, unit: str, curves: Sequence[tuple[str, Float[np.ndarray, " t"]]]) -> Curves:
-        return Curves(title, unit, [Curve(name, values[shown]) for name, values in curves])
-
+def stance_curves(s: Stance, plate: PlateStance | None) -> CurveSheet:
+    """Forces beside the plate's, centre of pressure, ankle, keel and socket over time."""
     weight = s.motion.leg.person.mass * GRAVITY
-    seen = None if plate is None else at_times(s.time, plate.time, plate.force) / weight
-    found = []
+    panels = []
     for title, axis in (("Vertical force", 1), ("Fore-aft force, forward positive", 0)):
-        curves = [("simulated", s.force[:, axis] / weight)]
-        found.append(panel(title, "BW", curves if seen is None else [*curves, ("plate", seen[:, axis])]))
-    along = [(f"{name} point", 1e2 * s.along_foot(name)) for name in ("ground", "sphere")]
-    found.append(panel("Centre of pressure from heel to toe", "% of the foot", along))
-    found.append(panel("Ankle moment", "N m", [("against dorsiflexion", s.ankle_moment)]))
-    found.append(panel("Energy of the keel", "J", [("stored", s.stored), ("lost", s.lost)]))
-    found.append(panel("Pistoning of the socket", "mm", [("along the residual limb", 1e3 * s.pistoning)]))
-    return found
+        curves = [Curve("simulated", s.force[:, axis] / weight, stroke=0)]
+        if plate is not None:
+            seen = at_times(s.time, plate.time, plate.force)[:, axis] / weight
+            curves.append(Curve("plate", seen, stroke=INK))
+        panels.append(Curves(title, "BW", curves))
+    along = [Curve(f"{name} point", 1e2 * s.along_foot(name)) for name in ("ground", "sphere")]
+    panels += [
+        Curves("Centre of pressure from heel to toe", "% of the foot", along),
+        Curves("Ankle moment", "N m", [Curve("against dorsiflexion", s.ankle_moment)]),
+        Curves("Energy of the keel", "J", [Curve("stored", s.stored), Curve("lost", s.lost)]),
+        Curves("Pistoning of the socket", "mm", [Curve("along the residual limb", 1e3 * s.pistoning)]),
+    ]
+    return CurveSheet(panels, Course("time", "s", s.time))

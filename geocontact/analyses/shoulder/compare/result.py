@@ -18,7 +18,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
@@ -29,11 +28,11 @@ from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.motion.panels import curves_figure
 from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
 from geocontact.analyses.shoulder.recordings import recorded_channels, shown_in
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
 from geocontact.data.errors import InputError
+from geocontact.data.motion import Course
 from geocontact.io.text.side_table import read_side_table
 from geocontact.shoulder_exoskeleton.beside_recording import (
     ALL,
@@ -45,11 +44,9 @@ from geocontact.shoulder_exoskeleton.beside_recording import (
     beside_recording,
 )
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
-from geocontact.view.page.content import Curve, Curves, Page, Words
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet
+from geocontact.view.page.content import Page, Words
 from geocontact.view.page.tables import frame_table
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIMULATED = {ELEVATION: "elevation [rad]", FORCE: "supporting [N]"}
 """Columns of the simulated arm that the recorded channels are compared with."""
@@ -136,26 +133,23 @@ def comparison_table(channels: Sequence[ComparedChannel]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def channel_figure(channels: Sequence[ComparedChannel]) -> Figure:
+def channel_curves(channels: Sequence[ComparedChannel]) -> CurveSheet:
     """Each channel, recorded and simulated."""
-    panels = {}
+    panels = []
     for one in channels:
         unit, factor = shown_in(one.channel)
-        both = {"recorded": factor * one.measured, "simulated": factor * one.model}
-        panels[f"{one.channel} [{unit.replace('deg', '°')}]"] = pd.DataFrame(both)
-    return curves_figure(channels[0].time, panels)
+        curves = [
+            Curve("recorded", factor * one.measured, stroke=INK),
+            Curve("simulated", factor * one.model, stroke=0),
+        ]
+        panels.append(Curves(one.channel.capitalize(), unit, curves))
+    return CurveSheet(panels, Course("time", "s", channels[0].time))
 
 
 def comparison_page(recorded: str, channels: Sequence[ComparedChannel], sentences: Sequence[str]) -> Page:
     """Both curves of each channel, and errors by phase; `recorded` is the name of the recording."""
     time = channels[0].time
     shown = thinned(len(time), [values for one in channels for values in (one.measured, one.model)])
-    panels = []
-    for one in channels:
-        unit, factor = shown_in(one.channel)
-        both = (("recorded", one.measured), ("simulated", one.model))
-        curves = [Curve(name, factor * values[shown]) for name, values in both]
-        panels.append(Curves(one.channel.capitalize(), unit, curves))
     return Page(
         title=f"Simulated arm beside {recorded}",
         subtitle="Shoulder exoskeleton: elevation of its arm, force in its cuff",
@@ -163,7 +157,7 @@ def comparison_page(recorded: str, channels: Sequence[ComparedChannel], sentence
         time_label="time [s]",
         headline=headline(sentences, most=2),
         sections=(
-            *panels,
+            *channel_curves(channels).at(shown),
             frame_table("Errors by channel and phase", comparison_table(channels)),
             INPUTS,
             OPTIONS,
@@ -185,9 +179,9 @@ class ShoulderCompareResult(Result):
         """`comparison`: one row per channel and phase."""
         return {"comparison": comparison_table(self.channels)}
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`comparison`: each channel, recorded and simulated."""
-        return {"comparison": channel_figure(self.channels)}
+        return {"comparison": channel_curves(self.channels)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Both curves of each channel, and errors by phase."""

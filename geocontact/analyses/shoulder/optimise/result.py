@@ -33,7 +33,7 @@ from geocontact.analyses.shoulder.optimise.profiles import (
     sound,
 )
 from geocontact.analyses.shoulder.optimise.show import (
-    profile_figure,
+    profile_curves,
     profile_page,
     say_held_out,
     say_profiles,
@@ -54,8 +54,7 @@ from geocontact.shoulder_exoskeleton.support.outcome import SupportOutcome
 from geocontact.shoulder_exoskeleton.support.profile_limits import SupportCase
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 
@@ -125,13 +124,13 @@ class ShoulderOptimiseResult(Result):
             ),
         }
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`profile`: torque that the shoulder needs and torque of the support, as the paper's fig. 14."""
-        return {"profile": profile_figure(self.corrected, self.elevations, self.profiles[0].factors)}
+        return {"profile": profile_curves(self.corrected, self.elevations, self.profiles[0].factors)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Torques, factors, what they do, held-out persons, fronts."""
-        return {REPORT: profile_page(drawings["profile"], self.tables(), self.sentences)}
+        return {REPORT: profile_page(self.curves()["profile"], self.tables(), self.sentences)}
 
     def _rows(self, outcomes: Mapping[str, Mapping[str, SupportOutcome]]) -> pd.DataFrame:
         rows = []

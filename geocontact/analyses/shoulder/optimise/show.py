@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
@@ -13,6 +12,7 @@ from geocontact.analyses.frame.collector import reserve, say
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
+from geocontact.data.motion import Course
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial
 from geocontact.shoulder_exoskeleton.support.best_profile import Aim, measured
 from geocontact.shoulder_exoskeleton.support.closed_loop_profile import SLACK, ClosedLoop, SettledProfile
@@ -21,59 +21,57 @@ from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome
 from geocontact.shoulder_exoskeleton.support.phase_machine import SCREW
 from geocontact.shoulder_exoskeleton.support.profile_limits import Limits, SupportCase
-from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
-from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Span, stroke
+from geocontact.view.page.content import Page, Section, Words
 from geocontact.view.page.tables import frame_table
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-FIGURE = (
-    "Dashed the torque that the shoulder needs without support, solid the support torque, dotted the elevation of the "
-    "arm; the grey span is the phase screw-in as the controller detects it."
-)
 MODEL = (
     "Profiles are chosen by linear programs that are corrected by the simulation of every arm until both agree. The "
     "person moves as without the device."
 )
-HEIGHT = 0.045
-"""Height of a row of panels [m]."""
-COLOURS = {"dominant": PALETTE[0], "other": PALETTE[1]}
+MOST = 4
+"""Tasks and hands whose factors are on the first screen."""
+HANDS = {"dominant": 0, "other": 1}
+"""Colours of both hands."""
 
 
-@in_style
-def profile_figure(
+def profile_curves(
     cases: Sequence[SupportCase], elevations: Mapping[str, Float[np.ndarray, " t"]], factors: Factors
-) -> Figure:
-    """Dashed what is needed [N m], solid the support, dotted the elevation [°]; grey while the tool runs."""
-    tasks = list(dict.fromkeys(case.task for case in cases))
-    persons = list(dict.fromkeys(case.person for case in cases))
-    figure, axes = panels(len(persons), len(tasks), DOUBLE, HEIGHT * len(persons))
-    for k, (person, task) in enumerate((person, task) for person in persons for task in tasks):
-        own = [case for case in cases if (case.person, case.task) == (person, task)]
-        panel = axes[k]
-        angle = panel.twinx()
+) -> CurveSheet:
+    """Torque that the shoulder needs (dashed) and support (a line) of both hands, then elevations, a panel per task
+    and person; shaded while the controller takes the tool for running.
+    """
+    by_task: dict[str, list[SupportCase]] = {}
+    for case in cases:
+        by_task.setdefault(f"{case.person}, {case.task}", []).append(case)
+    torques, angles = [], []
+    for name, own in by_task.items():
+        time = own[0].time
+        running = time[own[0].phase == SCREW]
+        spans = [Span("screw-in, as detected", float(running[0]), float(running[-1]))] if len(running) else []
+        needed, raised = [], []
         for case in own[:2]:
-            colour = COLOURS[case.hand]
-            panel.plot(case.time, case.needed, color=colour, ls="--", lw=0.9, label=f"needed, {case.hand}")
-            panel.plot(case.time, case.support(factors), color=colour, lw=1.3, label=f"support, {case.hand}")
-            angle.plot(case.time, np.degrees(elevations[case.name]), color=colour, ls=":", lw=0.8)
-            running = case.time[case.phase == SCREW]
-            if len(running):
-                panel.axvspan(running[0], running[-1], color=GREY, alpha=0.08, lw=0)
-        panel.set_title(f"{person}, {task}")
-        panel.set_ylabel("torque [N m]")
-        angle.set_ylabel("elevation [°]")
-        panel.set_xlabel("time [s]")
-        if k == 0:
-            panel.legend(loc="upper left", fontsize=6, frameon=False)
-    return figure
+            hue, hand = HANDS[case.hand], f"{case.hand} hand"
+            shown = {"needed": case.needed, "support": case.support(factors)}
+            for k, (what, values) in enumerate(shown.items()):
+                needed.append(Curve(f"{what}, {hand}", np.interp(time, case.time, values), stroke=stroke(hue, 1 - k)))
+            raised.append(
+                Curve(
+                    f"elevation, {hand}",
+                    np.interp(time, case.time, np.degrees(elevations[case.name])),
+                    stroke=stroke(hue, 2),
+                )
+            )
+        over = Course("time", "s", time)
+        torques.append(Curves(f"Torque of the shoulder and support: {name}", "N m", needed, spans=spans, over=over))
+        angles.append(Curves(f"Elevation of the arm: {name}", "deg", raised, spans=spans, over=over))
+    return CurveSheet([*torques, *angles], columns=3)
 
 
-def profile_page(figure: bytes, tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]) -> Page:
+def profile_page(drawn: CurveSheet, tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]) -> Page:
     """The page of support profiles.
 
-    `figure` is the drawing (SVG), `tables` those of the result.
+    `drawn` are those of `profile_curves`, `tables` those of the result.
     """
     front = tables["front"]
     limits, reserves, taken = (front[name].to_numpy(float) for name in front.columns)
@@ -82,7 +80,7 @@ def profile_page(figure: bytes, tables: Mapping[str, pd.DataFrame], sentences: S
     ]
     held = tables["held_out"]
     sections: list[Section] = [
-        Picture("Torque needed and support", FIGURE, figure),
+        *drawn.panels,
         frame_table("Factors of support", tables["factors"], 2),
         *(
             [frame_table("Factors in proportion to the weight of the arm", tables["scales"], 2)]
@@ -103,9 +101,20 @@ def profile_page(figure: bytes, tables: Mapping[str, pd.DataFrame], sentences: S
         time=np.unique(limits),
         time_label="force limit [N]",
         headline=headline(sentences),
+        facts=_facts(tables["factors"]),
         sections=tuple(sections),
         plays=False,
     )
+
+
+def _facts(factors: pd.DataFrame) -> list[tuple[str, str]]:
+    """Factors of the first profile, task by task and hand by hand."""
+    own = factors[factors["profile"] == factors["profile"].iloc[0]]
+    phases = list(own.columns[3:])
+    return [
+        (f"{row['task']}, {row['hand']} hand: {', '.join(phases)}", ", ".join(f"{row[phase]:.2f}" for phase in phases))
+        for row in own.to_dict("records")[:MOST]
+    ]
 
 
 def say_profiles(made: MadeProfiles, loop: ClosedLoop, trials: Sequence[ArmTrial]) -> dict[str, float]:

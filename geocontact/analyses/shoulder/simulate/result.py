@@ -36,7 +36,7 @@ from geocontact.analyses.shoulder.simulate.arms import (
 )
 from geocontact.analyses.shoulder.simulate.exports import write_angles, write_external_loads, write_lines, write_plane
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
-from geocontact.analyses.shoulder.simulate.show import arm_figure, simulation_page
+from geocontact.analyses.shoulder.simulate.show import arm_curves, simulation_page
 from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
@@ -44,8 +44,7 @@ from geocontact.shoulder_exoskeleton.sensitivity import Influence, influences
 from geocontact.shoulder_exoskeleton.working_arm import SimulatedArm
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 
@@ -82,9 +81,9 @@ class ShoulderSimulateResult(Result):
             told["sensitivity"] = pd.concat(parts, ignore_index=True)
         return told
 
-    def figures(self) -> dict[str, Figure]:
-        """`shoulder`: elevations, supporting force and shear of both arms over time."""
-        return {"shoulder": arm_figure(self.arms)}
+    def curves(self) -> dict[str, CurveSheet]:
+        """`shoulder`: elevations, forces, support and passive joints of the arms over time."""
+        return {"shoulder": arm_curves(self.arms)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Moving arms with the forces in their cuffs, curves, tables."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
@@ -11,17 +10,15 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.motion.panels import curves_figure
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
+from geocontact.data.motion import Course
 from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 from geocontact.shoulder_exoskeleton.working_arm import SimulatedArm
-from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Words
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet, stroke
+from geocontact.view.page.content import Page, Readout, Row, Section, Words
 from geocontact.view.page.scene import Linkage, Scene, Tone
 from geocontact.view.page.tables import frame_table
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 METRES_PER_NEWTON = 5e-3
 """A force of 100 N is drawn 0.5 m long."""
@@ -50,19 +47,6 @@ FRAME = (
 )
 
 
-def arm_figure(arms: Sequence[SimulatedArm]) -> Figure:
-    """Elevations, supporting force and shear of the arms over time."""
-    elevation, force = {}, {}
-    for each in arms:
-        s, side = each.simulation, each.side
-        elevation[f"shoulder, {side}"] = np.degrees(s.motion.elevation)
-        elevation[f"exoskeleton, {side}"] = np.degrees(s.elevation)
-        force[f"supporting, {side}"] = s.supporting
-        force[f"shear, {side}"] = s.shear
-    panels = {"elevation [deg]": pd.DataFrame(elevation), "interface force [N]": pd.DataFrame(force)}
-    return curves_figure(arms[0].simulation.motion.time, panels)
-
-
 def simulation_page(
     o: ShoulderSimulateOptions,
     arms: Sequence[SimulatedArm],
@@ -84,7 +68,7 @@ def simulation_page(
     changed = [tables[name] for name in ("sensitivity",) if name in tables]
     sections: list[Section] = [
         Scene(directions=DIRECTIONS, up=(0.0, 0.0, 1.0), view=(-0.8, 1.0, 0.5), linkages=_lines(arms, markers, shown)),
-        *_curves(arms, shown),
+        *arm_curves(arms).at(shown),
         Readout([row for each in arms for row in _phases(each, shown)]),
         *(frame_table("What each number of the device changes, root mean square", table) for table in changed),
         frame_table("Numbers of the device, and where they are from", tables["numbers"]),
@@ -137,40 +121,40 @@ def _chains(count: int, points: int) -> Int[np.ndarray, "k 2"]:
     return np.array([(i, i + 1) for c in range(count) for i in range(c * points, c * points + points - 1)], np.int64)
 
 
-def _curves(arms: Sequence[SimulatedArm], shown: Int[np.ndarray, " k"]) -> list[Curves]:
-    def panel(title: str, unit: str, curves: Sequence[tuple[str, Float[np.ndarray, " t"]]]) -> Curves:
-        return Curves(title, unit, [Curve(name, values[shown]) for name, values in curves])
+def arm_curves(arms: Sequence[SimulatedArm]) -> CurveSheet:
+    """Elevations, force and shear on the arms, support and passive joints over time; blue the first arm, orange the
+    second, dashed what belongs to the exoskeleton.
+    """
 
-    found = [
-        panel(
-            "Elevation",
-            "deg",
-            [
-                pair
-                for each in arms
-                for pair in (
-                    (f"shoulder, {each.side}", np.degrees(each.simulation.motion.elevation)),
-                    (f"exoskeleton, {each.side}", np.degrees(each.simulation.elevation)),
-                )
-            ],
+    def panel(title: str, unit: str, curves: Sequence[tuple[str, Float[np.ndarray, " t"], int]]) -> Curves:
+        return Curves(title, unit, [Curve(name, values, stroke=own) for name, values, own in curves])
+
+    each = [(one.side, one.simulation, stroke(k), stroke(k, 1)) for k, one in enumerate(arms)]
+    elevation = [
+        pair
+        for side, s, own, device in each
+        for pair in (
+            (f"shoulder, {side}", np.degrees(s.motion.elevation), own),
+            (f"exoskeleton, {side}", np.degrees(s.elevation), device),
         )
     ]
-    found += [
-        panel("Interface force that lifts the arm", "N", [(e.side, e.simulation.supporting) for e in arms]),
-        panel("Shear on the arm", "N", [(e.side, e.simulation.shear) for e in arms]),
-        panel("Slip along the cuff's wall", "mm", [(e.side, 1e3 * e.simulation.slip) for e in arms]),
-        panel("Support torque", "N m", [(e.side, e.simulation.told["support"][:, 0]) for e in arms]),
+    found = [
+        panel("Elevation", "deg", elevation),
+        panel("Interface force that lifts the arm", "N", [(side, s.supporting, own) for side, s, own, _ in each]),
+        panel("Shear on the arm", "N", [(side, s.shear, own) for side, s, own, _ in each]),
+        panel("Slip along the cuff's wall", "mm", [(side, 1e3 * s.slip, own) for side, s, own, _ in each]),
+        panel("Support torque", "N m", [(side, s.told["support"][:, 0], own) for side, s, own, _ in each]),
     ]
-    led = [(each.side, each.factor) for each in arms if each.factor is not None]
+    led = [(one.side, one.factor, stroke(k)) for k, one in enumerate(arms) if one.factor is not None]
     if led:
         found.append(panel("Factor of the support", "-", led))
     passive = [
-        (f"{joint}, {each.side}", np.degrees(each.simulation.angles[:, k]))
-        for each in arms
+        (f"{joint}, {side}", np.degrees(s.angles[:, k]), (own, device)[k])
+        for side, s, own, device in each
         for k, joint in enumerate(JOINTS[:2])
     ]
     found.append(panel("Passive joints", "deg", passive))
-    return found
+    return CurveSheet(found, Course("time", "s", arms[0].simulation.motion.time))
 
 
 def _phases(each: SimulatedArm, shown: Int[np.ndarray, " k"]) -> list[Row]:

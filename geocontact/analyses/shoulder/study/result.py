@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
@@ -40,56 +39,44 @@ from geocontact.analyses.shoulder.study.cases import (
     summary_table,
 )
 from geocontact.analyses.shoulder.study.options import StudyOptions
+from geocontact.data.motion import Course
 from geocontact.shoulder_exoskeleton.beside_recording import ELEVATION, FORCE
 from geocontact.shoulder_exoskeleton.device import Device
 from geocontact.shoulder_exoskeleton.working_arm import SimulatedArm
-from geocontact.view.curves.sheet import sheet
-from geocontact.view.curves.style import PALETTE, in_style
-from geocontact.view.page.content import Page, Picture, Words
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, stroke
+from geocontact.view.page.content import Page, Words
 from geocontact.view.page.tables import frame_table
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-WIDE, HIGH = 3.2, 1.35
-"""Size of a panel [inch]."""
 MOST = 24
 """Arms that are drawn."""
-CAPTION = "Elevation of the exoskeleton's arm and force that lifts the human one: recorded, and simulated twice."
 PASSIVE = (
     "What turns the passive joints is the sphere's push sideways; about the third direction only friction, stops and "
     "joint damping hold them, so their angles hang on numbers that are invented."
 )
-LABELS = {ELEVATION: "elevation [°]", FORCE: "force [N]"}
+SHOWN = {ELEVATION: ("elevation of the exoskeleton's arm", "deg"), FORCE: ("force that lifts the arm", "N")}
+"""Channels, with title and unit."""
+SAMPLES = 301
+"""Of each curve on the page."""
 
 
-@in_style
-def study_figure(cases: Sequence[StudyCase]) -> Figure:
-    """A row for each arm in its trial, the first 24: what was recorded, and what was simulated along both motions."""
-    shown = cases[:MOST]
-    figure = sheet(2 * WIDE, HIGH * len(shown) + 0.6)
-    rows = figure.subplots(len(shown), 2, sharex="row", squeeze=False)
-    for case, row in zip(shown, rows, strict=True):
-        for axes, channel in zip(row, (ELEVATION, FORCE), strict=True):
-            _panel(axes, case, channel)
-        row[0].set_title(case.name, loc="left", fontsize="small")
-    for axes in rows[-1]:
-        axes.set_xlabel("time [s]")
-    lines, names = rows[0, 0].get_legend_handles_labels()
-    figure.legend(lines, names, loc="outside upper center", ncols=3, fontsize="small")
-    return figure
+def study_curves(cases: Sequence[StudyCase]) -> CurveSheet:
+    """Both channels of each arm in its trial, the first 24: recorded, and simulated along both motions."""
+    return CurveSheet([_panel(case, channel) for case in cases[:MOST] for channel in SHOWN], columns=4)
 
 
-def _panel(axes: Axes, case: StudyCase, channel: str) -> None:
+def _panel(case: StudyCase, channel: str) -> Curves:
     factor = float(np.degrees(1.0)) if channel == ELEVATION else 1.0
+    time = case.within.simulation.motion.time
+    curves = []
     if case.recorded is not None and channel in case.recorded.curves:
-        axes.plot(case.recorded.time, factor * case.recorded.curves[channel], color="0.45", label="recorded")
-    arms = (("motion in the device", case.within), ("motion without it", case.without))
-    for (name, arm), color, line in zip(arms, PALETTE, ("-", "--"), strict=False):
+        seen = np.interp(time, case.recorded.time, case.recorded.curves[channel], np.nan, np.nan)
+        curves.append(Curve("recorded", factor * seen, stroke=INK))
+    for k, (name, arm) in enumerate((("motion in the device", case.within), ("motion without it", case.without))):
         if arm is not None:
-            axes.plot(arm.simulation.motion.time, factor * _curve(arm, channel), color=color, ls=line, label=name)
-    axes.set_ylabel(LABELS[channel], fontsize="small")
+            values = np.interp(time, arm.simulation.motion.time, _curve(arm, channel), np.nan, np.nan)
+            curves.append(Curve(name, factor * values, stroke=stroke(k, k)))
+    title, unit = SHOWN[channel]
+    return Curves(f"{case.name}: {title}", unit, curves, over=Course("time", "s", time))
 
 
 def _curve(arm: SimulatedArm, channel: str) -> Float[np.ndarray, " t"]:
@@ -113,12 +100,12 @@ class StudyResult(Result):
             "passive": passive_table(self.cases),
         }
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`study`: elevation and supporting force of each arm, recorded, and simulated along both motions."""
-        return {"study": study_figure(self.cases)}
+        return {"study": study_curves(self.cases)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
-        """Figure and tables."""
+        """Curves of each arm and tables."""
         tables = self.tables()
         words = {
             "summary": "Errors over all arms",
@@ -133,7 +120,7 @@ class StudyResult(Result):
             time_label="",
             headline=headline(self.sentences, most=2),
             sections=(
-                Picture("Every arm in its trial", CAPTION, drawings["study"], wide=True),
+                *(panel.bounded(SAMPLES) for panel in self.curves()["study"].panels),
                 *(frame_table(title, tables[name], 3) for name, title in words.items() if len(tables[name])),
                 INPUTS,
                 OPTIONS,

@@ -28,8 +28,9 @@ from geocontact.analyses.sit_to_stand.calibrate.phases import (
     phases_sought,
     profile_table,
 )
-from geocontact.analyses.sit_to_stand.calibrate.show import calibration_page, standing_figure
+from geocontact.analyses.sit_to_stand.calibrate.show import calibration_page
 from geocontact.analyses.sit_to_stand.exports import write_motion, write_standing_model, write_strap_case
+from geocontact.analyses.sit_to_stand.show import PARTS, standing_curves
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.analyses.sit_to_stand.trial_tables import (
     errors_table,
@@ -42,10 +43,9 @@ from geocontact.standing_up.calibrated_phase import CalibratedPhase
 from geocontact.standing_up.calibration import calibrated_trials, calibration_numbers
 from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingUpTrials
+from geocontact.view.curves.declared import CurveSheet
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from geocontact.view.page.content import Page
 
 
@@ -102,9 +102,9 @@ class StandingCalibrateResult(Result):
             **own,
         }
 
-    def figures(self) -> dict[str, Figure]:
-        """`standing_up`: ground reaction and centre of pressure, measured and modelled."""
-        return {"standing_up": standing_figure(self.trials)}
+    def curves(self) -> dict[str, CurveSheet]:
+        """`standing_up`: ground reaction and centre of pressure, measured and modelled; residuals and torques."""
+        return {"standing_up": CurveSheet(standing_curves(self.trials), PARTS)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Moving chains with forces, curves, parameters."""

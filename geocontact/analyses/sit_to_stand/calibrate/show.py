@@ -1,21 +1,16 @@
-"""What a calibration shows: chains with the ground's force, curves, parameters; ground reaction by plate and model."""
+"""What a calibration shows: chains with the ground's force, curves, parameters."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import pandas as pd
 
 from geocontact.analyses.sit_to_stand.show import motion_page, standing_curves, standing_scene
 from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingUpTrials
-from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
 from geocontact.view.page.content import Page, Section
 from geocontact.view.page.tables import frame_table
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 MODEL = [
     "Both legs are one planar chain: masses, torques and the ground's force are those of both, a strap is that of one.",
@@ -30,10 +25,6 @@ MODEL = [
     "Beside that, another integrator that starts at any node follows the motion over one interval and over 0.2 s.",
     "Standing up is unstable: an open loop departs even from an exact answer, at the growth rate in the table.",
 ]
-HEIGHT = 0.1
-"""Height of the drawing [m]."""
-TITLES = ("force upwards", "force forwards", "centre of pressure", "residual between the points")
-UNITS = ("[N]", "[N]", "ahead of the origin [mm]", "[N]")
 
 
 def calibration_page(
@@ -59,26 +50,3 @@ def calibration_page(
         ("Ground reaction up to", f"{max(float(t.model.force[:, 1].max()) for t in trials):.0f} N"),
     ]
     return motion_page(titles, sentences, sections, MODEL, facts)
-
-
-@in_style
-def standing_figure(trials: Sequence[TrialResult]) -> Figure:
-    """Grey the plate, coloured the model."""
-    figure, axes = panels(2, 2, DOUBLE, HEIGHT)
-    for k, trial in enumerate(trials):
-        seen, model, colour = trial.recorded, trial.model, PALETTE[k % len(PALETTE)]
-        pairs = (
-            (seen.force[:, 1], model.force[:, 1]),
-            (seen.force[:, 0], model.force[:, 0]),
-            (1e3 * seen.centre, 1e3 * model.centre),
-        )
-        for ax, (one, other) in zip(axes, pairs, strict=False):
-            ax.plot(seen.time, one, color=GREY, lw=1.0)
-            ax.plot(seen.time, other, color=colour, lw=1.0, label=seen.name)
-        axes[3].semilogy(trial.judged.time, trial.judged.force, color=colour, lw=0.6)
-    for ax, title, unit in zip(axes, TITLES, UNITS, strict=True):
-        ax.set_title(title)
-        ax.set_xlabel("time since seat-off [s]")
-        ax.set_ylabel(unit)
-    axes[0].legend(fontsize=6, frameon=False)
-    return figure

@@ -21,7 +21,7 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.compare.options import StandingCompareOptions
-from geocontact.analyses.sit_to_stand.compare.show import compared_figure, compared_page
+from geocontact.analyses.sit_to_stand.compare.show import compared_curves, compared_page
 from geocontact.analyses.sit_to_stand.predict.predictions import (
     MEAN,
     HeldOutTrials,
@@ -41,7 +41,7 @@ from geocontact.standing_up.trivial_trials import mean_trial, nearest_trial
 from geocontact.view.page.content import Page
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from geocontact.view.curves.declared import CurveSheet
 
 NEAREST = "nearest of the calibration"
 
@@ -80,17 +80,17 @@ class StandingCompareResult(Result):
             "mesh": predicted_meshes(self.predictions),
         }
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`comparison`: angles and strap of the first trial."""
         first = self.given.trials.trials[0]
         own = {one.name: one.trial.model for one in self.predictions if one.trial.recorded.name == first.name}
-        return {"comparison": compared_figure(first, {ALL: own[ALL], **self.trivial[first.name]})}
+        return {"comparison": compared_curves(first, {ALL: own[ALL], **self.trivial[first.name]})}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Moving chains, curves, errors by predictor."""
         best = [one.trial for one in self.predictions if one.name == ALL]
-        drawn, subject = drawings["comparison"], self.given.trials.subject
-        return {REPORT: compared_page(self.sentences, subject, best, drawn, self.tables())}
+        subject, predicted = self.given.trials.subject, self.curves()["comparison"]
+        return {REPORT: compared_page(self.sentences, subject, best, predicted, self.tables())}
 
 
 def run(given: HeldOutTrials, o: StandingCompareOptions) -> StandingCompareResult:

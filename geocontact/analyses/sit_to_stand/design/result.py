@@ -33,7 +33,7 @@ from geocontact.analyses.sit_to_stand.design.designs import (
     sensitivity_table,
 )
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
-from geocontact.analyses.sit_to_stand.design.show import choice_page, design_figure
+from geocontact.analyses.sit_to_stand.design.show import choice_page, design_curves
 from geocontact.analyses.sit_to_stand.exports import write_motion, write_standing_model
 from geocontact.analyses.sit_to_stand.trial_tables import mesh_table, not_certified, ran_table
 from geocontact.data.errors import InputError
@@ -53,8 +53,7 @@ from geocontact.standing_up.help_search import (
 )
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 TOLERANCE = 1e-8
@@ -133,14 +132,14 @@ class StandingDesignResult(Result):
             found["draws"] = draws_table(self.draws, self.options.aim)
         return found
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`design`: strap and knee over the movement, and the front."""
-        return {"design": design_figure(self.designs, self.front, self.options.aim)}
+        return {"design": design_curves(self.designs, self.front, self.options.aim)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The chosen exoskeleton moving, curves of all, tables."""
-        subject, drawn = self.given.trials.subject, drawings["design"]
-        return {REPORT: choice_page(self.sentences, subject, self.designs, drawn, self.tables())}
+        subject, curves = self.given.trials.subject, self.curves()["design"]
+        return {REPORT: choice_page(self.sentences, subject, self.designs, curves, self.tables())}
 
     def write_files(self, folder: Path) -> None:
         """Trajectories and model; tables, figure, page."""

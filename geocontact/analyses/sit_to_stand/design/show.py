@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.sit_to_stand.show import at_parts, motion_page, standing_scene
+from geocontact.analyses.sit_to_stand.show import PARTS, at_parts, motion_page, standing_scene
+from geocontact.data.motion import Course
 from geocontact.standing_up.assisted_model import KNEE
 from geocontact.standing_up.assisted_movement import MEASURES, UNITS
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.help_search import CertifiedDesign
-from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, panels
-from geocontact.view.page.content import Curve, Curves, Page, Picture, Section
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Points, stroke
+from geocontact.view.page.content import Page, Section
 from geocontact.view.page.tables import frame_table
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 MODEL = [
     "The person stands up as in the trial with little jerk and torque, and does not give way to spare the strap.",
@@ -40,23 +36,21 @@ NAMES = {
     "draws": "With drawn parameters",
     "certificate": "Between and beyond the collocation points",
 }
-HEIGHT = 0.06
-"""Height of the drawing [m]."""
+FRONT = "Least {}, {}, over the limit of the knee"
 
 
 def choice_page(
     sentences: Sequence[str],
     subject: Subject,
     designs: Sequence[CertifiedDesign],
-    drawn: bytes,
+    curves: CurveSheet,
     tables: Mapping[str, pd.DataFrame],
 ) -> Page:
-    """The chosen exoskeleton moving, curves of all, tables."""
+    """The chosen exoskeleton moving, curves of all (those of `design_curves`), tables."""
     best = designs[-1]
     sections: list[Section] = [
         standing_scene(subject, best.trials),
-        *_curves(designs),
-        Picture("Strap and knee of the first trial", "Grey without help.", drawn, wide=True),
+        *curves.panels,
         *(frame_table(title, tables[name], 3) for name, title in NAMES.items() if name in tables),
     ]
     titles = (
@@ -66,44 +60,26 @@ def choice_page(
     return motion_page(titles, sentences, sections, MODEL)
 
 
-def _curves(designs: Sequence[CertifiedDesign]) -> list[Curves]:
-    """Strap and knee in the first trial."""
+def design_curves(designs: Sequence[CertifiedDesign], front: Sequence[CertifiedDesign], aim: str) -> CurveSheet:
+    """Strap and knee in the first trial by each design, in ink without help; the front where it was asked for."""
     strap, knee = [], []
     for k, one in enumerate(designs):
-        trial = one.trials[0]
+        trial, own = one.trials[0], stroke(k - 1, k - 1) if k else INK
         if trial.model.strap is None or trial.model.torque is None:
             raise ValueError("no strap or torque")
-        strap.append(Curve(one.name, at_parts(trial, trial.model.strap), stroke=k))
-        knee.append(Curve(one.name, at_parts(trial, trial.model.torque[:, KNEE]), stroke=k))
-    return [
+        strap.append(Curve(one.name, at_parts(trial, trial.model.strap), stroke=own))
+        knee.append(Curve(one.name, at_parts(trial, trial.model.torque[:, KNEE]), stroke=own))
+    panels = [
         Curves("Normal force of one strap, forwards", "N", strap),
         Curves("Knee torque of both legs", "N m", knee),
     ]
+    return CurveSheet([*panels, *([_front([*front, designs[-1]], aim)] if front else [])], PARTS)
 
 
-@in_style
-def design_figure(designs: Sequence[CertifiedDesign], front: Sequence[CertifiedDesign], aim: str) -> Figure:
-    """Strap and knee in the first trial, grey without help, and the front."""
-    figure, axes = panels(1, 3 if front else 2, DOUBLE, HEIGHT)
-    for k, one in enumerate(designs):
-        trial = one.trials[0].model
-        if trial.torque is None or trial.strap is None:
-            raise ValueError("no torque or strap")
-        colour, line = GREY if not k else PALETTE[k - 1], LINES[max(k - 1, 0)]
-        for ax, values in zip(axes, (trial.strap, trial.torque[:, KNEE]), strict=False):
-            ax.plot(trial.time, values, color=colour, ls=line, lw=1.2, label=one.name)
-    for ax, label in zip(axes, ("normal force of one strap [N]", "knee torque of both legs [N m]"), strict=False):
-        ax.set_xlabel("time since seat-off [s]")
-        ax.set_ylabel(label)
-    axes[0].legend(fontsize=6, frameon=False)
-    if front:
-        _front(axes[2], [*front, designs[-1]], aim)
-    return figure
-
-
-def _front(ax: Axes, each: Sequence[CertifiedDesign], aim: str) -> None:
-    limits = np.array([one.limit for one in each])
-    values = [one.movement.asked.sizes[MEASURES.index(aim)] for one in each]
-    ax.plot(100.0 * limits, values, "o-", color=PALETTE[0], ms=3, lw=1.2)
-    ax.set_xlabel("limit of the knee's true peak [% of without help]")
-    ax.set_ylabel(f"least {aim}, {'mean' if aim == 'energy' else 'smooth peak'} [{UNITS[aim]}]")
+def _front(each: Sequence[CertifiedDesign], aim: str) -> Curves:
+    limits = 100.0 * np.array([one.limit for one in each])
+    values = np.array([one.movement.asked.sizes[MEASURES.index(aim)] for one in each])
+    over = Course("limit of the knee's true peak", "% of without help", np.array([limits.min(), limits.max()]))
+    title = FRONT.format(aim, "mean" if aim == "energy" else "smooth peak")
+    points = [Points("best", limits, values, joined=True), Points("designs", limits, values)]
+    return Curves(title, UNITS[aim], [], points=points, over=over)

@@ -10,7 +10,7 @@ square)
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,6 +25,7 @@ from geocontact.analyses.sit_to_stand.device.options import StandingDeviceOption
 from geocontact.analyses.sit_to_stand.show import motion_page
 from geocontact.analyses.sit_to_stand.trial_tables import ran_table
 from geocontact.data.errors import InputError
+from geocontact.data.motion import Course
 from geocontact.identify.signals.filters import ORDER, UNEVEN
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of
 from geocontact.io.opensim.storage_writer import write_storage
@@ -44,17 +45,13 @@ from geocontact.standing_up.exoskeleton_torque import (
     identified_from,
 )
 from geocontact.standing_up.numbers_that_ran import Ran, joint_numbers
-from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
-from geocontact.view.page.content import Picture, Section
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet
+from geocontact.view.page.content import Section
 from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from geocontact.view.page.content import Page
 
-HEIGHT = 0.06
-"""Height of the drawing [m]."""
 MEANT = [
     "The motors' torque is linear in the parameters, and least squares find them; bodies are those of both legs.",
     "By itself: the motion tells that parameter.",
@@ -139,20 +136,19 @@ def _columns(given: tuple[Path, str], names: list[str], time: Float[np.ndarray, 
     return np.column_stack([np.interp(time, table.time, column) for column in values])
 
 
-@in_style
-def device_figure(
+def device_curves(
     time: Float[np.ndarray, " t"], motors: Float[np.ndarray, "t 3"], fitted: Float[np.ndarray, "t 3"]
-) -> Figure:
-    """A panel for each hinge."""
-    figure, axes = panels(1, len(EXO_JOINTS), DOUBLE, HEIGHT)
-    for k, (ax, name) in enumerate(zip(axes, EXO_JOINTS, strict=True)):
-        ax.plot(time, motors[:, k], color=GREY, lw=1.5, label="motor")
-        ax.plot(time, fitted[:, k], color=PALETTE[0], lw=0.8, label="fitted")
-        ax.set_title(name)
-        ax.set_xlabel("time [s]")
-        ax.set_ylabel("torque of both legs [N m]")
-    axes[0].legend(fontsize=6, frameon=False)
-    return figure
+) -> CurveSheet:
+    """A panel for each hinge: torque of the motor as recorded, and of the fit."""
+    panels = [
+        Curves(
+            f"Motors of both legs, {name.replace('_', ' ')}",
+            "N m",
+            [Curve("recorded", motors[:, k], stroke=INK), Curve("fitted", fitted[:, k], stroke=0)],
+        )
+        for k, name in enumerate(EXO_JOINTS)
+    ]
+    return CurveSheet(panels, Course("time", "s", time))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -218,14 +214,15 @@ class StandingDeviceResult(Result):
             }
         )
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`device`: the motors' torque and the fit."""
-        return {"device": device_figure(*self.smooth)}
+        return {"device": device_curves(*self.smooth)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The fit over time, parameters."""
+        curves = self.curves()["device"]
         sections: list[Section] = [
-            Picture("Torques of the motors without a person", "Grey as recorded.", drawings["device"], wide=True),
+            *(replace(panel, over=curves.over) for panel in curves.panels),
             frame_table("Dynamic parameters", self.table("parameters"), 4),
         ]
         titles = ("Dynamics of the exoskeleton", "identified from a motion without a person")

@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
@@ -34,7 +33,7 @@ from geocontact.analyses.sit_to_stand.predict.predictions import (
     read,
     trials_begun,
 )
-from geocontact.analyses.sit_to_stand.show import motion_page, standing_curves, standing_scene
+from geocontact.analyses.sit_to_stand.show import PARTS, motion_page, over_parts, standing_curves, standing_scene
 from geocontact.analyses.sit_to_stand.trial_tables import (
     DEGREE,
     errors_table,
@@ -48,15 +47,10 @@ from geocontact.standing_up.prediction import ALL, PredictedTrial, prediction_nu
 from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.standing_up.trivial_trials import mean_trial
-from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, panels
-from geocontact.view.page.content import Page, Picture, Section
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, stroke
+from geocontact.view.page.content import Page, Section
 from geocontact.view.page.tables import frame_table
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-HEIGHT = 0.06
-"""Height of the drawing [m]."""
 MODEL = [
     "Ground reaction, centre of pressure and torques are given over time, first and last posture within their noise.",
     "Coordinates between them and the strap's force are predicted; parameters are held.",
@@ -67,40 +61,36 @@ MODEL = [
 COMPARED = ("coordinates", "force", "centre", "torque", "strap")
 
 
-@in_style
-def strap_figure(predictions: Sequence[tuple[str, TrialResult]], means: Mapping[str, StandingTrial]) -> Figure:
-    """Grey as recorded, coloured the predictors, dotted the mean of other trials; a panel for each trial."""
-    names = list(means)
-    figure, axes = panels(1, len(names), DOUBLE, HEIGHT)
-    for ax, name in zip(axes, names, strict=True):
+def strap_curves(predictions: Sequence[tuple[str, TrialResult]], means: Mapping[str, StandingTrial]) -> CurveSheet:
+    """The strap's force in each trial: as recorded, by each predictor, and by the mean of other trials."""
+    panels = []
+    for name, mean in means.items():
         own = [(who, trial) for who, trial in predictions if trial.recorded.name == name]
         seen = own[0][1].recorded
-        if seen.strap is not None:
-            ax.plot(seen.time, seen.strap, color=GREY, lw=1.0, label="recorded")
-        for k, (who, trial) in enumerate(own):
-            if trial.model.strap is not None:
-                ax.plot(seen.time, trial.model.strap, color=PALETTE[k], ls=LINES[k], lw=1.2, label=who)
-        if (mean := means[name].strap) is not None:
-            ax.plot(seen.time, mean, color="black", ls=":", lw=1.0, label="mean of the calibration")
-        ax.set_title(name)
-        ax.set_xlabel("time since seat-off [s]")
-        ax.set_ylabel("normal force of one strap [N]")
-    axes[0].legend(fontsize=6, frameon=False)
-    return figure
+        forces = {"recorded": (seen.strap, INK)}
+        forces |= {who: (trial.model.strap, stroke(k, k)) for k, (who, trial) in enumerate(own)}
+        forces["mean of the calibration"] = (mean.strap, stroke(4, 2))
+        curves = [
+            Curve(who, over_parts(seen.time, force), stroke=look)
+            for who, (force, look) in forces.items()
+            if force is not None
+        ]
+        panels.append(Curves(f"Normal force of one strap in {name}", "N", curves))
+    return CurveSheet(panels, PARTS)
 
 
 def prediction_page(
     sentences: Sequence[str],
     given: HeldOutTrials,
     trials: Sequence[TrialResult],
-    drawn: bytes,
+    straps: CurveSheet,
     tables: Mapping[str, pd.DataFrame],
 ) -> Page:
-    """Moving chains with forces, curves, errors by predictor."""
+    """Moving chains with forces, curves, errors by predictor; `straps` are those of `strap_curves`."""
     sections: list[Section] = [
         standing_scene(given.trials.subject, trials),
         *standing_curves(trials),
-        Picture("The strap by each predictor", "Grey as recorded.", drawn),
+        *straps.panels,
         frame_table("Root mean square differences", tables["errors"], 3),
         frame_table("Between and beyond the collocation points", tables["certificate"], 3),
     ]
@@ -184,13 +174,13 @@ class StandingPredictResult(Result):
         ran = {"numbers": ran_table(prediction_numbers(self.predictions)), "mesh": predicted_meshes(self.predictions)}
         return {"errors": self.errors, "certificate": certificates_table(self.predictions), **ran, **own}
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`strap`: its force by all predictors."""
-        return {"strap": strap_figure([(one.name, one.trial) for one in self.predictions], self.means)}
+        return {"strap": strap_curves([(one.name, one.trial) for one in self.predictions], self.means)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Moving chains with forces, curves, errors by predictor."""
-        return {REPORT: prediction_page(self.sentences, self.given, self.best, drawings["strap"], self.tables())}
+        return {REPORT: prediction_page(self.sentences, self.given, self.best, self.curves()["strap"], self.tables())}
 
     def write_files(self, folder: Path) -> None:
         """Trajectories; tables, figure, page."""

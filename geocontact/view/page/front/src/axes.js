@@ -1,18 +1,20 @@
 // A plot area with axes and a cursor line, redrawn at the size it has.
 import { html, svg } from "./svg.js";
-import { brief, ticks } from "./ticks.js";
+import { brief, powers, ticks } from "./ticks.js";
 
 const RIGHT = 12;
 const TOP = 8;
 const BOTTOM = 34;
 
 /** Puts a chart into `figure`; `paint(plot)` fills it whenever its size changes. Hidden ones are drawn when they show. */
-export function axes(figure, { x, y, xLabel, height, label, paint, beside = null }) {
+export function axes(figure, { x, y, xLabel, height, label, paint, beside = null, log = false }) {
   const frame = svg("svg", { role: "img", "aria-label": label });
   const room = html("div", "plot", frame);
   figure.append(room);
   const plot = { frame };
-  const levels = ticks(...y, 4);
+  const levels = log ? powers(...y) : ticks(...y, 4);
+  const high = log ? Math.log10 : (value) => value;
+  const [low, top] = y.map(high);
   const other = beside ? ticks(y[0] * beside.factor, y[1] * beside.factor, 4) : [];
   const right = beside ? 14 + 6.6 * Math.max(beside.unit.length, ...other.map((value) => brief(value).length)) : RIGHT;
   const left = 18 + 6.6 * Math.max(...levels.map((value) => brief(value).length));
@@ -25,7 +27,7 @@ export function axes(figure, { x, y, xLabel, height, label, paint, beside = null
     frame.setAttribute("height", tall);
     frame.replaceChildren();
     plot.x = (value) => left + ((value - x[0]) / (x[1] - x[0] || 1)) * (width - left - right);
-    plot.y = (value) => tall - BOTTOM - ((value - y[0]) / (y[1] - y[0] || 1)) * (tall - TOP - BOTTOM);
+    plot.y = (value) => tall - BOTTOM - ((high(value) - low) / (top - low || 1)) * (tall - TOP - BOTTOM);
     plot.at = (pixel) => x[0] + ((pixel - left) / (width - left - right)) * (x[1] - x[0]);
     plot.top = TOP;
     plot.bottom = tall - BOTTOM;
@@ -58,6 +60,7 @@ export function axes(figure, { x, y, xLabel, height, label, paint, beside = null
 /** Path through points; null is a gap. A point between two gaps becomes a dot. */
 export function path(plot, xs, ys) {
   let text = "";
+  ys = ys.map((y) => (y !== null && Number.isFinite(plot.y(y)) ? y : null));
   for (let k = 0; k < xs.length; k++) {
     if (ys[k] === null) continue;
     const at = `${plot.x(xs[k]).toFixed(1)} ${plot.y(ys[k]).toFixed(1)}`;
@@ -80,7 +83,8 @@ export function band(plot, xs, lower, upper) {
     }
     run = [];
   };
-  for (let k = 0; k < xs.length; k++) lower[k] === null || upper[k] === null ? close() : run.push(k);
+  const shown = (value) => value !== null && Number.isFinite(plot.y(value));
+  for (let k = 0; k < xs.length; k++) shown(lower[k]) && shown(upper[k]) ? run.push(k) : close();
   close();
   return text;
 }

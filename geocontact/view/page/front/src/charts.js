@@ -2,50 +2,64 @@
 import { axes, band, path } from "./axes.js";
 import { colour, dash, sample } from "./strokes.js";
 import { html, svg } from "./svg.js";
-import { brief, course, extent } from "./ticks.js";
+import { brief, course, decades, extent } from "./ticks.js";
 
-/** Measured values are open marks in ink: circle, square, triangle. */
+/** Measured values are open marks in ink, unless they have a stroke: circle, square, triangle. */
 const MARKS = ["M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0", "M-3.5-3.5h7v7h-7z", "M0-4.5L4.2 3.2h-8.4z"];
-const mark = (k, x, y) => svg("path", { class: "mark", d: MARKS[k % MARKS.length], transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` });
-const markSample = (k) => svg("svg", { class: "sample small", viewBox: "-8 -6 16 12", "aria-hidden": "true" }, mark(k, 0, 0));
+const tone = (stroke) => (stroke === null ? "" : ` own ${colour(stroke)}`);
+const mark = (k, stroke, x, y) =>
+  svg("path", { class: `mark${tone(stroke)}`, d: MARKS[k % MARKS.length], transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` });
+const small = (...drawn) => svg("svg", { class: "sample small", viewBox: "-8 -6 16 12", "aria-hidden": "true" }, ...drawn);
+const pointsSample = (p, k) => (p.joined ? sample(p.stroke ?? k) : small(mark(k, p.stroke, 0, 0)));
+const spanSample = (span) => small(span.start === span.end ? svg("path", { class: "edge", d: "M0-6V6" }) : svg("rect", { class: "span", x: -8, y: -6, width: 16, height: 12 }));
 
 /** Panel of curves; `go(frame)` is called when the reader points at one. Returns what moves the cursor. */
-export function curves(figure, part, time, timeLabel, { go, plays }) {
+export function curves(figure, part, pageTime, pageLabel, { go, plays }) {
+  const [time, timeLabel] = part.over ? [part.over.values, part.over.label] : [pageTime, pageLabel];
+  const named = part.curves.filter((c) => !c.thin);
   const own = part.curves.flatMap((c) => [...c.values, ...(c.lower ?? []), ...(c.upper ?? [])]);
   const all = [...own, ...part.points.flatMap((p) => p.values), ...part.limits.map((l) => l.value)];
-  const values = part.curves.map(() => html("span", "value"));
+  const values = named.map(() => html("span", "value"));
+  const spans = part.spans.filter((span, k) => span.name && part.spans.findIndex((other) => other.name === span.name) === k);
   figure.append(
     html(
       "ul",
       "key",
-      ...part.curves.map((c, k) => html("li", "", sample(c.stroke), html("bdi", "", c.name), values[k])),
-      ...part.points.map((p, k) => html("li", "", markSample(k), html("bdi", "", p.name))),
+      ...named.map((c, k) => html("li", "", sample(c.stroke), html("bdi", "", c.name), values[k])),
+      ...part.points.flatMap((p, k) => (p.name ? [html("li", "", pointsSample(p, k), html("bdi", "", p.name))] : [])),
+      ...spans.map((span) => html("li", "", spanSample(span), html("bdi", "", span.name))),
     ),
   );
   let now = 0;
   const plot = axes(figure, {
     x: course([...time, ...part.points.flatMap((p) => p.time)], time),
-    y: extent(all, part.unit),
+    y: part.log ? decades(all) : extent(all, part.unit),
+    log: part.log,
     xLabel: timeLabel,
     beside: part.beside,
     height: figure.classList.contains("lead") ? () => Math.max(220, Math.min(340, 0.42 * window.innerHeight)) : () => 190,
-    label: `${part.title}: ${part.curves.map((c) => describe(c, part.unit)).join("; ")}`,
+    label: `${part.title}: ${[...named, ...part.points].map((c) => describe(c, part.unit)).join("; ")}`,
     paint(p) {
+      part.spans.forEach(({ start, end }, k) => {
+        const [from, to] = [p.x(start), p.x(end)].map((x) => Math.min(p.right, Math.max(p.left, x)));
+        if (start === end) p.frame.append(svg("line", { class: "edge", x1: from, x2: from, y1: p.top, y2: p.bottom }));
+        else p.frame.append(svg("rect", { class: `span${k % 2 ? " odd" : ""}`, x: Math.min(from, to), width: Math.abs(to - from), y: p.top, height: p.bottom - p.top }));
+      });
       part.curves.forEach((c) => {
         if (c.lower && c.upper) p.frame.append(svg("path", { class: `band ${colour(c.stroke)}`, d: band(p, time, c.lower, c.upper) }));
       });
-      part.curves.forEach((c) =>
-        p.frame.append(svg("path", { class: `line ${colour(c.stroke)}`, d: path(p, time, c.values), "stroke-dasharray": dash(c.stroke) })),
-      );
+      part.curves.forEach((c) => p.frame.append(line(p, c.stroke, time, c.values, c.thin)));
       for (const { name, value } of part.limits) {
         p.frame.append(svg("line", { class: "limit", x1: p.left, x2: p.right, y1: p.y(value), y2: p.y(value) }));
         p.frame.append(svg("text", { class: "tick limit", x: p.right - 4, y: p.y(value) - 5, "text-anchor": "end" }, name));
       }
-      part.points.forEach(({ time: at, values: known }, k) => {
-        known.forEach((value, i) => value !== null && p.frame.append(mark(k, p.x(at[i]), p.y(value))));
+      part.points.forEach(({ time: at, values: known, stroke, joined }, k) => {
+        if (joined) p.frame.append(line(p, stroke ?? k, at, known, false));
+        else known.forEach((value, i) => value !== null && p.frame.append(mark(k, stroke, p.x(at[i]), p.y(value))));
       });
+      if (!named.length) return;
       p.cursor = svg("line", { class: "cursor", y1: p.top, y2: p.bottom });
-      p.dots = part.curves.map((c) => svg("circle", { class: `dot ${colour(c.stroke)}`, r: 4 }));
+      p.dots = named.map((c) => svg("circle", { class: `dot ${colour(c.stroke)}`, r: 4 }));
       p.frame.append(p.cursor, ...p.dots);
       place(p);
     },
@@ -53,7 +67,7 @@ export function curves(figure, part, time, timeLabel, { go, plays }) {
 
   function move(frame) {
     now = frame;
-    part.curves.forEach((c, k) => (values[k].textContent = brief(c.values[frame])));
+    named.forEach((c, k) => (values[k].textContent = brief(c.values[frame])));
     place(plot);
   }
 
@@ -63,7 +77,7 @@ export function curves(figure, part, time, timeLabel, { go, plays }) {
     const at = plot.x(time[frame]);
     plot.cursor.setAttribute("x1", at);
     plot.cursor.setAttribute("x2", at);
-    part.curves.forEach((c, k) => {
+    named.forEach((c, k) => {
       const value = c.values[frame];
       plot.dots[k].setAttribute("visibility", value === null ? "hidden" : "visible");
       if (value === null) return;
@@ -72,12 +86,23 @@ export function curves(figure, part, time, timeLabel, { go, plays }) {
     });
   }
 
-  const point = (event) => go(nearest(time, plot.at(event.clientX - plot.frame.getBoundingClientRect().left)));
-  plot.frame.classList.add("clickable");
-  plot.frame.addEventListener("pointerdown", point);
-  plot.frame.addEventListener("pointermove", (event) => (event.buttons || !plays) && point(event));
-  return move;
+  const reach = part.over ? move : go; // what runs along an axis of its own is read there alone
+  const point = (event) => reach(nearest(time, plot.at(event.clientX - plot.frame.getBoundingClientRect().left)));
+  if (named.length) {
+    plot.frame.classList.add("clickable");
+    plot.frame.addEventListener("pointerdown", point);
+    plot.frame.addEventListener("pointermove", (event) => (event.buttons || part.over || !plays) && point(event));
+  }
+  if (!part.over) return move;
+  move(peak(named[0]?.values ?? []));
+  return () => {};
 }
+
+const line = (plot, stroke, xs, ys, thin) =>
+  svg("path", { class: `line ${colour(stroke)}${thin ? " thin" : ""}`, d: path(plot, xs, ys), ...(thin ? {} : { "stroke-dasharray": dash(stroke) }) });
+
+/** Where a curve is farthest from zero. */
+const peak = (values) => values.reduce((best, value, k) => (Math.abs(value ?? 0) > Math.abs(values[best] ?? 0) ? k : best), 0);
 
 function describe(curve, unit) {
   const known = curve.values.filter((value) => value !== null);

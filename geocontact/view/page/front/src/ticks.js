@@ -51,3 +51,20 @@ export function extent(values, unit = "") {
   const room = 0.06 * (upper - lower);
   return [lower === 0 ? 0 : lower - room, upper === 0 ? 0 : upper + room];
 }
+
+/** [least, greatest] of what is above zero, whole powers of ten at both ends; values that are not have no place. */
+export function decades(values) {
+  const above = values.filter((value) => value > 0);
+  if (!above.length) return [1, 10];
+  const [lower, upper] = [Math.floor(Math.log10(Math.min(...above))), Math.ceil(Math.log10(Math.max(...above)))];
+  return [10 ** lower, 10 ** (upper > lower ? upper : lower + 1)];
+}
+
+/** Powers of ten from `lower` to `upper`, six at most. */
+export function powers(lower, upper) {
+  const [first, last] = [lower, upper].map((value) => Math.round(Math.log10(value)));
+  const step = Math.ceil((last - first) / 5);
+  const found = [];
+  for (let k = first; k <= last; k += step) found.push(Number((10 ** k).toPrecision(12)));
+  return found;
+}
