@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geocontact.analyses.frame.words import NOT_A_DEVICE, rounded
-from geocontact.analyses.modulus.identified import ForcePair, Identified, constant
-from geocontact.analyses.modulus.numbers import PER_SI, UNITS
+from geocontact.analyses.modulus.identified import PER_SI, UNITS, ForcePair, Identified
 from geocontact.elastic_modulus.area_force import MODULUS
 from geocontact.elastic_modulus.identify import Identification, agreement
+from geocontact.elastic_modulus.sensitivity import constant
 from geocontact.identify.identifiability import Identifiability
 from geocontact.identify.intervals.profile_likelihood import Profile
 from geocontact.view.curves.quantity import FORCE, TIME
