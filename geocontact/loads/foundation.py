@@ -31,7 +31,8 @@ from geocontact.contact.elastic_foundation import (
     logarithmic_pressure,
     logarithmic_stiffness,
 )
-from geocontact.geometry.curvature import phong_slope
+from geocontact.geometry.curvature import corner_normals, phong_offset, phong_slope
+from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.surface_quadrature import SurfaceQuadrature
 from geocontact.loads.overlap import Overlap, overlap
@@ -76,6 +77,47 @@ class Layer:
             raise ValueError(f"law must be {' or '.join(FOUNDATIONS)}, not {self.law!r}")
         if not (self.thickness > 0.0).all() or not self.modulus > 0.0:
             raise ValueError("thickness and modulus must be positive")
+
+
+def layer_on(
+    surface: Surface,
+    pieces: SurfaceQuadrature,
+    thickness: Float[np.ndarray, " p"],
+    modulus: float,
+    law: str = "linear",
+    sides: tuple[Plane, int] | None = None,
+    smooth: bool = True,
+) -> Layer:
+    """Elastic layer on a surface that is cut into pieces.
+
+    Parameters
+    ----------
+    surface, pieces
+        The surface, and the pieces of it that the layer is under, in its frame.
+    thickness
+        Under each piece [m], > 0.
+    modulus
+        Confined modulus M [Pa], `layer_modulus`.
+    law
+        Name in `FOUNDATIONS`.
+    sides
+        Plane that parts "medial" from "lateral" pieces by their middles, and the sign of the heights above it that are
+        medial; one part without.
+    smooth
+        Whether triangles stand for a smooth surface, `geometry.curvature`; taken as they are otherwise.
+
+    Raises
+    ------
+    ValueError
+        A thickness or the modulus is not positive, or there is no such law.
+    """
+    parts: dict[str, Bool[np.ndarray, " p"]] = {}
+    if sides is not None:
+        plane, sign = sides
+        medial = plane.height(pieces.point) * sign > 0.0
+        parts = {"medial": medial, "lateral": ~medial}
+    height = phong_offset(surface, corner_normals(surface), pieces.face, pieces.point) if smooth else None
+    return Layer(pieces, thickness, modulus, law, parts, height)
 
 
 @dataclass(frozen=True, eq=False)

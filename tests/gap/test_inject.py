@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from geocontact.data.diagnosis import Diagnosis, Estimate
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.inject import chosen, inject, visible
+from geocontact.gap.inject import Injected, chosen, imitated, inject, judged, visible
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import elbow_case
@@ -163,3 +164,38 @@ def test_names_are_those_of_candidates() -> None:
         chosen(offered, "unit_error")
     with pytest.raises(ValueError, match=r"'rust' is no effect of this system; there are time_shift, filter_lag"):
         chosen(offered, "rust")
+
+
+def test_a_gap_that_is_there_is_not_called_imitated_because_another_variant_is() -> None:
+    sizes = {0.4: False, 1e-4: True, float("nan"): True}
+    assert {size: imitated("sensor_gain", size, ("sensor_gain",)) for size in sizes} == sizes
+    assert not imitated("damping", 1e-4, ("sensor_gain",))
+
+
+def said(*effects: str, possible: tuple[str, ...] = (), absorbed: tuple[str, ...] = ()) -> Diagnosis:
+    """A diagnosis that names these effects, and a damping of 40 ± 2 N s/m where that is among them."""
+    found = {"damping.b": Estimate(40.0, (38.0, 42.0), "N s/m", True)} if "damping" in effects else {}
+    verdict = "explained" if effects else "no_gap"
+    return Diagnosis("case", "elbow", verdict, effects, {}, possible, absorbed, (), {}, found, 0.0, "")
+
+
+@pytest.mark.parametrize(
+    ("after", "size", "nats", "status"),
+    [
+        (said("damping"), 2.0, 900.0, "found"),
+        (said(), 2.0, 900.0, "not_found"),
+        (said(possible=("damping",)), 2.0, 900.0, "possible"),
+        (said(absorbed=("damping",)), 0.01, 900.0, "imitated"),
+        (said("damping"), 2.0, 1e-3, "too_small"),
+    ],
+)
+def test_a_judgement_needs_two_diagnoses_and_what_was_injected(
+    after: Diagnosis, size: float, nats: float, status: str
+) -> None:
+    case, problem = made_ready()
+    damping = chosen(candidates(problem.system), "damping")
+    values = {p.name: p.start for p in damping.parameters} | {"damping.b": 41.0}
+    found = judged(damping, Injected(case, values, size, nats), said(), after)
+    assert (found.status, found.before) == (status, False)
+    assert found.change == (40.0 if status == "found" else None)
+    assert found.as_dict()["found"] is (status == "found")

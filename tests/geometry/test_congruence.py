@@ -4,8 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import RigidTransform
 
-from geocontact.geometry.contact_area.congruence import CongruencePair, relative_curvatures
+from geocontact.data.motion import Motion
+from geocontact.geometry.contact_area.congruence import (
+    CongruencePair,
+    congruence_evolution,
+    longer_radius,
+    median_edges,
+    relative_curvatures,
+)
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.curvature import Curvatures, _tensors
 from meshes import simple_shapes
@@ -127,3 +135,35 @@ def test_overlap_counts_however_deep_and_whatever_else_is_asked_for() -> None:
     assert alone.index[0] * 1e-3 == pytest.approx(1 / 20 + 1 / 20, rel=0.03)
     for part in ("least", "most", "index", "share"):
         np.testing.assert_allclose(getattr(alone, part)[0], getattr(beside, part)[0], rtol=1e-9)
+
+
+def apart(*heights: float) -> Motion:
+    """Frames with MOVING's origin at these heights [mm]."""
+    shift = np.column_stack([np.zeros(len(heights)), np.array(heights) * 1e-3, np.zeros(len(heights))])
+    return Motion(0.1 * np.arange(len(heights)), RigidTransform.from_translation(shift))
+
+
+def test_over_a_motion_two_balls_stay_as_congruent_as_they_are_until_they_part() -> None:
+    one, other = surface(simple_shapes.sphere(15.0, 14)), surface(simple_shapes.sphere(20.0, 14))
+    settings, steps = Settings(thresholds=(0.4e-3, 1e-3)), []
+    found = congruence_evolution(one, other, apart(35.2, 34.9, 60.0), settings, RADIUS, lambda: steps.append(1))
+    assert len(steps) == 3 and found.index.shape == (3, 2)
+    np.testing.assert_allclose(found.index[:2] * 1e-3, 1 / 15 + 1 / 20, atol=0.025 / 15)
+    assert np.isnan(found.index[2]).all() and np.isnan(found.share[2]).all()
+    columns = found.columns()
+    np.testing.assert_array_equal(columns["congruence_index [1/mm]"], found.index.ravel() * 1e-3)
+    assert np.isnan(found.above(1.1).index).all() and (found.above(1.1).share[:2] == found.share[:2]).all()
+
+
+def test_a_radius_shorter_than_the_edges_has_a_longer_one() -> None:
+    """Between its vertices nothing lies within half an edge: two and a half edges of the coarser ball do."""
+    one, other = surface(simple_shapes.sphere(15.0, 14)), surface(simple_shapes.sphere(20.0, 10))
+    settings, motion = Settings(thresholds=(1e-3,)), apart(35.2)
+    short = 0.5 * min(median_edges(one, other))
+    found = congruence_evolution(one, other, motion, settings, short)
+    assert found.share[0, 0] == 0.0
+    longer = longer_radius(one, other, motion, settings, short, found)
+    assert longer == pytest.approx(2.5 * float(np.median(other.edge_length)), abs=1e-4)
+    again = congruence_evolution(one, other, motion, settings, longer)
+    assert again.share[0, 0] > 0.5
+    assert longer_radius(one, other, motion, settings, 1.0, found) is None

@@ -7,12 +7,13 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import AS_GIVEN, RULES
-from geocontact.geometry.contact_area.evolution import ContactPair, Settings, area_evolution
+from geocontact.geometry.contact_area.evolution import ContactPair, Settings, area_evolution, area_of_outer
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
+from geocontact.geometry.union import united
 from meshes.total_knee import total_knee
 from tests.contract import COLUMNS, SPLIT
-from tests.geometry.bodies import MM, cube, surface
+from tests.geometry.bodies import MM, cube, joined, surface
 
 INSERT, FEMORAL = (surface(body, name) for body, name in zip(total_knee(1.0), ("insert", "femoral"), strict=True))
 SETTINGS = Settings(thresholds=(0.1 * MM, 4 * MM), split=Plane.across("z"), medial_side=-1)
@@ -163,3 +164,19 @@ def test_sensitivity_is_the_clipped_area_at_further_thresholds(evolution):
 def test_thresholds_of_the_sensitivity_are_checked_too(wrong):
     with pytest.raises(ValueError, match="finite and not negative"):
         Settings(sensitivity=wrong)
+
+
+def test_the_outer_surface_alone_has_no_area_inside():
+    """A cube with a smaller one inside it, 2 mm below its top; a plate 1 mm above the top; all within 4 mm."""
+    both = surface(joined(cube((0, 0, 0), 5), cube((0, 2, 0), (3, 1, 3))))
+    plate = surface(cube((0, 8, 0), (20, 2, 20)), "plate")
+    still = Motion(np.zeros(1), RigidTransform.from_translation(np.zeros((1, 3))))
+    outer, settings = united(both), Settings(thresholds=(1 * MM, 4 * MM), refinement=AS_GIVEN, rule="clip")
+    whole = area_evolution(plate, both, still, settings, workers=1).fixed.area[0, 1]
+    alone = area_of_outer(plate, both, still, settings, "fixed", outer, workers=1)
+    assert alone.shape == (1,)
+    assert whole - alone[0] == pytest.approx(
+        (36.0 + 4 * 6.0 * 1.0) * MM**2, rel=1e-6
+    )  # top of the inner one, 1 mm down
+    turned_over = area_of_outer(both, plate, still, settings, "moving", outer, workers=1)
+    assert turned_over[0] == pytest.approx(alone[0], rel=1e-6)

@@ -2,8 +2,19 @@
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.geometry.contact_area.pose_error import PoseError, error_of_area
+from geocontact.data.motion import Motion
+from geocontact.geometry.contact_area.area import AS_GIVEN
+from geocontact.geometry.contact_area.evolution import Settings, area_evolution
+from geocontact.geometry.contact_area.pose_error import (
+    ErrorOfArea,
+    PoseError,
+    agreement,
+    area_uncertainty,
+    error_of_area,
+    known_deviation,
+)
 from geocontact.geometry.contact_area.repeated import RepeatedArea
 from meshes import simple_shapes as shapes
 from tests.geometry.bodies import MM, surface, turned
@@ -36,3 +47,46 @@ def test_covariance_of_a_fit_is_that_of_its_draws():
     np.testing.assert_allclose(
         np.cov(error.draws.T) / np.outer(scale, scale), error.matrix / np.outer(scale, scale), atol=0.12
     )
+
+
+@pytest.mark.parametrize("draws", [20, 50, 400])
+def test_the_error_of_a_deviation_is_that_of_repeated_draws(draws: int) -> None:
+    """Of 4000 sets of normal draws 95 % have the true deviation in their interval, as many missed on either side."""
+    sets = np.random.default_rng(7).normal(0.0, 5.0, (4000, draws))
+    _, lower, upper = known_deviation(sets.std(axis=1, ddof=1), draws)
+    assert np.mean(lower > 5.0) == pytest.approx(0.025, abs=0.0075)
+    assert np.mean(upper < 5.0) == pytest.approx(0.025, abs=0.0075)
+
+
+def test_chance_of_few_draws_is_no_disagreement() -> None:
+    """Draws of the first-order distribution itself: of 400 sets of 25, hardly any is taken for another one."""
+    rng = np.random.default_rng(4)
+    said = [agreement(ErrorOfArea(100.0, rng.normal(100.0, 5.0, 25), np.zeros(6), 5.0)) for _ in range(400)]
+    assert said.count("yes") >= 396
+    assert agreement(ErrorOfArea(100.0, rng.normal(100.0, 10.0, 400), np.zeros(6), 5.0)).startswith(
+        "no: the area is not linear"
+    )
+    assert agreement(ErrorOfArea(100.0, rng.normal(103.0, 5.0, 400), np.zeros(6), 5.0)).startswith(
+        "no: the mean of the draws"
+    )
+
+
+def test_over_a_motion_the_cap_of_each_frame_moves_with_its_gap():
+    """Plate beside the ball, 1.5 and 3.9 mm away, then out of reach: 2 pi R (4 mm - gap), some draws with none."""
+    heights = np.array([R + 1.5, R + 3.9, R + 9.0]) * MM
+    shift = np.column_stack([heights, np.zeros(3), np.zeros(3)])
+    motion = Motion(0.5 * np.arange(3), RigidTransform.from_components(shift, Rotation.from_matrix([TURN] * 3)))
+    settings, steps = Settings((4e-3,), refinement=AS_GIVEN), []
+    error = PoseError.normal(np.array([0.3e-3, 0, 0, 0, 0, 0]), "fixed", 60, 3)
+    areas = area_evolution(PLATE, BALL, motion, settings)
+    found = area_uncertainty(PLATE, BALL, motion, settings, areas, error, 1, lambda: steps.append(1))
+    assert len(steps) == 3
+    by_hand = np.maximum(RATE * (4e-3 - (heights[:2, None] - R * MM) - error.draws[:, 0]), 0.0)
+    np.testing.assert_allclose(found.drawn(0)[:2], by_hand, atol=0.03e-4)
+    assert found.verdict(0, 0) == found.verdict(2, 0) == "yes"
+    assert found.verdict(1, 0).startswith("no: contact vanishes in ")
+    np.testing.assert_allclose(found.interval(0)[:, 0], np.quantile(by_hand[0], (0.025, 0.975)), rtol=0.01)
+    table = found.table(motion.time, settings.thresholds)
+    assert table["time [s]"].tolist() == [0.0, 0.5, 1.0]
+    assert table["drawn_sd [mm^2]"][0] == pytest.approx(by_hand[0].std(ddof=1) * 1e6, rel=0.01)
+    assert table["slope_tx [mm^2/mm]"][0] == pytest.approx(-2.0 * np.pi * R, rel=0.01)

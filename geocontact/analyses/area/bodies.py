@@ -13,7 +13,6 @@ import pandas as pd
 from jaxtyping import Bool
 
 from geocontact.analyses.area.options import AreaOptions
-from geocontact.analyses.area.pose_error import pose_error_of
 from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.bodies import chosen_faces, read_body_and_outer, refuse_two_spaces
 from geocontact.analyses.frame.collector import add_input, reserve, say
@@ -23,6 +22,7 @@ from geocontact.data.evolution import MM2
 from geocontact.data.motion import Motion
 from geocontact.data.text import cannot_be_named, same_place
 from geocontact.geometry.contact_area.area import Refinement
+from geocontact.geometry.contact_area.comparison import THRESHOLD, TIME, is_area, largest_difference
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.pose_error import PoseError
 from geocontact.geometry.fit.cylinder import fit_cylinder
@@ -32,7 +32,8 @@ from geocontact.geometry.sweep import sweep
 from geocontact.geometry.union import UnitedSurface
 from geocontact.io.motion.motion import read_motion
 from geocontact.io.text.results import read_frame
-from geocontact.io.text.units import LENGTH
+from geocontact.io.text.side_table import read_side_table
+from geocontact.io.text.units import ANGLE, LENGTH
 from geocontact.view.surfaces.vtp_series import require_pyvista
 
 DIRECTIONS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -163,7 +164,6 @@ def _swept(o: AreaOptions, asked: tuple[str, float, float, float], moving: Surfa
 
 
 PARTS = ("", "_lower", "_upper", "_medial", "_lateral")
-TIME, THRESHOLD, RELATIVE = "time [s]", "threshold [mm]", "relative [-]"
 
 
 @dataclass(frozen=True)
@@ -179,92 +179,19 @@ class Reference:
         return largest_difference(rows) <= self.tolerance
 
 
-@dataclass(frozen=True, eq=False)
-class Compared:
-    """A row per measured area, from `compared`, and the largest relative difference that is acceptable."""
-
-    rows: pd.DataFrame
-    tolerance: float
-
-    @property
-    def largest(self) -> float:
-        """Largest relative difference."""
-        return largest_difference(self.rows)
-
-    @property
-    def accepted(self) -> bool:
-        """Whether no row is beyond the tolerance."""
-        return self.largest <= self.tolerance
-
-
 def read_reference(path: Path) -> pd.DataFrame:
     """Reference table: `time [s]`, optionally `threshold [mm]`, and one or more area columns as in area.csv [mm^2]."""
     areas = (f"area_{body}{part} [mm^2]" for body in ("fixed", "moving") for part in PARTS)
     table = read_frame(path, (TIME, THRESHOLD, *areas), "give a CSV like area.csv")
-    if TIME not in table or not any(_is_area(name) for name in table.columns):
+    if TIME not in table or not any(is_area(name) for name in table.columns):
         what = f"has the columns {', '.join(map(str, table.columns))}"
         raise InputError(path, "", what, "it needs 'time [s]' and for example 'area_fixed [mm^2]'")
     for name in table.columns:
-        if name in (TIME, THRESHOLD) or _is_area(name):
+        if name in (TIME, THRESHOLD) or is_area(name):
             table[name] = pd.to_numeric(table[name], errors="coerce")
     if table[TIME].isna().any():
         raise InputError(path, f"row {int(table[TIME].isna().argmax()) + 2}", "time is not a number", "correct it")
     return table
-
-
-def _is_area(name: str) -> bool:
-    return name.startswith("area_") and name.endswith("[mm^2]")
-
-
-def compared(ours: pd.DataFrame, reference: pd.DataFrame, path: Path) -> pd.DataFrame:
-    """One row per reference value: ours (linear in time between frames), theirs, difference, relative difference.
-
-    Reference times outside our own frames are refused; rows without a threshold need ours to have only one.
-    """
-    levels = sorted(set(ours[THRESHOLD]))
-    if THRESHOLD not in reference:
-        if len(levels) > 1:
-            raise InputError(path, "", "does not say which threshold it is for", f"add a column '{THRESHOLD}'")
-        reference = reference.assign(**{THRESHOLD: levels[0]})
-    rows = [
-        _row(ours, row, name, path)
-        for name in reference.columns
-        if _is_area(name)
-        for _, row in reference.iterrows()
-        if np.isfinite(row[name])
-    ]
-    if not rows:
-        raise InputError(path, "", "no area in it is a number", "give measured areas in mm^2")
-    return pd.DataFrame(rows)
-
-
-def largest_difference(rows: pd.DataFrame) -> float:
-    """Largest relative difference of a comparison."""
-    return float(rows[RELATIVE].abs().max())
-
-
-def _row(ours: pd.DataFrame, row: pd.Series, name: str, path: Path) -> dict[str, object]:
-    if name not in ours:
-        raise InputError(path, name, "is not among our columns", f"ours are {', '.join(ours.columns)}")
-    same = ours[np.isclose(ours[THRESHOLD], row[THRESHOLD], rtol=1e-9, atol=1e-9)]
-    if same.empty:
-        levels = ", ".join(f"{level:g}" for level in sorted(set(ours[THRESHOLD])))
-        raise InputError(path, "", f"threshold {row[THRESHOLD]:g} mm was not evaluated ({levels})", "see `threshold`")
-    time, value = same[TIME].to_numpy(float), same[name].to_numpy(float)
-    tolerance = 1e-6 * max(1.0, float(np.abs(time).max()))
-    if not time[0] - tolerance <= row[TIME] <= time[-1] + tolerance:
-        raise InputError(path, "", f"time {row[TIME]:g} lies outside {time[0]:g} … {time[-1]:g}", "shift its clock")
-    mine = float(np.interp(row[TIME], time, value))
-    theirs = float(row[name])
-    return {
-        TIME: row[TIME],
-        THRESHOLD: row[THRESHOLD],
-        "quantity": name,
-        "ours [mm^2]": mine,
-        "reference [mm^2]": theirs,
-        "difference [mm^2]": mine - theirs,
-        RELATIVE: (mine - theirs) / theirs if theirs else (0.0 if mine == 0.0 else np.inf),
-    }
 
 
 def refuse_plane_beside(
@@ -290,6 +217,41 @@ def refuse_zero_without_inside(thresholds: tuple[float, ...], moving: Surface, f
     if 0.0 in thresholds and not moving.closed and not fixed.closed:
         what = f"0 counts what is inside the other body, and neither {moving.name} nor {fixed.name} is closed"
         raise InputError("", "`threshold`", what, "give a length, or say `assume_closed`")
+
+
+def pose_sd(text: str, option: str) -> tuple[float, ...]:
+    """ "t=0.5,r=1" or "tx=0.5,rz=2" (mm, degrees) to three lengths [m] and three angles [rad]; 0 where not named."""
+    names, found = ("tx", "ty", "tz", "rx", "ry", "rz"), dict[str, float]()
+    for part in text.split(","):
+        name, _, value = (piece.strip() for piece in part.partition("="))
+        meant = [each for each in names if each == name or each[0] == name]
+        if not meant or not value or any(each in found for each in meant):
+            raise InputError("", option, f"{part.strip()!r} is no standard deviation", f"write {option} t=0.5,r=1")
+        size = quantities.number(value, option, "t=0.5,r=1")
+        found |= {each: size * (LENGTH["mm"] if each[0] == "t" else ANGLE["deg"]) for each in meant}
+    if min(found.values()) < 0.0:
+        raise InputError("", option, f"{text!r} is negative", "a standard deviation is not")
+    return tuple(found.get(each, 0.0) for each in names)
+
+
+DRAWS, SEED = 400, 1
+COLUMNS = ["x [m]", "y [m]", "z [m]"]
+
+
+def pose_error_of(o: AreaOptions) -> PoseError | None:
+    """The error that the options describe; None where they describe none."""
+    draws, seed = o.draws or DRAWS, SEED if o.seed is None else o.seed
+    if o.pose_sd is not None:
+        return PoseError.normal(np.asarray(o.pose_sd), o.pose_axes or "fixed", draws, seed)
+    if o.markers is None or o.marker_sd is None:
+        return None
+    table = read_side_table(o.markers, COLUMNS)
+    if missing := [name for name in COLUMNS if name not in table.columns]:
+        raise InputError(o.markers, "line 1", f"no column {', '.join(missing)}", "write x [mm], y [mm], z [mm]")
+    try:
+        return PoseError.of_markers(table[COLUMNS].to_numpy(float), o.marker_sd, draws, seed)
+    except ValueError as error:
+        raise InputError(o.markers, "", str(error), "give the markers in MOVING's frame") from error
 
 
 BRIEF, PATIENT = 40_000, 1_000_000  # triangles divided per area, without and with bounds asked for

@@ -2,26 +2,191 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from typing import Literal
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Float
+from jaxtyping import Bool
 
 from geocontact.analyses.area.bodies import Bodies
-from geocontact.analyses.area.congruence import CongruenceEvolution
-from geocontact.analyses.area.options import AreaOptions
-from geocontact.analyses.area.pose_error import AreaUncertainty, uncertainty_table
-from geocontact.analyses.area.pressure import PressureEvolution
-from geocontact.analyses.frame.collector import note, reserve, say
+from geocontact.analyses.area.options import FLAT, AreaOptions
+from geocontact.analyses.frame.bodies import confined_modulus, measured_thickness
+from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import MM2, AreaEvolution
 from geocontact.data.motion import Motion
-from geocontact.geometry.contact_area.evolution import area_evolution
+from geocontact.geometry.contact_area.congruence import (
+    EDGES,
+    PER_MM,
+    CongruenceEvolution,
+    congruence_evolution,
+    longer_radius,
+    median_edges,
+)
+from geocontact.geometry.contact_area.evolution import area_of_outer
 from geocontact.geometry.contact_area.maps import DistanceMaps
-from geocontact.loads.pressure_load import PressureLoad
+from geocontact.geometry.contact_area.pose_error import AreaUncertainty
+from geocontact.geometry.curvature import corner_normals
+from geocontact.geometry.surface import Surface
+from geocontact.geometry.surface_quadrature import surface_quadrature
+from geocontact.loads.foundation import Layer, Skin, layer_on
+from geocontact.loads.pressure_evolution import PressureEvolution, pressure_evolution
+
+FEW = 0.9
+"""Share of the contact area that has both curvatures, below which a warning says so."""
+LEAST = 0.2
+"""Share below which there is no index: it would be that of a few places."""
+
+
+def congruence_of(bodies: Bodies, radius: float, name: str, motion: Motion) -> CongruenceEvolution:
+    """Congruence of all frames, curvatures fitted within `radius` [m]; none over less than `LEAST` of the area."""
+    with listener().progress(f"{name or 'frames'}, congruence", len(motion)) as step:
+        every = congruence_evolution(bodies.moving, bodies.fixed, motion, bodies.settings, radius, step)
+    label = f"{name}: " if name else ""
+    found = _over_enough(bodies, radius, label, motion, every)
+    _say_congruence(bodies, radius, name, found)
+    return found
+
+
+def _over_enough(
+    bodies: Bodies, radius: float, label: str, motion: Motion, found: CongruenceEvolution
+) -> CongruenceEvolution:
+    """The same without what is over too little of the area: a reservation, or a refusal where there is nothing else."""
+    few = found.share < LEAST
+    if not few.any():
+        return found
+    remedy = _remedy(bodies, radius, motion, found)
+    if not np.isfinite(found.index).any():
+        what = (
+            f"{label}no congruence of {bodies.moving.name} and {bodies.fixed.name} in any frame, although they are near"
+        )
+        raise InputError("", "`congruence`", what, remedy)
+    for k, threshold in enumerate(bodies.settings.thresholds):
+        if few[:, k].any():
+            low, high = found.share[few[:, k], k].min(), found.share[few[:, k], k].max()
+            reserve(
+                f"{label}no index of congruence within {threshold * 1e3:g} mm in {few[:, k].sum()} of {len(few)} "
+                f"frames: both curvatures are known over {low:.0%} to {high:.0%} of the area, and {LEAST:.0%} are "
+                f"needed; {remedy}"
+            )
+    return found.above(LEAST)
+
+
+def _remedy(bodies: Bodies, radius: float, motion: Motion, found: CongruenceEvolution) -> str:
+    """A longer radius that works for the meshes; else what is the matter."""
+    longer = longer_radius(bodies.moving, bodies.fixed, motion, bodies.settings, radius, found)
+    edges = median_edges(bodies.moving, bodies.fixed)
+    if longer is not None:
+        return (
+            f"too few vertices lie within {radius * 1e3:g} mm: edges of the meshes are {edges[0] * 1e3:.2g} and "
+            f"{edges[1] * 1e3:.2g} mm at the median, give `congruence` {longer * 1e3:.3g}mm"
+        )
+    return (
+        f"no radius to {EDGES[-1] * max(edges) * 1e3:.3g} mm does better, so the surfaces do not face each other there "
+        "(turn over an open patch whose faces are wound inwards; look at the pose: where they overlap deeply their "
+        "normals are not opposite)"
+    )
+
+
+def _say_congruence(bodies: Bodies, radius: float, name: str, found: CongruenceEvolution) -> None:
+    """Range of the index, and what it is not over."""
+    summary: dict[str, object] = {"radius_mm": radius * 1e3}
+    note(f"{name} congruence".lstrip(), summary)
+    label = f"{name}: " if name else ""
+    for k, threshold in enumerate(bodies.settings.thresholds):
+        index, share = found.index[:, k], found.share[:, k]
+        there = np.isfinite(index)
+        if not there.any():
+            continue
+        low, high = (float(end) * PER_MM for end in (index[there].min(), index[there].max()))
+        summary[f"index_per_mm_at_{threshold * 1e3:g}_mm"] = [round(low, 6), round(high, 6)]
+        say(
+            f"{label}index of congruence within {threshold * 1e3:g} mm: {low:.4f} … {high:.4f} 1/mm "
+            f"(0 fits exactly), curvatures fitted within {radius * 1e3:g} mm"
+        )
+        worst = float(share[there].min())
+        if worst < FEW:
+            reserve(
+                f"{label}the index of congruence is over {worst:.0%} of the area within {threshold * 1e3:g} mm in the "
+                "worst frame: elsewhere the surfaces do not face each other, or too few vertices lie within "
+                f"`congruence` {radius * 1e3:g} mm"
+            )
+
+
+PIECE = 0.5e-3  # m; longest edge of a piece unless given
+AGREED = 0.01  # of the force; pieces of half the size may change it by no more without a word
+STRAINED = 0.2  # largest strain that the linear law is trusted to
+
+
+def pressures_of(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, kept: Sequence[int]) -> PressureEvolution:
+    """Loads of all frames; pressures of the frames in `kept` and of the one with the largest force."""
+    moving, counted = bodies.moving, bodies.settings.fixed_faces
+    if not moving.closed:
+        what = f"{moving.name} is open ({moving.topology.why_open}): it has no inside, so there is no depth"
+        raise InputError("", "`pressure`", what, "close it, or see `assume_closed` moving")
+    edge = PIECE if o.piece is None else o.piece
+
+    def finer(faces: Bool[np.ndarray, " f"]) -> Layer:
+        return _layer(bodies, faces if counted is None else faces & counted, o, 0.5 * edge)
+
+    layer, skin = _layer(bodies, counted, o, edge), _skin(moving, o)
+    with listener().progress(f"pressure {name}".strip(), len(motion)) as step:
+        found = pressure_evolution(layer, bodies.fixed, moving, motion, skin, kept, finer, o.workers, step)
+    _say_pressures(found, name)
+    return found
+
+
+def _layer(bodies: Bodies, faces: Bool[np.ndarray, " f"] | None, o: AreaOptions, edge: float) -> Layer:
+    """FIXED's layer in pieces of at most `edge` [m]."""
+    fixed, split = bodies.fixed, bodies.settings.split
+    try:
+        pieces = surface_quadrature(fixed, edge, faces)
+    except ValueError as error:
+        raise InputError("", "`piece`", str(error), "give a longer edge") from error
+    thickness = measured_thickness(fixed, pieces.point, pieces.normal, o.thickness, "`thickness`")
+    sides = None if split is None else (split, bodies.settings.medial_side)
+    modulus = confined_modulus(o.modulus, o.poisson)
+    return layer_on(fixed, pieces, thickness, modulus, o.foundation or "linear", sides, o.facets != FLAT)
+
+
+def _skin(moving: Surface, o: AreaOptions) -> Skin:
+    """What MOVING brings: smooth facets unless flat, and a layer where its modulus is given."""
+    normals = None if o.facets == FLAT else corner_normals(moving)
+    if o.modulus_moving is None:
+        return Skin(normals)
+    centres = moving.vertices[moving.faces].mean(axis=1)
+    thickness = measured_thickness(moving, centres, moving.face_normal, o.thickness_moving, "`thickness_moving`")
+    return Skin(normals, thickness, confined_modulus(o.modulus_moving, o.poisson_moving))
+
+
+def _say_pressures(e: PressureEvolution, name: str) -> None:
+    force, again, layer, strain = e.loads[e.heaviest].pressing, e.finer, e.layer, e.strain
+    off = abs(force - again) / again if again > 0.0 else 0.0
+    if off > AGREED:
+        reserve(f"pieces of half the size change the largest force by {off:.1%}; give a smaller `piece`")
+    if not force > 0.0:
+        reserve("the bodies never overlap: an elastic layer is not pressed, and all forces are 0")
+    if layer.law == "linear" and strain > STRAINED:
+        reserve(f"the layer is strained by up to {strain:.0%}: `foundation` logarithmic is for that")
+    note(
+        f"pressure {name}".strip(),
+        {
+            "law": layer.law,
+            "layer_modulus_Pa": layer.modulus,
+            "pieces": len(layer.pieces.area),
+            "largest_force_N": round(force, 6),
+            "with_pieces_of_half_the_size_N": round(again, 6),
+            "largest_pressure_Pa": max(load.peak for load in e.loads),
+            "largest_strain": round(strain, 6),
+            "thickness_mm": [round(float(v) * 1e3, 4) for v in (layer.thickness.min(), layer.thickness.max())],
+            "facets": "flat" if e.skin.normals is None else "smooth",
+            "layer_modulus_moving_Pa": None if e.skin.thickness is None else e.skin.modulus,
+        },
+    )
+    label = f"{name}: " if name else ""
+    peak = max(load.peak for load in e.loads)
+    say(f"{label}{layer.law} foundation: force up to {force:.1f} N, pressure up to {peak * 1e-6:.2f} MPa")
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,11 +230,11 @@ def tables_of(one: MotionResult, o: AreaOptions) -> dict[str, pd.DataFrame]:
     """`area`, and `pressure`, `comparison` and `pose_error` where they were asked for."""
     found = {"area": area_table(one, o)}
     if one.pressure is not None:
-        found["pressure"] = pressure_table(one.motion, one.pressure)
+        found["pressure"] = one.pressure.table(one.motion.time)
     if one.comparison is not None:
         found["comparison"] = one.comparison
     if one.uncertainty is not None:
-        found["pose_error"] = uncertainty_table(one.motion.time, one.evolution.thresholds, one.uncertainty)
+        found["pose_error"] = one.uncertainty.table(one.motion.time, one.evolution.thresholds)
     return found
 
 
@@ -84,30 +249,6 @@ def area_table(one: MotionResult, o: AreaOptions) -> pd.DataFrame:
     if o.adduction is not None:
         table["adduction offset [deg]"] = np.round(np.degrees(o.adduction[1]), 9)
     return table
-
-
-def pressure_table(motion: Motion, e: PressureEvolution) -> pd.DataFrame:
-    """A row per frame: force on FIXED, its moment about the frame's origin, centre of pressure (empty without load)."""
-    wrenches = [load.wrench for load in e.loads]
-    columns: dict[str, object] = {"time [s]": motion.time, "force [N]": e.pressing}
-    for axis, letter in enumerate("xyz"):
-        columns[f"force_{letter} [N]"] = [w.force[axis] for w in wrenches]
-    for axis, letter in enumerate("xyz"):
-        columns[f"moment_{letter} [N m]"] = [w.moment[axis] for w in wrenches]
-    columns |= _columns("", e.loads)
-    for side, loads in e.parts.items():
-        columns[f"force_{side} [N]"] = [load.pressing for load in loads]
-        columns |= _columns(f"_{side}", loads)
-    return pd.DataFrame(columns)
-
-
-def _columns(suffix: str, loads: Sequence[PressureLoad]) -> dict[str, object]:
-    centres = np.array([load.centre for load in loads]) * 1e3
-    return {
-        f"peak{suffix} [MPa]": [load.peak * 1e-6 for load in loads],
-        f"pressed_area{suffix} [mm^2]": [load.area * 1e6 for load in loads],
-        **{f"cop{suffix}_{letter} [mm]": centres[:, axis] for axis, letter in enumerate("xyz")},
-    }
 
 
 OVERLAP = 1e-3  # m; as much as fluoroscopy and optical tracking err by across a joint
@@ -186,15 +327,16 @@ def _frame(frame: int, motion: Motion) -> str:
     return f"frame {frame + 1} of {len(motion)}, {motion.course.at(frame)}"
 
 
-Body = Literal["moving", "fixed"]
 NONE = 1e-9
 """Share of a contact area below which what lies inside is rounding."""
 
 
 def say_inner_area(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, evolution: AreaEvolution) -> None:
     """For each file with surfaces inside or across others that count: how much of its contact area is on these."""
-    for body, whole, alone in _with_and_without(bodies, o, motion, evolution):
-        united = bodies.inner[body]
+    widest = int(np.argmax(evolution.thresholds))
+    for body, united in bodies.inner.items():
+        whole = getattr(evolution, body).area[:, widest]
+        alone = area_of_outer(bodies.moving, bodies.fixed, motion, bodies.settings, body, united, o.workers)
         within = f"within {max(evolution.thresholds) * 1e3:g} mm"
         inside = whole - alone
         frame = int(np.argmax(inside))
@@ -216,19 +358,3 @@ def say_inner_area(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, ev
             f"{frame + 1} of {len(motion)}, {motion.course.at(frame)}, lie inside another one; "
             f"`outer` {body} counts the outer surface alone"
         )
-
-
-def _with_and_without(
-    bodies: Bodies, o: AreaOptions, motion: Motion, evolution: AreaEvolution
-) -> Iterator[tuple[Body, Float[np.ndarray, " t"], Float[np.ndarray, " t"]]]:
-    """Body, and its area over the frames at the largest threshold as counted and of the outer surface alone [m^2]."""
-    widest = int(np.argmax(evolution.thresholds))
-    settings = replace(bodies.settings, thresholds=(max(evolution.thresholds),), sensitivity=())
-    for body in bodies.inner:
-        sides = {"moving": bodies.moving, "fixed": bodies.fixed, body: bodies.inner[body].surface}
-        faces = {"moving": settings.moving_faces, "fixed": settings.fixed_faces}
-        marked = faces[body]
-        faces[body] = None if marked is None else marked[bodies.inner[body].face]
-        alone = replace(settings, moving_faces=faces["moving"], fixed_faces=faces["fixed"])
-        found = area_evolution(sides["moving"], sides["fixed"], motion, alone, o.workers)
-        yield body, getattr(evolution, body).area[:, widest], getattr(found, body).area[:, 0]

@@ -49,7 +49,7 @@ OF_SECOND = Requires("modulus_moving")
 Turn = Annotated[tuple[str, float], Typed("rad", "turn", '("x", gc.deg(2))'), TURN]
 PoseSd = Annotated[
     tuple[float, ...],
-    Typed("m, rad", "area.pose_error:pose_sd", "(5e-4, 5e-4, 5e-4, *gc.deg(1, 1, 1))"),
+    Typed("m, rad", "area.bodies:pose_sd", "(5e-4, 5e-4, 5e-4, *gc.deg(1, 1, 1))"),
     POSE,
 ]
 

@@ -8,8 +8,6 @@ import numpy as np
 from jaxtyping import Int
 
 from geocontact.analyses.area import pressure_page as pressure
-from geocontact.analyses.area.bodies import Compared
-from geocontact.analyses.area.congruence import CongruenceEvolution
 from geocontact.analyses.area.figure import distance_curves
 from geocontact.analyses.area.page_sections import (
     Told,
@@ -21,15 +19,17 @@ from geocontact.analyses.area.page_sections import (
     strip,
     uncertainty_curves,
 )
-from geocontact.analyses.area.pose_error import AreaUncertainty
 from geocontact.analyses.area.pressure_page import Pressures, pressure_sections, pressure_words
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, Thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted, rounded
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import CLIP, REFINED
+from geocontact.geometry.contact_area.comparison import Compared
+from geocontact.geometry.contact_area.congruence import CongruenceEvolution
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
+from geocontact.geometry.contact_area.pose_error import AreaUncertainty
 from geocontact.geometry.surface import Surface
 from geocontact.view.page.content import Choices, Page, PageChoice, Readout, Section, Table, Words
 

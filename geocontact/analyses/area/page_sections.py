@@ -7,16 +7,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from geocontact.analyses.area.bodies import Compared
-from geocontact.analyses.area.congruence import CongruenceEvolution
 from geocontact.analyses.area.figure import area_curves, colour_span
-from geocontact.analyses.area.pose_error import NORMAL, AreaUncertainty
 from geocontact.analyses.area.pressure_page import Pressures, face_map, pressure_rows
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import CLIP, REFINED
+from geocontact.geometry.contact_area.comparison import Compared
+from geocontact.geometry.contact_area.congruence import CongruenceEvolution
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
+from geocontact.geometry.contact_area.pose_error import NORMAL, AreaUncertainty
 from geocontact.geometry.surface import Surface
 from geocontact.view.page.content import Curve, Curves, Points, Row, Scene, SceneBody, Strip, Table
 from geocontact.view.surfaces.camera import camera_directions

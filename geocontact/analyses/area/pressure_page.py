@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.analyses.area.pressure import PressureEvolution
 from geocontact.analyses.frame.words import rounded
 from geocontact.data.motion import Course
 from geocontact.geometry.sagittal import silhouette
 from geocontact.geometry.surface import Surface
+from geocontact.loads.pressure_evolution import PressureEvolution
 from geocontact.view.page.content import Curve, Curves, FaceMap, Plan, Row, Section, Track, Words
 
 MM, MM2, MPA = 1e3, 1e6, 1e-6

@@ -29,11 +29,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.area.bodies import Bodies, Compared, Reference, compared, largest_difference, read
-from geocontact.analyses.area.congruence import congruence_evolution
+from geocontact.analyses.area.bodies import Bodies, Reference, read
 from geocontact.analyses.area.contact import (
     MotionResult,
+    congruence_of,
     least_distance,
+    pressures_of,
     refuse_strangers,
     say_inner_area,
     tables_of,
@@ -45,8 +46,6 @@ from geocontact.analyses.area.distance_file import FILE, write_maps
 from geocontact.analyses.area.figure import area_figure, colour_span, write_paraview, write_stills
 from geocontact.analyses.area.options import AreaOptions, PressureOptions
 from geocontact.analyses.area.page import FRAMES, thinned_page
-from geocontact.analyses.area.pose_error import ENDS, AreaUncertainty, area_uncertainty
-from geocontact.analyses.area.pressure import PressureEvolution, pressure_evolution
 from geocontact.analyses.area.pressure_page import shown_pressures
 from geocontact.analyses.frame.collector import current, listener, note, reserve, say
 from geocontact.analyses.frame.contact_pressures import PressureMap, pressure_figure, write_contact_loads
@@ -56,10 +55,13 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.data.evolution import MM2, AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import REFINED
+from geocontact.geometry.contact_area.comparison import Compared, compared, largest_difference
 from geocontact.geometry.contact_area.evolution import FrameContact, Settings, area_evolution
 from geocontact.geometry.contact_area.maps import DistanceMaps
+from geocontact.geometry.contact_area.pose_error import ENDS, AreaUncertainty, area_uncertainty
 from geocontact.geometry.contact_area.warm_up import warm_up
 from geocontact.geometry.surface import Surface
+from geocontact.loads.pressure_evolution import PressureEvolution
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -253,11 +255,11 @@ def _over(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, shared: tup
     """One motion; `shared` are the reservations that hold for all of them."""
     before = len(current().warnings)
     evolution, maps = _evaluated(bodies, o, name, motion)
-    pressure = pressure_evolution(bodies, o, name, motion, maps.frames) if o.pressure else None
+    pressure = pressures_of(bodies, o, name, motion, maps.frames) if o.pressure else None
     say_inner_area(bodies, o, name, motion, evolution)
     comparison = None if bodies.reference is None else _compared(evolution, bodies.reference)
     uncertainty = _uncertain(bodies, o, name, motion, evolution)
-    alike = None if o.congruence is None else congruence_evolution(bodies, o.congruence, name, motion)
+    alike = None if o.congruence is None else congruence_of(bodies, o.congruence, name, motion)
     reservations = (*shared, *current().warnings[before:])
     return MotionResult(name, motion, evolution, maps, pressure, comparison, uncertainty, alike, reservations)
 

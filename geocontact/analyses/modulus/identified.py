@@ -1,87 +1,26 @@
-"""What is identified: modulus of each side, what it depends on, and forces of a trial that was not used."""
+"""What is identified: modulus of each side, forces of a trial that was not used, tables and modulus.json."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.json_file import finite, plain
 from geocontact.analyses.modulus.inputs import BOTH, HALVES, ModulusInputs, OtherTrial
-from geocontact.contact.area_hertz import READINGS
 from geocontact.data.errors import InputError
-from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, MODULUS, SLOPE, THRESHOLD, AreaForce, ThresholdAreas
-from geocontact.elastic_modulus.identify import STRONGEST, WEAKEST, Identification, agreement
+from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, MODULUS, SLOPE, THRESHOLD, ThresholdAreas
+from geocontact.elastic_modulus.identify import Identification, agreement
+from geocontact.elastic_modulus.prediction import Prediction, predicted_force
+from geocontact.elastic_modulus.sensitivity import SensitivityRow, confounded
 from geocontact.elastic_modulus.threshold_calibration import Calibration
+from geocontact.identify.identifiability import Identifiability
 from geocontact.io.recordings.area_table import FEWEST, AreaTable
-
-
-@dataclass(frozen=True)
-class SensitivityRow:
-    """E* [Pa] of one side, reading and threshold [m], all else equal; infinite where the reading sees no contact."""
-
-    side: str
-    reading: str
-    threshold: float
-    modulus: float
-    rmse: float
-    r2: float
-
-
-def sensitivity(sides: Mapping[str, Identification]) -> list[SensitivityRow]:
-    """Sensitivity of all sides, one after another."""
-    return [row for side, each in sides.items() for row in _rows(side, each)]
-
-
-def _rows(side: str, each: Identification) -> list[SensitivityRow]:
-    """Every reading at every threshold that was evaluated, and at the one used."""
-    used = each.fit.values.get(THRESHOLD, each.model.threshold)
-    levels = sorted({*map(float, each.model.evolution.thresholds), used})
-    rows = []
-    for reading in READINGS:
-        if reading.name == "strip" and not np.isfinite(each.model.evolution.length):
-            continue
-        sticks = each.model.adhesion if reading.name == each.model.reading.name else None
-        for level in levels:
-            model = replace(each.model, reading=reading, threshold=level, adhesion=sticks)
-            rows.append(_row(side, model, each, level))
-    return rows
-
-
-def _row(side: str, model: AreaForce, each: Identification, level: float) -> SensitivityRow:
-    held = {name: value for name, value in each.fit.values.items() if name not in (MODULUS, THRESHOLD)}
-    if not model.per_modulus(held).any():
-        return SensitivityRow(side, model.reading.name, level, np.inf, np.nan, np.nan)
-    modulus = float(model.refit(each.measured[None, :], held, (WEAKEST, STRONGEST))[0, 0])
-    rmse, r2 = agreement(each.measured, model.force({**held, MODULUS: modulus}))
-    return SensitivityRow(side, model.reading.name, level, modulus, rmse, r2)
-
-
-@dataclass(frozen=True, eq=False)
-class Prediction:
-    """Predicted and, where it is known, measured force of one side [N]; `measured` is NaN outside its recording."""
-
-    side: str
-    time: Float[np.ndarray, " t"]
-    predicted: Float[np.ndarray, " t"]
-    measured: Float[np.ndarray, " t"] | None
-
-    @property
-    def rmse(self) -> float:
-        """Root mean square error [N] where both are known."""
-        return self._agreement()[0]
-
-    @property
-    def r2(self) -> float:
-        """R^2 about the mean of what was measured."""
-        return self._agreement()[1]
-
-    def _agreement(self) -> tuple[float, float]:
-        if self.measured is None:
-            return float("nan"), float("nan")
-        there = np.isfinite(self.measured)
-        return agreement(self.measured[there], self.predicted[there])
 
 
 def predictions(inputs: ModulusInputs, sides: Mapping[str, Identification]) -> list[Prediction]:
@@ -98,9 +37,9 @@ def predictions(inputs: ModulusInputs, sides: Mapping[str, Identification]) -> l
 
 
 def _predicted(other: OtherTrial, given_lag: float, side: str, each: Identification) -> Prediction:
-    table, values = other.table, each.fit.values
+    table, values = other.table, each.fit.values  # noqa: PD011
     level = _level(table, each)
-    predicted = _force(_evolution(table, side, each), each, level)
+    predicted = predicted_force(_evolution(table, side, each), each, level)
     if other.forces is None or side not in other.forces.forces:
         return Prediction(side, table.time, predicted, None)
     clock, at = other.forces.time, table.time + values.get(LAG, given_lag)
@@ -111,16 +50,9 @@ def _predicted(other: OtherTrial, given_lag: float, side: str, each: Identificat
     return Prediction(side, table.time, predicted, measured)
 
 
-def _force(evolution: ThresholdAreas, each: Identification, level: float) -> Float[np.ndarray, " t"]:
-    unit, sticks = evolution.per_modulus(each.model.reading, level), each.model.adhesion
-    if sticks is None:
-        return np.asarray(each.modulus * unit)
-    return sticks.force(unit, sticks.pull(evolution.within(level), evolution.radius), each.modulus)
-
-
 def _level(table: AreaTable, each: Identification) -> float:
     """The threshold used, exactly as the table has it where it does."""
-    known, threshold = table.thresholds, each.fit.values.get(THRESHOLD, each.model.threshold)
+    known, threshold = table.thresholds, each.fit.values.get(THRESHOLD, each.model.threshold)  # noqa: PD011
     near = np.flatnonzero(np.isclose(known, threshold, rtol=1e-9))
     if not len(near) and not known[0] <= threshold <= known[-1]:
         what = f"has no areas at {threshold * 1e3:g} mm"
@@ -132,7 +64,7 @@ def _evolution(table: AreaTable, side: str, each: Identification) -> ThresholdAr
     """Areas of one side at the offset that was identified."""
     radius = np.full(len(table.time), float(each.model.evolution.radius[0]))
     tilts = table.tilted.get(side)
-    turned = {name: value for name, value in each.fit.values.items() if name == ADDUCTION}
+    turned = {name: value for name, value in each.fit.values.items() if name == ADDUCTION}  # noqa: PD011
     if turned and (tilts is None or not tilts.offsets[0] <= turned[ADDUCTION] <= tilts.offsets[-1]):
         what = f"has no areas around the adduction offset of {np.degrees(turned[ADDUCTION]):.2f} degrees"
         raise InputError(table.file, "", what, "compute them with `adduction` as for the trial used")
@@ -145,7 +77,6 @@ def _evolution(table: AreaTable, side: str, each: Identification) -> ThresholdAr
 ONE_NUMBER = "E and nu are one number here: area and force tell E* = E/(1 - nu^2) only, and E for a stated nu"
 RADIUS = "E* and a constant R are one number as well, E*/R: the radius is an input, not a result"
 RADII = "of R the forces tell only how it changes with flexion (slope): its size at 0 degrees is one number with E*"
-FLAT = 1e-6  # of a force by the law; one that varies less does not vary
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,12 +141,148 @@ class Identified:
         return [ONE_NUMBER, RADIUS, *([RADII] if SLOPE in each.fit.names else []), *lines]
 
 
-def confounded(each: Identification) -> list[str]:
-    """Free numbers that change nothing, or nothing that E* does not change alike."""
-    groups = {name: each.told_apart.get(f"E*, {name}") for name in each.fit.names if name != MODULUS}
-    return [name for name, group in groups.items() if group is None or group.verdict == "one number"]
+def modulus_table(found: Identified) -> pd.DataFrame:
+    """E* of each side with its 95 % interval by profile likelihood, E for each stated Poisson's ratio, and the fit."""
+    rows: list[dict[str, object]] = []
+    for side, each in found.sides.items():
+        profile = each.profiles[MODULUS]
+        rmse, r2 = agreement(each.measured, each.predicted)
+        rows.append(
+            {
+                "side": side,
+                "E_star [Pa]": each.modulus,
+                "E_star_lower [Pa]": profile.lower,
+                "E_star_upper [Pa]": profile.upper,
+                **{f"E at nu {nu:g} [Pa]": each.modulus * (1.0 - nu**2) for nu in found.poisson},
+                "rmse [N]": rmse,
+                "r2 [-]": r2,
+            }
+        )
+    return pd.DataFrame(rows)
 
 
-def constant(each: Identification) -> bool:
-    """Whether the force by the law is the same in every frame, as of a constant area."""
-    return bool(np.ptp(each.predicted) <= FLAT * each.predicted.max())
+def curve_table(found: Identified) -> pd.DataFrame:
+    """Measured and predicted force at each frame that was used, sides one after another."""
+    parts = []
+    for side, pair in found.curves().items():
+        columns = {"measured [N]": pair.measured, "predicted [N]": pair.predicted}
+        parts.append(pd.DataFrame({"time [s]": pair.time, "side": side, **columns}))
+    return pd.concat(parts, ignore_index=True)
+
+
+def prediction_table(found: Identified) -> pd.DataFrame:
+    """The trial that was not used; empty where its force is not known."""
+    parts = []
+    for p in found.predictions:
+        columns = {"predicted [N]": p.predicted, "measured [N]": np.nan if p.measured is None else p.measured}
+        parts.append(pd.DataFrame({"time [s]": p.time, "side": p.side, **columns}))
+    return pd.concat(parts, ignore_index=True)
+
+
+def sensitivity_table(found: Identified) -> pd.DataFrame:
+    """E* by side, reading and threshold; empty where the reading sees no contact."""
+    rows = [
+        {
+            "side": row.side,
+            "reading": row.reading,
+            "threshold [mm]": row.threshold * 1e3,
+            "E_star [Pa]": row.modulus if math.isfinite(row.modulus) else np.nan,
+            "rmse [N]": row.rmse,
+            "r2 [-]": row.r2,
+        }
+        for row in found.sensitivity
+    ]
+    return pd.DataFrame(rows)
+
+
+PER_SI = {MODULUS: 1.0, THRESHOLD: 1e3, LAG: 1.0, ADDUCTION: math.degrees(1.0), SLOPE: 1.0}
+UNITS = {MODULUS: "Pa", THRESHOLD: "mm", LAG: "s", ADDUCTION: "deg", SLOPE: "1/rad"}
+
+
+def describe(found: Identified) -> dict[str, Any]:
+    """The first side's numbers at the top, every side's under `compartments`."""
+    sides = {side: _numbers(side, each, found) for side, each in found.sides.items()}
+    first, head = next(iter(sides)), found.first
+    content: dict[str, Any] = {
+        "side": first,
+        **sides[first],
+        "identifiable": ["E*", *(n for n in head.fit.names if n not in {MODULUS, *confounded(head)})],
+        "not_identifiable": found.not_identifiable(),
+        "compartments": {side: numbers for side, numbers in sides.items() if side not in ("total", BOTH)},
+        "threshold_sensitivity": [
+            {key: plain(value) for key, value in row.items()}
+            for row in sensitivity_table(found).to_dict(orient="records")
+        ],
+    }
+    if found.calibration is not None:
+        c = found.calibration
+        content["calibration"] = {
+            "threshold_mm": c.threshold * 1e3,
+            "rms_relative": c.rms,
+            "frames": c.frames,
+            "on_end": c.on_end,
+        }
+    if found.predictions:
+        content["prediction"] = {p.side: {"rmse_N": finite(p.rmse), "r2": finite(p.r2)} for p in found.predictions}
+    return content
+
+
+def _numbers(side: str, each: Identification, found: Identified) -> dict[str, Any]:
+    model, star, values = each.model, each.profiles[MODULUS], dict(each.fit.values)
+    rmse, r2 = agreement(each.measured, each.predicted)
+    radius, count, sticks = model.evolution.radius, found.frames_once(side), model.adhesion
+    return {
+        "E_star_Pa": each.modulus,
+        "E_star_ci95_Pa": [star.lower, star.upper],
+        "E_Pa": {f"{nu:g}": each.modulus * (1.0 - nu**2) for nu in found.poisson},
+        "E_ci95_Pa": {f"{nu:g}": [end * (1.0 - nu**2) for end in (star.lower, star.upper)] for nu in found.poisson},
+        "reading": model.reading.name,
+        "reading_words": model.reading.words,
+        **({} if sticks is None else {"adhesion": sticks.law, "work_of_adhesion_J_per_m2": sticks.work}),
+        "threshold_mm": values.get(THRESHOLD, model.threshold) * 1e3,
+        "radius_mm": [float(radius.min()) * 1e3, float(radius.max()) * 1e3],
+        "lag_s": values.get(LAG, model.taken),
+        **({"adduction_deg": math.degrees(values[ADDUCTION])} if ADDUCTION in values else {}),
+        **({"slope_per_rad": values[SLOPE]} if SLOPE in values else {}),
+        "rmse_N": rmse,
+        "r2": finite(r2),
+        "frames": count,
+        "window_s": [float(model.frames[0]), float(model.frames[count - 1])],
+        "intervals": _intervals(each),
+        "residual_correlation_time_s": each.memory.typical,
+        "bootstrap": _bootstrap(each),
+        "starts": {"count": len(each.fit.costs), "costs": list(each.fit.costs)},
+        "identifiability": {name: _group(group) for name, group in each.told_apart.items()},
+    }
+
+
+def _intervals(each: Identification) -> dict[str, Any]:
+    """Intervals of every free number, by profile likelihood and by block bootstrap."""
+    drawn, found = each.replicates, {}
+    for k, (name, p) in enumerate(each.profiles.items()):
+        ends = None if drawn is None else [float(end[k]) * PER_SI[name] for end in (drawn.lower, drawn.upper)]
+        found[name] = {
+            "unit": UNITS[name],
+            "value": p.best * PER_SI[name],
+            "profile_likelihood": [p.lower * PER_SI[name], p.upper * PER_SI[name]],
+            "open": [p.lower_open, p.upper_open],
+            "block_bootstrap": ends,
+        }
+    return found
+
+
+def _bootstrap(each: Identification) -> dict[str, Any] | None:
+    drawn = each.replicates
+    if drawn is None:
+        return None
+    return {"replicates": len(drawn.estimates), "block_s": drawn.block, "blocks": drawn.blocks}
+
+
+def _group(group: Identifiability) -> dict[str, Any]:
+    return {
+        "numbers": list(group.names),
+        "singular_values": group.singular_values.tolist(),
+        "condition": finite(group.condition),
+        "correlation": group.correlation.tolist(),
+        "verdict": group.verdict,
+    }

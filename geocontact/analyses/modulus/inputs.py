@@ -16,7 +16,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
 from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, SLOPE, THRESHOLD, Adhesion, AreaForce, ThresholdAreas
 from geocontact.elastic_modulus.identify import end_to_end
-from geocontact.identify.signals.filters import gaps, in_gaps
+from geocontact.elastic_modulus.prediction import shared_frames
 from geocontact.io.recordings.area_table import (
     FEWEST,
     SIDES,
@@ -262,9 +262,7 @@ def model_of(
     free = next((p for p in others if p.name == LAG), None)
     low, high = (i.lag, i.lag) if free is None else (free.lower, free.upper)
     taken = i.lag if free is None else free.start
-    inside = (time + taken >= clock[0]) & (time + taken <= clock[-1])
-    inside &= (time + taken - high >= time[0] - 1e-12) & (time + taken - low <= time[-1] + 1e-12)
-    inside &= ~in_gaps(time + taken, gaps(clock))
+    inside = shared_frames(time, clock, taken, (low, high))
     if inside.sum() < FEWEST:
         what = f"{int(inside.sum())} frames of the area ({time[0]:g} to {time[-1]:g} s) lie in the force's time"
         remedy = f"{FEWEST} at least; are the clocks the same? see `lag`"

@@ -25,15 +25,16 @@ from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.modulus.identified import Identified, constant, predictions, sensitivity
-from geocontact.analyses.modulus.inputs import ModulusInputs, model_of, read, threshold_given, unknowns
-from geocontact.analyses.modulus.numbers import (
+from geocontact.analyses.modulus.identified import (
+    Identified,
     curve_table,
     describe,
     modulus_table,
     prediction_table,
+    predictions,
     sensitivity_table,
 )
+from geocontact.analyses.modulus.inputs import ModulusInputs, model_of, read, threshold_given, unknowns
 from geocontact.analyses.modulus.options import ModulusOptions
 from geocontact.analyses.modulus.show import moduli, modulus_curves, modulus_page, told_apart
 from geocontact.data.errors import InputError
@@ -41,6 +42,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.text import seconds
 from geocontact.elastic_modulus.area_force import MODULUS
 from geocontact.elastic_modulus.identify import Identification, agreement, identify
+from geocontact.elastic_modulus.sensitivity import constant, sensitivity
 from geocontact.elastic_modulus.threshold_calibration import Calibration, calibrated
 from geocontact.identify.signals.filters import gaps
 from geocontact.view.page.tables import frame_table

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from geocontact.analyses.frame.words import NOT_A_DEVICE, rounded
-from geocontact.analyses.modulus.identified import Identified, constant
-from geocontact.analyses.modulus.numbers import PER_SI, UNITS
+from geocontact.analyses.modulus.identified import PER_SI, UNITS, Identified
 from geocontact.data.motion import Course
 from geocontact.elastic_modulus.area_force import MODULUS
 from geocontact.elastic_modulus.identify import Identification, agreement
+from geocontact.elastic_modulus.sensitivity import constant
 from geocontact.identify.identifiability import Identifiability
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Limit, Points, Span, stroke
 from geocontact.view.page.content import IntervalRow, Intervals, Page, Section, Table, Words

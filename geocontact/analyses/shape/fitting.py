@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Bool, Float
+from jaxtyping import Float
 
 from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.bodies import chosen_faces, read_input_surface
@@ -18,73 +18,14 @@ from geocontact.analyses.frame.shared_options import medial_side, refuse_other_a
 from geocontact.analyses.shape.options import NEEDS, ShapeOptions
 from geocontact.data.errors import InputError
 from geocontact.geometry.fit.found import ShapeFit
+from geocontact.geometry.fit.patch import Fitting, Patch
 from geocontact.geometry.fit.profile import SagittalProfile
-from geocontact.geometry.plane import Plane
 from geocontact.geometry.regions import Values, about, about_flexion, about_other
 from geocontact.geometry.sagittal import Sagittal
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.sweep import Axis
 from geocontact.io.text.units import LENGTH
 from geocontact.view.surfaces.vtp_series import require_pyvista
-
-
-@dataclass(frozen=True, eq=False)
-class Patch:
-    """A surface and the faces of it that count, with the two sides of it where it is split."""
-
-    surface: Surface
-    faces: Bool[np.ndarray, " m"]
-    at_vertices: bool
-    split: Plane | None
-    medial: int
-
-    @property
-    def points(self) -> Float[np.ndarray, "n 3"]:
-        """What the shape is fitted to [m]."""
-        if self.at_vertices:
-            return np.asarray(self.surface.vertices[self.vertices])
-        return np.asarray(self.surface.vertices[self.surface.faces[self.faces]].mean(axis=1))
-
-    @property
-    def vertices(self) -> Bool[np.ndarray, " n"]:
-        """Vertices of the faces that count."""
-        used = np.zeros(len(self.surface.vertices), bool)
-        used[self.surface.faces[self.faces]] = True
-        return used
-
-    @property
-    def sides(self) -> Mapping[str, tuple[Plane, int]]:
-        """Plane and side of it by name; empty without a split."""
-        if self.split is None:
-            return {}
-        return {"medial": (self.split, self.medial), "lateral": (self.split, -self.medial)}
-
-
-@dataclass(frozen=True, eq=False)
-class Fitting:
-    """A patch, the shape fitted to all of it and to its sides, and its profiles, both by side."""
-
-    patch: Patch
-    whole: ShapeFit
-    sides: Mapping[str, ShapeFit]
-    profiles: Mapping[str, SagittalProfile]
-
-    @property
-    def residual(self) -> Float[np.ndarray, " n"]:
-        """Signed distance of every vertex of the surface to the shape [m]; NaN off the patch."""
-        return np.where(self.patch.vertices, self.whole.distance(self.patch.surface.vertices), np.nan)
-
-    @property
-    def facing(self) -> str | None:
-        """Whether the faces look away from the centre of curvature, by area: convex or concave; None for a plane."""
-        if self.whole.radius is None:
-            return None
-        surface, faces = self.patch.surface, self.patch.faces
-        way = surface.vertices[surface.faces[faces]].mean(axis=1) - self.whole.point
-        if self.whole.axis is not None:
-            way = way - (way @ self.whole.axis)[:, None] * self.whole.axis
-        looks = np.einsum("ij,ij->i", way, surface.face_normal[faces])
-        return "convex" if float(np.sign(looks) @ surface.face_area[faces]) >= 0.0 else "concave"
 
 
 def describe(f: Fitting, o: ShapeOptions) -> dict[str, Any]:

@@ -24,16 +24,7 @@ from jaxtyping import Float
 from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.shape.fitting import (
-    Fitting,
-    Patch,
-    ShapeInputs,
-    describe,
-    fit_table,
-    profile_table,
-    read,
-    sagittal_about,
-)
+from geocontact.analyses.shape.fitting import ShapeInputs, describe, fit_table, profile_table, read, sagittal_about
 from geocontact.analyses.shape.options import ShapeOptions
 from geocontact.analyses.shape.show import fit_figure, fit_page, profile_curves
 from geocontact.data.errors import InputError
@@ -41,6 +32,7 @@ from geocontact.data.version import VERSION
 from geocontact.geometry.fit.catalogue import SHAPES
 from geocontact.geometry.fit.circle import fit_cylinder_along
 from geocontact.geometry.fit.found import ShapeFit
+from geocontact.geometry.fit.patch import Fitting, Patch
 from geocontact.geometry.fit.profile import SagittalProfile, sagittal_profile
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.sweep import Axis

@@ -11,9 +11,9 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.shape.fitting import Fitting
 from geocontact.data.motion import Course
 from geocontact.geometry.fit.found import OUTLYING, ShapeFit
+from geocontact.geometry.fit.patch import Fitting
 from geocontact.geometry.fit.profile import SagittalProfile
 from geocontact.geometry.fit.solver import across
 from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Limit, stroke

@@ -15,17 +15,25 @@ not opposite, MOVING's tensor is turned about both by the angle between them, wh
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.curvature import Curvatures, corner_shares
 from geocontact.geometry.surface import Surface
 
 FACING = np.cos(np.radians(45.0))
 """Cosine between the one normal and the other turned over from which two points face each other."""
+EDGES = (2.5, 3.5, 5.0)
+"""Radii that are tried in place of one that is too short, in median edges of the coarser mesh: 2.5 reach a vertex's
+second neighbours."""
+ENOUGH = 0.5
+"""Share of the contact area with both curvatures from which such a radius is long enough."""
+PER_MM = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,3 +157,99 @@ def _turns(first: Float[np.ndarray, "n 3"], then: Float[np.ndarray, "n 3"]) -> F
     skew = np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=1).reshape(-1, 3, 3)
     along = 1.0 + np.einsum("ni,ni->n", first, then)
     return np.asarray(np.eye(3) + skew + skew @ skew / along[:, None, None])
+
+
+@dataclass(frozen=True, eq=False)
+class CongruenceEvolution:
+    """Congruence of two surfaces over a motion: means over FIXED's area, over frames (t) and thresholds (k).
+
+    Parameters
+    ----------
+    least, most, index
+        Relative principal curvatures and index of congruence [1/m]; NaN where nothing is near, or too little known.
+    share
+        Of the contact area that the means are over [-].
+    """
+
+    least: Float[np.ndarray, "t k"]
+    most: Float[np.ndarray, "t k"]
+    index: Float[np.ndarray, "t k"]
+    share: Float[np.ndarray, "t k"]
+
+    def columns(self) -> dict[str, Float[np.ndarray, " r"]]:
+        """Columns of a table, frames outer and thresholds inner, as in `AreaEvolution.table`."""
+        return {
+            "relative_curvature_min [1/mm]": self.least.ravel() * PER_MM,
+            "relative_curvature_max [1/mm]": self.most.ravel() * PER_MM,
+            "congruence_index [1/mm]": self.index.ravel() * PER_MM,
+            "congruence_share [-]": self.share.ravel(),
+        }
+
+    def above(self, share: float) -> CongruenceEvolution:
+        """The same with NaN where less than this share of the contact area has both curvatures."""
+        few = self.share < share
+        least, most, index = (np.where(few, np.nan, part) for part in (self.least, self.most, self.index))
+        return CongruenceEvolution(least, most, index, self.share)
+
+
+def congruence_evolution(
+    moving: Surface,
+    fixed: Surface,
+    motion: Motion,
+    settings: Settings,
+    radius: float,
+    step: Callable[[], None] = lambda: None,
+) -> CongruenceEvolution:
+    """Congruence of two surfaces in every frame of a motion.
+
+    Parameters
+    ----------
+    moving, fixed
+        The two bodies, each in its own frame [m].
+    motion
+        Poses of MOVING in FIXED.
+    settings
+        Thresholds and the faces that count.
+    radius
+        Within which curvatures are fitted [m].
+    step
+        Called after each frame.
+    """
+    pair = CongruencePair(moving, fixed, settings, radius)
+    frames = []
+    for rotation, translation in _poses(motion):
+        frames.append(pair.at(rotation, translation))
+        step()
+    parts = ("least", "most", "index", "share")
+    return CongruenceEvolution(*(np.array([getattr(each, part) for each in frames]) for part in parts))
+
+
+def longer_radius(
+    moving: Surface, fixed: Surface, motion: Motion, settings: Settings, radius: float, found: CongruenceEvolution
+) -> float | None:
+    """A longer radius [m] within which at least `ENOUGH` of the contact area has both curvatures; None where none does.
+
+    Radii of `EDGES` median edges of the coarser mesh, rounded up to 0.1 mm, are tried in turn, in the frame and at the
+    threshold of the largest share in `found`, which `radius` led to.
+    """
+    share = np.where(np.isfinite(found.share), found.share, -1.0)
+    frame, k = np.unravel_index(int(np.argmax(share)), share.shape)
+    rotation, translation = _poses(motion)[int(frame)]
+    longest = max(median_edges(moving, fixed))
+    for each in (float(np.ceil(factor * longest * 1e4) * 1e-4) for factor in EDGES):
+        if each <= radius:
+            continue
+        if CongruencePair(moving, fixed, settings, each).at(rotation, translation).share[k] >= ENOUGH:
+            return each
+    return None
+
+
+def median_edges(moving: Surface, fixed: Surface) -> tuple[float, float]:
+    """Median edge of each mesh [m]."""
+    return float(np.median(moving.edge_length)), float(np.median(fixed.edge_length))
+
+
+def _poses(motion: Motion) -> list[tuple[Float[np.ndarray, "3 3"], Float[np.ndarray, " 3"]]]:
+    rotation = motion.poses.rotation.as_matrix().reshape(-1, 3, 3)
+    translation = np.asarray(motion.poses.translation).reshape(-1, 3)
+    return list(zip(rotation, translation, strict=True))

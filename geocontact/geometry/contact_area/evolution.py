@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -30,6 +31,7 @@ from geocontact.geometry.contact_area.sampled import Distances, Sampled, compact
 from geocontact.geometry.kernels.floor import promising
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
+from geocontact.geometry.union import UnitedSurface
 
 TOLERANCE = 1e-9  # m; depths closer together than this are not told apart
 DIVISIONS = 30  # a guard; edges halve each time
@@ -338,6 +340,39 @@ def area_evolution(
         sensitivity=np.array(sensitivity),
         undecided=np.array([a[0].undecided + b[0].undecided for a, b in zip(on_fixed, on_moving, strict=True)]),
     )
+
+
+def area_of_outer(
+    moving: Surface,
+    fixed: Surface,
+    motion: Motion,
+    settings: Settings,
+    body: Literal["moving", "fixed"],
+    outer: UnitedSurface,
+    workers: int | None = None,
+) -> Float[np.ndarray, " t"]:
+    """Contact area of the outer surface alone of one body over a motion, at the largest threshold [m^2].
+
+    Parameters
+    ----------
+    moving, fixed, motion, settings, workers
+        As in `area_evolution`; the faces of `body` that count are marked on the whole surface.
+    body, outer
+        Body whose file holds closed surfaces inside or across others, and its outer surface.
+    """
+    sides = {"moving": moving, "fixed": fixed, body: outer.surface}
+    faces = {"moving": settings.moving_faces, "fixed": settings.fixed_faces}
+    marked = faces[body]
+    faces[body] = None if marked is None else marked[outer.face]
+    alone = dataclasses.replace(
+        settings,
+        thresholds=(max(settings.thresholds),),
+        sensitivity=(),
+        moving_faces=faces["moving"],
+        fixed_faces=faces["fixed"],
+    )
+    found = area_evolution(sides["moving"], sides["fixed"], motion, alone, workers)
+    return np.asarray(getattr(found, body).area[:, 0])
 
 
 def _gathered(rows: Sequence[Sequence[AreaWithin]]) -> SideAreas:

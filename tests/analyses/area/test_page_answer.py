@@ -8,9 +8,9 @@ import pandas as pd
 import pytest
 
 from geocontact.analyses.area import page as contact_page
-from geocontact.analyses.area.bodies import Compared, compared
 from geocontact.analyses.area.figure import area_figure, colour_span
 from geocontact.geometry.contact_area.area import AS_GIVEN
+from geocontact.geometry.contact_area.comparison import Compared, compared
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.view.page.content import Curves, Readout, Scene, Words
 from tests.analyses.area.ball_on_plate import MM, T, analysed, moved, page, section, told

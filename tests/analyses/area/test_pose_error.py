@@ -7,9 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.analyses.area.pose_error import agreement, known_deviation
 from geocontact.data.errors import InputError
-from geocontact.geometry.contact_area.pose_error import ErrorOfArea
 from tests.analyses.area.calls import area
 from tests.cli.calls import PLATE, SPHERE, poses, written
 
@@ -57,29 +55,7 @@ def test_the_deviation_of_few_draws_is_said_with_its_own_error(tmp_path: Path) -
     )
 
 
-@pytest.mark.parametrize("draws", [20, 50, 400])
-def test_the_error_of_a_deviation_is_that_of_repeated_draws(draws: int) -> None:
-    """Of 4000 sets of normal draws 95 % have the true deviation in their interval, as many missed on either side."""
-    sets = np.random.default_rng(7).normal(0.0, 5.0, (4000, draws))
-    _, lower, upper = known_deviation(sets.std(axis=1, ddof=1), draws)
-    assert np.mean(lower > 5.0) == pytest.approx(0.025, abs=0.0075)
-    assert np.mean(upper < 5.0) == pytest.approx(0.025, abs=0.0075)
-
-
 def test_markers_in_one_line_are_refused(tmp_path: Path) -> None:
     markers = written(tmp_path / "markers.csv", "x [mm], y [mm], z [mm]\n0, 0, 0\n10, 0, 0\n20, 0, 0\n")
     with pytest.raises(InputError, match="lie in one line"):
         area(PLATE, SPHERE, poses(tmp_path, (0, -21.5, 0)), markers=markers, marker_sd=5e-4)
-
-
-def test_chance_of_few_draws_is_no_disagreement() -> None:
-    """Draws of the first-order distribution itself: of 400 sets of 25, hardly any is taken for another one."""
-    rng = np.random.default_rng(4)
-    said = [agreement(ErrorOfArea(100.0, rng.normal(100.0, 5.0, 25), np.zeros(6), 5.0)) for _ in range(400)]
-    assert said.count("yes") >= 396
-    assert agreement(ErrorOfArea(100.0, rng.normal(100.0, 10.0, 400), np.zeros(6), 5.0)).startswith(
-        "no: the area is not linear"
-    )
-    assert agreement(ErrorOfArea(100.0, rng.normal(103.0, 5.0, 400), np.zeros(6), 5.0)).startswith(
-        "no: the mean of the draws"
-    )

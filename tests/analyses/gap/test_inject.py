@@ -10,11 +10,11 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.gap.inject.injection import imitated, judged, sentences
+from geocontact.analyses.gap.inject.injection import sentences
 from geocontact.data.diagnosis import Diagnosis, Estimate
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.inject import Injected
+from geocontact.gap.inject import Injected, judged
 from geocontact.systems.elastic_joint import JOINT
 from tests.cli.calls import call, done
 from tests.cli.gap_cases import damped_elbow, known
@@ -51,12 +51,6 @@ def test_what_base_parameters_imitate_is_said_not_to_be_found(tmp_path: Path) ->
         result = gc.inject(case, effect="sensor_gain.force", bare=True)
     assert "not found, base parameters imitate it" in repr(result)
     assert result.record.results["planted"]["absorbed"] is True
-
-
-def test_a_gap_that_is_there_is_not_called_imitated_because_another_variant_is() -> None:
-    sizes = {0.4: False, 1e-4: True, float("nan"): True}
-    assert {size: imitated("sensor_gain", size, ("sensor_gain",)) for size in sizes} == sizes
-    assert not imitated("damping", 1e-4, ("sensor_gain",))
 
 
 def answered(value: float, sd: float, *effects: str) -> Diagnosis:

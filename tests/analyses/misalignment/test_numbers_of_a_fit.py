@@ -14,10 +14,10 @@ import pytest
 from scipy.optimize import least_squares
 
 import geocontact as gc
-from geocontact.analyses.misalignment.identify import fitted, free_joint, inputs, sentences
+from geocontact.analyses.misalignment.identify import fitted, numbers, sentences
 from geocontact.analyses.misalignment.identify.numbers import numbers_table
 from geocontact.analyses.misalignment.identify.result import IdentifyResult
-from geocontact.axis_misalignment import bins, compensation, uncertainty
+from geocontact.axis_misalignment import bins, compensation, prediction, uncertainty
 from geocontact.axis_misalignment import least_squares as elbow_least_squares
 from geocontact.identify.intervals import bin_tests, profile_likelihood
 from geocontact.identify.noise import autoregressive
@@ -178,7 +178,7 @@ def test_a_filter_is_told(known_link: IdentifyResult) -> None:
 
 
 CONSTANTS = (
-    *(fitted, free_joint, inputs, sentences, bins, compensation, uncertainty, elbow_least_squares),
+    *(fitted, numbers, sentences, bins, compensation, prediction, uncertainty, elbow_least_squares),
     *(bin_tests, profile_likelihood, autoregressive),
 )
 

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.analyses.modulus.numbers import describe
+from geocontact.analyses.modulus.identified import describe
 from geocontact.analyses.modulus.result import modulus
 from geocontact.data.errors import InputError, InputWarning
 from tests.analyses.modulus.synthetic_step import areas, forces, pressed, tilted, written

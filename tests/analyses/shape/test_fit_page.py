@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.analyses.shape.fitting import Fitting, Patch
 from geocontact.analyses.shape.show import drawn, fit_figure, fit_page, profile_curves
 from geocontact.geometry.fit.catalogue import SHAPES
+from geocontact.geometry.fit.patch import Fitting, Patch
 from geocontact.geometry.fit.profile import SagittalProfile
 from geocontact.view.page.content import Scene
 from meshes.simple_shapes import block, cylinder, sphere

@@ -38,13 +38,13 @@ from geocontact.analyses.gap.diagnose.options import DiagnoseOptions
 from geocontact.analyses.gap.diagnose.result import DiagnoseResult
 from geocontact.analyses.gap.diagnose.result import read as read_diagnosis
 from geocontact.analyses.gap.diagnose.result import run as run_diagnosis
-from geocontact.analyses.gap.inject.injection import Judgement, answer, judged, parameter_rows, planted, sentences
+from geocontact.analyses.gap.inject.injection import answer, parameter_rows, planted, sentences
 from geocontact.analyses.gap.inject.options import InjectOptions
 from geocontact.chain.effect import Candidate
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.errors import InputError
 from geocontact.gap.diagnose import diagnose
-from geocontact.gap.inject import Injected
+from geocontact.gap.inject import Injected, Judgement, judged
 from geocontact.io.cases.gap_case_writer import write_trials
 
 if TYPE_CHECKING:

@@ -25,14 +25,14 @@ from geocontact.analyses.knee.settle.options import SettleOptions
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.multibody.knee_angles import angles_of_tibia
-from geocontact.geometry.curvature import corner_normals, phong_offset
+from geocontact.geometry.curvature import corner_normals
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.surface_quadrature import surface_quadrature
 from geocontact.geometry.sweep import swept_angles
 from geocontact.io.motion.motion import read_motion
 from geocontact.io.recordings.area_table import read_force_curves
 from geocontact.io.text.units import ANGLE
-from geocontact.loads.foundation import Layer, layer_loads
+from geocontact.loads.foundation import Layer, layer_loads, layer_on
 from geocontact.loads.pressure_load import PressureLoad
 from geocontact.loads.settling import Frame
 from geocontact.loads.settling_potential import NAMES, Bed, poses_of
@@ -138,10 +138,8 @@ def layer_of(fixed: Surface, o: SettleOptions) -> Layer:
     thickness = measured_thickness(fixed, pieces.point, pieces.normal, o.thickness, "`thickness`")
     medial = medial_side(o.split, o.side, None)
     plane = quantities.splitting_plane(o.split, o.unit)
-    on_it = plane.height(pieces.point) * medial.sign > 0.0
-    height = phong_offset(fixed, corner_normals(fixed), pieces.face, pieces.point)
-    parts = {"medial": on_it, "lateral": ~on_it}
-    return Layer(pieces, thickness, confined_modulus(o.modulus, o.poisson), o.foundation, parts, height)
+    modulus = confined_modulus(o.modulus, o.poisson)
+    return layer_on(fixed, pieces, thickness, modulus, o.foundation, (plane, medial.sign))
 
 
 def _swept(bed: Bed, fixed: Surface, o: SettleOptions) -> Motion:

@@ -1,4 +1,4 @@
-"""The fit to recordings with a locked joint: bins that are reached, intervals, trials that were held out."""
+"""The fit to recordings with a locked joint, and what those with a free joint tell beside it."""
 
 from __future__ import annotations
 
@@ -7,30 +7,37 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import reserve
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
+from geocontact.axis_misalignment.compensation import (
+    DisplacementScale,
+    RecordedStroke,
+    Stiffness,
+    bin_means,
+    displacement_scale,
+    recorded_stroke,
+    stiffness_by_displacement,
+)
 from geocontact.axis_misalignment.explicit import require_no_pole, require_reach
 from geocontact.axis_misalignment.law import GROWING, LENGTHS, SCALED, offsets_of
-from geocontact.axis_misalignment.least_squares import (
-    ElbowFit,
-    Excess,
-    estimated,
-    excess,
-    law_at,
-    normality,
-    problem_of,
-    r_squared,
-    residual_by_bin,
-    standard_residuals,
+from geocontact.axis_misalignment.least_squares import ElbowFit, law_at, r_squared
+from geocontact.axis_misalignment.prediction import (
+    Held,
+    Residuals,
+    ScaleLine,
+    correlations_with_others,
+    each_left_out,
+    held_out,
+    mirrored_r2,
+    residuals_of,
+    scale_line,
 )
 from geocontact.axis_misalignment.uncertainty import (
     Direction,
     Separability,
-    along_the_scale,
     covariance,
     direction,
     profiled,
@@ -40,7 +47,7 @@ from geocontact.axis_misalignment.uncertainty import (
 )
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
-from geocontact.identify.intervals.bin_tests import BinPair, BinTest, Normality, between_bins, between_neighbours
+from geocontact.identify.intervals.bin_tests import BinPair, BinTest, between_bins, between_neighbours
 from geocontact.identify.intervals.profile_likelihood import Profile
 
 ROUNDING = 1e-9  # of the force's range; less is no noise
@@ -78,43 +85,11 @@ def _require_noise(path: Path, data: Binned) -> None:
 
 def _refuse_mirrored(paths: Sequence[Path], data: Binned) -> None:
     """A trial whose force mirrors that of the others."""
-    for trial, path in enumerate(paths):
-        if len(paths) < 2:
-            return
-        mine, others = data.only(trial).cells, data.without(trial).cells
-        bins = len(data.visits.edges) - 1
-        count = np.bincount(others.place, others.count, bins)
-        mean = np.bincount(others.place, others.count * others.means[:, FORCE], bins) / np.where(count > 0, count, 1)
-        both = count[mine.place] > 0
-        if both.sum() < LEAST_BINS:
-            continue
-        correlation = float(np.corrcoef(mine.means[both, FORCE], mean[mine.place][both])[0, 1])
+    for path, correlation in zip(paths, correlations_with_others(data, LEAST_BINS), strict=True):
         if correlation < MIRRORED:
             others_are = "the other trial, and nothing tells which is right" if len(paths) == 2 else "the other trials"
             what = f"its force mirrors that of {others_are} (correlation {correlation:.2f} over the bins)"
             raise InputError(path, "", what, "is its sign turned? correct the file, or leave it out")
-
-
-@dataclass(frozen=True, eq=False)
-class Held:
-    """R² and root mean square error [N] of bin means that were not fitted, by what was held out."""
-
-    name: str
-    r2: float
-    rmse: float
-    bins: int
-
-
-def each_left_out(data: Binned, e: ElbowFit) -> list[Held]:
-    """Each trial in turn, predicted by what the others give."""
-    if len(data.names) < 2:
-        return []
-    found = []
-    for trial, name in enumerate(data.names):
-        problem = problem_of(data.without(trial), e.problem.parameters, e.problem.priors, e.problem.scale)
-        theta = problem.theta(problem.searched(e.values).values)
-        found.append(_held(name, data.only(trial), theta))
-    return found
 
 
 def predicted(
@@ -130,14 +105,8 @@ def predicted(
         if along < MIRRORED:
             what = f"its force mirrors what the fitted trials predict (correlation {along:.2f} over the bins)"
             raise InputError(path, "", what, "is its sign turned? correct the file, or leave it out")
-        found.append(_held(r.name, own, e.theta))
+        found.append(held_out(r.name, own, e.theta))
     return found
-
-
-def _held(name: str, data: Binned, theta: Float[np.ndarray, " 8"]) -> Held:
-    measured, force = data.cells.means[:, FORCE], law_at(data.cells.means).force(theta)
-    rmse = float(np.sqrt(np.mean((measured - force) ** 2)))
-    return Held(name, r_squared(measured, force), rmse, len(measured))
 
 
 TIMES_LINK = {"k": "N", "b": "N s"}
@@ -261,47 +230,6 @@ def _number(name: str, p: Profile, drawn: tuple[float, float] | None) -> ShownIn
     return ShownInterval(name, name, WRITTEN[name], per, p, ends)
 
 
-FACTORS = np.geomspace(0.5, 2.0, 41)
-
-
-@dataclass(frozen=True, eq=False)
-class ScaleLine:
-    """Numbers along the scale, which all give the same force.
-
-    Parameters
-    ----------
-    numbers
-        A row each, in the order of NAMES, SI units.
-    r2, alone_r2
-        R² of each row, and where k alone changes as it does along the line.
-    """
-
-    numbers: Float[np.ndarray, "m 8"]
-    r2: Float[np.ndarray, " m"]
-    alone_r2: Float[np.ndarray, " m"]
-
-
-@dataclass(frozen=True, eq=False)
-class Residuals:
-    """Measured less fitted mean force of each bin.
-
-    Parameters
-    ----------
-    beta, off
-        Angle [rad] and residual [N], all trials together.
-    standard
-        Over the standard deviation of the bin's mean.
-    normality, excess
-        Whether they are normal, and how much larger than noise within the trials.
-    """
-
-    beta: Float[np.ndarray, " b"]
-    off: Float[np.ndarray, " b"]
-    standard: Float[np.ndarray, " _"]
-    normality: Normality
-    excess: Excess
-
-
 @dataclass(frozen=True, eq=False)
 class Fitted:
     """What the locked recordings tell.
@@ -362,13 +290,13 @@ def fitted(
         all_directions=direction(e),
         free_directions=direction(e, free) if len(free) > 1 else None,
         separable=separability(e),
-        line=_line(e, measured),
+        line=scale_line(e),
         held=predicted(o.held_out or (), apart, data, e, o.bin) if apart else each_left_out(data, e),
         bins_differ=between_bins(boxes.visits, FORCE),
         neighbours=between_neighbours(boxes.visits, FORCE),
-        residuals=_residuals(locked, data, e),
+        residuals=residuals_of(locked, data, e),
         r2=r_squared(measured, e.predicted),
-        mirrored_r2=_mirrored(e, measured),
+        mirrored_r2=mirrored_r2(e),
     )
 
 
@@ -382,22 +310,69 @@ def _refuse_beyond(e: ElbowFit) -> None:
         raise InputError("", "", f"the best numbers are beyond the model: {error}", "narrow `bounds`") from error
 
 
-def _line(e: ElbowFit, measured: Float[np.ndarray, " n"]) -> ScaleLine:
-    rows = along_the_scale(e, FACTORS)
-    alone = np.tile(e.theta, (len(rows), 1))
-    alone[:, 0] = rows[:, 0]
-    r2, alone_r2 = (
-        np.array([r_squared(measured, e.problem.law.force(theta)) for theta in each]) for each in (rows, alone)
+AGAINST = 3.0  # standard errors below 0 from which a stiffness is a turned sign
+
+
+@dataclass(frozen=True, eq=False)
+class Free:
+    """What the recordings with a free joint tell.
+
+    Parameters
+    ----------
+    boxes
+        Their samples in wide bins.
+    stiffness
+        Locked force over the free joint's displacement; None where that is not told.
+    scale
+        What the displacement tells of the lengths; None without a standard error.
+    """
+
+    recordings: Sequence[ElbowRecording]
+    boxes: Binned
+    stroke: RecordedStroke
+    stiffness: Stiffness | None
+    scale: DisplacementScale | None
+    bins_differ: BinTest | None
+    neighbours: Sequence[BinPair]
+    rotary_free: bool
+
+
+def free_joint(o: IdentifyOptions, recordings: Sequence[ElbowRecording], locked: Binned) -> Free | None:
+    """Ends of the stroke, stiffness and scale from trials with a free joint beside locked ones; None without any."""
+    if not recordings or o.unlocked is None:
+        return None
+    data = binned(recordings, o.bin)
+    require_bins(o.unlocked, data)
+    stroke = recorded_stroke(bin_means(data))
+    if stroke is None:
+        what = "the compensation joint slides over fewer than three bins"
+        raise InputError(o.unlocked[0], "", what, "was it free?")
+    boxes = binned(recordings, o.box)
+    trials = [bin_means(data.only(trial)) for trial in range(len(data.names))]
+    return Free(
+        recordings=recordings,
+        boxes=boxes,
+        stroke=stroke,
+        stiffness=None if o.rotary_free else _stiffness(o, locked, stroke),
+        scale=displacement_scale(trials, stroke, o.bin, rotary_free=o.rotary_free),
+        bins_differ=between_bins(boxes.visits, FORCE),
+        neighbours=between_neighbours(boxes.visits, FORCE),
+        rotary_free=o.rotary_free,
     )
-    return ScaleLine(rows, r2, alone_r2)
 
 
-def _residuals(locked: Sequence[ElbowRecording], data: Binned, e: ElbowFit) -> Residuals:
-    beta, off = residual_by_bin(data, e)
-    return Residuals(beta, off, standard_residuals(data, e), normality(locked, data, e), excess(locked, data, e))
+def stroke_stiffness(e: ElbowFit, free: Free) -> float | None:
+    """k that says how much stroke is wanting [N/m]: by displacement, else as fitted; None where the scale is free."""
+    if free.stiffness is not None and free.stiffness.value > 0.0:
+        return free.stiffness.value
+    return None if e.problem.scale_free else e.named["k"]
 
 
-def _mirrored(e: ElbowFit, measured: Float[np.ndarray, " n"]) -> float:
-    """R² that the same model reaches on the force turned over."""
-    turned = estimated(e.problem.measuring(-e.problem.force))
-    return r_squared(-measured, turned.predicted)
+def _stiffness(o: IdentifyOptions, locked: Binned, stroke: RecordedStroke) -> Stiffness | None:
+    each = [bin_means(locked.only(trial)) for trial in range(len(locked.names))]
+    found = stiffness_by_displacement(each, stroke, o.bin)
+    if found is not None and found.value + AGAINST * np.nan_to_num(found.error) < 0.0:
+        what = f"displacement and locked force run against each other ({found.value:.4g} N/m)"
+        remedy = "one of them has its sign turned: `map` displacement=-… or force=-…"
+        raise InputError((o.unlocked or ("",))[0], "", what, remedy)
+    return found

@@ -25,10 +25,15 @@ from geocontact.analyses.frame.collector import note, reserve
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.misalignment.identify.fitted import Fitted, ShownInterval, fitted, require_bins
-from geocontact.analyses.misalignment.identify.free_joint import Free, free_joint
-from geocontact.analyses.misalignment.identify.inputs import IdentifyInputs, read
-from geocontact.analyses.misalignment.identify.numbers import numbers_table
+from geocontact.analyses.misalignment.identify.fitted import (
+    Fitted,
+    Free,
+    ShownInterval,
+    fitted,
+    free_joint,
+    require_bins,
+)
+from geocontact.analyses.misalignment.identify.numbers import IdentifyInputs, numbers_table, read
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.identify.sentences import described, reserve_doubts, say_numbers
 from geocontact.analyses.misalignment.identify.show import (

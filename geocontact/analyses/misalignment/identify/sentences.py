@@ -10,8 +10,7 @@ import numpy as np
 
 from geocontact.analyses.frame.collector import reserve, say
 from geocontact.analyses.frame.json_file import finite
-from geocontact.analyses.misalignment.identify.fitted import Fitted, ShownInterval
-from geocontact.analyses.misalignment.identify.free_joint import Free, stroke_stiffness
+from geocontact.analyses.misalignment.identify.fitted import Fitted, Free, ShownInterval, stroke_stiffness
 from geocontact.analyses.misalignment.law_numbers import MMHG, with_units
 from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.compensation import EndStop

@@ -15,8 +15,7 @@ from jaxtyping import Float
 from geocontact.analyses.frame.collector import spelled
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import counted
-from geocontact.analyses.misalignment.identify.fitted import Fitted
-from geocontact.analyses.misalignment.identify.free_joint import Free
+from geocontact.analyses.misalignment.identify.fitted import Fitted, Free
 from geocontact.analyses.misalignment.identify.sentences import answer, explained
 from geocontact.analyses.misalignment.page import ANGLE, CONSTRAINT, NOT_IN_THE_NUMBERS, elbow_page
 from geocontact.axis_misalignment.compensation import BinMeans, RecordedStroke
