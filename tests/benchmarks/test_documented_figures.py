@@ -697,9 +697,8 @@ def test_damaged_files_and_faults() -> None:
     page, damaged, faults = "reference/durability.md", results("mutated_files")["figures"], results("faults")["figures"]
     assert damaged["files"] >= 10_000 and damaged["bad"] == 0
     words = ("refused", "warned", "read", "unchanged")
-    for name, counts in damaged["readers"].items():
-        good = [counts.get(word, 0) for word in words]
-        assert row(page, name) == [str(each) for each in (sum(counts.values()), *good, 0)]
+    readers = damaged["readers"].values()  # counts of each reader are in the file of results only
+    assert sum(sum(counts.values()) for counts in readers) == damaged["files"]
     assert row(page, "all") == [str(each) for each in (damaged["files"], *map(damaged["outcomes"].get, words), 0)]
     for name, found in faults.items():
         assert found["right"] and row(page, name)[0] == str(found["code"])
