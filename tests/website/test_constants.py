@@ -77,7 +77,12 @@ def test_what_works_on_a_verdict_is_told_by_what_it_moves() -> None:
     told = {"answers": 10, "seed": 1, "commit": "abc", "inside": [2, 4], "constants": {"BINS": row, "GRID": row}}
     title, said, rows = beside(told, {"BINS": 6, "GRID": 101})
     assert title == "## 2 that can move no verdict"
-    assert "in 0 of 2 trials" in said and "4 true reductions" in said and "others change nothing" not in said and "1 with a constant changed" in said
+    assert (
+        "in 0 of 2 trials" in said
+        and "4 true reductions" in said
+        and "others change nothing" not in said
+        and "1 with a constant changed" in said
+    )
     assert rows.splitlines()[2:] == [
         "| `BINS` | 6 | 2 of 10, the map of the gap by 100 %, where the gap lies by 20 % | not tried |",
         "| `GRID` | 101 | not tried | not tried |",
