@@ -94,17 +94,17 @@ def head(runs: Sequence[Run], numbers: int, tables: int) -> list[str]:
     whole = {_cases(run): run for run in runs}.values()
     cases, nothing = (sum(run[what] for run in whole) for what in ("answers", "nothing_missing"))
     what = (
-        f"{numbers} named numbers and {tables} tables of values decide a verdict. Each was halved and doubled (all values "
-        "of a table; a count to one at least), and the same synthetic cases were diagnosed again "
+        f"{numbers} named numbers and {tables} tables of values decide a verdict. Each was halved and doubled (all "
+        "values of a table; a count to one at least), and the same synthetic cases were diagnosed again "
         f"(`python -m benchmarks.gap.constants`): {cases} cases at home, {nothing} without an effect. What each is and "
         "where it comes from: [gap_constants.csv](gap_constants.csv); symbols: "
         "[theory](../theory/gap_diagnosis.md#constants)."
     )
     how = (
-        "An answer is moved if its verdict or first name changes; nats are the mean change of the log probability of the "
-        "truth. Constants were tried in groups, and one by one where a group moved an answer: two that cancel each other "
-        "would be missed. A failed diagnosis counts as moved and failed. Logarithms (SLOWEST, BROADEST, FLATTEST, "
-        "STEEPEST) are halved and doubled as such."
+        "An answer is moved if its verdict or first name changes; nats are the mean change of the log probability of "
+        "the truth. Constants were tried in groups, and one by one where a group moved an answer: two that cancel each "
+        "other would be missed. A failed diagnosis counts as moved and failed. Logarithms (SLOWEST, BROADEST, "
+        "FLATTEST, STEEPEST) are halved and doubled as such."
     )
     before = "Unchanged (made by `python -m website.pages` from these runs):"
     lines = ["| run | commits | false alarms | right effect first | failed |", "|---|---|---|---|---|"]
@@ -168,10 +168,10 @@ def beside(told: Run, labels: dict[str, Value]) -> list[str]:
     trials = [row[factor] for row in told["constants"].values() for factor in FACTORS if row.get(factor)]
     judged = sum(any(part in VERDICT for part in one["parts"]) for one in trials)
     why = (
-        "These work on a finished verdict: where a gap lies, how far it shrinks, what these trials cannot show, what to "
-        f"record next. {told['answers']} cases (`--seed {told['seed']}`, {told['commit']}) were attributed once, then "
-        "each constant was halved and doubled (`python -m benchmarks.gap.later_constants`). A verdict, its effects or "
-        f"probabilities changed in {judged} of {len(trials)} trials. The table says in how many cases another part "
+        "These work on a finished verdict: where a gap lies, how far it shrinks, what these trials cannot show, what "
+        f"to record next. {told['answers']} cases (`--seed {told['seed']}`, {told['commit']}) were attributed once, "
+        "then each constant was halved and doubled (`python -m benchmarks.gap.later_constants`). A verdict, its "
+        f"effects or probabilities changed in {judged} of {len(trials)} trials. The table says in how many cases another part "
         "changes, which, and its largest change (100 %: other words, or another sign). "
         f"Of {told['inside'][1]} true reductions {told['inside'][0]} lie inside their intervals, "
         f"{' to '.join(sorted({str(one['inside'][0]) for one in trials}))} with a constant changed."
