@@ -11,8 +11,8 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = 61_000
-"""Words of theory and reference together; lowered when pages become shorter."""
+ALL_WORDS = 55_200
+"""Words of theory and reference together, made pages aside; lowered when pages become shorter."""
 LIMITS = {
     "reference/accuracy.md": 330,
     "reference/area_csv.md": 830,
@@ -61,8 +61,8 @@ LIMITS = {
 LONGEST_LINE = 120
 RELEASES = {"Unreleased": 60, "0.1.0": 60}
 PAGES = sorted(path for folder in ("theory", "reference") for path in (ROOT / "docs" / folder).glob("*.md"))
-MADE = ("limits.md", "validation.md", "gap_constants.md")
-"""Pages made by `python -m website.pages`: a paragraph of theirs is one line."""
+MADE = ("limits.md", "validation.md", "gap_constants.md", "descriptions.md")
+"""Pages made by `python -m website.pages`: a paragraph of theirs is one line, and they grow with what they are made of."""
 
 
 def words(text: str) -> int:
@@ -78,7 +78,8 @@ def test_a_page_has_no_more_words_than_before(path: Path) -> None:
 
 
 def test_all_pages_together() -> None:
-    assert sum(words(path.read_text(encoding="utf-8")) for path in PAGES) <= ALL_WORDS
+    written = [path for path in PAGES if path.name not in MADE]
+    assert sum(words(path.read_text(encoding="utf-8")) for path in written) <= ALL_WORDS
 
 
 @pytest.mark.parametrize("path", [one for one in PAGES if one.name not in MADE], ids=lambda path: path.stem)
