@@ -94,28 +94,28 @@ def head(runs: Sequence[Run], numbers: int, tables: int) -> list[str]:
     whole = {_cases(run): run for run in runs}.values()
     cases, nothing = (sum(run[what] for run in whole) for what in ("answers", "nothing_missing"))
     what = (
-        f"{numbers} numbers with a name and {tables} tables of several values stand in the rooms that a verdict comes "
-        "from. Each was halved, and doubled (of a table all values; a count to one at the least), and the same "
-        f"synthetic cases were diagnosed again (`python -m benchmarks.gap.constants`): {cases} cases drawn at home, "
-        f"{nothing} of them without an effect. What each is and where it comes from: "
+        f"{numbers} named numbers and {tables} tables of values decide a verdict. Each was halved and doubled (all "
+        "values of a table; a count to one at least), and the same synthetic cases were diagnosed again "
+        f"(`python -m benchmarks.gap.constants`): {cases} cases at home, {nothing} without an effect. What each is and "
+        "where it comes from: [gap_constants.csv](gap_constants.csv); symbols: "
         "[theory](../theory/gap_diagnosis.md#constants)."
     )
     how = (
-        "An answer is moved where its verdict or its first name is another one; nats are the mean change of the "
-        "logarithm of the probability that is stated for the truth. Constants were tried in groups, and one by one "
-        "where a group moved an answer: two that undo each other would be missed, and nats are told only of what was "
-        "tried by itself. Where a number ends the diagnosis an answer counts as moved and as failed: neither as a "
-        "false alarm nor as right. Logarithms (SLOWEST, BROADEST, FLATTEST, STEEPEST) are halved and doubled as such: "
-        "half of one is the root. Numbers without a name stand in formulas only."
+        "An answer is moved if its verdict or first name changes; nats are the mean change of the log probability of "
+        "the truth. Constants were tried in groups, and one by one where a group moved an answer: two that cancel each "
+        "other would be missed. A failed diagnosis counts as moved and failed. Logarithms (SLOWEST, BROADEST, "
+        "FLATTEST, STEEPEST) are halved and doubled as such."
     )
-    before = "Before anything is changed (made by `python -m website.pages` from these runs):"
-    lines = ["| run | commit | false alarms | right effect first | failed |", "|---|---|---|---|---|"]
+    before = "Unchanged (made by `python -m website.pages` from these runs):"
+    lines = ["| run | commits | false alarms | right effect first | failed |", "|---|---|---|---|---|"]
+    rows: dict[tuple[str, str], list[str]] = {}
     for run in runs:
         call = f"`--seed {run['seed']} --systems {' '.join(run['systems'])} --cases {run['cases']}`"
         alarms, first, failed = (run["before"][kind] for kind in KINDS)
         missing = run["answers"] - run["nothing_missing"]
         told = f"{alarms} of {run['nothing_missing']} | {first} of {missing} | {failed} of {run['answers']}"
-        lines.append(f"| {call} | {run['commit']} | {told} |")
+        rows.setdefault((call, told), []).append(str(run["commit"]))
+    lines += [f"| {call} | {', '.join(dict.fromkeys(those))} | {told} |" for (call, told), those in rows.items()]
     return ["# Constants of the diagnosis, halved and doubled", what, how, before, "\n".join(lines)]
 
 
@@ -144,16 +144,16 @@ def table(rows: Sequence[tuple[str, Value, list[Effect | None]]]) -> str:
 def foot(
     rows: Sequence[tuple[str, Value, list[Effect | None]]], still: Sequence[tuple[str, Value, list[Effect | None]]]
 ) -> list[str]:
-    """Constants that move none, by the cases that they were tried on, and what was not tried with a factor."""
-    by_count: dict[int, list[str]] = {}
-    for label, value, effects in still:
+    """How many move none, by the cases that they were tried on, and what was not tried with a factor."""
+    by_count: dict[int, int] = {}
+    for _, __, effects in still:
         tried = [one.of for one in effects if one]
         if len(tried) == len(FACTORS):
-            by_count.setdefault(min(tried), []).append(f"`{label}` ({shown(value)})")
-    parts = [f"## {sum(map(len, by_count.values()))} that move no answer"]
+            by_count[min(tried)] = by_count.get(min(tried), 0) + 1
+    parts = [f"## {sum(by_count.values())} that move no answer"]
     parts += [
-        f"In {count} cases (so up to {100.0 * (1.0 - 0.05 ** (1.0 / count)):.0f} % of all, 95 %): {', '.join(names)}."
-        for count, names in sorted(by_count.items(), reverse=True)
+        f"{number} in {count} cases (so they move up to {100.0 * (1.0 - 0.05 ** (1.0 / count)):.0f} % of all, 95 %)."
+        for count, number in sorted(by_count.items(), reverse=True)
     ]
     left = [
         f"`{label}` ({', '.join(word for word, one in zip(FACTORS.values(), effects, strict=True) if not one)})"
@@ -168,21 +168,26 @@ def beside(told: Run, labels: dict[str, Value]) -> list[str]:
     trials = [row[factor] for row in told["constants"].values() for factor in FACTORS if row.get(factor)]
     judged = sum(any(part in VERDICT for part in one["parts"]) for one in trials)
     why = (
-        "These rooms work on a verdict that is there: where a gap lies, how far it shrinks, what these trials would "
-        f"not show, what to record next. {told['answers']} cases (`--seed {told['seed']}`, {told['commit']}) were "
-        "attributed once, and what follows was worked out with each constant halved and doubled "
-        "(`python -m benchmarks.gap.later_constants`). A verdict, its effects or their probabilities changed in "
-        f"{judged} of {len(trials)} trials: where it is 0, no false alarm and no right name changed. In how many "
-        "cases another part changes, which, and its largest change of a number (100 %: other words, or another sign). "
-        f"Of {told['inside'][1]} true reductions where an effect is named {told['inside'][0]} lie inside their "
-        f"intervals, {' to '.join(sorted({str(one['inside'][0]) for one in trials}))} with a constant changed:"
+        "These work on a finished verdict: where a gap lies, how far it shrinks, what these trials cannot show, what "
+        f"to record next. {told['answers']} cases (`--seed {told['seed']}`, {told['commit']}) were attributed once, "
+        "then each constant was halved and doubled (`python -m benchmarks.gap.later_constants`). A verdict, its "
+        f"effects or probabilities changed in {judged} of {len(trials)} trials. The table says in how many cases "
+        "another part "
+        "changes, which, and its largest change (100 %: other words, or another sign). "
+        f"Of {told['inside'][1]} true reductions {told['inside'][0]} lie inside their intervals, "
+        f"{' to '.join(sorted({str(one['inside'][0]) for one in trials}))} with a constant changed."
     )
-    lines = ["| constant | value | halved | doubled |", "|---|---|---|---|"]
+    lines, still = ["| constant | value | halved | doubled |", "|---|---|---|---|"], 0
     for label, value in labels.items():
         row = told["constants"].get(label, {})
         known = same(value, row.get("value"))
-        cells = [_parts(row.get(factor) if known else None, told["answers"]) for factor in FACTORS]
-        lines.append(f"| `{label}` | {shown(value)} | {' | '.join(cells)} |")
+        tried = [row.get(factor) if known else None for factor in FACTORS]
+        if all(one and not one["moved"] for one in tried):
+            still += 1
+            continue
+        lines.append(f"| `{label}` | {shown(value)} | {' | '.join(_parts(one, told['answers']) for one in tried)} |")
+    if still:
+        why += f" {still} others change nothing."
     return [f"## {len(labels)} that can move no verdict", why, "\n".join(lines)] if labels else []
 
 

@@ -31,15 +31,17 @@ FACTORS = {
     "Relevance of the quantities of interest": "Applicability",
     "Relevance of the validation to the context of use": "Applicability",
 }
-"""Credibility factors of ASME V&V 40-2018, table 5-1, by the activity that they belong to."""
+"""Credibility factors of ASME V&V 40-2018, table 5-1, in its order, with the activity that they belong to."""
 
 
 def report(words: Path = WORDS) -> str:
     """The whole page."""
     given = tomllib.loads(words.read_text(encoding="utf-8"))
     parts = ["# Validation report", *given["introduction"]]
+    if "all" in given:
+        parts += ["## All systems", _evidence(given["all"])]
     for name, system in given["system"].items():
-        parts += [f"## {name}", _aims(system), _evidence({**given.get("all", {}), **system["evidence"]})]
+        parts += [f"## {name}", _aims(system), _evidence(system["evidence"])]
         parts.append("Without evidence: " + (", ".join(missing(system, given)) or "none") + ".")
         parts.append("**Judgement.** " + system["judgement"])
     return "\n\n".join(parts) + "\n"
@@ -67,10 +69,10 @@ def _evidence(evidence: dict[str, list[dict[str, Any]]]) -> str:
     unknown = set(evidence) - set(FACTORS)
     if unknown:
         raise ValueError(f"{WORDS.name}: no credibility factors: {', '.join(sorted(unknown))}")
-    rows = ["| activity | credibility factor | evidence | from |", "|---|---|---|---|"]
-    for factor, activity in FACTORS.items():
+    rows = ["| credibility factor | evidence | from |", "|---|---|---|"]
+    for factor in FACTORS:
         told = evidence.get(factor, [])
-        rows += [f"| {activity} | {factor.lower()} | {_told(one)} | {_source(one)} |" for one in told]
+        rows += [f"| {factor.lower()} | {_told(one)} | {_source(one)} |" for one in told]
     return "\n".join(rows)
 
 

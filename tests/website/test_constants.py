@@ -56,7 +56,7 @@ def test_what_a_run_did_not_try_is_not_called_harmless() -> None:
     rows = [("FEW", 20, [None, none]), ("ODD", 5.0, [none, none])]
     assert foot(rows, rows) == [
         "## 1 that move no answer",
-        "In 4 cases (so up to 53 % of all, 95 %): `ODD` (5).",
+        "1 in 4 cases (so they move up to 53 % of all, 95 %).",
         "## Not tried with every factor",
         "`FEW` (halved).",
     ]
@@ -77,9 +77,22 @@ def test_what_works_on_a_verdict_is_told_by_what_it_moves() -> None:
     told = {"answers": 10, "seed": 1, "commit": "abc", "inside": [2, 4], "constants": {"BINS": row, "GRID": row}}
     title, said, rows = beside(told, {"BINS": 6, "GRID": 101})
     assert title == "## 2 that can move no verdict"
-    assert "in 0 of 2 trials" in said and "4 true reductions" in said and "1 with a constant changed" in said
+    assert (
+        "in 0 of 2 trials" in said
+        and "4 true reductions" in said
+        and "others change nothing" not in said
+        and "1 with a constant changed" in said
+    )
     assert rows.splitlines()[2:] == [
         "| `BINS` | 6 | 2 of 10, the map of the gap by 100 %, where the gap lies by 20 % | not tried |",
         "| `GRID` | 101 | not tried | not tried |",
     ]
     assert beside(told, {}) == []
+
+
+def test_what_moves_nothing_is_listed_without_a_row() -> None:
+    still = {"moved": 0, "parts": {}, "inside": [2, 4]}
+    rows = {"EVEN": {"value": 2, "times 0.5": still, "times 2": still}}
+    told = {"answers": 10, "seed": 1, "commit": "abc", "inside": [2, 4], "constants": rows}
+    _, said, table_ = beside(told, {"EVEN": 2})
+    assert said.endswith(" 1 others change nothing.") and len(table_.splitlines()) == 2
