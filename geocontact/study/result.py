@@ -35,7 +35,6 @@ from geocontact.analyses.frame.words import counted
 from geocontact.data.errors import InputError
 from geocontact.io.text.units import split_header
 from geocontact.study.address import Digests, address_of, options_of
-from geocontact.study.collect import collect
 from geocontact.study.curves import STEPS, StudyCurves, curves_of
 from geocontact.study.description import StudyFile, read_study_file
 from geocontact.study.options import CohortOptions
