@@ -17,7 +17,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 ONLY_TO_BUILD = frozenset({"cython"})
-"""Packages that one of the core requires and does not import: python-fcl is compiled with it, its wheel holds the result."""
+"""Required by a package of the core that does not import it: python-fcl is compiled with it, and its wheel is that."""
 
 
 def normalised(name: str) -> str:

@@ -1,4 +1,4 @@
-"""Pictures of docs/gallery.md and of README.md: each block of commands of the gallery is run, and its page photographed.
+"""Pictures of docs/gallery.md and README.md: each block of commands of the gallery is run, its page photographed.
 
     python -m benchmarks.page_pictures.gallery FOLDER
     python -m benchmarks.page_pictures.gallery FOLDER --only area gap_diagnose --again
@@ -58,10 +58,14 @@ def run(shown: Shown, folder: Path) -> None:
     """Type its commands in the folder, with `geocontact` of this checkout."""
     environment = os.environ | {"PYTHONPATH": str(ROOT), "PATH": f"{folder / 'bin'}{os.pathsep}{os.environ['PATH']}"}
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run(["bash", "-eu", "-c", shown.code], cwd=folder, env=environment, capture_output=True, text=True)
+    done = subprocess.run(
+        ["bash", "-eu", "-c", shown.code], cwd=folder, env=environment, check=False, capture_output=True, text=True
+    )
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     taken = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    sys.stdout.write(f"{shown.name}: exit {done.returncode}, {taken:.1f} CPU s\n{done.stderr if done.returncode else ''}")
+    sys.stdout.write(
+        f"{shown.name}: exit {done.returncode}, {taken:.1f} CPU s\n{done.stderr if done.returncode else ''}"
+    )
     sys.stdout.flush()
 
 

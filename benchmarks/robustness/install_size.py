@@ -1,9 +1,10 @@
 """What an installation of the core weighs, package by package: `python -m benchmarks.robustness.install_size`.
 
-The checkout is copied (what git knows, as it stands) and installed twice into environments of its own: by `make demo`, which runs the main job on a
-synthetic knee and so compiles kernels, and by `pip install .` at the versions of the lock. Counted are MB on the disk as `du` counts
-them, and CPU seconds of all child processes. `--only make` or `--only pip` does one of them; `--venv FOLDER` weighs an
-environment that is there. Writes results/install_size.json.
+The checkout is copied (what git knows, as it stands) and installed twice into environments of their own: by
+`make demo`, which runs the main job on a synthetic knee and so compiles kernels, and by `pip install .` at the versions
+of the lock. Counted are MB of 10^6 bytes of disk blocks (`du -sm` counts 2^20), and CPU seconds of all child processes.
+`--only make` or `--only pip` does one of them; `--venv FOLDER` weighs an environment that is there. Writes
+results/install_size.json.
 """
 
 from __future__ import annotations

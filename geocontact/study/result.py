@@ -211,6 +211,8 @@ class CohortResult(Result):
         tables = self.tables()
         for name in (name for name in PRINTED if name in tables):
             (folder / f"{name}.tex").write_text(latex(tables[name]), encoding="utf-8")
+        from geocontact.study.collect import collect  # with pyarrow, of the extra
+
         collect([(one.trial, one.address) for one in self.done], self.store, folder)
         if self.surface is not None:
             write_points_vtp(folder / "surface.vtp", self.surface.points, surface_fields(self.surface))

@@ -15,7 +15,14 @@ lighten = importlib.util.module_from_spec(SPEC)
 SPEC.loader.exec_module(lighten)
 
 REMOVED = ("pandas/tests/io/test_csv.py", "scipy/linalg/tests/data/a.npz", "lib64/libembree4.a", "include/Eigen/Core")
-STAYS = ("pandas/testing.py", "tests.py", "tests/__init__.py", "numpy/testing/__init__.py", "igl/pyigl.so", "../../bin/f2py")
+STAYS = (
+    "pandas/testing.py",
+    "tests.py",
+    "tests/__init__.py",
+    "numpy/testing/__init__.py",
+    "igl/pyigl.so",
+    "../../bin/f2py",
+)
 
 
 @pytest.mark.parametrize("name", REMOVED)

@@ -34,7 +34,10 @@ def test_pictures_of_the_readme_are_there() -> None:
     files = [one or other for one, other in named]
     assert len(files) == 7 and all((ROOT / file).is_file() for file in files), files
     light, dark = (PICTURES / f"area-{scheme}.png" for scheme in ("light", "dark"))
-    assert light.read_bytes()[:8] == dark.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n" and light.read_bytes() != dark.read_bytes()
+    assert (
+        light.read_bytes()[:8] == dark.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+        and light.read_bytes() != dark.read_bytes()
+    )
 
 
 def test_badges_say_what_the_project_says() -> None:
