@@ -16,6 +16,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
+ONLY_TO_BUILD = frozenset({"cython"})
+"""Required by a package of the core that does not import it: python-fcl is compiled with it, and its wheel is that."""
 
 
 def normalised(name: str) -> str:
@@ -66,7 +68,8 @@ def main() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     direct = [*project["project"]["dependencies"], *project["dependency-groups"]["build"]]
     lock = (ROOT / "requirements.lock").read_text(encoding="utf-8")
-    sys.stdout.write(subset(lock, needed(direct, pins(lock))))
+    wanted = {normalised(name) for name in needed(direct, pins(lock))} - ONLY_TO_BUILD
+    sys.stdout.write(subset(lock, wanted))
 
 
 if __name__ == "__main__":

@@ -34,7 +34,7 @@ CORE = (
     "doctor",
     "demo",
     "rerun demo-result/run.json",
-    f"area {KNEE} --motion two.csv --pressure --modulus 500MPa --poisson 0.46 --parquet --netcdf --out area",
+    f"area {KNEE} --motion two.csv --pressure --modulus 500MPa --poisson 0.46 --netcdf --out area",
     "fit {m}/femoral_component_right_coarse.stl --shape cylinder --unit mm --out fit",
     "markers {m}/leg_swing.mot --model {m}/leg.osim --out markers",
     f"joint markers/markers.trc {SEGMENTS} --out joint",
@@ -134,6 +134,7 @@ EXTRAS = {
     "mocap": Extra(f"joint walk.c3d {SEGMENTS} --out c3d", "geocontact[mocap]", RECORDING, "walk.c3d"),
     "excel": Extra(f"area {KNEE} --motion two.xlsx --out excel", "openpyxl", WORKBOOK, "two.xlsx"),
     "cohort": Extra("cohort study.toml --workers 1 --out study", "geocontact[cohort]"),
+    "parquet": Extra(f"area {KNEE} --motion two.csv --parquet --out parquet", "geocontact[parquet]"),
 }
 
 

@@ -168,7 +168,10 @@ ADDED = {
     CATALOGUE: ('    Entry("fit", ', '    Entry("edges", "edges", "EdgeOptions", "result:edge_lengths"),\n'),
     "benchmarks/same_outputs/runs.txt": ("fit_cylinder: ", "edges: edges inputs/meshes/sphere_r20.stl --unit mm\n"),
     "docs/reference/written_files.md": ("| `cop` | ", "| `edges` | `edges.csv` | `length [mm]` |\n"),
-    "README.md": ("| joint centres", "| edges | `edges` | `gc.edge_lengths` | [meshes](docs/how-to/my_implant.md) |\n"),
+    "README.md": (
+        "| Find joint centres",
+        "| edges | `edges` | `gc.edge_lengths` | [meshes](docs/how-to/my_implant.md) |\n",
+    ),
 }
 """Line of a file of all analyses, before the one that begins so."""
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import shutil
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 
 DEVICES = {
@@ -20,9 +21,8 @@ def shoot(folder: Path, pages: Mapping[str, Path]) -> None:
     """First screen and whole page in light, first screen in dark, by the names of the kinds."""
     from playwright.sync_api import sync_playwright
 
-    executable = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=executable, args=SOFTWARE)
+        chromium = playwright.chromium.launch(executable_path=_browser(), args=SOFTWARE)
         for kind, page in pages.items():
             for name, device in DEVICES.items():
                 for scheme, ending in (("light", ""), ("dark", "-dark")):
@@ -37,3 +37,30 @@ def shoot(folder: Path, pages: Mapping[str, Path]) -> None:
                     context.close()
             sys.stdout.write(f"{kind}: {page.stat().st_size / 1e6:.2f} MB\n")
         chromium.close()
+
+
+@contextmanager
+def browser_page(size: tuple[int, int]) -> Iterator[Callable[[Path, str], bytes]]:
+    """A function that photographs the first screen of a page, (file, "light" or "dark") → PNG."""
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=_browser(), args=SOFTWARE)
+
+        def photograph(page: Path, scheme: str) -> bytes:
+            viewport = {"width": size[0], "height": size[1]}
+            context = chromium.new_context(viewport=viewport, color_scheme=scheme)
+            tab = context.new_page()
+            tab.goto(page.resolve().as_uri())
+            tab.wait_for_selector("html[data-ready]", timeout=READY)
+            tab.wait_for_timeout(300)
+            png: bytes = tab.screenshot()
+            context.close()
+            return png
+
+        yield photograph
+        chromium.close()
+
+
+def _browser() -> str | None:
+    return next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)

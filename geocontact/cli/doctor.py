@@ -69,8 +69,7 @@ FEATURES = (
         "pyarrow",
         "--parquet",
         "import pyarrow.parquet",
-        "pip install pyarrow",
-        needed=True,
+        "pip install 'geocontact[parquet]'",
     ),
     Feature(
         ".vtp meshes",

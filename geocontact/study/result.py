@@ -35,7 +35,6 @@ from geocontact.analyses.frame.words import counted
 from geocontact.data.errors import InputError
 from geocontact.io.text.units import split_header
 from geocontact.study.address import Digests, address_of, options_of
-from geocontact.study.collect import collect
 from geocontact.study.curves import STEPS, StudyCurves, curves_of
 from geocontact.study.description import StudyFile, read_study_file
 from geocontact.study.options import CohortOptions
@@ -211,6 +210,8 @@ class CohortResult(Result):
         tables = self.tables()
         for name in (name for name in PRINTED if name in tables):
             (folder / f"{name}.tex").write_text(latex(tables[name]), encoding="utf-8")
+        from geocontact.study.collect import collect  # with pyarrow, of the extra
+
         collect([(one.trial, one.address) for one in self.done], self.store, folder)
         if self.surface is not None:
             write_points_vtp(folder / "surface.vtp", self.surface.points, surface_fields(self.surface))

@@ -40,6 +40,7 @@ def workers_of(o: CohortOptions) -> Iterator[Any]:
     try:
         import dask
         import distributed as library
+        import pyarrow as pa  # noqa: F401  each trial writes its tables with it: asked for before any is computed
     except ImportError as error:
         raise InputError("", "cohort", f"needs {error.name}, which is not installed", INSTALL) from error
     distributed: Any = library  # its annotations do not say how it is called

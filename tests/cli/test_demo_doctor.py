@@ -117,3 +117,14 @@ def test_a_library_of_an_extra_that_is_not_installed_is_one_line(
         "casadi is needed here and not installed; pip install 'geocontact[dynamics]'\n",
     )
     assert not (tmp_path / "out").exists()
+
+
+def test_parquet_without_pyarrow_is_refused_before_anything_is_computed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    fit = ("fit", MESHES / "no.stl", "--shape", "sphere", "--unit", "mm", "--out", tmp_path / "out")
+    refused = call(*fit, "--parquet")
+    line = "--parquet: needs pyarrow, which is not installed; pip install 'geocontact[parquet]'\n"
+    assert (refused.code, refused.err) == (2, line)
+    assert "pyarrow" not in call(*fit).err

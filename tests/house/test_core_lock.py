@@ -49,3 +49,11 @@ def test_a_package_without_a_pin_is_refused() -> None:
 def test_the_real_lock_is_read_completely() -> None:
     text = (ROOT / "requirements.lock").read_text(encoding="utf-8")
     assert "".join(entry for _, entry in core_lock.entries(text)) == text
+
+
+def test_what_only_builds_is_left_out(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """pip would bring cython with python-fcl, whose wheel does not import it."""
+    monkeypatch.setattr(core_lock, "needed", lambda _direct, _pins: ["numpy", "Cython", "python-fcl"])
+    core_lock.main()
+    written = [name for name, _ in core_lock.entries(capsys.readouterr().out)]
+    assert set(written) == {"numpy", "python-fcl"}

@@ -193,11 +193,12 @@ def test_options_that_cannot_be_are_refused_before_any_work(
     assert refused.code == 2 and refused.err.startswith(said) and not (tmp_path / "out").exists()
 
 
-def test_without_the_extra_it_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "distributed", None)
+@pytest.mark.parametrize("library", ["distributed", "pyarrow"])
+def test_without_the_extra_it_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, library: str) -> None:
+    monkeypatch.setitem(sys.modules, library, None)
     refused = call("cohort", study(tmp_path, NUMBERS), "--out", tmp_path / "out")
     assert refused.code == 2 and refused.err == (
-        "cohort: needs distributed, which is not installed; pip install 'geocontact[cohort]'\n"
+        f"cohort: needs {library}, which is not installed; pip install 'geocontact[cohort]'\n"
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,13 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     import pandas as pd
+
+INSTALL = "pip install 'geocontact[parquet]'"
+
+
+def installed(library: str) -> bool:
+    """Whether a library can be imported; it is not loaded."""
+    return find_spec(library) is not None
 
 
 @dataclass(frozen=True)
@@ -29,6 +37,11 @@ class TableForms:
 
     parquet: bool = False
     netcdf: bool = False
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be written here, before anything is computed."""
+        if self.parquet and not installed("pyarrow"):
+            raise InputError("", "`parquet`", "needs pyarrow, which is not installed", INSTALL)
 
     def given(self) -> dict[str, object]:
         """What is asked for, for `run.json`."""
