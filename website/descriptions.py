@@ -118,7 +118,7 @@ def descriptions() -> str:
         rows = list(rows_of(file.kind))
         for name, kind in file.entries.items():
             rows += rows_of(kind, name)
-        lines, above = ["| table | key | holds | unless given | meaning |", "|---|---|---|---|---|"], ""
+        lines, above = ["| table | key | holds | by default | meaning |", "|---|---|---|---|---|"], ""
         for row, alike in groupby(rows, lambda row: replace(row, key="")):
             keys = ", ".join(one.key for one in alike)
             cells = ("" if row.table == above else row.table, keys, row.holds, row.default, row.meaning)

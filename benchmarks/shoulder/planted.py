@@ -109,8 +109,8 @@ def main() -> None:
     """Make all that is not there."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.shoulder.planted", description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
-    parser.add_argument("--way", choices=list(DEVICES), action="append", help="both unless given")
-    parser.add_argument("--trial", choices=list(TRIALS), action="append", help="all unless given")
+    parser.add_argument("--way", choices=list(DEVICES), action="append", help="both by default")
+    parser.add_argument("--trial", choices=list(TRIALS), action="append", help="all by default")
     asked = parser.parse_args()
     wanted = product(asked.way or DEVICES, reversed(PLANTED), asked.trial or TRIALS)
     with ProcessPoolExecutor(2) as pool:

@@ -209,9 +209,9 @@ def main() -> None:
     """Fit all, print, write the JSON."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.shoulder.refit", description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path, help="where the recordings are kept")
-    parser.add_argument("--way", choices=list(DEVICES), action="append", help="free unless given")
+    parser.add_argument("--way", choices=list(DEVICES), action="append", help="free by default")
     parser.add_argument("--short", action="store_true", help="one trial to fit to and one held out instead of two")
-    parser.add_argument("--only", choices=list(PLANTED), action="append", help="what was planted; all unless given")
+    parser.add_argument("--only", choices=list(PLANTED), action="append", help="what was planted; all by default")
     parser.add_argument("--cuff", choices=("point", "surface"), default="point", help="surface: errors, nothing fitted")
     asked = parser.parse_args()
     answers = json.loads((RESULTS / "shoulder_gap.json").read_text(encoding="utf-8"))["answers"]

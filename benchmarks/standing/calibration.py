@@ -209,7 +209,7 @@ def strap_profiles(options: argparse.Namespace) -> dict[str, Any]:
     exact = np.zeros((len(model.parameters), len(model.parameters)))
     one = calibrated_phase("B", model, study.trials, study.noise, build, search, held=exact)
     rises = {each.name: [round(float(r), 2) for r in each.rise[each.distance != 0.0]] for each in one.profiles}
-    jerk = {n.name: n.assumed / n.after for n in one.numbers.numbers if n.verdict in ("known", "believed")}
+    jerk = {n.name: n.assumed / n.after for n in one.numbers.numbers if n.verdict in ("known", "prior-dominated")}
     return {"rise three sd below and above": rises, "sd of the jerk's size, of the whole sd": jerk}
 
 
@@ -269,7 +269,7 @@ def told_of(phase: Any, trials: Any, planted: Any, held: Any = None) -> dict[str
                 "sd left of the belief": n.after / n.before,
             }
             for n, each, at in zip(numbers.numbers, phase.parameters, planted, strict=True)
-            if n.verdict in ("known", "believed")
+            if n.verdict in ("known", "prior-dominated")
         },
     }
     print(json.dumps(told), flush=True)

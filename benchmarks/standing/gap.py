@@ -199,7 +199,7 @@ def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.standing.gap", description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
-    parser.add_argument("--only", choices=list(PLANTED_EFFECTS), action="append", help="all unless given")
+    parser.add_argument("--only", choices=list(PLANTED_EFFECTS), action="append", help="all by default")
     asked = parser.parse_args()
     file = ROOT / "benchmarks" / "results" / "standing_gap.json"
     told: dict[str, Any] = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {"answers": {}}

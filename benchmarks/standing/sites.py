@@ -295,7 +295,7 @@ def both_phases(study: Any, trials: Any, nodes: float) -> dict[str, dict[str, fl
         if not phase.found.solved:
             raise ArithmeticError(f"phase {phase.name}: {phase.found.ending}")
         for of, number in zip(phase.phase.parameters, phase.numbers.numbers, strict=True):
-            if number.verdict in ("known", "believed"):
+            if number.verdict in ("known", "prior-dominated"):
                 found[number.name] = {"value": number.value, "searched": of.searched(number.value), "sd": number.after}
     return found
 

@@ -129,7 +129,7 @@ GROUPS = (
     Group(
         "prosthesis",
         "prosthesis",
-        "Below-knee prosthesis with a variable-stiffness foot: scaled, calibrated, simulated, and which one for whom.",
+        "Below-knee prosthesis with a variable-stiffness foot: scale, calibrate, simulate and choose one.",
     ),
     Group(
         "shoulder", "shoulder", "Shoulder exoskeleton driven by human motion: its arms, forces in its cuffs, support."

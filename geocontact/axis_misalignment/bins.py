@@ -78,7 +78,7 @@ class Binned:
 def binned(recordings: Sequence[ElbowRecording], width: float, centre: float | None = None) -> Binned:
     """Bins of `width` [rad] over the range that the recordings reach.
 
-    `centre` is the cuff pressure that the channel is counted from [Pa]; their mean unless given.
+    `centre` is the cuff pressure that the channel is counted from [Pa]; their mean by default.
     """
     times = [r.time for r in recordings]
     edges = edges_over([r.beta for r in recordings], width)

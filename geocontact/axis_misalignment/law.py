@@ -11,7 +11,7 @@ as springs in series do; across, it turns the limb by less than the link and cha
 
 The explicit model's constraints fix the rest of its statics. The link's end stays on the forearm's line, which takes a
 force Q across it and no friction; the force F along the limb acts z away from that line, at a bar across the link that
-slides without friction; the cuff has a stiffness κ against turning by γ, 0 unless given. In terms of the link's end
+slides without friction; the cuff has a stiffness κ against turning by γ, 0 by default. In terms of the link's end
 
     M = κ γ - F z/cos² γ        moment on the forearm, the derivative of the cuff's energy by γ
     Q = (τ - M - F l sin γ)/(l cos γ)        from the moments about the exoskeleton's axis, τ the actuator's torque

@@ -54,7 +54,7 @@ class Covariance:
 
 @dataclass(frozen=True, eq=False)
 class Direction:
-    """What the data tell of numbers when each is changed by a share of itself.
+    """What the data identify of numbers when each is changed by a share of itself.
 
     Parameters
     ----------

@@ -189,7 +189,7 @@ def standing_leg(
         Centre in the pelvis' frame [m] where it is known better than by regression.
     axis
         Of the knee: centre [m] and direction to the right in the laboratory, likewise; that of the epicondyles
-        unless given.
+        by default.
     """
     at = median_places(seen, STANDING)
     _require_side(seen, at)

@@ -216,7 +216,7 @@ class Leg:
     def with_foot(self, offset: FootOffset) -> Leg:
         """With its foot raised and turned on the socket; ValueError where that was done before."""
         if self.offset.given:
-            raise ValueError("the foot is already beside its standing trial")
+            raise ValueError("the foot already has an offset from its standing trial")
         turn = self.turn * Rotation.from_euler("z", offset.pitch)
         raised = MIDDLE + np.array([0.0, offset.height, 0.0])
         keel = self.keel + self.turn.apply(raised) - turn.apply(MIDDLE)
@@ -301,7 +301,7 @@ class Leg:
             **_offset(self.offset),
             "thigh_mass": Number(thigh[0], "derived", leva),
             "thigh_centre": Number(float(-thigh[1][1]), "derived", "of its mass, below the hip; de Leva 1996"),
-            "residual_share": Number(self.person.residual, "invented", "of the shank; the study does not tell it"),
+            "residual_share": Number(self.person.residual, "invented", "of the shank; the study does not state it"),
             "ankle_over_knee_radius": Number(
                 taper(SEGMENTS[self.person.sex]["shank"].centre),
                 "derived",
@@ -324,9 +324,9 @@ def _offset(of: FootOffset) -> dict[str, Number]:
     """Offset of the foot beside its standing trial."""
     whose = "as the law's file has it; in leg keel and leg turn already" if of.given else "none: as it stood"
     words = {
-        "height": f"of the foot's middle, raised beside its standing trial, {whose}",
+        "height": f"of the foot's middle, raised relative to its standing trial, {whose}",
         "height_sd": "standard deviation of that height",
-        "pitch": f"of the foot, toes up, beside its standing trial, {whose}",
+        "pitch": f"of the foot, toes up, relative to its standing trial, {whose}",
         "pitch_sd": "standard deviation of that pitch",
     }
     return {f"foot_{name}": Number(getattr(of, name), "derived", note) for name, note in words.items()}

@@ -250,7 +250,7 @@ class SingleDeflection:
         self, movement: DifferentiatedInputs, values: Values
     ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
         """Deflection and rate without load."""
-        u, slope = self._seen(movement.position[movement.row(self.yields)], values)
+        u, slope = self._deflection_and_slope(movement.position[movement.row(self.yields)], values)
         return u[:, None], (slope * movement.rate[movement.row(self.yields)])[:, None]
 
     def loads(self, movement: DifferentiatedInputs, law: Law, values: Values) -> Loads:
@@ -273,7 +273,7 @@ class SingleDeflection:
         """Load along a movement, and how it changes towards other values (`chain.system`)."""
         return known_changes(self, movement, law, values, others)
 
-    def _seen(
+    def _deflection_and_slope(
         self, x: Float[np.ndarray, " t"], values: Values
     ) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"]]:
         """Deflection and slope at `x`."""
@@ -284,4 +284,4 @@ class SingleDeflection:
     def _knots(self, x: Float[np.ndarray, " t"], values: Values) -> Float[np.ndarray, "three n"]:
         """Input, deflection and slope at equally spaced knots over three times the range of `x`."""
         at = np.linspace(x.min() - extent(x), x.max() + extent(x), KNOTS)
-        return np.array([at, *self._seen(at, values)])
+        return np.array([at, *self._deflection_and_slope(at, values)])

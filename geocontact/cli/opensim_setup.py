@@ -11,7 +11,7 @@ from geocontact.data.errors import InputError
 OPTION = "--setup"
 COMMANDS = "ik", "id", "scale"
 HELP = (
-    "OpenSim's own set-up file takes the place of inputs and options: --setup FILE; options that are typed beside it "
+    "OpenSim's own set-up file takes the place of inputs and options: --setup FILE; options that are typed with it "
     "count instead of its own."
 )
 """What their help says of it."""
@@ -37,7 +37,7 @@ def with_setup(tokens: Sequence[str]) -> list[str]:
         del rest[at : at + 2]
     setup = setup_of(command, Path(file))
     for what in setup.unheeded:
-        print(f"warning: {file}: {what} is not heeded", file=sys.stderr)
+        print(f"warning: {file}: {what} is ignored", file=sys.stderr)
     typed = {token.partition("=")[0] for token in rest}
     told = [token for name, value in setup.options if f"--{name}" not in typed for token in _option(name, value)]
     return [command, str(setup.recording), *told, *rest]

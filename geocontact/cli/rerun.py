@@ -17,7 +17,7 @@ DIFFERENT = 1
 
 
 def rerun(run: Path, *, out: Path | None = None) -> int:
-    """Run again what a run.json tells of, with the same options, and say whether the results are the same.
+    """Repeat a run from its run.json and compare the results.
 
     File names start from the present folder, as they did at first. Exit 1 when a file of the results differs.
 
@@ -50,7 +50,7 @@ def rerun(run: Path, *, out: Path | None = None) -> int:
                 command.execute_in_si(earlier.in_si(), earlier.options, folder, forms)
         after = results_of(folder)
         different = differing(before, after, earlier.folder, folder)
-    return _tell(before, after, different, out)
+    return _report_differences(before, after, different, out)
 
 
 def _command(earlier: EarlierRun, run: Path) -> Command:
@@ -65,7 +65,7 @@ def _command(earlier: EarlierRun, run: Path) -> Command:
     return found
 
 
-def _tell(before: dict[str, str], after: dict[str, str], different: list[str], out: Path | None) -> int:
+def _report_differences(before: dict[str, str], after: dict[str, str], different: list[str], out: Path | None) -> int:
     """Say which files differ; the exit code."""
     names = {*before, *after}
     for name in different:

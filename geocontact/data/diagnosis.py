@@ -144,7 +144,7 @@ class ChannelGap:
 
 @dataclass(frozen=True)
 class Estimate:
-    """A parameter's value, its 95 % interval, and whether the trials tell it."""
+    """A parameter's value, its 95 % interval, and whether the trials identify it."""
 
     value: float
     ci95: tuple[float, float]

@@ -49,7 +49,7 @@ class Plausible:
     possible
         Smallest and largest value; what is outside is refused.
     usual
-        What is outside is used with a warning; as `possible` unless given.
+        What is outside is used with a warning; as `possible` by default.
     or_zero
         0 is as good as what is usual: it stands for none.
     """

@@ -60,7 +60,7 @@ def exchanged_markers(
     """
     if _within(found, rms, largest):
         return None
-    frames = _telling(found)
+    frames = _well_marked_frames(found)
     part = MarkerTrajectories(seen.time[frames], seen.positions[frames], seen.names, seen.source)
     poses = inverse_kinematics(tree, part, tasks)
     first = _rms(poses)
@@ -80,7 +80,7 @@ def exchanged_markers(
     return Exchanged(exchanged, first, _rms(poses)) if exchanged and _rms(poses) < EXPLAINED * first else None
 
 
-def _telling(found: Poses) -> list[int]:
+def _well_marked_frames(found: Poses) -> list[int]:
     """Frames, spread over the recording, that show most markers."""
     shown = np.isfinite(found.distances).sum(axis=1)
     whole = np.flatnonzero(shown == shown.max())

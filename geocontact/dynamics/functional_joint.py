@@ -43,7 +43,7 @@ def segment_poses(
     places
         Of the markers [m], NaN where one was not seen.
     template
-        Their places in the segment's frame; the first frame that shows all of them, about their mean, unless given.
+        Their places in the segment's frame; the first frame that shows all of them, about their mean, by default.
 
     The distance is the root mean square over the markers that were seen, NaN in frames that are not known: those with
     fewer than three.

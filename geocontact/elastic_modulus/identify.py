@@ -178,7 +178,7 @@ def _require_effect(
     for one in others:
         slope = float(np.linalg.norm(jacobian[:, fit.names.index(one.name)]))
         if slope * (one.upper - one.lower) <= FLAT * size:
-            raise ValueError(f"{one.name} cannot be told: the areas do not change with it at the best fit")
+            raise ValueError(f"{one.name} is not identifiable: the areas do not change with it at the best fit")
 
 
 def _bootstrap(

@@ -220,7 +220,7 @@ def _answered(
     odd = tuple(each for each in residual_anomalies(clean, held.leader.judged, base.judged) if each.nats > SURE)
     recorder = tuple(each for each in recorder_remarks(clean, held.leader.judged) if each.nats > SURE)
     best = held.best
-    at("what is left over")
+    at("residuals")
     rest = contest.rest if best.judged is leader else surrogate(clean, best.judged)
     missing = contest.rest if leader is contest.first else surrogate(clean, contest.first)
     left = _believed(rules, best, rest) if best is base or rules.adds(rest, best) else 0.0

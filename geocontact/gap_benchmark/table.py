@@ -50,7 +50,7 @@ ROWS = (
     ScoreRow("reduction_error", "error of reduction, mean", "≤ 0.025", lambda v: v <= 0.025),
     ScoreRow("reduction_error_median", "error of reduction, median"),
     ScoreRow("coverage", "true reduction inside ci95", "90–99 %", lambda v: 0.90 <= v <= 0.99),
-    ScoreRow("brier", "Brier score (constant and oracle beside it)"),
+    ScoreRow("brier", "Brier score (with constant and oracle)"),
     ScoreRow("calibration_error", "error of stated probabilities, mean"),
 )
 

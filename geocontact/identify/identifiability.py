@@ -38,7 +38,7 @@ class Identifiability:
         """In one word."""
         if not np.isfinite(self.condition):
             return "one number"
-        return "poorly told apart" if self.condition > POOR else "told apart"
+        return "poorly separated" if self.condition > POOR else "separable"
 
 
 def identifiability(names: Sequence[str], jacobian: Float[np.ndarray, "n p"]) -> Identifiability:

@@ -51,7 +51,7 @@ class FootAxis:
 
 
 def axis_of_sole(spheres: SphereSet, direction: Float[np.ndarray, " 3"], length: float | None = None) -> FootAxis:
-    """The heel is the rearmost point of any sphere; the length [m] is the way to the foremost unless given."""
+    """The heel is the rearmost point of any sphere; the length [m] is the way to the foremost by default."""
     along = direction / np.linalg.norm(direction)
     place = spheres.centre @ along
     heel = float((place - spheres.radius).min())

@@ -75,7 +75,7 @@ class Rest:
     total
         Energy and derivatives there.
     residual
-        Largest force left over along a free coordinate, moments over 20 mm [N].
+        Largest residual force along a free coordinate, moments over 20 mm [N].
     steps
         Newton steps.
     converged
@@ -234,10 +234,10 @@ def settle_along(
     off = np.zeros(6)
     for k, values in enumerate(wanted):
         pull = AxialLoad(float(load[k]), springs, values)
-        rest = _found(bed, fixed, pull, values + off, free) if off.any() else None
+        rest = _settled(bed, fixed, pull, values + off, free) if off.any() else None
         if rest is None or not rest.converged:
             at = pressing(bed, values, fixed)
-            rest = rest if at is None else _found(bed, fixed, pull, at, free)
+            rest = rest if at is None else _settled(bed, fixed, pull, at, free)
         frames.append(Frame(pull, rest))
         each(frames[-1])
         if rest is not None and rest.converged:
@@ -245,7 +245,7 @@ def settle_along(
     return frames
 
 
-def _found(
+def _settled(
     bed: Bed, fixed: Surface, pull: AxialLoad, start: Float[np.ndarray, " 6"], free: Bool[np.ndarray, " 6"]
 ) -> Rest | None:
     """Down onto the layer, then to rest under the load with nothing but the axial way free, then to rest."""

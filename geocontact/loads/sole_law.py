@@ -136,4 +136,4 @@ def _refuse_unknown(
         raise ValueError(f"{min(unknown)} is no number of the law, or none that single spheres can have")
     twice = [key for key in columns if key in given or any(key in numbers for numbers in zones.values())]
     if twice:
-        raise ValueError(f"{twice[0]} has no effect beside the column {twice[0]} of the spheres")
+        raise ValueError(f"{twice[0]} has no effect together with the column {twice[0]} of the spheres")

@@ -249,11 +249,11 @@ def simulate_arm(
     level
         Share of the cylinder's force, 0 to 1.
     factor
-        Of that share at each frame (0 to 1), held until the next one; 1 unless given. The cylinder follows with its
+        Of that share at each frame (0 to 1), held until the next one; 1 by default. The cylinder follows with its
         lag.
     pressed
         Force that presses the human arm into a point's cuff besides its motion, at each frame [N]: what a push on the
-        tool leaves there; linear between frames, none unless given. ValueError with a surface.
+        tool leaves there; linear between frames, none by default. ValueError with a surface.
     tolerance, steps
         As those of `Stepper.simulate`.
     cuff
@@ -313,7 +313,7 @@ class MovedArm:
     def simulation(self, most_lost: float = MOST_LOST) -> ArmSimulation:
         """The arm with its forces; `OutOfCuffError` as of `simulate_arm`."""
         found, motion = self.found, self.motion
-        told = _told(self.model, found.q, found.u, found.z, self.recorded, self.numbers)
+        told = _simulated(self.model, found.q, found.u, found.z, self.recorded, self.numbers)
         if motion.side == "left":
             told["force"] = told["force"] * MIRROR
             told["moment"] = -told["moment"] * MIRROR
@@ -366,7 +366,7 @@ def move_arm(
     return MovedArm(motion, device, wearer, level, cuff, model, p, inputs.at(motion.time), found)
 
 
-def _told(
+def _simulated(
     model: ArmModel,
     q: Float[np.ndarray, "t n"],
     u: Float[np.ndarray, "t n"],

@@ -126,7 +126,7 @@ class _OverPoints:
 def _over_points(model: AssistedModel, problem: ControlProblem, found: CollocationResult, k: int) -> _OverPoints:
     from casadi import Function, densify, jacobian
 
-    system, seen, motion = problem.system, _seen(model, problem), found.motions[k]
+    system, seen, motion = problem.system, _outputs(model, problem), found.motions[k]
     symbols = [system.x, system.u, system.p]
     outputs = [seen, *(densify(jacobian(seen, each)) for each in symbols)]
     x, u = (each.reshape(-1, each.shape[-1]) for each in (motion.states[:, 1:], motion.controls))
@@ -137,7 +137,7 @@ def _over_points(model: AssistedModel, problem: ControlProblem, found: Collocati
     return _OverPoints(values, weights, *(each.reshape(len(values), len(x), -1) for each in by))
 
 
-def _seen(model: AssistedModel, problem: ControlProblem) -> SX:
+def _outputs(model: AssistedModel, problem: ControlProblem) -> SX:
     """In the order of `MEASURES`: of states, controls and parameters."""
     from casadi import vertcat
 
@@ -158,7 +158,7 @@ def _at_places(
     of_controls = motion.scheme.of_controls(where)
     x = np.einsum("sd,mdx->msx", motion.scheme.of_states(where), motion.states).reshape(-1, motion.states.shape[2])
     u = np.einsum("sd,mdu->msu", of_controls, motion.controls).reshape(-1, motion.controls.shape[2])
-    at = Function("at", [system.x, system.u, system.p], [_seen(model, problem)]).map(len(x))
+    at = Function("at", [system.x, system.u, system.p], [_outputs(model, problem)]).map(len(x))
     return at(x.T, u.T, np.tile(found.p[:, None], (1, len(x)))).full(), of_controls
 
 

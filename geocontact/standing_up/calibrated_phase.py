@@ -126,7 +126,7 @@ def beside_rivals(
     told = []
     for k, (of, number) in enumerate(zip(phase.parameters, numbers.numbers, strict=True)):
         off = [float(other[k] - p[k]) for other in others]
-        out = number.verdict in ("known", "believed") and max(map(abs, off), default=0.0) > reach * number.after
+        out = number.verdict in ("known", "prior-dominated") and max(map(abs, off), default=0.0) > reach * number.after
         told.append(_with_rivals(of, number, off, reach) if out else number)
     return replace(numbers, numbers=tuple(told))
 

@@ -124,8 +124,8 @@ def with_exoskeleton(
     *,
     seated: bool = False,
 ) -> StandingModel:
-    """Nine coordinates: the person's six, then the exoskeleton's; torques of both. The strap is `thigh_strap` unless
-    given, with `further` parameters behind its usual ones; `seated` with the force of a chair among the inputs.
+    """Nine coordinates: the person's six, then the exoskeleton's; torques of both. The strap is `thigh_strap` by
+    default, with `further` parameters behind its usual ones; `seated` with the force of a chair among the inputs.
     """
     from casadi import SX
 
@@ -161,7 +161,7 @@ def worn_model(
     along
         Torques by coordinate, of the inputs and of `p`.
     law
-        Of the strap; `thigh_strap` unless given.
+        Of the strap; `thigh_strap` by default.
     chair
         Force and moment of a chair, given over time behind the other inputs.
     """

@@ -98,7 +98,7 @@ class ExoskeletonDynamics:
     names, values, deviations
         In SI; standard deviations are those of what the motion tells, by the residual of the fit.
     alone
-        Of each parameter, whether the motion tells it by itself and not only in combinations.
+        Of each parameter, whether the motion identifies it by itself and not only in combinations.
     rank
         Combinations that are told.
     residual

@@ -86,8 +86,8 @@ def belief_numbers(phase: PhaseProblem, prefix: str = "") -> list[Ran]:
             scale = "1 of the logarithm" if each.logarithm else each.unit
             name = f"{prefix}{each.name}"
             rows += [
-                Ran(f"{name} usual", each.usual, each.unit, "invented", "mean of what is believed beforehand"),
-                Ran(f"{name} sd", each.sd, scale, "invented", "standard deviation of what is believed"),
+                Ran(f"{name} usual", each.usual, each.unit, "invented", "prior mean"),
+                Ran(f"{name} sd", each.sd, scale, "invented", "standard deviation of what is used"),
                 Ran(f"{name} least", each.least, each.unit, "invented", "lower bound"),
                 Ran(f"{name} most", each.most, each.unit, "invented", "upper bound"),
             ]

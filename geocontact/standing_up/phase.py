@@ -194,11 +194,11 @@ def standing_phase(
     start
         Where the search of the parameters starts, unless at `first_fit`.
     guess
-        Coordinates where the search of each motion starts, from its own start on; the recorded ones unless given.
+        Coordinates where the search of each motion starts, from its own start on; the recorded ones by default.
     jerk_sizes
         Of the foot and of the joints [m/s^3, rad/s^3].
     weights
-        Of `small`; 1 unless given.
+        Of `small`; 1 by default.
     """
     from casadi import SX, sumsqr, vertcat
 

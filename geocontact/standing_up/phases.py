@@ -142,7 +142,7 @@ def phase_c(
         guess=[_between(course, float(np.ptp(trial.time)))],
     )
     seconds = float(np.ptp(trial.time))
-    start, end = (_given(model, noise, course, at) for at in (0.0, seconds))
+    start, end = (_bounds_at(model, noise, course, at) for at in (0.0, seconds))
     only = replace(phase.control.trials[0], start=start, end=end)
     return replace(phase, control=replace(phase.control, trials=(only,)))
 
@@ -158,7 +158,7 @@ def _between(course: Course, seconds: float) -> Course:
     return coordinates
 
 
-def _given(model: StandingModel, noise: StandingNoise, course: Course, at: float) -> Bounds:
+def _bounds_at(model: StandingModel, noise: StandingNoise, course: Course, at: float) -> Bounds:
     """Bounds of coordinates and rates about the smoothed recording at a time; accelerations are free."""
     h, n = 1e-3, model.count
     q = course(np.array([at]))[0]

@@ -60,7 +60,7 @@ def profiles(
     made = []
     low, high = phase.control.p
     for k, (each, number) in enumerate(zip(phase.parameters, numbers.numbers, strict=True)):
-        if number.verdict not in ("known", "believed"):
+        if number.verdict not in ("known", "prior-dominated"):
             continue
         rise, values = {0.0: 0.0}, {0.0: float(found.p[k])}
         for side in (-1.0, 1.0):

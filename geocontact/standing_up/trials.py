@@ -216,7 +216,7 @@ def standing_trial(
     Parameters
     ----------
     driven
-        Coordinates whose torques are sought; those of all joints unless given.
+        Coordinates whose torques are sought; those of all joints by default.
     """
     from casadi import Function
 

@@ -77,13 +77,13 @@ class SummarySettings(Document):
     Parameters
     ----------
     table
-        Name of the table; the first one over time unless given.
+        Name of the table; the first one over time by default.
     columns
-        Columns of numbers with their units; the first few unless given.
+        Columns of numbers with their units; the first few by default.
     over
         Column that a curve is over; its span is 0 to 100 % of the curve.
     where
-        Values of columns that choose the rows of a curve, such as one threshold of several; the first unless given.
+        Values of columns that choose the rows of a curve, such as one threshold of several; the first by default.
     subject
         Name under which a trial has its subject: trials of one are averaged before subjects are compared.
     condition
@@ -148,7 +148,7 @@ class StudyFile(Document):
     analysis
         The analysis as its command is typed.
     title
-        Heading of the page; the file's name unless given.
+        Heading of the page; the file's name by default.
     options
         Options by name; texts may hold `{name}`.
     files

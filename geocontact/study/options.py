@@ -28,13 +28,13 @@ class CohortOptions(Options):
     scheduler
         Address of a Dask scheduler, such as tcp://host:8786; local: this machine.
     workers
-        Processes on this machine; as many as there are cores unless given.
+        Processes on this machine; as many as there are cores by default.
     memory
-        Memory that each process on this machine may take: 4GB; its share of the machine's unless given.
+        Memory that each process on this machine may take: 4GB; its share of the machine's by default.
     """
 
     writes: ClassVar[str] = """
-    Writes results/… (a folder for each trial), trials.csv (what became of each), tables/… (the tables of all trials as
+    Writes results/… (a folder for each trial), trials.csv (status of each trial), tables/… (the tables of all trials as
     .parquet and .nc), report.html and run.json into OUT. It can be interrupted and run again at any time: only what is
     missing is evaluated, and the tables are the same. A trial that cannot be evaluated is one line, the others go on.
     """

@@ -272,13 +272,13 @@ def _looked_at(
     say(f"{all_of_them} have results, {new} of them new")
     curves = curves_of(planned.file, [(one.trial, one.address) for one in done], store)
     surface = surface_values(planned.file, [(one.trial, one.address) for one in done], store)
-    _say(curves)
+    _report_conditions(curves)
     if surface is not None:
-        _say_surface(surface)
+        _report_surface(surface)
     return trials, curves, surface
 
 
-def _say(curves: tuple[StudyCurves, ...]) -> None:
+def _report_conditions(curves: tuple[StudyCurves, ...]) -> None:
     """What conditions differ in, and which trials lie apart."""
     for one, first, second, found in differences_of(curves):
         name = f"{split_header(one.column)[0]}, {first} against {second}"
@@ -295,7 +295,7 @@ def _say(curves: tuple[StudyCurves, ...]) -> None:
         reserve(f"{name} lies apart from the other trials of its condition")
 
 
-def _say_surface(surface: SurfaceValues) -> None:
+def _report_surface(surface: SurfaceValues) -> None:
     """On how many points conditions differ."""
     for first, second, there, found in surface_differences(surface):
         name = f"distance at {len(surface.points)} particles, {first} against {second}"
@@ -346,7 +346,7 @@ def _outcomes(tasks: list[TrialTask], o: CohortOptions) -> Iterator[tuple[str, T
         started, spent = time.perf_counter(), 0.0
         for task, outcome in outcomes(client, tasks):
             if outcome.state == STOPPED:
-                line = f"{outcome.line}; what is done is kept: run it again when that is mended"
+                line = f"{outcome.line}; finished trials stay: run it again when that is mended"
                 raise OSError(errno.EIO, line, str(task.store.folder))
             yield task.address, outcome
             spent += outcome.seconds

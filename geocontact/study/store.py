@@ -41,7 +41,7 @@ def sole_writer(folder: Path) -> Iterator[None]:
     `flock`) have; where there are none it holds nobody up.
     """
     file = folder / LOCK
-    descriptor = _held(file)
+    descriptor = _locked_file(file)
     try:
         os.ftruncate(descriptor, 0)
         os.write(descriptor, f"process {os.getpid()} on {platform.node()}".encode())
@@ -52,7 +52,7 @@ def sole_writer(folder: Path) -> Iterator[None]:
         os.close(descriptor)
 
 
-def _held(file: Path) -> int:
+def _locked_file(file: Path) -> int:
     """Descriptor of the lock file, locked; again where another one removed the file in between."""
     while True:
         descriptor = os.open(file, os.O_RDWR | os.O_CREAT, 0o666)

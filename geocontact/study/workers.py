@@ -31,7 +31,7 @@ ONE_THREAD = {"OMP_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1", "OPENBLAS_NUM_TH
 AHEAD = 2
 """Trials that are given out for each thread of the workers: one runs, one waits."""
 COUNTED = 1.0  # s; so often the workers are counted, for they come and go on a cluster
-GONE = "the scheduler is gone; what is done is kept: run it again"
+GONE = "the scheduler is gone; finished trials stay: run it again"
 
 
 @contextmanager

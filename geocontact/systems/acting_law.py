@@ -43,7 +43,7 @@ class ActingLaw:
     numbers: Float[np.ndarray, " numbers"]
 
     def __call__(self, deflection: Track, rate: Track | None = None) -> Track:
-        """Force along a deflection and its rate, by central differences unless given, in the law's units.
+        """Force along a deflection and its rate, by central differences by default, in the law's units.
 
         It remembers along the run: friction, creep and slip know what was before.
         """

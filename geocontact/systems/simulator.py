@@ -190,9 +190,9 @@ def simulator_base(
         gives where it belongs; effects on the law are offered.
     law
         Numbers of the law that the base has already, by name: {"k": "stiffness"} takes its spring from the parameter
-        stiffness. Nothing unless given: a law without effects gives 0.
+        stiffness. Nothing by default: a law without effects gives 0.
     load
-        Unit of what the law gives; that of the first output in N or N m, else of the first, unless given.
+        Unit of what the law gives; that of the first output in N or N m, else of the first, by default.
 
     ValueError where `acts_on` is no input, or `law` or `load` is given without it.
 

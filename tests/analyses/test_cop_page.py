@@ -67,7 +67,7 @@ def test_a_plate_stands_beside_the_spheres(tmp_path: Path) -> None:
     plate = written(tmp_path / "plate.mot", head + "\t".join(["time", *names]) + "\n" + rows + "\n")
     page = cop_page(walked(tmp_path, (0, 19, 0), (0, 19, 0), (0, 19, 0), compare=plate))
     assert page.headline[-1].startswith(
-        "Beside the force plate the force differs by 100 N and the centre of pressure by"
+        "Compared with the force plate the force differs by 100 N and the centre of pressure by"
     )
     assert [track.name for track in page.sections[0].tracks] == ["centre of pressure", "force plate"]
     (table,) = [s for s in page.sections if isinstance(s, Table) and s.title.startswith("Difference")]

@@ -83,6 +83,6 @@ def test_the_page_of_moments_opens_at_the_largest_and_says_it(tmp_path: Path) ->
     turning = np.array([c.kind == "rotational" for c in model.coordinates]) & ~forces.at_ground
     assert id_page.answer(forces, turning) == [
         "knee needs the largest moment, 55.0 N m at 14 s.",
-        "Up to 40 N are left over at the ground: 5.0% of the largest measured force.",
+        "Up to 40 N of residual force at the ground: 5.0% of the largest measured force.",
     ]
     assert id_page._start(forces, turning, id_page.thinned(2001)) == 700

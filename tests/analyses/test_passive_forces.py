@@ -39,7 +39,7 @@ def test_a_limit_of_the_knee_takes_its_part_of_the_moment(tmp_path: Path) -> Non
     assert pushes.max() > 40.0
     column = "knee_moment [N m]"
     np.testing.assert_allclose(without.table()[column] - acting.table()[column], pushes, atol=1e-9)
-    assert any("act beside muscles: knee_stop" in line for line in acting.sentences)
+    assert any("act together with muscles: knee_stop" in line for line in acting.sentences)
     acting.write(tmp_path / "out")
     assert json.loads((tmp_path / "out" / "id.json").read_text())["passive_forces"] == ["knee_stop"]
     assert json.loads((tmp_path / "out" / "run.json").read_text())["results"]["passive_forces_left_out"] == []

@@ -137,7 +137,7 @@ def test_the_help_of_a_simulation_tells_what_it_takes_unless_given(tmp_path: Pat
     }
     assert USUAL.pressures is None
     for option, default in expected.items():
-        assert f" {default} unless given." in told[option], told[option]
+        assert f" {default} by default." in told[option], told[option]
 
 
 def test_tables_of_an_earlier_simulation_go(tmp_path: Path) -> None:
@@ -160,7 +160,7 @@ def test_the_page_and_its_figures(fitted: Call) -> None:
     page = page_of(fitted)
     assert "bootstrap lower" not in page, "without a bootstrap no empty columns"
     for words in (
-        "What the data tell",
+        "What the data identify",
         "known beforehand",
         "set by what was known beforehand",
         "Lilliefors",
@@ -186,7 +186,7 @@ def test_a_comparison_with_its_figure_and_page(tmp_path: Path, made: Path, fitte
     result = done(elbow("compare", tmp_path, *locked(made)[:1], "--fit", fit, picture=True))
     pictures = {"comparison_force.png", "comparison_force.svg"}
     assert set(inventory(tmp_path)) == pictures | {"comparison.csv", "report.html", "run.json"}
-    assert "Model beside 1 recording" in page_of(result) and "locked_1, force: MAE " in result.out
+    assert "Model against 1 recording" in page_of(result) and "locked_1, force: MAE " in result.out
 
 
 REFUSED = {

@@ -276,7 +276,9 @@ def test_a_short_gap_is_filled_and_told(tmp_path: Path) -> None:
     result = done(ik(tmp_path, lost(tmp_path, slice(20, 26), slice(12, 16))))
     told = result.record()["results"]
     assert told["filled_frames"] == {"ankle": 6} and told["missing_frames"] == {}
-    assert any("6 frames from 0.2 to 0.25 s: filled between frames that tell them: ankle" in w for w in result.warnings)
+    assert any(
+        "6 frames from 0.2 to 0.25 s: filled between frames that determine them: ankle" in w for w in result.warnings
+    )
     names = [c.name for c in model.coordinates]
     knee, ankle = knee_and_ankle(result.folder)
     np.testing.assert_allclose(knee, np.degrees(values[:, names.index("knee")]), atol=1e-4)
@@ -288,7 +290,7 @@ def test_a_long_gap_and_the_ends_stay_empty(tmp_path: Path, frames: slice, count
     """Nothing is held over from the frame before; inverse dynamics refuses the holes and can be cut to the rest."""
     result = done(ik(tmp_path, lost(tmp_path, frames, slice(12, 16))))
     assert result.record()["results"]["missing_frames"] == {"ankle": count}
-    assert any("left empty, markers do not tell them: ankle" in w for w in result.warnings)
+    assert any("left empty, markers do not determine them: ankle" in w for w in result.warnings)
     knee, ankle = knee_and_ankle(result.folder)
     assert np.isnan(ankle).sum() == count and np.isfinite(knee).all()
     refused = call("id", result.folder / "ik.mot", "--model", legs.model_file(tmp_path), "--out", tmp_path / "id")

@@ -62,7 +62,7 @@ def test_page_tells_the_whole_run(everything: tuple[Call, mock.Mock, mock.Mock])
     said = text(result)
     for part in (
         f"MOVING {FEMUR.name} on FIXED {INSERT.name}",
-        "Beside the measured areas", "2400",
+        "Compared with the measured areas", "2400",
         "How it was made", "threshold 4,1", "split z",
         "How much the threshold matters",
         "medial (−z)",

@@ -65,7 +65,7 @@ def test_where_it_is_far_above_noise_is_told() -> None:
     """Where the swinging begins; a slow movement alone is sampled well."""
     (words,) = told(0.01)
     found = re.fullmatch(
-        r"rates of the inputs are told too coarsely: at (\S+) s of t force is off by (\S+) times its noise or more",
+        r"rates of the inputs are recorded too coarsely: at (\S+) s of t force is off by (\S+) times its noise or more",
         words,
     )
     assert found and float(found[1]) < 0.1 and float(found[2]) > 10.0

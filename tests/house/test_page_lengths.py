@@ -62,7 +62,7 @@ LONGEST_LINE = 120
 RELEASES = {"Unreleased": 60, "0.1.0": 60}
 PAGES = sorted(path for folder in ("theory", "reference") for path in (ROOT / "docs" / folder).glob("*.md"))
 MADE = ("limits.md", "validation.md", "gap_constants.md", "descriptions.md")
-"""Pages made by `python -m website.pages`: a paragraph of theirs is one line, and they grow with what they are made of."""
+"""Pages made by `python -m website.pages`: a paragraph is one line there, and they grow with what they are made of."""
 
 
 def words(text: str) -> int:

@@ -114,12 +114,12 @@ def test_young_and_poisson_are_one_number_and_so_is_the_radius() -> None:
     told = identify(model, model.force({MODULUS: TRUE}), replicates=0).told_apart
     assert told["E, nu"].verdict == told["E*, R"].verdict == "one number"
     assert abs(told["E, nu"].correlation[0, 1]) == pytest.approx(1.0, abs=1e-6)
-    assert told["E*, lag"].verdict == "told apart"
+    assert told["E*, lag"].verdict == "separable"
     assert 10.0 < told["E*, threshold"].condition < 100.0
     by_threshold = synthetic_model("threshold")
     other = identify(by_threshold, by_threshold.force({MODULUS: TRUE}), replicates=0).told_apart
     assert other["E, nu"].verdict == "one number"
-    assert other["E*, R"].verdict == "told apart", "in this reading R also says where touching begins"
+    assert other["E*, R"].verdict == "separable", "in this reading R also says where touching begins"
 
 
 def test_a_radius_that_follows_flexion_enters_frame_by_frame() -> None:

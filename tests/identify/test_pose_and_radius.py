@@ -67,7 +67,7 @@ def test_adduction_is_found_from_both_sides_at_once(elsewhere: Elsewhere) -> Non
     assert lower < true < upper and upper - lower < np.radians(0.4)
     assert drawn[0] < true < drawn[1]
     assert found.profiles[0][0] < TRUE < found.profiles[0][1]
-    assert found.verdicts["E*, adduction"] == found.verdicts["free"] == "told apart"
+    assert found.verdicts["E*, adduction"] == found.verdicts["free"] == "separable"
 
 
 def test_adduction_without_noise_is_exact_with_a_lag_beside_it() -> None:
@@ -91,7 +91,7 @@ def test_an_offset_that_scales_one_side_alike_in_all_frames_is_no_number_of_its_
     assert alone.verdicts["free"] == alone.verdicts["E*, adduction"] == "one number"
     assert ADDUCTION in alone.on_bound
     together = elsewhere(scaled_alike, 2)
-    assert together.verdicts["free"] == "told apart"
+    assert together.verdicts["free"] == "separable"
     assert together.values == pytest.approx([TRUE, 0.01], rel=1e-3)
 
 
@@ -115,7 +115,7 @@ def test_slope_of_the_radius_is_found(elsewhere: Elsewhere) -> None:
     lower, upper = found.profiles[1]
     assert lower < -0.3 < upper and upper - lower < 0.1
     assert found.verdicts["E*, R"] == "one number", "its size stays one number with E*"
-    assert found.verdicts["free"] == "told apart"
+    assert found.verdicts["free"] == "separable"
 
 
 def test_slope_at_constant_flexion_is_one_number_with_the_modulus(elsewhere: Elsewhere) -> None:

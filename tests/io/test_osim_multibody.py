@@ -122,7 +122,7 @@ def test_parents_come_before_children(tmp_path: Path) -> None:
 
 def test_constraints_are_said(tmp_path: Path) -> None:
     on = PIN.replace("<BodySet", HELD.format("") + "<BodySet", 1)
-    with pytest.warns(InputWarning, match="constraints are not heeded.*WeldConstraint k"):
+    with pytest.warns(InputWarning, match="constraints are ignored.*WeldConstraint k"):
         read_multibody(written(tmp_path, on))
     for flag in ("<isDisabled>true</isDisabled>", "<isEnforced>false</isEnforced>"):
         read_multibody(written(tmp_path, PIN.replace("<BodySet", HELD.format(flag) + "<BodySet", 1)))

@@ -52,7 +52,7 @@ def test_mistakes() -> None:
         law_of_sole(ZONE, {}, {"arch": {"k": 1.0}})
     column = {"k": np.full(3, 1e4)}
     for given, zones in (({"k": 1e4}, {}), ({}, {"toe": {"k": 1e4}})):
-        with pytest.raises(ValueError, match="k has no effect beside the column k"):
+        with pytest.raises(ValueError, match="k has no effect together with the column k"):
             law_of_sole(ZONE, given, zones, column)
     with pytest.raises(ValueError, match="n is no number of the law, or none that single spheres can have"):
         law_of_sole(ZONE, {}, {"toe": {"n": 1.0}})

@@ -126,7 +126,7 @@ def test_mat_writes_what_the_command_writes(run, tmp_path):
 def test_elbow_shows_the_line_and_finds_what_the_command_finds(run, tmp_path):
     said = run(ROOT / "notebooks" / "elbow.ipynb")
     assert "d_lin 153 mm, d_tot 109 mm" in said
-    assert "direction told least: [-1.0, 1.0, 1.0, 1.0, 1.0]" in said
+    assert "least identified direction: [-1.0, 1.0, 1.0, 1.0, 1.0]" in said
     low, high = map(float, re.findall(r"R² along the line ([\d.]+) to ([\d.]+)", said)[0])
     assert low == high > 0.98
     leaves = float(re.findall(r"slides from (\d+)°", said)[-1])
@@ -171,7 +171,7 @@ def test_gap_own_model_finds_what_it_plants_and_nothing_where_nothing_is(run):
     said = run(ROOT / "notebooks" / "gap_own_model.ipynb")
     assert "as measured: no_gap" in said
     assert "not to be seen at any plausible size: sensor_gain.torque" in said
-    assert "not to be told apart (less than 5 nats between any two): time_shift and filter_lag" in said
+    assert "not separable (less than 5 nats between any two): time_shift and filter_lag" in said
     planted, found = map(float, re.findall(r"damping\.b = ([\d.]+)", said)[-2:])
     assert found == pytest.approx(planted, rel=0.1)
     assert re.search(r"known load of .* N m .*: tells .*sensor_gain.* nats more", said)

@@ -37,6 +37,6 @@ def test_the_centre_of_pressure_goes_from_heel_to_toe(found: dict[str, Errors]) 
     assert max(row["vertical rmse"] for row in rows) < 0.40
 
 
-@pytest.mark.xfail(strict=True, reason="markers do not tell depths: force 19 to 29 % BW off, means 2 to 28 %")
+@pytest.mark.xfail(strict=True, reason="markers do not show depths: force 19 to 29 % BW off, means 2 to 28 %")
 def test_forces_are_predicted_better_than_by_the_mean_of_other_steps(found: dict[str, Errors]) -> None:
     assert all(row["vertical rmse"] < row["vertical plain rmse"] for row in predicted(found))

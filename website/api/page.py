@@ -52,7 +52,7 @@ def _options(job: Job[Any, Any]) -> list[str]:
     for section in dict.fromkeys(one.section for one in known):
         lines += [f"### {section}"] if section else []
         rows = [_option(one) for one in known if one.section == section]
-        lines.append(_table(("name", "type", "unit", "unless given", "what it is"), rows))
+        lines.append(_table(("name", "type", "unit", "by default", "what it is"), rows))
     return lines
 
 

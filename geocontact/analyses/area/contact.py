@@ -114,7 +114,7 @@ def _say_congruence(bodies: Bodies, radius: float, name: str, found: CongruenceE
             )
 
 
-PIECE = 0.5e-3  # m; longest edge of a piece unless given
+PIECE = 0.5e-3  # m; longest edge of a piece by default
 AGREED = 0.01  # of the force; pieces of half the size may change it by no more without a word
 STRAINED = 0.2  # largest strain that the linear law is trusted to
 
@@ -309,7 +309,7 @@ def warn_of_overlap(e: AreaEvolution, motion: Motion, name: str) -> None:
 
 def least_distance(e: AreaEvolution, motion: Motion, name: str) -> str:
     """How near the bodies come, in which frame, and what the sign of a distance says."""
-    sign = "unsigned: overlap cannot be told" if e.signed == "none" else "signed: negative is overlap"
+    sign = "unsigned: overlap is not detectable" if e.signed == "none" else "signed: negative is overlap"
     least = round(float(e.min_distance.min()) * 1e3, 3) + 0.0  # no -0
     return f"{_of(name)}least distance {least:g} mm in {_nearest(e, motion)} ({sign})"
 

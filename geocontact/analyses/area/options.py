@@ -82,7 +82,7 @@ class AreaOptions(Options):
     joint
         Name of that joint.
     moving_body
-        parent: MOVING is the joint's parent body, or the femur of a knee convention; child unless given.
+        parent: MOVING is the joint's parent body, or the femur of a knee convention; child by default.
     map
         Columns instead of a model: rz=knee_flexion,rx=knee_adduction,ry=-knee_rotation,tx=knee_tx
     order
@@ -132,10 +132,10 @@ class AreaOptions(Options):
     rule
         How area is counted; the crude rules are for comparing with papers.
     bounds
-        Refine until (upper - lower) / upper is below: 0.02 or 2%; 10% unless given.
+        Refine until (upper - lower) / upper is below: 0.02 or 2%; 10% by default.
 
     congruence
-        Also tell how alike the two surfaces are curved where they are in contact (columns of area.csv): the radius
+        Also compute the congruence of the two surfaces where they are in contact (columns of area.csv): the radius
         within which curvatures are fitted, several edges of the meshes, such as 4mm.
 
     Error of the poses
@@ -144,22 +144,22 @@ class AreaOptions(Options):
         Standard deviations of the poses, typed t=0.5,r=1 or tx=0.5,ty=0.5,tz=1,rx=1,ry=1,rz=2 (mm, degrees; 0 unless
         named): the area of FIXED gets intervals, by draws and to first order (pose_error.csv).
     pose_axes
-        Axes of these: those of fixed (unless given) or moving. Turns are about MOVING's origin.
+        Axes of these: those of fixed (the default) or moving. Turns are about MOVING's origin.
     markers
         Instead of `pose_sd`: markers that MOVING's pose was fitted to, a table x [mm], y [mm], z [mm] in its frame.
     marker_sd
         Standard deviation of each coordinate of a marker.
     draws
-        How many; 400 unless given.
+        How many; 400 by default.
     seed
-        Of the draws; 1 unless given.
+        Seed of the draws; 1 by default.
 
-    Beside measured areas
-    ---------------------
+    Comparison with measured areas
+    ------------------------------
     compare
         Table of your own measured areas; the result is not accepted (exit 1) beyond the tolerance.
     tolerance
-        Largest relative difference from the areas compared; 2% unless given.
+        Largest relative difference from the areas compared; 2% by default.
 
     Results
     -------
@@ -179,19 +179,19 @@ class AreaOptions(Options):
     poisson
         Poisson's ratio of FIXED for `pressure`, below 0.5.
     thickness
-        Of FIXED's layer: a length such as 8mm, or rays (measured along the normal, which is the default).
+        Thickness of FIXED's layer: a length such as 8mm, or rays (measured along the normal, which is the default).
     foundation
-        linear or logarithmic (finite strain); linear unless given.
+        linear or logarithmic (finite strain); linear by default.
     facets
-        smooth: triangles stand for a smooth surface through their corners; flat: as they are. smooth unless given.
+        smooth: triangles stand for a smooth surface through their corners; flat: as they are. smooth by default.
     modulus_moving
-        Young's modulus of MOVING, which then is an elastic layer as well; rigid unless given.
+        Young's modulus of MOVING, which then is an elastic layer as well; rigid by default.
     poisson_moving
         Its Poisson's ratio, below 0.5.
     thickness_moving
-        Of its layer: a length such as 3mm, or rays.
+        Thickness of MOVING's layer: a length such as 3mm, or rays.
     piece
-        Longest edge of the pieces that pressure is summed over: 0.5mm unless given.
+        Longest edge of the pieces that pressure is summed over: 0.5mm by default.
     bodies
         OpenSim bodies of MOVING and FIXED, femur_r,tibia_r: forces are also written as external loads of these.
 

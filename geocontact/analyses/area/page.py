@@ -90,7 +90,7 @@ def _context(e: AreaEvolution, pressed: bool) -> str:
         "both": "Both surfaces are closed, so distances carry a sign and overlap is known on both.",
         "fixed": "The moving surface is closed, the fixed one is not: overlap is known on the fixed surface only.",
         "moving": "The fixed surface is closed, the moving one is not: overlap is known on the moving surface only.",
-        "none": "Neither surface is closed: distances are unsigned and overlap cannot be told from closeness.",
+        "none": "Neither surface is closed: distances are unsigned and overlap cannot be distinguished from closeness.",
     }
     forces = (
         "areas and distances are those of undeformed bodies, and pressures those of a layer that they overlap in. "
@@ -177,7 +177,7 @@ def _contact(told: Told, k: int) -> str:
 def _compared(compared: Compared) -> str:
     verdict = "within" if compared.accepted else "beyond"
     return (
-        f"Beside {counted(len(compared.rows), 'measured area')} the largest difference is {compared.largest:.1%}, "
+        f"Against {counted(len(compared.rows), 'measured area')} the largest difference is {compared.largest:.1%}, "
         f"{verdict} the tolerance of {compared.tolerance:.1%}."
     )
 

@@ -192,7 +192,7 @@ def comparison_tables(told: Told) -> list[Table]:
         return []
     rows = told.compared.rows
     texts = rows.map(lambda value: f"{value:.6g}" if isinstance(value, float) else str(value))
-    return [Table("Beside the measured areas", tuple(map(str, rows.columns)), texts.to_numpy().tolist())]
+    return [Table("Compared with the measured areas", tuple(map(str, rows.columns)), texts.to_numpy().tolist())]
 
 
 def strip(told: Told) -> Strip:

@@ -116,7 +116,7 @@ def sole_law(table: SphereTable, o: CopOptions) -> SoleLaw:
     if o.law is not None:
         add_input("law", o.law)
     if file.foot is not None:
-        reserve(f"{o.law}: [foot] is beside the standing trial of a prosthesis and has no effect here")
+        reserve(f"{o.law}: [foot] is an offset from the standing trial of a prosthesis and has no effect here")
     columns = {key: each for key, each in (("k", table.stiffness), ("b", table.damping)) if each is not None}
     zones = {name: zone.model_dump(exclude_none=True) for name, zone in file.zone.items()}
     given = _numbers(o, file, table.exponent, columns)

@@ -61,7 +61,7 @@ class CopOptions(Options):
     ----------
     ground
         plane:nx,ny,nz,offset (all x with n.x = offset [m], n made a unit vector), stairs:h0,x1:h1,x2:h2 (height h1 [m]
-        from x1 on, y up), or a mesh; plane:0,1,0,0 unless given.
+        from x1 on, y up), or a mesh; plane:0,1,0,0 by default.
     unit
         Unit of the ground's mesh; never guessed.
 
@@ -74,38 +74,38 @@ class CopOptions(Options):
     toe
         Axis of the foot's frame that points from heel to toe: adds the centre in the foot, from the heel.
     foot_length
-        From heel to toe [m]; from the rearmost to the foremost point of the spheres unless given.
+        From heel to toe [m]; from the rearmost to the foremost point of the spheres by default.
     stances
         Add every complete stance, from where the normal force reaches the gate until it falls below, at 0, 1, … 100 %.
 
     Filters
     -------
     motion_cutoff
-        Zero-lag low-pass of the motion [Hz], 6 in the study of the variable-stiffness foot; none unless given.
+        Zero-lag low-pass of the motion [Hz], 6 in the study of the variable-stiffness foot; none by default.
     force_cutoff
-        Zero-lag low-pass of forces and moments, the plate's as well [Hz], 40 there; none unless given.
+        Zero-lag low-pass of forces and moments, the plate's as well [Hz], 40 there; none by default.
 
     The force law
     -------------
     law
         Numbers of the force law in a .toml: k, b, n, delta_full, mu_s, mu_k, v_th, and k, b in [zone.NAME].
     stiffness
-        k [N/m^n] of every sphere; 8e4 unless given here, in `law` or as a column `k [N/m^n]`.
+        k [N/m^n] of every sphere; 8e4 by default, else as given here, in `law` or as a column `k [N/m^n]`.
     damping
-        b [N s/m] of every sphere; 200 unless given here, in `law` or as a column `b [N s/m]`.
+        b [N s/m] of every sphere; 200 by default, else as given here, in `law` or as a column `b [N s/m]`.
     exponent
-        n of F = k depth^n; 1.2 unless given.
+        n of F = k depth^n; 1.2 by default.
     full_depth
-        Depth [m] from which damping acts fully: 2 mm unless given.
+        Depth [m] from which damping acts fully: 2 mm by default.
     friction
-        Static and kinetic coefficient: 0.9,0.7 unless given.
+        Static and kinetic coefficient: 0.9,0.7 by default.
     threshold_speed
-        Speed [m/s] at which static friction is reached; 0.25 unless given.
+        Speed [m/s] at which static friction is reached; 0.25 by default.
 
-    Beside a force plate
-    --------------------
+    Comparison with a force plate
+    -----------------------------
     compare
-        Ground reactions of force plates (.mot .sto .c3d) to put beside ours.
+        Ground reactions of force plates (.mot .sto .c3d) to compare with.
     plate
         Name or number of the plate; needed when there are several.
     c3d_unit
@@ -120,7 +120,7 @@ class CopOptions(Options):
     joint
         Name of that joint.
     moving_body
-        parent: the foot is the joint's parent body; child unless given.
+        parent: the foot is the joint's parent body; child by default.
     map
         Columns instead of a model: rz=pitch,tx=x,ty=y
     order

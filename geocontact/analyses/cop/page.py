@@ -44,7 +44,7 @@ def axis_name(axis: int, sign: float = 1.0) -> str:
 def foot_plan(r: FootLoads, shown: Int[np.ndarray, " k"]) -> Plan:
     """Spheres, their outline and the path, seen against the ground's normal: the longer way lies across."""
     sole = r.foot.sole
-    across, up, sign = _seen(r)
+    across, up, sign = _view_axes(r)
 
     def flat(points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:
         return points[:, [across, up]] * (1.0, sign) * MM
@@ -124,7 +124,7 @@ def _along(centre: Float[np.ndarray, "t 3"], upward: int) -> int:
     return int(np.argmax(reach))
 
 
-def _seen(r: FootLoads) -> tuple[int, int, float]:
+def _view_axes(r: FootLoads) -> tuple[int, int, float]:
     """Axes of the foot to the right and upwards in the drawing, and the sign of the latter, for a view from above."""
     turned = r.foot.motion.poses.rotation.inv().as_matrix().reshape(-1, 3, 3)
     known = np.isfinite(r.centre.normal[:, 0])
@@ -191,7 +191,7 @@ def _beside(r: FootLoads) -> list[str]:
     told = [f"the force differs by {_length(force):.3g} N"]
     if None not in centre:
         told.append(f"the centre of pressure by {_length(centre) * MM:.3g} mm")
-    return [f"Beside the force plate {' and '.join(told)} (root mean square)."]
+    return [f"Compared with the force plate {' and '.join(told)} (root mean square)."]
 
 
 def _at(time: float) -> str:

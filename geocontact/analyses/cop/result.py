@@ -150,11 +150,11 @@ def _loads(foot: Foot, o: CopOptions) -> SphereLoads:
             loads = sphere_loads(foot.sole, foot.law, foot.motion.poses, rate, foot.ground)
     except ValueError as error:
         raise InputError(o.motion, "", str(error), REMEDY) from error
-    _say_what_is_odd(foot, loads, o)
+    _reserve_oddities(foot, loads, o)
     return loads
 
 
-def _say_what_is_odd(foot: Foot, loads: SphereLoads, o: CopOptions) -> None:
+def _reserve_oddities(foot: Foot, loads: SphereLoads, o: CopOptions) -> None:
     touching = loads.depth > 0.0
     if not touching.any():
         gap = clearance(foot.sole, loads, foot.ground)
@@ -191,12 +191,12 @@ def _summarise(r: CopResult) -> None:
         },
     )
     say(f"normal force up to {c.pressing.max():.1f} N; a centre of pressure in {found.sum()} of {len(found)} frames")
-    _tell_foot(r)
+    _report_foot(r)
     if r.comparison is not None:
-        _tell_comparison(r, root_mean_squares(r.comparison))
+        _report_comparison(r, root_mean_squares(r.comparison))
 
 
-def _tell_foot(r: CopResult) -> None:
+def _report_foot(r: CopResult) -> None:
     """Length of the foot and where the centre goes along it; how many stances are complete."""
     within = along_foot(r)
     if within is not None and r.axis is not None:
@@ -224,7 +224,7 @@ def _one_or_all(values: Float[np.ndarray, " n"]) -> float | list[float]:
     return found[0] if len(found) == 1 else found
 
 
-def _tell_comparison(r: CopResult, differences: dict[str, float | None]) -> None:
+def _report_comparison(r: CopResult, differences: dict[str, float | None]) -> None:
     rows = 0 if r.comparison is None else len(r.comparison)
     note("comparison", {"rows": rows, **differences})
     shown = ", ".join(f"{name[4:]} {value:.4g}" for name, value in differences.items() if value is not None)

@@ -34,7 +34,7 @@ def written(folder: Path, others: Iterable[Path], command: str) -> dict[str, str
 
     Not those of the runs in `others` below it, nor where a run.json of the same command tells of them already.
     """
-    own = {file.parent for file in folder.rglob(RUN) if _told(file.parent).get("command") == command}
+    own = {file.parent for file in folder.rglob(RUN) if _written_record(file.parent).get("command") == command}
     apart = {place for place in (*others, *own) if folder in place.parents}
     files = sorted(file for file in folder.rglob("*") if file.is_file() and not apart & set(file.parents))
     return {file.relative_to(folder).as_posix(): digest(file) for file in files if file.name != RUN}
@@ -46,20 +46,20 @@ def left_over(out: Path, draft: Path) -> list[Path]:
     Looked at are `out`, the sub-folders that the draft fills again, and those that the earlier run of `out` filled and
     no other run has since; nothing in them but what their run.json lists.
     """
-    command = _told(draft).get("command")
-    before = _told(out)
+    command = _written_record(draft).get("command")
+    before = _written_record(out)
     children = [p for p in out.iterdir() if p.is_dir() and not p.is_symlink()] if out.is_dir() else []
     filled = [p for p in children if (draft / p.name).is_dir() or (p.name in _folders(before) and _same(p, before))]
     found = []
     for place in (out, *filled):
-        told = _told(place)
+        told = _written_record(place)
         if told and told.get("command") == command:
             again = draft / place.relative_to(out)
             found += [file for file in _files(told, place) if not (again / file.relative_to(place)).exists()]
     return found
 
 
-def _told(folder: Path) -> dict[str, object]:
+def _written_record(folder: Path) -> dict[str, object]:
     """Content of the folder's run.json; empty when there is none that can be read."""
     try:
         content = json.loads((folder / RUN).read_bytes())
@@ -102,7 +102,7 @@ def _folders(told: dict[str, object]) -> list[object]:
 
 def _same(folder: Path, before: dict[str, object]) -> bool:
     """Whether the results in a sub-folder are those of the run that `before` tells of."""
-    told = _told(folder)
+    told = _written_record(folder)
     runs = [_results(each).get("run") for each in (told, before)]
     if isinstance(runs[0], str) and runs[0] == runs[1]:
         return True

@@ -44,9 +44,9 @@ class Spelled:
     Parameters
     ----------
     name
-        Without the two dashes; that of the field with dashes for underscores unless given.
+        Without the two dashes; that of the field with dashes for underscores by default.
     key
-        Name in `run.json`; that of the field unless given.
+        Name in `run.json`; that of the field by default.
     default
         The default as it is typed, where that is not the default in SI.
     dashed
@@ -72,7 +72,7 @@ class Spelled:
 class Requires:
     """The option has no effect unless the other one is given, or `alternative` where there is one.
 
-    `remedy` is what to do, "give `other`" unless told.
+    `remedy` is what to do, "give `other`" by default.
     """
 
     other: str

@@ -37,7 +37,7 @@ class Declared:
     range
         What its values can be.
     endings
-        Of the files that it is for; empty where it is for any.
+        Endings of the files that it is for; empty where it is for any.
     missing
         What is said where it is a path that leads nowhere.
     words

@@ -183,7 +183,7 @@ def turn(text: str, option: str) -> tuple[str, float]:
 
 
 def angle_range(text: str, option: str, example: str) -> tuple[float, float, float]:
-    """ "0:90:1" to start, stop, step [rad]; degrees are typed, and the step is 1 unless given."""
+    """ "0:90:1" to start, stop, step [rad]; degrees are typed, and the step is 1 by default."""
     parts = text.split(":")
     if len(parts) not in (2, 3):
         raise InputError("", option, f"{text!r} is not a range", f"write {example} (degrees)")

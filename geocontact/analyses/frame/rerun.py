@@ -13,7 +13,7 @@ from typing import Any
 from geocontact.analyses.frame.folder import RUN, digest
 from geocontact.data.errors import InputError
 
-REMEDY = f"name the {RUN} that a command or `Result.write` left beside its results"
+REMEDY = f"name the {RUN} that a command or `Result.write` left with its results"
 SECONDS = "seconds"
 _UNIT = re.compile(r" \[[^\]]*\]$")
 

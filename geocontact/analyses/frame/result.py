@@ -196,7 +196,7 @@ class Result(ABC):
     def put(self, draft: Path, forms: TableForms | None = None) -> list[str]:
         """Write everything into `draft`, `run.json` included; names of the files.
 
-        Tables are also written in `forms`, unless given in those that the run was asked for.
+        Tables are also written in `forms`, by default in those that the run was asked for.
         """
         self.write_files(draft)
         (forms or self.record.forms).write(self.tables(), draft, self.record.command)

@@ -28,7 +28,7 @@ def percent(share: float) -> str:
 def proposal_words(one: NextExperiment, verdict: str) -> str:
     """What to record next, and what for: to show what is absorbed where nothing was found, else to tell apart."""
     some = names(one.separates)
-    why = f"would show {some}" if verdict == "no_gap" else f"would tell {some} apart"
+    why = f"would show {some}" if verdict == "no_gap" else f"would separate {some}"
     return f"next: {one.change}; that {why} by {one.gain_nats:g} nats more"
 
 

@@ -50,10 +50,10 @@ def read(o: LoadcellOptions) -> LoadCellInputs:
     for path, folder in o.folders.items():
         r = recordings[path]
         add_input("recording", path, unit=r.unit, frames=len(r.time), folder=folder or ".")
-    return LoadCellInputs(regression, recordings, _given_cycles(o))
+    return LoadCellInputs(regression, recordings, _named_cycles(o))
 
 
-def _given_cycles(o: LoadcellOptions) -> list[GivenCycle] | None:
+def _named_cycles(o: LoadcellOptions) -> list[GivenCycle] | None:
     asked = (o.cycles or "").strip()
     if o.cycles is None or asked in FOUND:
         return None
@@ -146,7 +146,7 @@ def cuts_asked_for(
     """
     if o.cycles is None:
         return []
-    cycles = _found(forces, o) if given is None else given
+    cycles = _cycles_of(forces, o) if given is None else given
     if not cycles:
         what = f"finds no complete {o.cycles} in {', '.join(path.name for path in forces)}"
         raise InputError("", "`cycles`", what, "see `level`, or name the times: 1.7:2.8,2.8:3.9")
@@ -170,7 +170,7 @@ def stacked(cuts: list[Cut], side: str) -> dict[str, Float[np.ndarray, "_ 101"]]
     return {style: np.array([cut.curves[side] for cut in cuts if cut.style == style]) for style in styles}
 
 
-def _found(forces: Mapping[Path, CompartmentForces], o: LoadcellOptions) -> list[GivenCycle]:
+def _cycles_of(forces: Mapping[Path, CompartmentForces], o: LoadcellOptions) -> list[GivenCycle]:
     spans = FINDERS[(o.cycles or "").strip()]
     return [(path.stem, path, span) for path, f in forces.items() for span in spans(f.time, f.total, _level(f, o))]
 
@@ -328,4 +328,4 @@ def say_cycles(cuts: list[Cut]) -> None:
         note("styles", table.to_dict(orient="records"))
         say(table.to_string(index=False, float_format=lambda value: f"{value:.1f}"))
     if len(counts) > SERIES:
-        reserve(f"{len(counts)} styles are more than a figure tells apart ({SERIES}); ensemble.csv has them all")
+        reserve(f"{len(counts)} styles are more than a figure can show ({SERIES}); ensemble.csv has them all")

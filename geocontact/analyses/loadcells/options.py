@@ -41,9 +41,9 @@ class LoadcellOptions(Options):
     part
         Take this first part of each cycle for the whole: 60% is the stance of a gait cycle.
     level
-        Total force [N] at which load sets in, for stride and stance; a quarter of the largest unless given.
+        Total force [N] at which load sets in, for stride and stance; a quarter of the largest by default.
     body_mass
-        Of the subject [kg]: the page then offers forces in per cent of body weight as well.
+        Mass of the subject [kg]: the page then offers forces in per cent of body weight as well.
     """
 
     over_time: ClassVar[bool] = True

@@ -178,7 +178,7 @@ CELLS = (
     "the compartments is a regression, not a measurement, and shear and friction are in neither."
 )
 CYCLES, STYLES = "Cycles", "Difference to the first style (root mean square of the means)"
-SHIFTS = "Swing and time of each style beside the first, intervals of 95 % over cycles"
+SHIFTS = "Swing and time of each style compared with the first, intervals of 95 % over cycles"
 ENSEMBLE = (
     "Cycles as thin lines, the mean of each style as a thick one, mean ± SD as a band; 0 to 100 % of each cycle's own "
     "duration."
@@ -301,9 +301,7 @@ def _curves(
     panels = [Curves("Contact force", unit.name, curves, spans=spans)]
     if spans:
         beside = beside_their_mean(shown.time, sides["total"], cuts, recorded.file.stem, "total")
-        panels.append(
-            Curves("Total force, each cycle beside the mean", unit.name, [_times(one, per) for one in beside])
-        )
+        panels.append(Curves("Total force, each cycle and the mean", unit.name, [_times(one, per) for one in beside]))
     panels.append(Curves("Load cells", unit.name, [Curve(name, values * per) for name, values in cells.items()]))
     return panels
 

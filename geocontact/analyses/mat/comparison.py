@@ -191,7 +191,7 @@ def compared(
         raise InputError(model.file, "", f"{len(time)} frames are too few to compare", f"{3 * PARTS} are needed")
     even, step = even_times(time)
     if even is not time:
-        reserve("frames are not evenly spaced: agreement is told at even times, without what lies in gaps")
+        reserve("frames are not evenly spaced: agreement is computed at even times, without gaps")
     measured = load_table(whole, time)
     named = None if phases is None else frames_of(phases, even, o)
     rows = [
@@ -204,11 +204,11 @@ def compared(
     agreed = pd.DataFrame(rows).rename(columns={"lag": "lag [s]", "r2": "r2 [-]", "correlation": "correlation [-]"})
     if not (agreed.loc[agreed["phase"] == "all", "samples"] > 0).any():
         raise InputError(model.file, "", "has no time in common with the mat", "check its time column")
-    _tell(agreed[agreed["phase"] == "all"])
+    _report(agreed[agreed["phase"] == "all"])
     return agreed
 
 
-def _tell(whole: pd.DataFrame) -> None:
+def _report(whole: pd.DataFrame) -> None:
     note("agreement", whole.replace({np.nan: None}).to_dict(orient="records"))
     for row in whole.itertuples():
         say(f"{row.channel}: mean absolute difference {row.mae:.4g} {row.unit}, root mean square {row.rmsd:.4g}")

@@ -48,15 +48,15 @@ def stated_errors(
     known = None if registration is None else registration.covariance
     if registration is not None and known is not None:
         way = "landmarks" if registration.names else "shape"
-        told.update(_told(f"residual of the registration by {way}", known, middle))
+        told.update(_pose_errors(f"residual of the registration by {way}", known, middle))
     if slip is not None:
-        own = _told("residual of the mat's landmarks", slip, middle)
+        own = _pose_errors("residual of the mat's landmarks", slip, middle)
         told.update(own if known is None else {"mat_on_scan": own})
         known = slip if known is None else known.plus(slip)
     return MatErrors(cell, gain, pose=known)
 
 
-def _told(place: str, covariance: PoseCovariance, middle: Float[np.ndarray, " 3"]) -> dict[str, object]:
+def _pose_errors(place: str, covariance: PoseCovariance, middle: Float[np.ndarray, " 3"]) -> dict[str, object]:
     """At the middle of the mat."""
     sd = np.sqrt(np.maximum(np.diag(covariance.at(middle)), 0.0))
     return {
@@ -109,11 +109,11 @@ def loads(given: MatInputs, p: PlacedMat, seen: PreparedFrames, travel: Travel |
     if travel is not None:
         whole, parts, spread = travel.carried(whole, parts, spread, given.point)
     found = MatLoads(pressure, whole, parts, spread, errors, home)
-    _tell(found, seen.frames.time, given.point)
+    _report(found, seen.frames.time, given.point)
     return found
 
 
-def _tell(found: MatLoads, time: Float[np.ndarray, " t"], point: Float[np.ndarray, " 3"]) -> None:
+def _report(found: MatLoads, time: Float[np.ndarray, " t"], point: Float[np.ndarray, " 3"]) -> None:
     whole = found.whole
     heaviest = int(np.argmax(whole.pressing))
     round_about = np.isnan(whole.normal[0])  # a belt looks to no side

@@ -54,14 +54,14 @@ class MatOptions(Options):
     first_corner
         Place x,y,z of `surface` near the mat's corner at its first cell, in the scan's unit; needed by `scan_with_mat`.
     mat_edge
-        Width of the mat's border without cells, for `scan_with_mat`: 5mm; none unless given.
+        Width of the mat's border without cells, for `scan_with_mat`: 5mm; none by default.
 
     The mat
     -------
     layout
         layout.toml: rows, columns, pitch_mm or cell_area_mm2, order of the cells, origin, mirrored, saturation.
     kind
-        Format of `frames`, where its content does not tell.
+        Format of `frames`, where its content does not show it.
     sensor
         Which mat, where `frames` holds several ("left").
     seen_from
@@ -83,7 +83,7 @@ class MatOptions(Options):
     joint
         Name of that joint.
     moving_body
-        parent: the segment is the joint's parent body; child unless given.
+        parent: the segment is the joint's parent body; child by default.
     map
         Columns of the motion instead of a model: rz=knee_flexion,rx=knee_adduction,tx=knee_tx
     order
@@ -94,7 +94,7 @@ class MatOptions(Options):
     Frame of the results
     --------------------
     point
-        Point that moments refer to, x,y,z in the scan's unit and the frame of the results; 0,0,0 unless given.
+        Point that moments refer to, x,y,z in the scan's unit and the frame of the results; 0,0,0 by default.
     frame
         Name of the scan's frame in the results.
 
@@ -105,45 +105,45 @@ class MatOptions(Options):
     unloaded
         Times without load [s], for offset, and drift where there are two: 0:0.5,9:9.5
     dead
-        Cells that never change while those around them are pressed are told. warn: and used as they read. mask: and
+        Cells that never change while those around them are pressed are reported. warn: and used as they read. mask: and
         left out. fill: and filled from their neighbours, as those are that the layout lists as dead.
     touched
-        Pressure from which a cell counts as touched: 1kPa unless given.
+        Pressure from which a cell counts as touched: 1kPa by default.
     gate
         Force [N] below which there is no centre of pressure.
 
-    Beside a body model
-    -------------------
+    Comparison with a body model
+    ----------------------------
     body_landmarks
         Points seen on the scan and on a body model: id, x [mm], y [mm], z [mm], body_x [mm], body_y [mm], body_z [mm].
         All results are in the body's frame then.
     body
         Surface of that body, for `icp`.
     body_unit
-        Its unit; that of the scan unless given.
+        Its unit; that of the scan by default.
     icp
         Fit the scan to the body's surface by shape, beginning where the landmarks put it.
     icp_engine
-        own: our own search by shape. open3d: that of open3d. auto: open3d where it imports, else our own; auto unless
-        given.
+        own: our own search by shape. open3d: that of open3d. auto: open3d where it imports, else our own; auto by
+        default.
     segment
-        Part of the surface with a name, as often as there are parts: "upper=y > 20" (x y z nx ny nz, the scan's unit).
+        Part of the surface with a name; may be repeated: "upper=y > 20" (x y z nx ny nz, the scan's unit).
 
     Uncertainty
     -----------
     accuracy
-        How far each cell is off by itself: 10% unless given.
+        How far each cell is off by itself: 10% by default.
     gain
         How far all cells are off together.
     registration
-        How far the mat may lie elsewhere, along and about each axis: 1mm,2deg; unless given, what the residuals tell of
+        How far the mat may lie elsewhere, along and about each axis: 1mm,2deg; by default, what the residuals show of
         `landmarks`, and of `body_landmarks` or `icp`.
 
-    Beside a model
-    --------------
+    Comparison with a model
+    -----------------------
     compare
         Forces of a model (or of a plate) over time, columns as in wrench.csv: agreement in agreement.csv. Lines
-        `# point_mm = ...` and `# frame = ...` above it are heeded.
+        `# point_mm = ...` and `# frame = ...` above it are read.
     phases
         Phases of the recording for `compare`: name, start [s], end [s]; a name may come back in every cycle. Tenths of
         the recording without.

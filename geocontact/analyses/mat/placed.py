@@ -204,14 +204,14 @@ def _laid(surface: Surface, frames: PressureFrames, marks: MatLandmarks, o: MatO
         inside = "" if surface.closed else ", and `inwards` where faces look into the body"
         remedy = f"check landmarks, unit and `seen_from`{inside}"
         raise InputError(o.landmarks or "", "", str(error), remedy) from error
-    _tell_how_it_lies(laid, frames, marks)
+    _report_drape(laid, frames, marks)
     _warn_how_it_lies(laid, frames, marks)
     say_which_side(surface, laid, at, o)
     say_how_it_closes(mat, laid, o)
     return laid
 
 
-def _tell_how_it_lies(laid: Drape, frames: PressureFrames, marks: MatLandmarks) -> None:
+def _report_drape(laid: Drape, frames: PressureFrames, marks: MatLandmarks) -> None:
     largest, rms = laid.distortion_of(frames.valid)
     note(
         "mat",
@@ -240,7 +240,7 @@ def _warn_how_it_lies(laid: Drape, frames: PressureFrames, marks: MatLandmarks) 
         reserve(f"landmark {marks.name[worst]} is missed by {where}")
     off, folded = (int((frames.valid & which).sum()) for which in (~laid.covered, laid.folded))
     if off:
-        reserve(f"{off} cells hang over the edge of the scan; what they read is left out")
+        reserve(f"{off} cells reach beyond the edge of the scan; their readings are left out")
     if folded:
         reserve(f"{folded} cells are folded over others: check the landmarks")
     change = laid.distortion_of(frames.valid)[0]
@@ -272,11 +272,11 @@ def closest_point(p: PlacedMat, frames: PressureFrames, o: MatOptions) -> Closes
     except ValueError as error:
         note(HERE, {"not_possible": str(error)})
         return None
-    _tell(found, frames)
+    _report_distance(found, frames)
     return found
 
 
-def _tell(found: ClosestPoint, frames: PressureFrames) -> None:
+def _report_distance(found: ClosestPoint, frames: PressureFrames) -> None:
     at, flat = found.frame, found.drape
     force, centre = found.force_apart, found.centre_apart * MM
     largest, rms = flat.distortion_of(frames.valid)

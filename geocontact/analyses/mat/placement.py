@@ -66,7 +66,7 @@ def say_which_side(surface: Surface, laid: Drape, marks: Marks, o: MatOptions) -
     if o.landmarks is not None and marks.in_line:
         reserve(
             f"the landmarks lie on one line of the mat: they do not show which side of it faces the body, and "
-            f"`seen_from` {o.seen_from} is believed"
+            f"`seen_from` {o.seen_from} is used"
         )
     if not surface.closed and laid.bulge < HOLLOW:
         reserve(
@@ -110,10 +110,10 @@ def registered(
         found = fit_landmarks(model.on_scan, model.on_body, names=model.names)
         if guard.warning:
             reserve(guard.warning)
-        _tell_fit("landmarks", found)
+        _report_fit("landmarks", found)
         if model.surface is not None:
             engine, found = _by_shape(scan, model.surface, found, o)
-            _tell_fit("shape", found, engine=engine)
+            _report_fit("shape", found, engine=engine)
             if not found.converged:
                 reserve("the registration by shape did not settle; look at registration.csv")
     except InputError:
@@ -145,7 +145,7 @@ def _pairs(path: Path) -> tuple[tuple[str, ...], Float[np.ndarray, "n 3"], Float
     )
 
 
-def _tell_fit(way: str, found: Registration, **more: str) -> None:
+def _report_fit(way: str, found: Registration, **more: str) -> None:
     worst, off = found.worst
     note(
         f"registration by {way}",
@@ -194,7 +194,7 @@ def marks_found(scan: Surface, second: SecondScan, frames: PressureFrames, o: Ma
     except ValueError as error:
         remedy = "check that both scans are of the same body, or give `landmarks`"
         raise InputError(o.scan_with_mat or "", "", str(error), remedy) from error
-    _tell_raised(found, raised, outline, frames)
+    _report_raised(found, raised, outline, frames)
     mat = flat_mat(frames, o)
     marks = outline.marks(mat, _first(outline, _candidates(outline, mat, o), second.corner, o))
     return MatLandmarks(marks.names, marks.cells, marks.points)
@@ -205,7 +205,7 @@ def flat_mat(frames: PressureFrames, o: MatOptions) -> Mat:
     return Mat(frames.rows, frames.columns, frames.pitch, mirrored=o.seen_from == "body")
 
 
-def _tell_raised(found: Registration, raised: ScanDifference, outline: Rectangle, frames: PressureFrames) -> None:
+def _report_raised(found: Registration, raised: ScanDifference, outline: Rectangle, frames: PressureFrames) -> None:
     note(
         "second scan",
         {
@@ -246,7 +246,7 @@ def _first(outline: Rectangle, candidates: list[int], given: Float[np.ndarray, "
     """The corner of the first cell."""
     named = " or ".join(_text(outline.corners[k] / LENGTH[o.unit]) for k in candidates)
     if given is None:
-        what = f"the outline does not tell which corner is that of the first cell; it may be {named} {o.unit}"
+        what = f"the outline does not show which corner is that of the first cell; it may be {named} {o.unit}"
         raise InputError("", "`first_corner`", what, "name the one, e.g. `first_corner` x,y,z")
     nearest = int(np.argmin(np.linalg.norm(outline.corners - given, axis=1)))
     if nearest not in candidates:

@@ -82,7 +82,7 @@ def treated(
     dead = found | listed
     gaps = holes(pressure, read.valid, dead, read.pitch)
     result = _by(way, read, pressure, found, listed, gaps)
-    _tell(read, pressure, found, result, gaps, way)
+    _report_cells(read, pressure, found, result, gaps, way)
     _warn(read, found, result, way)
     return result
 
@@ -103,7 +103,7 @@ def _by(
     return replace(whole, valid=whole.valid | whole.guessed)
 
 
-def _tell(
+def _report_cells(
     read: PressureFrames,
     pressure: Float[np.ndarray, "t r c"],
     found: Bool[np.ndarray, "r c"],
@@ -214,7 +214,7 @@ def made_ready(read: PressureFrames, listed: tuple[tuple[int, int], ...], o: Mat
     pressure, valid = _smooth(read, sound.pressure, o), sound.valid
     frames = replace(read, pressure=np.where(valid, pressure, np.nan), valid=valid)
     found = PreparedFrames(frames, read, sound.gaps)
-    _say_what_is_odd(found, o)
+    _reserve_oddities(found, o)
     return found
 
 
@@ -257,7 +257,7 @@ def _smooth(read: PressureFrames, pressure: Float[np.ndarray, "t r c"], o: MatOp
         raise InputError("", "`cutoff`", str(error), "give a lower one, or 0 for none") from error
 
 
-def _say_what_is_odd(seen: PreparedFrames, o: MatOptions) -> None:
+def _reserve_oddities(seen: PreparedFrames, o: MatOptions) -> None:
     frames, clipping = seen.frames, seen.saturated
     if clipping.any():
         cells, share = int(clipping.any(axis=0).sum()), clipping.any(axis=(1, 2)).mean()
@@ -270,14 +270,14 @@ def _say_what_is_odd(seen: PreparedFrames, o: MatOptions) -> None:
     silent = frames.valid & ~(frames.pressure > 0.0).any(axis=0)
     if silent.any() and not silent.all():
         note("silent_cells", np.argwhere(silent).tolist())
-    _say_what_is_negative(frames)
+    _reserve_negative(frames)
     force = frames.force
     if o.unloaded is None and force.max(initial=0.0) > 0.0 and force.min() > RESTING * force.max():
         what = f"the mat never reads less than {force.min():.0f} N"
         reserve(f"{what}: if it was unloaded at some time, say when with `unloaded`")
 
 
-def _say_what_is_negative(frames: PressureFrames) -> None:
+def _reserve_negative(frames: PressureFrames) -> None:
     """Noise about zero sums to little; an offset that was taken off and was none does not."""
     pressure = np.where(frames.valid, frames.pressure, 0.0)
     below = np.tensordot(np.minimum(pressure, 0.0), frames.cell_area, 2)

@@ -224,7 +224,9 @@ def _reservations(r: MatFindings) -> list[str]:
         f"Cells are up to {known.max():.1%} larger or smaller on the scan than flat; each keeps its own sensing area.",
         f"Landmarks are missed by up to {miss}.",
         f"The errors that were stated make the largest force uncertain by {sd:.1f} N (standard deviation).",
-        spelled("What was neither stated (`gain`, `registration`) nor told by a registration is not in that number."),
+        spelled(
+            "What was neither stated (`gain`, `registration`) nor estimated by registration is not in that number."
+        ),
         "The scan is one shape: where soft tissue gives way under the load, pressures sit where it was before.",
     ]
 
@@ -234,7 +236,7 @@ def _two_ways(r: MatFindings, flat: ClosestPoint) -> Table:
     at, drapes, both = flat.frame, (r.drape, flat.drape), (flat.used, flat.projected)
     rows = [
         ("area of a cell, largest change", *(f"{_largest(r, each):.1%}" for each in drapes)),
-        ("cells beside the scan", *(str(int((r.frames.valid & ~each.covered).sum())) for each in drapes)),
+        ("cells off the scan", *(str(int((r.frames.valid & ~each.covered).sum())) for each in drapes)),
         *((f"force {axis} [N]", *(f"{each.wrench.force[at, k]:.2f}" for each in both)) for k, axis in enumerate("xyz")),
         *(
             (f"centre of pressure {axis} [mm]", *(f"{each.centre[at, k] * MM:.1f}" for each in both))

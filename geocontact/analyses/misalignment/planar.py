@@ -18,9 +18,9 @@ from geocontact.io.recordings.elbow_recording import read_axis_drift
 from geocontact.view.page.content import Table
 
 MODEL = (
-    "A spring between limb and attachment, the joint a hinge whose axis stays or drifts as told, slow motion: no "
+    "A spring between limb and attachment, the joint a hinge whose axis stays or drifts as stated, slow motion: no "
     "damping, no friction in the compensation joint, no slip of the cuff, a rigid upper attachment. Stiffness and all "
-    "lengths together are known up to one factor only, F(k/s, s · lengths) = F: a force measured at some angles tells "
+    "lengths together are known up to one factor only, F(k/s, s · lengths) = F: a force measured at some angles gives "
     "the product, not its parts."
 )
 STATES = {SOUND: "ok", POLE: "pole", FOLD: "fold", LOST: "lost"}

@@ -47,7 +47,7 @@ class ColumnOptions(Options):
     unit
         Unit of the force where its file does not say.
     cutoff
-        Cut-off of a zero-lag low-pass over the measured channels [Hz]; none unless given.
+        Cut-off of a zero-lag low-pass over the measured channels [Hz]; none by default.
     """
 
     _: KW_ONLY

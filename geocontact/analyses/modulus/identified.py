@@ -74,9 +74,9 @@ def _evolution(table: AreaTable, side: str, each: Identification) -> ThresholdAr
     return evolution.with_offsets(turned)
 
 
-ONE_NUMBER = "E and nu are one number here: area and force tell E* = E/(1 - nu^2) only, and E for a stated nu"
+ONE_NUMBER = "E and nu are one number here: area and force identify E* = E/(1 - nu^2) only, and E for a stated nu"
 RADIUS = "E* and a constant R are one number as well, E*/R: the radius is an input, not a result"
-RADII = "of R the forces tell only how it changes with flexion (slope): its size at 0 degrees is one number with E*"
+RADII = "of R the forces identify only how it changes with flexion (slope): its size at 0 degrees is one number with E*"
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,7 +133,7 @@ class Identified:
         return shown
 
     def not_identifiable(self) -> list[str]:
-        """What the data cannot tell; (E*, R) depends on the reading, the free numbers on the data."""
+        """What the data cannot identify; (E*, R) depends on the reading, the free numbers on the data."""
         each = self.first
         lines = [f"E* and {name} are one number here: {name} is not identifiable" for name in confounded(each)]
         if each.told_apart["E*, R"].verdict != "one number":

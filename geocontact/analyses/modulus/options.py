@@ -45,7 +45,7 @@ class ModulusOptions(Options):
     area
         area.csv of `geocontact area`, at one or several thresholds and adduction offsets; several files are one table.
     force
-        Measured forces over time (.csv .mot .sto): medial, lateral, total, as far as they are there.
+        Measured forces over time (.csv .mot .sto): any of medial, lateral, total.
     radius
         Radius R of the contact in the law.
     threshold
@@ -58,13 +58,14 @@ class ModulusOptions(Options):
     map
         Columns by what they are, where they have other names: medial=F1,total=-Fz,flexion=knee_flexion.
     lag
-        Seconds that the force's clock is behind the area's: force(t + lag) belongs to area(t). 0 unless given.
+        Seconds that the force's clock is behind the area's: force(t + lag) belongs to area(t). 0 by default.
 
-    What is unknown
-    ---------------
+    Unknowns
+    --------
     free
-        Unknown besides E*, with bounds or without: threshold=1:6,lag=-0.05:0.05,adduction=-2:2,slope=-0.3:0.3
-        (mm, s, degrees, per rad of flexion; in Python a dict of pairs in SI, None without bounds).
+        Additional parameters to estimate, with bounds or without:
+        threshold=1:6,lag=-0.05:0.05,adduction=-2:2,slope=-0.3:0.3 (mm, s, degrees, per rad of flexion; in Python a
+        dict of pairs in SI, None without bounds).
     profile
         profile.csv of `geocontact fit` instead of `radius`: R follows flexion.
     flexion
@@ -81,9 +82,9 @@ class ModulusOptions(Options):
     adhesion
         dmt or jkr: bodies that stick, for the reading disc.
     work_of_adhesion
-        Work of adhesion w [J/m^2] of that law, which areas and forces do not tell.
+        Work of adhesion w [J/m^2] of that law, which areas and forces do not identify.
     poisson
-        Poisson's ratio, or several, that E is told for: 0.25,0.46. E* needs none.
+        Poisson's ratio, or several, that E is given for: 0.25,0.46. E* needs none.
 
     Checks and prediction
     ---------------------
@@ -100,7 +101,7 @@ class ModulusOptions(Options):
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
     Writes modulus.json, curves.csv, sensitivity.csv, modulus.png, modulus.svg, report.html and run.json into OUT, and
-    prediction.csv with `predict_area`. Area and force give one number, E* = E/(1 - nu^2): E is told for a stated nu.
+    prediction.csv with `predict_area`. Area and force give one number, E* = E/(1 - nu^2): E is given for a stated nu.
     """
 
     area: Annotated[tuple[Path, ...], Spelled(keyword=True)]

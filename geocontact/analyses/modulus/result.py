@@ -8,7 +8,7 @@
 >>> pd.DataFrame({"time [s]": time, "total [N]": force}).to_csv("forces.csv", index=False)
 >>> gc.modulus("area.csv", "forces.csv", radius=gc.mm(34))
 total: E* 2 MPa (95 % 2 … 2), RMSE 0 N, R² 1.00
-E and ν are one number here: area and force tell E* = E/(1 - ν²), and E only for a stated ν
+E and ν are one number here: area and force identify E* = E/(1 - ν²), and E only for a stated ν
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ class ModulusResult(Result):
 
     @property
     def not_identifiable(self) -> list[str]:
-        """What the data cannot tell, a sentence each."""
+        """What the data cannot identify, a sentence each."""
         return self.found.not_identifiable()
 
     def tables(self) -> dict[str, pd.DataFrame]:
@@ -125,7 +125,7 @@ def run(inputs: ModulusInputs, o: ModulusOptions) -> ModulusResult:
     sides = _sides(inputs, threshold, others, o)
     found = Identified(sides, sensitivity(sides), calibration, predictions(inputs, sides), o.poisson)
     note("modulus", describe(found))
-    _tell(found)
+    _report(found)
     return ModulusResult(options=o, found=found)
 
 
@@ -196,7 +196,7 @@ def _reserve(side: str, each: Identification) -> None:
     """What has to be said about one side."""
     _, r2 = agreement(each.measured, each.predicted)
     if constant(each):
-        reserve(f"{side}: the area is the same in every frame: nothing tells whether the law holds")
+        reserve(f"{side}: the area is the same in every frame: nothing shows whether the law holds")
     if r2 < 0.0:
         reserve(f"{side}: R² is {r2:.2f}, a constant force would do better than the law")
     for name in each.on_bound:
@@ -208,18 +208,18 @@ def _reserve(side: str, each: Identification) -> None:
         what = f"the residual remembers for about {each.memory.typical:.2g} s of {len(each.measured)} frames"
         reserve(f"{side}: {what}, longer than a block: the law misses something, and intervals are rough")
     free = each.told_apart.get("free")
-    if free is not None and free.verdict != "told apart":
+    if free is not None and free.verdict != "separable":
         reserve(f"{side}: {', '.join(free.names)} are {free.verdict} (condition {free.condition:.3g})")
 
 
-def _tell(found: Identified) -> None:
+def _report(found: Identified) -> None:
     for side, each in found.sides.items():
         p = each.profiles[MODULUS]
         rmse, r2 = agreement(each.measured, each.predicted)
         span = f"{p.lower * 1e-6:.4g} … {p.upper * 1e-6:.4g}"
         sticks = "" if each.model.adhesion is None else f", {each.model.adhesion.words}"
         say(f"{side}: E* {each.modulus * 1e-6:.4g} MPa (95 % {span}), RMSE {rmse:.0f} N, R² {r2:.2f}{sticks}")
-    say("E and ν are one number here: area and force tell E* = E/(1 - ν²), and E only for a stated ν")
+    say("E and ν are one number here: area and force identify E* = E/(1 - ν²), and E only for a stated ν")
     for told in found.predictions:
         if told.measured is not None:
             say(f"{told.side}, trial not used: RMSE {told.rmse:.0f} N, R² {told.r2:.2f}")

@@ -177,7 +177,7 @@ def told_apart(found: Identified) -> Table:
     """Singular values and verdict of every group of numbers that somebody may want together."""
     header = ("side", "numbers", "singular values", "condition", "correlation", "verdict")
     rows = [_apart(side, group) for side, each in found.sides.items() for group in each.told_apart.values()]
-    return Table("What the data tell apart", header, rows)
+    return Table("What the data separate", header, rows)
 
 
 def _apart(side: str, group: Identifiability) -> Row:
@@ -191,11 +191,11 @@ def _span(low: float, high: float) -> str:
     return f"{low:.4g} … {high:.4g}"
 
 
-PROFILE = "How far the sum of squares rises when E* is held beside its best value: an interval of 95 % ends at 1."
+PROFILE = "How far the sum of squares rises when E* is held away from its best value: an interval of 95 % ends at 1."
 LAW = (
     "The law turns one area into one force. It has no friction, no damping, no liner that creeps, and it takes the "
     "area of rigid surfaces within a threshold for that of an elastic contact: what E* says of a material is only as "
-    "good as that reading. Read it beside the table of thresholds and readings."
+    "good as that reading. Read it with the table of thresholds and readings."
 )
 
 
@@ -215,7 +215,7 @@ def modulus_page(title: str, found: Identified, curves: CurveSheet, tables: Sequ
     sections: list[Section] = [
         *([*forces, intervals] if undescribed(found) else [intervals, *forces]),
         tables[0],
-        Words("What the data cannot tell", found.not_identifiable()),
+        Words("What the data cannot identify", found.not_identifiable()),
         *tables[1:],
         Words("What the numbers do not contain", [LAW, NOT_A_DEVICE]),
     ]

@@ -93,7 +93,7 @@ def offset_of_law(file: Path | None, standing: Path) -> FootOffset:
         return AS_STOOD
     if beside.standing is not None and beside.standing != digest(standing):
         reserve(
-            f"{file}: [foot] was found beside another standing trial than `static`, and is left out: height and pitch "
+            f"{file}: [foot] is of another standing trial than `static`, and is left out: height and pitch "
             "are errors of that trial (if it is the same in another file, take the line `standing` out of the law)"
         )
         return AS_STOOD

@@ -79,10 +79,10 @@ class ShapeOptions(Options):
     medial
         Side of the splitting plane that is medial, instead of `side`.
     profile
-        Also tell the radius as a function of flexion: start, stop and step, typed -30:120:5 in degrees, about `axis` or
-        the fitted cylinder's axis.
+        Also compute the radius as a function of flexion: start, stop and step, typed -30:120:5 in degrees, about
+        `axis` or the fitted cylinder's axis.
     window
-        Flexion over which the radius of the profile is taken; 30 degrees unless given.
+        Flexion over which the radius of the profile is taken; 30 degrees by default.
 
     Results
     -------

@@ -176,7 +176,7 @@ def profile_curves(profiles: Mapping[str, SagittalProfile], whole: ShapeFit) -> 
 ROUND = 72  # sides of the drawn cylinder, rings of the drawn sphere
 SHAPE = "fitted {}"
 BESIDE = (
-    "Points beside the section of the shape, the map of what is left over, and its distribution; dashed: three times "
+    "Points and the section of the shape, the map of the residuals, and their distribution; dashed: three times "
     "the noise, beyond which a point is called an outlier."
 )
 OVER_FLEXION = (

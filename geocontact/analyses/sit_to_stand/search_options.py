@@ -27,7 +27,7 @@ class StandingSearchOptions(Options):
     degree
         Collocation points in an interval (Radau).
     iterations
-        At most so many.
+        Largest number of iterations.
     time_limit
         CPU time after which a search ends [s].
     c3d_unit

@@ -94,7 +94,7 @@ class Amputee:
         Turns components in the frame of a person who stands upright (y up, x where the pelvis points) into components
         in the pelvis' frame.
     foot, fulcrum, bushing
-        Of the prosthesis.
+        Side of the prosthesis.
     """
 
     prosthetic: Leg

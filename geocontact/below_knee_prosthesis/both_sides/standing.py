@@ -189,7 +189,7 @@ def standing_amputee(
     joints
         Centres and axes that are known better than by regression and by epicondyles and malleoli.
     stature
-        [m]; from the length of the intact leg unless given.
+        [m]; from the length of the intact leg by default.
     """
     at = median_places(seen, (*STANDING, *INTACT_STANDING))
     pelvis = pelvis_frame(at, seen.source)

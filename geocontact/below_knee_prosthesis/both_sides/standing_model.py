@@ -153,13 +153,15 @@ def doubts_of_legs(made: Amputee, joints: FunctionalJoints, height: float | None
         if abs(one / two - 1.0) > EVEN:
             said.append(f"the {name} measures {one:.3f} m on the prosthetic and {two:.3f} m on the intact side")
     if not (joints.points or joints.lines or joints.untold):
-        said.append("hips by regression, knees and ankle by their markers; a `functional` trial tells them better")
+        said.append("hips by regression, knees and ankle by their markers; a `functional` trial determines them better")
     return [*said, *doubts_of_joints(joints)]
 
 
 def doubts_of_joints(joints: FunctionalJoints) -> list[str]:
     """Joints that a functional trial does not tell, with the reason, and those that both segments put apart."""
-    said = [f"the functional trial does not tell the {JOINTS[name][0]}: {why}" for name, why in joints.untold.items()]
+    said = [
+        f"the functional trial does not determine the {JOINTS[name][0]}: {why}" for name, why in joints.untold.items()
+    ]
     apart = {name: each.rms for name, each in joints.points.items()}
     apart |= {name: each.rms for name, each in joints.lines.items()}
     for name, rms in apart.items():

@@ -78,7 +78,7 @@ def fore_aft_error(predicted: Float[np.ndarray, "t 4"], stance: RecordedStance) 
 
 
 def known_of(found: SoleCalibration | WholeCalibration) -> tuple[KnownNumber, ...]:
-    """Numbers of the zones, then height and pitch of the foot beside its standing trial."""
+    """Numbers of the zones, then height and pitch of the foot relative to its standing trial."""
     return *found.knowledge.numbers, *found.knowledge.beside
 
 
@@ -96,7 +96,7 @@ def doubts_of_fit(height: float, pitch: float, residual: float, vertical: float)
     """
     reasons = []
     if max(abs(height), abs(pitch)) > FAR:
-        what = "height or pitch of the foot is more than two standard deviations beside the standing trial"
+        what = "height or pitch of the foot is more than two standard deviations off the standing trial"
         reasons.append(f"{what}: did the foot stand flat in `static`?")
     if residual > LARGE or vertical > MISSED:
         reasons.append(

@@ -1,7 +1,7 @@
 """The sole's numbers from stances that the whole model walks.
 
 Damped Gauss-Newton steps from the calibration along recorded poses, with the same priors; height and pitch of the foot
-beside its standing trial are sought on, from what that calibration found.
+relative to its standing trial are sought on, from what that calibration found.
 """
 
 from __future__ import annotations

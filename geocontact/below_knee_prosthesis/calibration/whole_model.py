@@ -190,8 +190,8 @@ ASIDE = 0.2
 class WholeResiduals:
     """Residuals of all stances as functions of what is sought.
 
-    That is the logarithms of the numbers over the usual ones, then of each stance height and pitch of the foot beside
-    its standing trial in standard deviations (`Errors`); where the latter are left out, the foot is as it stood.
+    That is the logarithms of the numbers over the usual ones, then of each stance height and pitch of the foot relative
+    to its standing trial in standard deviations (`Errors`); where the latter are left out, the foot is as it stood.
 
     Parameters
     ----------

@@ -26,7 +26,7 @@ FINE = 401
 """Values between which the best is sought."""
 FLAT, WIDE = 0.01, 0.6
 """Difference of an outcome over its size that is none; share of the range that is no answer."""
-SideVerdict = Literal["told", "no effect", "cannot tell"]
+SideVerdict = Literal["identified", "no effect", "not identified"]
 
 
 @dataclass(frozen=True)
@@ -97,14 +97,14 @@ def choose(
     """
     sides = {name: _side(values, drawn[:, k], sense, target, level) for k, name in enumerate(RESPONSES)}
     judged = {name: sides[name] for name in JUDGED}
-    telling = {name: side for name, side in judged.items() if side.verdict == "told"}
+    telling = {name: side for name, side in judged.items() if side.verdict == "identified"}
     whole = float(values[0]), float(values[-1])
 
     def silent(why: str) -> FootChoice:
         return FootChoice(sides, False, float("nan"), *whole, {}, why)
 
-    if any(side.verdict == "cannot tell" for side in judged.values()):
-        blind = " and ".join(name for name, side in judged.items() if side.verdict == "cannot tell")
+    if any(side.verdict == "not identified" for side in judged.values()):
+        blind = " and ".join(name for name, side in judged.items() if side.verdict == "not identified")
         return silent(f"with {blind} most of the range may be best")
     if not telling:
         return silent("no value has any effect")
@@ -115,7 +115,7 @@ def choose(
     gain = {
         name: _gain(values, drawn[:, k], sense, target, (present, best), level)
         for k, name in enumerate(RESPONSES)
-        if name in telling or (name not in judged and sides[name].verdict == "told")
+        if name in telling or (name not in judged and sides[name].verdict == "identified")
     }
     idle = [name for name in judged if name not in telling]
     why = f"with {' and '.join(idle)} it has no effect" if idle else "whether angles or torque are kept"
@@ -133,11 +133,11 @@ def _side(
     upper = interval(fine[len(fine) - 1 - np.argmax(near[:, ::-1], axis=1)], level)[2]
     best = float(np.median(fine[np.argmin(worth, axis=1)]))
     span = float(np.median(drawn.max(axis=1) - drawn.min(axis=1)))
-    verdict: SideVerdict = "told"
+    verdict: SideVerdict = "identified"
     if span < FLAT * size:
         verdict = "no effect"
     elif upper - lower > WIDE * (values[-1] - values[0]):
-        verdict = "cannot tell"
+        verdict = "not identified"
     return Side(best, lower, upper, verdict)
 
 

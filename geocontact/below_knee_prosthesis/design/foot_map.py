@@ -141,7 +141,7 @@ class FootMap:
     ) -> Float[np.ndarray, "*s c"]:
         """The table's channels; pitches beyond its ends are those of its ends.
 
-        `forward` is the force along the ground [N]: none unless given.
+        `forward` is the force along the ground [N]: none by default.
         """
         inside = np.clip(pitch, self.pitch[0], self.pitch[-1]), np.clip(load, self.load[0], self.load[-1])
         places = np.stack(inside, axis=-1)

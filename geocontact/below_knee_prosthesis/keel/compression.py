@@ -111,7 +111,7 @@ def told_apart(
     names = ["bending", "series", *(["share"] if share else []), *(["place"] if place else [])]
     start = np.log([fit.bending, fit.series, SHARE[fit.support], fit.length])
     if len(fulcrums) < len(names):
-        raise ValueError(f"{len(fulcrums)} compressions cannot tell {len(names)} numbers apart")
+        raise ValueError(f"{len(fulcrums)} compressions cannot separate {len(names)} numbers")
     chosen = [0, 1, *([2] if share else []), *([3] if place else [])]
 
     def logarithms(values: Float[np.ndarray, " four"]) -> Float[np.ndarray, " n"]:

@@ -172,7 +172,7 @@ class QuasiStaticKeel:
         gravity
             In the ground's frame [m/s²].
         start
-            Angles from which the first frame is sought; straight unless given.
+            Angles from which the first frame is sought; straight by default.
 
         ArithmeticError where a frame has no equilibrium that Newton's steps find, or a sphere no place on the ground.
         """
@@ -225,7 +225,7 @@ class QuasiStaticKeel:
         if not found:
             bad = int(np.argmax(~(left <= TOLERANCE)))
             raise ArithmeticError(f"the keel has no equilibrium in frame {bad + 1}: {left[bad]:.3g} N m is left")
-        return _told(angles, told, steps, seen, moving=rate is not None)
+        return _results(angles, told, steps, seen, moving=rate is not None)
 
     def at(
         self,
@@ -247,7 +247,7 @@ class QuasiStaticKeel:
         for i, (y, u) in enumerate(zip(angles, speeds, strict=True)):
             at = seen.planes[i], seen.twists[i], seen.gravities[i]
             balance(y, y - u, 1.0, arrays[0], memory, *arrays[1:], *at, torque, slope, told[i])
-        return _told(angles, told, np.zeros(len(angles), np.int64), seen, moving=True)
+        return _results(angles, told, np.zeros(len(angles), np.int64), seen, moving=True)
 
     def arrays(self, *, static: bool, falling: bool = False) -> ChainArrays:
         """Springs, joints, spheres, law and weights as the kernel takes them.
@@ -289,7 +289,7 @@ class QuasiStaticKeel:
         )  # fmt: skip
 
 
-def _told(
+def _results(
     angles: Float[np.ndarray, "t m"],
     told: Float[np.ndarray, "t n told"],
     steps: Int[np.ndarray, " t"],

@@ -27,7 +27,7 @@ ROWS: tuple[tuple[str, float, Source, str], ...] = (
     ("lowest", 0.066, "paper", "sec. 2.1"),
     ("highest", 0.151, "paper", "sec. 2.1"),
     ("low_stiffness", SETTINGS["low"], "paper", "table 2"),
-    ("medium_stiffness", SETTINGS["medium"], "paper", "table 2; its fulcrum is not told"),
+    ("medium_stiffness", SETTINGS["medium"], "paper", "table 2; its fulcrum is not stated"),
     ("high_stiffness", SETTINGS["high"], "paper", "table 2"),
     ("modulus", 18.6e9, "invented", "flexural modulus, usual for G10/FR4"),
     ("shear_modulus", 7.0e9, "invented", "usual for G10/FR4"),

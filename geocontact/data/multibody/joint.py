@@ -200,7 +200,7 @@ def revolute(
     axis
         In the joint's frame, of any length.
     at, child_at
-        Pose of the joint's frame in the parent and in the child, their own frames unless given.
+        Pose of the joint's frame in the parent and in the child, their own frames by default.
     """
     return _joint(name, parent, child, [(0, axis, name)], at, child_at)
 

@@ -62,7 +62,7 @@ class OptimalitySystem:
         try:
             answer[order] = splu(matrix[order][:, order].tocsc(), permc_spec="NATURAL").solve(right[order])
         except RuntimeError as error:
-            raise ValueError("the parameters are not told: the optimality system is singular") from error
+            raise ValueError("the parameters are not identified: the optimality system is singular") from error
         return answer
 
     def _order(self, matrix: Any, moves: Bool[np.ndarray, " z"]) -> Int[np.ndarray, " k"]:
@@ -117,10 +117,10 @@ def inverse_reduced_hessian(
     try:
         columns = np.linalg.inv(0.5 * (reduced + reduced.T))
     except np.linalg.LinAlgError as error:
-        raise ValueError("the parameters are not told: the cost has no minimum there") from error
+        raise ValueError("the parameters are not identified: the cost has no minimum there") from error
     inverse[np.ix_(free, free)] = columns * np.outer(on.scales.p[free], on.scales.p[free])
     if not np.isfinite(inverse).all() or (np.diag(inverse)[free] <= 0.0).any():
-        raise ValueError("the parameters are not told: the cost has no minimum there")
+        raise ValueError("the parameters are not identified: the cost has no minimum there")
     return inverse
 
 

@@ -123,7 +123,7 @@ class ControlProblem:
         Where their search starts.
     scale_path, scale_x, scale_u
         What counts as 1 in each row of the system's path, in each state and in each control; 1 and the largest size
-        where the search starts, unless given.
+        where the search starts, by default.
     """
 
     system: ControlledSystem

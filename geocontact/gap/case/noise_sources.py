@@ -232,7 +232,7 @@ def coarse_rates(problem: Problem) -> tuple[str, ...]:
         if most[worst] > DEVIATIONS:
             at = trials[worst].time[int(np.argmax(errors[worst][:, c]))]
             told.append(
-                f"rates of the inputs are told too coarsely: at {at:.3g} s of {trials[worst].name} "
+                f"rates of the inputs are recorded too coarsely: at {at:.3g} s of {trials[worst].name} "
                 f"{name} is off by {most[worst]:.2g} times its noise or more"
             )
     return tuple(told)

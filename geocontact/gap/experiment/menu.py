@@ -61,7 +61,7 @@ def menu(system: System, trials: Sequence[Trial]) -> tuple[Experiment, ...]:
     template = sorted(trials, key=len)[len(trials) // 2]
     return (
         *paces(system, template),
-        *_held(system, template),
+        *_steps_and_holds(system, template),
         *_smaller(system, template),
         *_on_the_bench(system, template),
         *_swapped(system, template),
@@ -115,7 +115,7 @@ def paces(system: System, trial: Trial) -> tuple[Experiment, ...]:
     return tuple(found)
 
 
-def _held(system: System, trial: Trial) -> tuple[Experiment, ...]:
+def _steps_and_holds(system: System, trial: Trial) -> tuple[Experiment, ...]:
     name, _, __ = band(system, trial)
     pace = max(min(fastest(system, trial), FASTER[0]), 1.0)
     whole = float(trial.time[-1] - trial.time[0])

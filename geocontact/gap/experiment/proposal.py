@@ -205,7 +205,7 @@ def proposed(found: Attribution, confounded: Sequence[Candidate] = ()) -> Propos
     if len(competitors) > 1:
         known = [fitted(one) for one in competitors]
         pairs = [ModelPair(a, b) for a in known for b in known if a is not b]
-        return _telling(found, problem, competitors[0].judged, pairs)
+        return _most_promising(found, problem, competitors[0].judged, pairs)
     if found.answer.verdict == "no_gap" and confounded:
         base = fitted(found.base)
         pairs = [ModelPair(_confounded(problem, found.base.judged, one), base) for one in confounded]
@@ -223,7 +223,7 @@ def _confounded(problem: Problem, base: Judged, one: Candidate) -> Hypothesis:
     return Hypothesis(one.name, system, values, residuals, base.model.jacobian)
 
 
-def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[ModelPair]) -> Proposal | None:
+def _most_promising(found: Attribution, problem: Problem, lead: Judged, pairs: list[ModelPair]) -> Proposal | None:
     """The most promising change that raises the smallest separation enough once competing models are refitted."""
     whitenings = problem.whitenings(lead.noise, lead.model)
     before = [on_trials(whitenings, pair) for pair in pairs]
@@ -240,7 +240,7 @@ def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[Mod
             names = [
                 name for name in found.answer.ambiguity if any(name in pair.true.name.split("+") for pair in pairs)
             ]
-            said = _said(one.experiment, names, left - least)
+            said = _next_experiment(one.experiment, names, left - least)
             return Proposal(said, one.experiment, tuple(pairs), lead)
     return None
 
@@ -283,10 +283,10 @@ def _unveiling(problem: Problem, base: Judged, pairs: list[ModelPair]) -> Propos
     if best is None:
         return None
     shown_by = tuple(pair for pair in pairs if pair.true.name in best[3])
-    return Proposal(_said(best[2], best[3], best[1]), best[2], shown_by, base)
+    return Proposal(_next_experiment(best[2], best[3], best[1]), best[2], shown_by, base)
 
 
-def _said(one: Experiment, names: Sequence[str], gain: float) -> NextExperiment:
+def _next_experiment(one: Experiment, names: Sequence[str], gain: float) -> NextExperiment:
     return NextExperiment(tuple(names), f"record {TRIALS} trials: {one.words}", float(f"{gain:.3g}"))
 
 

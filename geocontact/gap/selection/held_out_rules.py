@@ -204,7 +204,7 @@ class HeldOutRules:
             first = first or with_one(self.problem, one, other)
             why = replace(self, base=first.judged, before=self._after(first), calm=self._calm(first)).over_base(one)
             if why:
-                return f"beside {first.label} alone, {why}"
+                return f"compared with {first.label} alone, {why}"
         return ""
 
     def _of_recording(self, one: Contender) -> str:

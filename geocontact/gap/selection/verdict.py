@@ -152,12 +152,12 @@ def answer(held: Ranking, unnamed: float, odd: float, rest: float, little: float
     weights[("unknown",)] += sum(weights.values()) * _odds(odd) / _odds(LEFT_OVER)
     total = sum(weights.values())
     if not np.isfinite(total):
-        raise FloatingPointError("probabilities cannot be told: what is left unexplained is not a number")
+        raise FloatingPointError("probabilities cannot be computed: what is left unexplained is not a number")
     shared: dict[str, float] = {}
     for names, weight in weights.items():
         for name in names:
             shared[name] = shared.get(name, 0.0) + weight / total / len(names)
-    return _said(base, living, gains, {names: w / total for names, w in weights.items()}, shared)
+    return _answer(base, living, gains, {names: w / total for names, w in weights.items()}, shared)
 
 
 def _odds(part: float) -> float:
@@ -208,7 +208,7 @@ def _normal(probabilities: Mapping[str, float]) -> dict[str, float]:
     return {k: v / total for k, v in sorted(probabilities.items(), key=lambda each: -each[1])}
 
 
-def _said(
+def _answer(
     base: Contender,
     living: Sequence[Contender],
     gains: Mapping[str, float],

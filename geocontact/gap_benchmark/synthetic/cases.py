@@ -173,7 +173,7 @@ def attempt_at(
         stage = replace(stage, scene=scene)
     found = FINDERS[kind](rng, stage, effect, nats)
     if not all(math.isfinite(seen.nats) for seen in (found.sights or {}).values()):
-        raise NotFoundError(f"{found.words}: how visible it is cannot be told")
+        raise NotFoundError(f"{found.words}: how visible it is cannot be computed")
     fine = fine_enough(scene, stage.trials[0].path, found.hooks)
     gaps = scene.laboratory.clock.kept if rng.random() < scene.laboratory.clock.losing else None
     data_errors = found.by_trial(learn + hold)
@@ -200,7 +200,7 @@ def attempt_at(
     case, names = case_of(rng, scene, recordings, learn, name)
     label = label_of(kind, found, how_far, scene, stage, names)
     if not all(true is None or math.isfinite(true) for true in label.reduction.values()):
-        raise NotFoundError(f"{found.words}: how far the gap shrinks cannot be told")
+        raise NotFoundError(f"{found.words}: how far the gap shrinks cannot be computed")
     return SyntheticCase(case, label, ideal(scene, stage.trials, found.hooks, fine))
 
 

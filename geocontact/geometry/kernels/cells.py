@@ -59,7 +59,9 @@ def measured_cells(tree, low, edge, count, signed):
         for b in range(n1 + 1):
             for c in range(n2 + 1):
                 x, y, z = low[0] + a * edge, low[1] + b * edge, low[2] + c * edge
-                corner[a, b, c], hint = _found(boxes, child, leaves, fill, x, y, z, hint, nodes, keys, square, fan)
+                corner[a, b, c], hint = _nearest_triangle(
+                    boxes, child, leaves, fill, x, y, z, hint, nodes, keys, square, fan
+                )
     total = n0 * n1 * n2
     near, place = np.empty((total, 4)), np.empty(total, np.int64)
     side, span = np.zeros(total, np.int8), np.empty((total, 2))
@@ -69,7 +71,7 @@ def measured_cells(tree, low, edge, count, signed):
         for b in range(n1):
             for c in range(n2):
                 x, y, z = low[0] + (a + 0.5) * edge, low[1] + (b + 0.5) * edge, low[2] + (c + 0.5) * edge
-                d2, hint = _found(boxes, child, leaves, fill, x, y, z, hint, nodes, keys, square, fan)
+                d2, hint = _nearest_triangle(boxes, child, leaves, fill, x, y, z, hint, nodes, keys, square, fan)
                 px, py, pz, which = side_of(leaves, tree.slots, tree.normal, tree.row, hint, x, y, z)
                 slack, least, most = 0.0, np.inf, 0.0
                 for i in range(2):
@@ -95,7 +97,7 @@ def measured_cells(tree, low, edge, count, signed):
 
 
 @kernel
-def _found(boxes, child, leaves, fill, x, y, z, hint, nodes, keys, square, fan):
+def _nearest_triangle(boxes, child, leaves, fill, x, y, z, hint, nodes, keys, square, fan):
     """Squared distance and place of the nearest triangle, the place of a neighbour's being a first guess."""
     qx, qy, qz, _, _ = closest_point(leaves, offset(hint), x, y, z)
     guess = (x - qx) ** 2 + (y - qy) ** 2 + (z - qz) ** 2

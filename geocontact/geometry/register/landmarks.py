@@ -70,7 +70,9 @@ def _fix_a_pose(points: Float[np.ndarray, "n 3"], side: str) -> None:
         raise ValueError(f"a pose needs 3 landmarks at least, not {len(points)}")
     along, across = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[:2]
     if not across > FLAT * along:
-        raise ValueError(f"the {side} landmarks lie in one line, about which the pose stays open; add one beside it")
+        raise ValueError(
+            f"the {side} landmarks lie in one line, about which the pose is not determined; add one off it"
+        )
 
 
 def poses_at(time: Float[np.ndarray, " t"], poses: RigidTransform, at: Float[np.ndarray, " s"]) -> RigidTransform:

@@ -79,7 +79,7 @@ def profile(
     least = float(fit.residuals[0][:, 0] @ fit.residuals[0][:, 0])
 
     def held(value: float) -> float:
-        return _held(predict, measured, parameters, fit, name, value)
+        return _least_squares_at(predict, measured, parameters, fit, name, value)
 
     return profile_of(held, least, parameter, best, half, float(spread(jacobian)[j, j]), points)
 
@@ -137,7 +137,7 @@ def _united(intervals: Sequence[tuple[float, float]]) -> tuple[tuple[float, floa
     return tuple(found)
 
 
-def _held(
+def _least_squares_at(
     predict: Predict,
     measured: Float[np.ndarray, " n"],
     parameters: Sequence[Parameter],

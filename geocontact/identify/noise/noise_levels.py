@@ -130,14 +130,14 @@ class NoisePriors:
         return self.middle.at(self.middle.logarithms() + self.factor @ x)
 
     def _limited(self, free: NoiseLevels) -> NoiseLevels:
-        sensors, inputs = (_held(each) for each in self._excess(free))
+        sensors, inputs = (_beyond_limit(each) for each in self._excess(free))
         return free.times(np.exp(sensors), np.exp(inputs))
 
     def _excess(self, levels: NoiseLevels) -> tuple[Float[np.ndarray, " c"], Float[np.ndarray, " j"]]:
         return np.log(levels.sensors) - np.log(self.sensors), np.log(levels.inputs) - np.log(self.inputs)
 
 
-def _held(excess: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+def _beyond_limit(excess: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
     """What is added to logarithms that exceed their limit so that they hardly do."""
     over = np.maximum(excess, 0.0)
     return np.asarray(BEYOND * np.tanh(over / BEYOND) - over)

@@ -81,7 +81,7 @@ def fit(
         return np.concatenate([divided(p, m, floor) for p, m in zip(predicted, measured, strict=True)])
 
     if not free:
-        return _found(predict, measured, free, np.zeros(0), residual(np.zeros(0)), True, ())
+        return _fit_at(predict, measured, free, np.zeros(0), residual(np.zeros(0)), True, ())
     searches = []
     for start in starts:
         z = np.array([start.get(p.name, p.start) for p in free])
@@ -98,7 +98,7 @@ def fit(
         )
     best = min(searches, key=lambda search: search.cost)
     costs = tuple(float(search.cost) for search in searches)
-    return _found(predict, measured, free, best.x * scale, best.fun, bool(best.status > 0), costs)
+    return _fit_at(predict, measured, free, best.x * scale, best.fun, bool(best.status > 0), costs)
 
 
 def _scale(p: Parameter) -> float:
@@ -127,7 +127,7 @@ def divided(
     return np.asarray(off[np.isfinite(measured)])
 
 
-def _found(
+def _fit_at(
     predict: Predict,
     measured: Sequence[Float[np.ndarray, "_ c"]],
     free: Sequence[Parameter],

@@ -224,7 +224,7 @@ def case_of(
         evaluation=tuple(_trial(each, trials[each], settings) for each in settings.evaluation),
         parameters=parameters,
         constants=dict(settings.constants),
-        noise=noise_in_si(_told(settings.noise, file), trials, file),
+        noise=noise_in_si(_stated_noise(settings.noise, file), trials, file),
         tables=tables,
     )
 
@@ -236,7 +236,7 @@ def _trial(name: str, table: TrialTable, settings: CaseSettings) -> Trial:
     return Trial(name, table.signals, covariates, labels)
 
 
-def _told(noise: dict[str, float], file: Path) -> dict[str, float]:
+def _stated_noise(noise: dict[str, float], file: Path) -> dict[str, float]:
     """Noise that says something: a standard deviation of 0 is left out with a warning, a negative one refused."""
     for channel, sd in noise.items():
         if sd < 0.0:

@@ -24,7 +24,7 @@ LIKELY = ("kPa", "mmHg", "N/cm^2", "psi", "Pa", "MPa")
 """Units that makers of mats export, the usual one first."""
 
 
-def tell_implausible(file: str, name: str, highest: float, unit: float) -> None:
+def warn_implausible(file: str, name: str, highest: float, unit: float) -> None:
     """Warn of a recording whose largest pressure [Pa] is none of a body's; `unit` is what one of the file's is [Pa]."""
     if not 0.0 < highest < math.inf or LEAST <= highest <= MOST:
         return
@@ -110,8 +110,8 @@ def frames_of(found: MatRecording, layout: MatLayout) -> PressureFrames:
         pressure *= unit
     valid = _valid(found, layout, pressure)
     pressure[:, ~valid] = np.nan
-    _tell_negative(pressure, unit, found)
-    tell_implausible(found.file, found.name, float(np.nanmax(pressure)), unit)
+    _warn_negative(pressure, unit, found)
+    warn_implausible(found.file, found.name, float(np.nanmax(pressure)), unit)
     areas = np.full((rows, columns), math.prod(pitch) if area is None else area[0])
     if area is not None and len(area) > 1:
         areas[row, column] = area if found.ids is None else [area[each] for each in found.ids]
@@ -255,7 +255,7 @@ def _first(marked: Bool[np.ndarray, "t r c"]) -> tuple[int, int, int]:
     return int(frame), int(row), int(column)
 
 
-def _tell_negative(pressure: Float[np.ndarray, "t r c"], unit: float, found: MatRecording) -> None:
+def _warn_negative(pressure: Float[np.ndarray, "t r c"], unit: float, found: MatRecording) -> None:
     """Say once how many are below zero; mostly negative pressures are refused."""
     below = pressure < 0.0
     if not below.any():

@@ -79,7 +79,7 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
     if len(endless):
         raise InputError(file, f"line {places[endless[0]]}", "a place is infinite", "leave missing cells empty")
     positions = LENGTH[unit] * values[:, 2:].reshape(len(values), -1, 3)[:, slots]
-    return MarkerTrajectories(_unrounded(time, values[:, 0], declared), _seen(file, positions), names, file)
+    return MarkerTrajectories(_unrounded(time, values[:, 0], declared), _without_zeros(file, positions), names, file)
 
 
 def _declared(keys: str, values: str) -> dict[str, str]:
@@ -158,7 +158,7 @@ def _other_count(declared: dict[str, str], key: str, count: int, what: str) -> s
     return f"{key} is '{said[:20]}' but {count} {what}" if said and (not said.isdigit() or int(said) != count) else ""
 
 
-def _seen(file: str, positions: Float[np.ndarray, "t m 3"]) -> Float[np.ndarray, "t m 3"]:
+def _without_zeros(file: str, positions: Float[np.ndarray, "t m 3"]) -> Float[np.ndarray, "t m 3"]:
     zero = np.all(positions == 0.0, axis=2)
     if zero.any():
         message = f"{file}: {int(zero.sum())} markers at exactly 0 0 0 are taken as not seen"

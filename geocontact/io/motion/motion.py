@@ -76,7 +76,7 @@ def read_motion(
     if (osim is None) != (joint is None):
         missing, given = ("`joint`", "`osim`") if joint is None else ("`osim`", "`joint`")
         remedy = "give the model" if osim is None else f"joints of the model are: {listed(joint_names(osim))}"
-        raise InputError("", missing, f"is missing beside {given}", remedy)
+        raise InputError("", missing, f"is missing with {given}", remedy)
     if suffix in ROWS and is_pose_rows(path):
         _refuse_columns(osim, mapping, grood_suntay_side)
         return motion_from_rows(path, unit, rate)

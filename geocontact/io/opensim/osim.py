@@ -265,7 +265,7 @@ def _coordinate(file: str, name: str, element: Element | None, kind: Kind) -> Co
         if held is not None:
             default, locked = float(numbers_of(file, held, "value", 1)[0]), True
         else:
-            message = f"{file}: coordinate {name} is prescribed over time, which is not heeded"
+            message = f"{file}: coordinate {name} is prescribed over time, which is ignored"
             warnings.warn(InputWarning(message), stacklevel=5)
     return Coordinate(name, default, kind, (float(low), float(high)), clamped, locked)
 

@@ -151,7 +151,7 @@ def read_couplers(file: str, model: Element, coordinates: Sequence[str]) -> tupl
     found = _switched_on(file, model)
     others = tuple(label(e) for e in found if e.tag not in (TAG, PAIR))
     if others:
-        message = f"{file}: constraints are not heeded, coordinates they couple move freely: {listed(others)}"
+        message = f"{file}: constraints are ignored, coordinates they couple move freely: {listed(others)}"
         warnings.warn(InputWarning(message), stacklevel=4)
     return _in_order(file, [_coupler(file, e, coordinates) for e in found if e.tag == TAG])
 

@@ -41,7 +41,7 @@ def read_multibody(path: str | PathLike[str]) -> Multibody:
     joints, lost = outwards(joints_of(file, model, frames))
     bodies += tuple(_without_mass(joint.child) for joint in joints if joint.child == between(joint.name))
     if lost:
-        raise InputError(file, f"joint {lost[0].name}", "closes a loop or hangs on nothing", "bodies must form a tree")
+        raise InputError(file, f"joint {lost[0].name}", "closes a loop or has no parent", "bodies must form a tree")
     loose = {body.name for body in bodies} - {joint.child for joint in joints}
     if loose:
         raise InputError(file, f"body {min(loose)}", "has no joint", "correct the model")

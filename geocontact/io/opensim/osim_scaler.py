@@ -268,7 +268,7 @@ def _compare(file: str, target: Path, scaled: Multibody) -> None:
     ]
     for what, one, other in ends:
         if np.abs(np.subtract(one, other)).max() > _SAME:
-            raise InputError(file, what, "hangs on frames in a way that is not scaled", "hang it on a body")
+            raise InputError(file, what, "is attached to frames in a way that is not scaled", "attach it to a body")
 
 
 def _times(file: str, element: Element, child: str, by: Vector) -> None:

@@ -55,7 +55,7 @@ def _inverse_dynamics(file: str, tool: Element) -> ToolSetup:
     left_out = text_of(tool, "forces_to_exclude").split()
     options += [("exclude", word) for word in left_out]
     unheeded = tuple(
-        name for name in ("joints_to_report_body_forces", "states_file", "speeds_file") if _told(tool, name)
+        name for name in ("joints_to_report_body_forces", "states_file", "speeds_file") if _assigned(tool, name)
     )
     unheeded += _at_rest(dict(options).get("model", ""), left_out)
     return ToolSetup(_needed(file, tool, "coordinates_file"), tuple(options), unheeded)
@@ -97,7 +97,7 @@ def _scale(file: str, tool: Element) -> ToolSetup:
     sizes, lost = _of_bodies(_sizes(file, scaler) if scales else [], dict(options).get("model", ""))
     options += [("scale", text) for text in sizes]
     places = placer.find("apply") is None or is_true(file, placer, "apply")
-    recording = _needed(file, placer if places or _told(placer, "marker_file") else scaler, "marker_file")
+    recording = _needed(file, placer if places or _assigned(placer, "marker_file") else scaler, "marker_file")
     tasks = _tasks(file, placer)
     if places or any(read_document(tasks).iter("IKMarkerTask")):  # else there is nothing that a pose could follow
         options.append(("tasks", tasks))
@@ -123,7 +123,7 @@ def _of_bodies(sizes: list[str], model: str) -> tuple[list[str], tuple[str, ...]
 
 def _measuring(file: str, scaler: Element, placer: Element, recording: Path) -> list[tuple[str, str]]:
     """Trial and times of the sizes of bodies, where they are not those of the static pose."""
-    own = _needed(file, scaler, "marker_file") if _told(scaler, "marker_file") else recording
+    own = _needed(file, scaler, "marker_file") if _assigned(scaler, "marker_file") else recording
     times = _time(file, scaler)
     if own == recording and times == _time(file, placer):
         return []
@@ -197,17 +197,19 @@ def _tasks(file: str, owner: Element) -> str:
     return str(Path(file).parent / named) if named else file
 
 
-def _told(owner: Element, child: str) -> str:
+def _assigned(owner: Element, child: str) -> str:
     text = text_of(owner, child)
     return "" if text.lower() in UNASSIGNED else text
 
 
 def _files(file: str, owner: Element, names: dict[str, str]) -> list[tuple[str, str]]:
-    return [(option, str(Path(file).parent / text)) for child, option in names.items() if (text := _told(owner, child))]
+    return [
+        (option, str(Path(file).parent / text)) for child, option in names.items() if (text := _assigned(owner, child))
+    ]
 
 
 def _needed(file: str, owner: Element, child: str) -> Path:
-    text = _told(owner, child)
+    text = _assigned(owner, child)
     if not text:
         raise InputError(file, f"{label(owner)} <{child}>", "names no file", "complete the set-up")
     return Path(file).parent / text

@@ -97,7 +97,7 @@ class GaitStance(Document):
     law
         Force law in place of the person's.
     ground
-        A plane or stairs as in `prosthesis simulate`; the floor y = 0 unless given.
+        A plane or stairs as in `prosthesis simulate`; the floor y = 0 by default.
     """
 
     name: Word

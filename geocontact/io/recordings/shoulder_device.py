@@ -57,7 +57,7 @@ class DeviceDescription(Document):
     Parameters
     ----------
     name
-        For the record; the file's name unless given.
+        For the record; the file's name by default.
     based_on
         The built-in device whose numbers count where none is given.
     numbers

@@ -120,7 +120,7 @@ def read_spheres(path: str | PathLike[str]) -> SphereTable:
     both with a warning. Refused with its line: what is no finite number, a radius or k that is not positive, b < 0.
     """
     cells = _cells(_table_text(path), fspath(path))
-    _say_what_is_made_up(cells)
+    _warn_defaults(cells)
     radius = cells.lengths("radius")
     cells.refuse("radius", radius, radius <= 0.0, "must be positive")
     _require_plausible(cells, radius)
@@ -262,7 +262,7 @@ def _cells(text: str, file: str) -> _Cells:
     return _Cells(file, names, units, tuple(rows[1:]))
 
 
-def _say_what_is_made_up(cells: _Cells) -> None:
+def _warn_defaults(cells: _Cells) -> None:
     said = []
     if "pz" not in cells.names:
         said.append("no column 'pz'; the spheres are taken to lie in z = 0")

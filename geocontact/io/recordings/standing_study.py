@@ -123,9 +123,9 @@ class StandingStudy(Document):
     noise
         Standard deviation of one sample; `rate` is that of turns and, in m/s, of the foot's place.
     free
-        Names of parameters that are fitted; the usual ones unless given.
+        Names of parameters that are fitted; the usual ones by default.
     tracks
-        Names of what the motion follows, `coordinates` among them; all that was recorded unless given.
+        Names of what the motion follows, `coordinates` among them; all that was recorded by default.
     trials
         All trials.
     """

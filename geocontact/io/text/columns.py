@@ -44,7 +44,7 @@ def angles_of(table: TextTable, names: Sequence[str], angles: str | None = None)
     if angles not in (None, "deg", "rad"):
         raise InputError("", "`angles`", f"'{angles}' is not a unit of angles here", "give deg or rad")
     values = np.column_stack([table.needed(name) for name in names])
-    said = [_said_unit(table, name) for name in names]
+    said = [_stated_unit(table, name) for name in names]
     units = [angles or unit or _ask(table, name) for name, unit in zip(names, said, strict=True)]
     if angles is None:
         _check_size(table, names, values, units)
@@ -125,7 +125,7 @@ def _csv_unit(table: TextTable, name: str) -> str:
     return table.units[table.channels.index(name)]
 
 
-def _said_unit(table: TextTable, name: str) -> str | None:
+def _stated_unit(table: TextTable, name: str) -> str | None:
     """Unit of an angle column by its file: the header of a .csv column, what an OpenSim header says of all."""
     said: str | None = table.angles.unit if table.opensim else _csv_unit(table, name) or None
     if said is not None and said not in ANGLE:

@@ -111,7 +111,7 @@ def controlled_arm(
     Parameters
     ----------
     guess
-        Phases to begin with, such as those under a similar profile; those of the human elevation unless given. They
+        Phases to begin with, such as those under a similar profile; those of the human elevation by default. They
         change the time that it takes, not what is found.
     most_lost
         As of `simulate_arm`.

@@ -29,7 +29,7 @@ INK = stroke(4)
 class Curve:
     """One line over time in the unit of its panel, with a band where bounds are known; NaN is a gap.
 
-    `stroke` is the number of its colour and dashes, its place unless given: one thing looks alike in all panels.
+    `stroke` is the number of its colour and dashes, its place by default: one thing looks alike in all panels.
     `thin` is one of many lines that the key does not name, such as a single cycle.
     """
 
@@ -149,7 +149,7 @@ class CurveSheet:
     over
         Along what the panels run that have no axis of their own: the page's time.
     columns
-        Panels in a row of the figure; by their number unless given.
+        Panels in a row of the figure; by their number by default.
     """
 
     panels: Sequence[Curves]

@@ -81,7 +81,7 @@ def separability_figure(true: Sequence[str], imitators: Sequence[str], nats: Flo
             shade = "white" if nats[row, col] < 0.6 * SEPARABILITY_MOST else "black"
             axes.text(col, row, f"{max(nats[row, col], 0.0):.0f}", ha="center", va="center", color=shade, fontsize=5.0)
     bar = figure.colorbar(picture, ax=axes, pad=0.01)
-    bar.set_label(f"nats by which it is told apart (to {SEPARABILITY_MOST:.0f})")
+    bar.set_label(f"nats by which it is separated (to {SEPARABILITY_MOST:.0f})")
     return figure
 
 
@@ -198,7 +198,7 @@ class Stated:
 def reliability_figure(answerers: Mapping[str, Stated]) -> Figure:
     """Draw came true over stated; the first of several carries its counts, the others stand a little to the right."""
     if not answerers:
-        raise ValueError("answerers: nobody stated anything")
+        raise ValueError("answerers: no answer was stated")
     figure = empty(SINGLE, SINGLE)
     axes = figure.subplots()
     axes.plot([0.0, 1.0], [0.0, 1.0], color=GREY, lw=0.6)

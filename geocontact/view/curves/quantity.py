@@ -87,7 +87,7 @@ def named(what: str, series: Mapping[str, ArrayLike], shape: tuple[int | str, ..
     if not series:
         raise ValueError(f"{what}: nothing to draw")
     if len(series) > SERIES:
-        raise ValueError(f"{what}: {len(series)} of them, at most {SERIES} are told apart; draw several figures")
+        raise ValueError(f"{what}: {len(series)} of them, at most {SERIES} can be shown; draw several figures")
     return {name: array(f"{what} {name!r}", values, shape) for name, values in series.items()}
 
 

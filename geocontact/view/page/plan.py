@@ -13,7 +13,7 @@ from jaxtyping import Float
 class Track:
     """A point that moves over the frames; NaN is a gap.
 
-    `told` is what the key says in each frame; where the point is, unless given.
+    `told` is what the key says in each frame; where the point is, by default.
     """
 
     name: str

@@ -57,7 +57,7 @@ class View:
     seen_from
         Direction from the bodies to the eye, in FIXED's frame; any length.
     up
-        Direction that points up in the picture, in FIXED's frame; y unless given, x when seen along y.
+        Direction that points up in the picture, in FIXED's frame; y by default, x when seen along y.
     """
 
     name: str

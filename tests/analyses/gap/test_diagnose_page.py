@@ -136,7 +136,7 @@ def test_pictures_are_drawn_into_the_page_and_described(page: Page) -> None:
         "Where the gap is",
         "How far it shrinks",
         "How sure that is",
-        "What is left over",
+        "Residuals",
     ]
     html = page_html(page)
     for picture, data in zip(pictures, re.findall(r'src="data:image/svg\+xml;base64,([^"]+)"', html), strict=True):
@@ -177,7 +177,7 @@ def test_words_name_reservations_and_what_is_invisible(told: Told, page: Page) -
     assert page.reservations == ("a reservation",)
     assert "not a clinical device" in words["What the numbers do not contain"]
     for name in told[1].diagnosis.absorbed:
-        assert name in words["What cannot be told apart"]
+        assert name in words["What is not separable"]
 
 
 def test_axes_have_units(told: Told) -> None:
@@ -287,7 +287,7 @@ def test_a_class_is_the_answer_where_effects_are_one_law() -> None:
     first, second, third = said(**alike)
     assert first.startswith("damping or filter_lag (one law on these trials) is missing; it sits in force (")
     close = "they predict what damping does to within 1.3 nats, together p = 0.90"
-    assert second == f"these trials cannot tell damping from filter_lag: {close}"
+    assert second == f"these trials cannot distinguish damping from filter_lag: {close}"
     assert third == "slip is not ruled out: the two differ by 8.0 nats on these trials"
     both = said(**alike | {"effects": ("damping", "preload")})[0]
     assert both.startswith("damping or filter_lag (one law on these trials) and preload are missing")
@@ -305,14 +305,14 @@ def test_what_is_not_ruled_out_stands_apart_from_what_cannot_be_told(told: Told)
     alike = {"one_law": (("damping", "filter_lag"),), "apart": {"filter_lag": 0.4, "slip": 8.0}}
     rivals = {"effects": ("damping",), "ambiguity": ("damping", "filter_lag", "slip"), "behind": {"slip": 3.0}}
     found = facts(verdict="explained", **alike, **rivals)
-    assert found["What it cannot be told from"].startswith("these trials cannot tell damping from filter_lag: ")
+    assert found["Not distinguishable from"].startswith("these trials cannot distinguish damping from filter_lag: ")
     why = "slip is not ruled out: 3.0 nats behind, the two differ by 8.0 nats on these trials"
     assert found["Not ruled out"] == why
     nothing = facts(verdict="no_gap", effects=(), ambiguity=("slip",), one_law=(), apart={})
-    assert nothing["Not ruled out"] == "slip" and "What it cannot be told from" not in nothing
+    assert nothing["Not ruled out"] == "slip" and "Not distinguishable from" not in nothing
     many = facts(verdict="unresolved", effects=(), ambiguity=("damping", "filter_lag", "slip"), **alike)
-    assert many["Cannot be told apart"] == "damping, filter_lag and slip" and "Not ruled out" not in many
-    assert "damping from filter_lag" in many["What it cannot be told from"]
+    assert many["Not separable"] == "damping, filter_lag and slip" and "Not ruled out" not in many
+    assert "damping from filter_lag" in many["Not distinguishable from"]
 
 
 def test_two_effects_are_missing_together() -> None:
@@ -336,7 +336,7 @@ def test_two_effects_are_missing_together() -> None:
         (
             "unresolved",
             ("a", "b", "c", "d"),
-            ["there is a gap in force (phase 42–61 %, fast part of beta); these data cannot tell a, b, c and d apart"],
+            ["there is a gap in force (phase 42–61 %, fast part of beta); these data cannot separate a, b, c and d"],
         ),
     ],
 )

@@ -60,7 +60,7 @@ def test_what_is_known_of_the_elbow_is_said(confused: DiscriminabilityResult, to
 @pytest.mark.slow
 def test_the_page_has_sizes_in_a_table(confused: DiscriminabilityResult, tmp_path: Path) -> None:
     page = confused.page(tmp_path / "page.html").read_text(encoding="utf-8")
-    assert "Who is told from whom" in page and "Smallest amplitudes" in page
+    assert "Separation of effects, by pairs" in page and "Smallest amplitudes" in page
     assert "these trials show" in page.lower() and " of 100 repetitions" not in page
 
 

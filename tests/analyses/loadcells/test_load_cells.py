@@ -165,7 +165,7 @@ def test_more_styles_than_a_figure_tells_apart_are_said_and_kept(tmp_path: Path)
     rows = [f"style {k},walk,{0.2 + 0.1 * i},{1.3 + 0.1 * i}" for k in range(7) for i in (k, k + 1)]
     table = tmp_path / "cycles.csv"
     table.write_text("\n".join(["style, recording, start [s], end [s]", *rows]) + "\n", encoding="utf-8")
-    with pytest.warns(InputWarning, match="7 styles are more than a figure tells apart"):
+    with pytest.warns(InputWarning, match="7 styles are more than a figure can show"):
         result = load_cells(recorded(tmp_path), unit="N", cycles=table)
     assert result.table("ensemble")["style"].nunique() == 7
     assert len(result.figure().axes) == 2, "cells and compartments over time stand in for the mean"

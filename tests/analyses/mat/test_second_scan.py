@@ -55,7 +55,7 @@ def test_the_other_end_may_be_the_first(second: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ({}, "`first_corner`: the outline does not tell which corner is that of the first cell; it may be "),
+        ({}, "`first_corner`: the outline does not show which corner is that of the first cell; it may be "),
         ({"first_corner": near(1)}, "cannot be that of the first cell"),
         ({"first_corner": near(0), "seen_from": "body"}, "check the corner and `seen_from`"),
         ({"first_corner": near(0), "mat_edge": 0.02}, "stands off is 187 × 73 mm, the mat 226 × 113"),

@@ -63,7 +63,7 @@ def test_landmarks_on_one_line_do_not_show_the_side(shells: Path, tmp_path: Path
     edge = [row for row in rows if row.split(",")[2].strip() == "0"]
     line = written(tmp_path / "line.csv", "\n".join([head, *edge]) + "\n")
     (said,) = (text for text in mat(shells, "outwards", landmarks=line).warnings if "on one line of the mat" in text)
-    assert said.endswith("`seen_from` outside is believed")
+    assert said.endswith("`seen_from` outside is used")
     assert not [text for text in mat(shells, "outwards").warnings if "one line" in text]
 
 

@@ -256,7 +256,7 @@ def test_recordings_that_contradict_each_other_are_refused(tmp_path: Path, made:
     against = changed(free(made)[0], tmp_path, "against.csv", displacement=lambda t: -t["displacement [mm]"])
     cases: list[tuple[list[Path], dict[str, Any], str]] = [
         ([one, three, turned], {}, "turned.csv: its force mirrors that of the other trials"),
-        ([one, turned], KNOWN, "mirrors that of the other trial, and nothing tells which is right"),
+        ([one, turned], KNOWN, "mirrors that of the other trial, and nothing shows which is right"),
         ([one, three], {**KNOWN, "held_out": (turned,)}, "mirrors what the fitted trials predict"),
         ([one, two, three], {**KNOWN, "unlocked": (against,)}, "run against each other"),
         ([one, two, free(made)[0]], {}, "give it with `unlocked`"),

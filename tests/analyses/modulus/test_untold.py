@@ -51,7 +51,7 @@ def constant(table: pd.DataFrame) -> pd.DataFrame:
     ("changed", "free"), [(alike, "threshold"), (saturated, "threshold"), (saturated, "lag"), (constant, "lag")]
 )
 def test_a_number_that_changes_nothing_is_refused_by_name(tmp_path: Path, changed: Any, free: str) -> None:
-    said = f"given_area.csv: total: {free} cannot be told: the areas do not change with it at the best fit"
+    said = f"given_area.csv: total: {free} is not identifiable: the areas do not change with it at the best fit"
     with pytest.raises(InputError, match=said):
         found(tmp_path, changed(step(tmp_path)), free={free: None})
 

@@ -64,8 +64,8 @@ def test_shipped_trial_to_files(tmp_path: Path) -> None:
         given = GIVEN | {"static": STANDING, "intact": step.markers, "intact_plates": step.plates}
         found = gc.prosthesis.design(TRIAL / "walking.trc", **given, numbers=numbers, feet=6, walks=1, together=True)
     known = found.table("answers").set_index("outcome")
-    assert known.loc["radius", "told"]
-    assert not known.loc["loading_rate", "told"]
+    assert known.loc["radius", "identified"]
+    assert not known.loc["loading_rate", "identified"]
     assert known.loc["radius", "wanted"] == "nearest to the intact side's 0.31 m"
     assert known.loc["energy", "wanted"] == "the most"
     assert "the intact side's 0.31 m" in found.sentences[0] and "no peak moment at the socket" in found.sentences[3]

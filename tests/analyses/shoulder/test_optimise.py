@@ -135,7 +135,9 @@ def test_files_are_written(small: ShoulderOptimiseResult, tmp_path: Path) -> Non
     names = {file.name for file in tmp_path.iterdir()}
     tables = {"factors.csv", "scales.csv", "outcomes.csv", "held_out.csv", "front.csv", "simulated.csv"}
     assert names >= {*tables, "profile.png", "profile.svg", "report.html"}
-    assert "Made for the others, judged on this person" in (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "Leave-one-person-out validation: this person held out" in (tmp_path / "report.html").read_text(
+        encoding="utf-8"
+    )
 
 
 PERSON = '[persons.{name}]\nmass = {{ value = {mass}, unit = "kg" }}\nsex = "{sex}"\ndominant = "{dominant}"\n'

@@ -200,7 +200,7 @@ def doubts(**other: object) -> tuple[list[str], list[str]]:
         ({"misfit": 1.74}, "phase A leaves 1.7 times the squares that the noise makes"),
         ({"verdict": "not separable"}, "not separable, with intervals that cover both: heel"),
         ({"verdict": "on its bound"}, "on its bound, so that the value says where the bound is: heel"),
-        ({"verdict": "believed"}, "tell little more than what was believed of heel"),
+        ({"verdict": "prior-dominated"}, "add little to the prior of heel"),
         ({"doubt": "it is singular"}, "phase A has no intervals: it is singular"),
     ],
 )

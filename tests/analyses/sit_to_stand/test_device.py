@@ -37,8 +37,8 @@ def test_parameters_and_torque_of_a_trial(tmp_path: Path) -> None:
     )
     assert made.code == 0, made.err
     table = made.table("parameters.csv")
-    assert table["told"].value_counts().to_dict() == {"by itself": 11, "in sums only": 6, "not at all": 1}
-    alone = table["told"] == "by itself"
+    assert table["identified"].value_counts().to_dict() == {"by itself": 11, "in sums only": 6, "not at all": 1}
+    alone = table["identified"] == "by itself"
     off = (table["value"] - planted(Subject()))[alone] / ((table["upper"] - table["lower"])[alone] / (2.0 * 1.96))
     assert np.abs(off).max() < 3.0
     assert table.loc[~alone, ["lower", "upper"]].isna().all(axis=None)

@@ -77,7 +77,7 @@ def test_legs_of_another_height_are_doubted_or_refused(made: Amputee) -> None:
 def test_joints_that_are_not_told_or_off_themselves_are_said() -> None:
     joints = FunctionalJoints({"intact_ankle": JointPoint(ONES, ONES, 0.02)}, {}, {"knee": "it hardly moves"})
     assert doubts_of_joints(joints) == [
-        "the functional trial does not tell the knee: it hardly moves",
+        "the functional trial does not determine the knee: it hardly moves",
         "intact ankle: both segments put it 20 mm apart: is the skin loose?",
     ]
 

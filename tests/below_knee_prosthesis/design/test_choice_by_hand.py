@@ -62,7 +62,7 @@ def test_a_choice_by_hand(sense: str, target: float | None) -> None:
         wanted[name] = middle(bests)
         assert side.best == pytest.approx(middle(bests), abs=1e-12)
         assert (side.lower, side.upper) == pytest.approx((ends(firsts)[0], ends(lasts)[1]), abs=1e-12)
-        assert side.verdict == "told"
+        assert side.verdict == "identified"
     assert found.told
     best = 0.5 * (wanted["angles kept"] + wanted["torque kept"])
     assert found.best == pytest.approx(best, abs=1e-12)

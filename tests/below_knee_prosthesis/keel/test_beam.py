@@ -73,11 +73,11 @@ def test_rounding_of_the_measured_stiffnesses_moves_medium_by_two_millimetres() 
 def test_how_the_end_is_held_and_where_the_plate_presses_are_told_badly() -> None:
     """Compressions at ten fulcrums tell EI from the series stiffness, but not these two besides."""
     at, fit = np.linspace(0.066, 0.151, 10), compression()
-    assert told_apart(at, fit, share=False).verdict == "told apart"
+    assert told_apart(at, fit, share=False).verdict == "separable"
     both = told_apart(at, fit, share=True, place=True)
-    assert both.verdict == "poorly told apart"
+    assert both.verdict == "poorly separated"
     assert both.condition > 900.0
-    with pytest.raises(ValueError, match="2 compressions cannot tell 3 numbers apart"):
+    with pytest.raises(ValueError, match="2 compressions cannot separate 3 numbers"):
         told_apart(at[[0, -1]], fit, share=True)
 
 

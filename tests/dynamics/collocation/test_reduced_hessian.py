@@ -49,7 +49,7 @@ def test_held_parameters_do_not_count_and_untold_ones_are_refused() -> None:
 def two_moves(p: tuple[float, float] | None = None) -> ControlProblem:
     """x'' = (1 + p0) u - p1 x' from rest to rest, twice, in times that are sought; u counts with its fourth power too.
 
-    Parameters are sought unless given.
+    Parameters are sought by default.
     """
     x, u, q, T = SX.sym("x", 2), SX.sym("u"), SX.sym("p", 2), SX.sym("T")
     rate = vertcat(x[1], (1.0 + q[0]) * u - q[1] * x[1])

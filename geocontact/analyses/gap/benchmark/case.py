@@ -88,7 +88,7 @@ def _worked(task: Task) -> Worked:
     try:
         planted = drawn(task.lot)
     except Exception as error:  # the other cases shall be scored all the same
-        return Worked(task.lot, where, None, {}, trouble=(f"{where} was not drawn: {_told(error)}",))
+        return Worked(task.lot, where, None, {}, trouble=(f"{where} was not drawn: {_failure(error)}",))
     home = task.folder / planted.case.name
     try:
         write_gap_case(planted.case, home)
@@ -105,7 +105,7 @@ def lost(task: Task, why: BaseException) -> Worked:
     try:
         label = plain(drawn(task.lot).label.as_dict())
     except Exception as error:  # as in the process that was lost
-        return Worked(task.lot, where, None, {}, trouble=(*trouble, f"{where} was not drawn: {_told(error)}"))
+        return Worked(task.lot, where, None, {}, trouble=(*trouble, f"{where} was not drawn: {_failure(error)}"))
     return Worked(task.lot, where, label, {who: failed(label) for who in ANSWERERS}, trouble=trouble)
 
 
@@ -131,7 +131,7 @@ def _answered(task: Task, planted: SyntheticCase, home: Path) -> Worked:
         if task.lot.kind == "outside":
             label |= _imitated(planted, problem)
     except Exception as error:  # likewise
-        trouble.append(f"{name} ({task.lot.system} {task.lot.kind}): {_told(error)}")
+        trouble.append(f"{name} ({task.lot.system} {task.lot.kind}): {_failure(error)}")
     return Worked(task.lot, name, label, answers, wall, cpu, same, tuple(trouble))
 
 
@@ -196,7 +196,7 @@ def alike(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
     return max(apart, default=0.0) <= ALIKE
 
 
-def _told(error: Exception) -> str:
+def _failure(error: Exception) -> str:
     last = traceback.extract_tb(error.__traceback__)[-1]
     return f"{type(error).__name__}: {' '.join(str(error).split())} ({Path(last.filename).name} {last.lineno})"
 

@@ -22,26 +22,26 @@ class BenchmarkOptions(Options):
     cases
         How many of each system.
     seed
-        Of all cases; a fresh one at each run unless given. It is printed and written.
+        Seed of all cases; a fresh one at each run by default. It is printed and written.
     laboratory
         Who records the cases: "home", or another with a recorder, a placement or inputs of its own; "abroad" lets these
         three take turns.
     kinds
-        none,single,pair,outside,absorbed,fault,shift; all of them unless given.
+        none,single,pair,outside,absorbed,fault,shift; all of them by default.
     jobs
-        Processes; as many as there are cores unless given. Cases and answers do not depend on it.
+        Processes; as many as there are cores by default. Cases and answers do not depend on it.
     again
         Cases of each system that are diagnosed a second time with other names, trials in another order, other units.
     journal
         File to which every case is added as it is done: called again with the same one, seed and version, the run goes
         on where it ended.
     keep
-        Keep the folders of the cases in `out`/cases-SEED, with labels.json beside them.
+        Keep the folders of the cases in `out`/cases-SEED, with labels.json next to them.
     """
 
     writes: ClassVar[str] = """
     Cases are made by code that shares nothing with the candidates. Writes benchmark.md and benchmark.json (figures with
-    exact intervals, beside two residual regressions, a constant answer and an oracle), cases.csv, reliability.png,
+    exact intervals, with two residual regressions, a constant answer and an oracle), cases.csv, reliability.png,
     reliability.svg and run.json into OUT, and prints the table. The default takes an hour and a half on two cores.
     """
 

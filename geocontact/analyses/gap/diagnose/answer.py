@@ -114,7 +114,7 @@ def one_law_words(d: Diagnosis) -> list[str]:
         most = max(d.apart.get(name, 0.0) for name in group)
         total = sum(d.probabilities.get(name, 0.0) for name in group)
         close = f"they predict what {group[0]} does to within {most:.1f} nats, together p = {total:.2f}"
-        said.append(f"these trials cannot tell {names(group[:1])} from {names(group[1:], 'or')}: {close}")
+        said.append(f"these trials cannot distinguish {names(group[:1])} from {names(group[1:], 'or')}: {close}")
     return said
 
 
@@ -168,7 +168,7 @@ def _not_ruled_out(d: Diagnosis) -> list[str]:
 def _unresolved(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     where = f" in {place(d.where[0], cells)}" if d.where else ""
     alike = one_law_words(d)
-    return [f"there is a gap{where}; these data cannot tell {names(d.ambiguity)} apart", *alike, *_absorbed(d)]
+    return [f"there is a gap{where}; these data cannot separate {names(d.ambiguity)}", *alike, *_absorbed(d)]
 
 
 def _absorbed(d: Diagnosis) -> list[str]:
@@ -205,9 +205,9 @@ def facts_of(findings: Findings) -> list[tuple[str, str]]:
     alive = ", ".join(f"{name} {value:.2f}" for name, value in _likeliest(d) if value >= 0.005)
     lines.append(("Probabilities", alive))
     if d.one_law:
-        lines.append(("What it cannot be told from", "; ".join(one_law_words(d))))
+        lines.append(("Not distinguishable from", "; ".join(one_law_words(d))))
     if d.verdict == "unresolved":
-        lines.append(("Cannot be told apart", names(d.ambiguity)))
+        lines.append(("Not separable", names(d.ambiguity)))
     elif rest := not_ruled_out(d) if d.effects else d.ambiguity:
         lines.append(("Not ruled out", "; ".join(rest)))
     return lines

@@ -88,7 +88,7 @@ CAPTIONS = {
     "reductions": ("How far it shrinks", REDUCTIONS),
     "ranking": ("How sure that is", RANKING),
 }
-LEFT_OVER = {"gap_residuals": ("What is left over", RESIDUALS)}
+LEFT_OVER = {"gap_residuals": ("Residuals", RESIDUALS)}
 CHOSEN = (
     "Probabilities weigh the effects that the vocabulary has for this system, none, and anything unknown; an effect is "
     "named because it predicts these trials best, not because it was seen."
@@ -229,7 +229,7 @@ def parameters_table(d: Diagnosis) -> Table:
         for name, e in d.parameters.items()
     ]
     return Table(
-        "Parameters of the answer", ("parameter", "value", "95 % interval", "unit", "told by the trials"), rows
+        "Parameters of the answer", ("parameter", "value", "95 % interval", "unit", "identified by the trials"), rows
     )
 
 
@@ -372,14 +372,14 @@ def _confounded(d: Diagnosis) -> Words:
         )
     weak = [name for name, e in d.parameters.items() if not e.identifiable]
     if weak:
-        said.append(f"Not told by these trials: {names(weak)}.")
-    return Words("What cannot be told apart", said or ["Nothing is confounded with the answer in these trials."])
+        said.append(f"Not identified by these trials: {names(weak)}.")
+    return Words("What is not separable", said or ["Nothing is confounded with the answer in these trials."])
 
 
 def _limits(case: GapCase, d: Diagnosis, missing: int) -> Words:
     said = [CHOSEN, HELD_OUT]
     if not case.noise:
-        said.append("The case tells no sensor noise; it was estimated from the trials themselves.")
+        said.append("The case states no sensor noise; it was estimated from the trials themselves.")
     if missing:
         said.append(f"{missing} panels of trials and channels are left out here; held_out.csv has them all.")
     return Words("What the numbers do not contain", [*said, NOT_A_DEVICE])

@@ -30,9 +30,9 @@ def confusion_sentences(c: Discriminability) -> list[str]:
         )
     if c.mistakes:
         said.append(f"mistakes in the data that would leave a gap, made in all trials: {names(c.mistakes)}")
-    said += [f"not to be told apart (less than {APART:g} nats between any two): {names(one)}" for one in c.classes]
+    said += [f"not separable (less than {APART:g} nats between any two): {names(one)}" for one in c.classes]
     if not c.classes and len(c.effects) > 1:
-        said.append(f"any two of these effects would be told apart by {APART:g} nats or more, one way round at least")
+        said.append(f"any two of these effects would be separated by {APART:g} nats or more, one way round at least")
     if c.proposal is not None:
         said.append(proposal_words(c.proposal, c.found.answer.verdict))
     return said
@@ -75,13 +75,13 @@ def answer(case: GapCase, found: Discriminability, nats: float) -> dict[str, Any
         "separability": {
             label: dict(zip(["none", *labels], row, strict=True)) for label, row in zip(labels, matrix, strict=True)
         },
-        "detectability": {one.candidate.label: _seen(one) for one in found.detectabilities},
+        "detectability": {one.candidate.label: _visible(one) for one in found.detectabilities},
         "next_experiment": None if found.proposal is None else found.proposal.as_dict(),
         "version": VERSION,
     }
 
 
-def _seen(one: Detectability) -> dict[str, Any]:
+def _visible(one: Detectability) -> dict[str, Any]:
     p = one.candidate.parameters[0]
     return {
         "parameter": p.name,

@@ -13,7 +13,7 @@ from geocontact.data.errors import InputError
 
 @dataclass(frozen=True)
 class DiscriminabilityOptions(Options):
-    """What the trials of a case can tell: which effects they would show, from which size on, and which look alike.
+    """Which effects the trials of a case can detect, from which size on, and which they can separate.
 
     Parameters
     ----------
@@ -21,7 +21,7 @@ class DiscriminabilityOptions(Options):
         Folder with case.toml and trials, see docs/reference/gap_case.md.
     effects
         Effects asked about, by name ("damping,time_shift") or candidate ("end_stop.upper"); all by default. Mistakes
-        in the data have no size: of them only is told whether base parameters hide them.
+        in the data have no size: for them, only whether base parameters hide them is reported.
     nats
         How visible each effect is taken to be when it is held against the others.
     bare

@@ -26,7 +26,7 @@ MATRIX = (
     "none is the base model alone: what is visible of the effect."
 )
 SIZES = "Smallest amplitude that the diagnosis is predicted to see in four of five repetitions of these trials."
-CAPTIONS = {"separability": ("Who is told from whom", MATRIX), "detectability": ("What would be seen", SIZES)}
+CAPTIONS = {"separability": ("Separation of effects, by pairs", MATRIX), "detectability": ("What would be seen", SIZES)}
 LIMITS = (
     "Noise, deviations of trials and noise of the inputs are those that the diagnosis of this case estimated, taken as "
     "known. Each effect has the form of its candidate, its shape parameter where a search for it sets out. That "
@@ -38,7 +38,7 @@ def confusion_figures(found: Discriminability) -> dict[str, Figure]:
     """Matrix and bars, by the name of their files."""
     return {
         "separability": matrix_figure(found),
-        "detectability": detectability_figure([_seen(one) for one in found.detectabilities]),
+        "detectability": detectability_figure([_visibility(one) for one in found.detectabilities]),
     }
 
 
@@ -48,7 +48,7 @@ def matrix_figure(found: Discriminability) -> Figure:
     return separability_figure(labels, ["none", *labels], matrix)
 
 
-def _seen(one: Detectability) -> EffectVisibility:
+def _visibility(one: Detectability) -> EffectVisibility:
     if one.smallest is None:
         return EffectVisibility(one.candidate.label, None, "not to be seen")
     rest = rest_of(one.candidate)
@@ -70,18 +70,18 @@ def confusion_page(title: str, found: Discriminability, drawings: Mapping[str, b
     """
     sentences = confusion_sentences(found)
     sections: list[Section] = [Picture(*CAPTIONS[name], svg, wide=True) for name, svg in drawings.items()]
-    sections.append(Words("What these trials can tell", [f"{s[0].upper()}{s[1:]}." for s in sentences]))
+    sections.append(Words("What these trials can detect and separate", [f"{s[0].upper()}{s[1:]}." for s in sentences]))
     sections += [_sizes(found), INPUTS, OPTIONS, Words("What the numbers do not contain", [LIMITS, NOT_A_DEVICE])]
     seen = sum(one.smallest is not None for one in found.detectabilities)
     return Page(
         title=title,
-        subtitle=f"What the trials of a gap case can tell, base model {found.ground.system.name}",
+        subtitle=f"What the trials of a gap case can detect and separate, base model {found.ground.system.name}",
         time=np.zeros(1),
         time_label="time [s]",
         headline=headline(sentences, most=1),
         facts=(
             ("effects that would be seen", f"{seen} of {len(found.detectabilities)}"),
-            ("groups not to be told apart", str(len(found.classes))),
+            ("groups that are not separable", str(len(found.classes))),
         ),
         sections=tuple(sections),
     )

@@ -18,7 +18,7 @@ class GatherOptions(Options):
     ----------
     settings
         A case.toml with a table [from.<trial>] for each trial: inputs = "inputs.csv" (time and input channels) and
-        what was measured beside them: <site> = "folder" that `geocontact mat` wrote, for each site;
+        what was measured with them: <site> = "folder" that `geocontact mat` wrote, for each site;
         plates = "grf.mot" with plate = "name", for a foot; forces = "forces.csv" and areas = "area.csv", for a knee;
         inputs = "ik.mot" and outputs = "id.sto" with a table [columns]; outputs = "logger.csv" with units in its head.
     c3d_unit

@@ -21,7 +21,7 @@ def gather_page(title: str, case: GapCase) -> Page:
     trials = [*case.calibration, *case.evaluation]
     longest = max(each.time[-1] - each.time[0] for each in trials)
     time = np.linspace(0.0, float(longest), SAMPLES)
-    sections: list[Section] = [*_panels(trials, time), _told(case)]
+    sections: list[Section] = [*_panels(trials, time), _case_table(case)]
     sections += [INPUTS, OPTIONS, Words("What this is", [NOT_A_DEVICE])]
     return Page(
         title=title,
@@ -75,7 +75,7 @@ def _along(trial: Trial, name: str, time: Float[np.ndarray, " s"]) -> Float[np.n
     return np.asarray(np.interp(time, trial.time - trial.time[0], trial.column(name), right=np.nan))
 
 
-def _told(case: GapCase) -> Table:
+def _case_table(case: GapCase) -> Table:
     rows = [
         (each.name, use, f"{len(each.time)}", f"{each.time[-1] - each.time[0]:.4g}")
         for use, trials in (("to fit to", case.calibration), ("held out", case.evaluation))

@@ -20,7 +20,7 @@ NamedNumbers = Annotated[
 
 @dataclass(frozen=True)
 class InjectOptions(Options):
-    """Put a known effect into the measured trials of a case, diagnose it, and tell whether it was found.
+    """Put a known effect into the measured trials of a case, diagnose it, and report whether it was found.
 
     Parameters
     ----------
@@ -29,12 +29,12 @@ class InjectOptions(Options):
     effect
         Name of the vocabulary, with its variant where there are several: damping, sensor_gain.force_x.
     value
-        Of a parameter of the effect, SI unit, as often as there are: damping.b=25.
+        Value of a parameter of the effect, SI unit; may be repeated: damping.b=25.
     size
         Gap that the effect makes where its amplitude is not given, root mean square over the noise floor, after the
         base parameters were refitted.
     trial
-        For a mistake in the data: a trial that has it, as often as there are; all of them by default.
+        For a mistake in the data: a trial that has it; may be repeated; all of them by default.
     bare
         Write no page and no figures.
     run_simulator

@@ -125,7 +125,7 @@ def read(o: InjectOptions) -> CaseWithModel:
     """Case and base model; results do not go into the folder that is copied."""
     out = current().options.get("out")
     if isinstance(out, Path) and o.case.resolve() in (out.resolve(), *out.resolve().parents):
-        raise InputError(out, "", "lies inside the case that is copied there", "`out` names a folder beside the case")
+        raise InputError(out, "", "lies inside the case that is copied there", "`out` names a folder outside the case")
     return read_case(o.case, o.run_simulator)
 
 

@@ -62,7 +62,7 @@ def springs(text: str, option: str) -> dict[str, float]:
     return found
 
 
-PIECE = 0.5e-3  # m; longest edge of a piece unless given
+PIECE = 0.5e-3  # m; longest edge of a piece by default
 FAR = 3.0  # sizes of MOVING that its point may be away from it
 
 

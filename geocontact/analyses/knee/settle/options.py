@@ -59,7 +59,7 @@ class SettleOptions(Options):
     joint
         Name of that joint.
     moving_body
-        parent: MOVING is the joint's parent body, as the femur of a knee joint is; child unless given.
+        parent: MOVING is the joint's parent body, as the femur of a knee joint is; child by default.
     map
         Columns instead of a model: rz=knee_flexion,rx=knee_adduction,ry=-knee_rotation,tx=knee_tx
     order
@@ -89,7 +89,7 @@ class SettleOptions(Options):
         N/m and N m/rad).
     load_point
         x,y,z: point of MOVING in its frame and the mesh unit that the load acts at and whose translations are the
-        coordinates; MOVING's origin unless given.
+        coordinates; MOVING's origin by default.
 
     Elastic layer
     -------------
@@ -98,7 +98,7 @@ class SettleOptions(Options):
     poisson
         Poisson's ratio of FIXED, below 0.5.
     thickness
-        Of FIXED's layer: a length such as 8mm, or rays (measured along the normal, which is the default).
+        Thickness of FIXED's layer: a length such as 8mm, or rays (measured along the normal, which is the default).
     foundation
         linear or logarithmic (finite strain).
     region
@@ -106,7 +106,7 @@ class SettleOptions(Options):
     split
         Where medial and lateral meet: z, or z=1.5 (mesh unit).
     piece
-        Longest edge of the pieces that pressure is summed over: 0.5mm unless given.
+        Longest edge of the pieces that pressure is summed over: 0.5mm by default.
 
     Results
     -------

@@ -198,7 +198,7 @@ def _refuse_nowhere(i: SettleInputs, s: Settled) -> None:
         what = f"{i.bed.moving.name} misses the layer of {i.fixed.name} along -y in every frame: no contact found"
         raise InputError("", "", what, "check motion, unit, `moving_body` and `region`")
     residual = min(frame.rest.residual for frame in s.frames if frame.rest is not None)
-    what = f"no frame came to rest; at best {residual:.3g} N were left over"
+    what = f"no frame came to rest; at best {residual:.3g} N of residual force remained"
     raise InputError("", "`free`", what, "let fewer coordinates settle, or give `springs`")
 
 

@@ -82,7 +82,7 @@ def _rows(s: Settled, frames: Int[np.ndarray, " k"]) -> list[Row]:
         Row("contact area", "mm²", _texts(s.areas[frames] * 1e6, 1)),
         *(Row(name, "deg", _texts(angles[:, k], 2)) for k, name in enumerate(("flexion", "adduction", "rotation"))),
         *(Row(name, "mm", _texts(s.coordinates[frames, k] * MM, 3)) for k, name in enumerate(NAMES[:3])),
-        Row("force left over", "N", [f"{value:.1e}" for value in s.residuals[frames]]),
+        Row("residual force", "N", [f"{value:.1e}" for value in s.residuals[frames]]),
     ]
 
 

@@ -18,7 +18,7 @@ TWO_DEGREES = math.radians(2.0)
 
 @dataclass(frozen=True)
 class CompareOptions(ColumnOptions):
-    """Errors of a model of the elbow beside recordings: mean absolute, root mean square, R², by channel and trial.
+    """Errors of a model of the elbow against recordings: mean absolute, root mean square, R², by channel and trial.
 
     Parameters
     ----------

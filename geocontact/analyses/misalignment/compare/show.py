@@ -73,7 +73,7 @@ def comparison_page(pairs: Sequence[Pair], channels: Sequence[Curves], tables: S
         OPTIONS,
         NOT_IN_THE_NUMBERS,
     ]
-    title = f"Model beside {counted(len({p.trial for p in pairs}), 'recording')}"
+    title = f"Model against {counted(len({p.trial for p in pairs}), 'recording')}"
     subtitle = "Model and measurement of an elbow exoskeleton"
     facts = [(f"{p.trial}, {p.channel}", f"{_rmse(p)}, R² {p.agreement.r2:.3f}") for p in pairs]
     time = first.time[shown]

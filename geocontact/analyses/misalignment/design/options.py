@@ -46,9 +46,9 @@ class DesignOptions(Options):
     limit
         Largest |F| [N] that is allowed on the limb.
     stroke
-        Ends between which a compensation joint slides freely: -20:35. Locked unless given.
+        Ends between which a compensation joint slides freely: -20:35. Locked by default.
     offset
-        Offsets x,y of the axes that the design is made for; 0,0 unless given.
+        Offsets x,y of the axes that the design is made for; 0,0 by default.
     uncertainty
         How far the offsets may be from these, in any direction: what the stroke has to cover.
     map

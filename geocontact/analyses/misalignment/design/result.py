@@ -94,7 +94,7 @@ def run(drift: AxisDrift, o: DesignOptions) -> DesignResult:
     """Map of the offsets, robust radius, stroke that is needed, sensitivities."""
     found = designed(drift, o)
     _reserve(found)
-    _say(found)
+    _report(found)
     summary = described(found)
     note("design", summary)
     return DesignResult(options=o, design=found, summary=summary)
@@ -107,12 +107,12 @@ def _reserve(d: Designed) -> None:
             x, y = d.map.offsets[int(np.argmax(d.map.fate == fate))] * MM
             reserve(f"{count} of {len(d.map.fate)} offsets of the map (x = {x:g} mm, y = {y:g} mm …): {words}")
     if d.boundary.least >= d.boundary.most:
-        reserve("the limit is exceeded nowhere within the map: how far offsets may go is told up to its edge only")
+        reserve("the limit is exceeded nowhere within the map: how far offsets may go is computed up to its edge only")
     if np.isnan(d.sensitivities[0].peak_slope):
         reserve("no sensitivities where there is no force: give another `offset` than what is aimed at")
 
 
-def _say(d: Designed) -> None:
+def _report(d: Designed) -> None:
     c = d.task.compensation
     state = "locked" if c.lower == c.upper == 0.0 else f"stroke {c.lower * MM:g} … {c.upper * MM:g} mm"
     x, y = d.offset[0] * MM, d.offset[1] * MM

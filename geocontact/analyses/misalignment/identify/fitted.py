@@ -87,7 +87,7 @@ def _refuse_mirrored(paths: Sequence[Path], data: Binned) -> None:
     """A trial whose force mirrors that of the others."""
     for path, correlation in zip(paths, correlations_with_others(data, LEAST_BINS), strict=True):
         if correlation < MIRRORED:
-            others_are = "the other trial, and nothing tells which is right" if len(paths) == 2 else "the other trials"
+            others_are = "the other trial, and nothing shows which is right" if len(paths) == 2 else "the other trials"
             what = f"its force mirrors that of {others_are} (correlation {correlation:.2f} over the bins)"
             raise InputError(path, "", what, "is its sign turned? correct the file, or leave it out")
 

@@ -43,7 +43,7 @@ WIDEST = {
     "s": (-1e-3, 1e-3),
     "c": (0.0, 0.02),
 }
-"""Bounds of free numbers unless given, in SI units."""
+"""Bounds of free numbers by default, in SI units."""
 BEGIN = {"k": 300.0, "x": 0.03, "y": 0.04, "l": 0.2, "z": 0.12, "b": 0.0, "s": 0.0, "c": 1e-3}
 """Starts of the explicit model's paper; that of c, a fixation of 1 N/mm, is invented."""
 
@@ -172,7 +172,7 @@ def _require_pressures(path: Path, locked: Sequence[ElbowRecording]) -> None:
         raise InputError(path, "", "`free` s needs a column pressure in every trial", "name it: `map` pressure=…")
     reached = float(np.ptp(np.concatenate(known)))
     if reached < SAME_PRESSURE:
-        what = f"`free` s: the cuff's pressure varies by {reached / MMHG:.2g} mmHg only, which tells no s"
+        what = f"`free` s: the cuff's pressure varies by {reached / MMHG:.2g} mmHg only, too little to identify s"
         raise InputError(path, "", what, "leave `free` s out, or record trials at other pressures")
 
 
@@ -293,7 +293,7 @@ def _cuts(found: Fitted) -> Iterator[Row]:
         ("locked slides", SLID, "m", "a locked joint moves less, a free one more"),
         ("pole", explicit.POLE_SHARE, "-", "of the link: nearer to a pole is beyond the model"),
         ("flat", uncertainty.FLAT, "-", "of the largest singular value: nothing is identified"),
-        ("fixation series", uncertainty.SERIES, "-", "share of its own below which c is not told from k"),
+        ("fixation series", uncertainty.SERIES, "-", "share of its own below which c is not separable from k"),
         ("fixation own", s.OWN, "-", "share of its own below which c is hardly separable"),
         ("stretches few", s.FEW_STRETCHES, "-", "fewer make intervals rough"),
         ("excess p", s.RARE, "-", "and below"),

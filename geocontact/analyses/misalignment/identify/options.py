@@ -39,7 +39,7 @@ TWO_DEGREES, TEN_DEGREES = math.radians(2.0), math.radians(10.0)
 
 @dataclass(frozen=True)
 class IdentifyOptions(ColumnOptions):
-    """Stiffness, link and offsets of an exoskeleton from force and angle, and what these recordings cannot tell.
+    """Stiffness, link and offsets of an exoskeleton from force and angle, and what these recordings cannot identify.
 
     Parameters
     ----------
@@ -50,13 +50,13 @@ class IdentifyOptions(ColumnOptions):
     Further recordings
     ------------------
     unlocked
-        Recording with the compensation joint free and its displacement, as often as there are. Where nothing else is
+        Recording with the compensation joint free and its displacement; may be repeated. Where nothing else is
         known of k and the lengths, two or more set their scale.
     rotary_free
         The device's second, rotary joint was free as well in `unlocked`, as in the paper: the free joint then slides by
         d_lin and not by d_tot.
     held_out
-        Recording that is not fitted and tells R², as often as there are; each in turn of those fitted by default.
+        Recording that is not fitted and gives R²; may be repeated. By default each of those fitted in turn.
 
     Numbers of the law
     ------------------
@@ -69,8 +69,8 @@ class IdentifyOptions(ColumnOptions):
     start
         Where the search begins: k=300,x=30,y=40,l=200,z=120.
     free
-        Free besides k, x, y, l, z: b (damping), s (stiffness over cuff pressure), c (compliance of the upper arm's
-        fixation, 0 unless known or free).
+        Additional free parameters besides k, x, y, l, z: b (damping), s (stiffness over cuff pressure), c (compliance
+        of the upper arm's fixation, 0 unless known or free).
 
     How it is fitted
     ----------------

@@ -199,7 +199,7 @@ def _places(beta: np.ndarray, data: Binned) -> np.ndarray:
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class IdentifyResult(Result):
-    """Stiffness, link and offsets of an exoskeleton, and what these recordings cannot tell.
+    """Stiffness, link and offsets of an exoskeleton, and what these recordings cannot identify.
 
     Parameters
     ----------
@@ -299,7 +299,7 @@ def _scaled_by(problem: ElbowProblem, free: Free) -> ElbowProblem:
     reserve(
         f"the scale is set by the free joint's displacement (SE {free.scale.error:.2%} over {free.scale.trials} "
         "trials), which supposes the same offsets while the joint was free"
-        + ("" if free.rotary_free else ", and no other joint of the device free beside it (else `rotary_free`)")
+        + ("" if free.rotary_free else ", and no other joint of the device free at the same time (else `rotary_free`)")
     )
     return replace(problem, scale=free.scale)
 

@@ -77,19 +77,19 @@ def _say_what_is_open(found: Fitted) -> None:
     if "c" in problem.names and apart.from_all < OWN and not set(problem.priors) & {"k", "c"}:
         told = f"only {apart.from_all:.2%} of what c does to the force is its own" if apart.told else "not at all"
         reserve(
-            "angle and force hardly tell the compliance c of the upper arm's fixation from that of the cuff, which is "
+            "angle and force hardly separate the compliance c of the upper arm's fixation from that of the cuff "
             f"in series with it ({told}): know k or c (`known`), or give a prior (`prior`)"
         )
     driven = [r.name for r in found.recordings if r.torque is not None and r.torque.any()]
     if driven and found.estimate.named["c"] != 0.0:
         told = f"{', '.join(driven)}: an actuator's torque pushes a fixation that yields"
-        reserve(f"{told}; the fit takes it as 0, as if nobody drove the exoskeleton")
+        reserve(f"{told}; the fit takes it as 0, as if the exoskeleton were not driven")
     ends = [each.words for each in found.intervals if each.lower_open or each.upper_open]
     if ends:
         reserve(f"no limit within the bounds to {', '.join(ends)}, on one side or both")
     signs = [each.words for each in found.intervals if each.key[0] in LENGTHS and each.sign_open]
     if signs:
-        reserve(f"the sign of {', '.join(signs)} is not told: values of both signs fit within the interval")
+        reserve(f"the sign of {', '.join(signs)} is not identified: values of both signs fit within the interval")
 
 
 def described(found: Fitted, free: Free | None) -> dict[str, Any]:
@@ -237,7 +237,7 @@ def answer(found: Fitted) -> list[str]:
 
 
 def explained(found: Fitted, free: Free | None) -> list[str]:
-    """What the data tell and what they do not, for the page."""
+    """What the data identify and what they do not, for the page."""
     words = found.residuals.normality.words
     told = [
         _scale(found),
@@ -271,11 +271,11 @@ def fixation_words(found: Fitted) -> str:
     """What k holds beside the cuff, and how far a fixation that yields could be told from it."""
     apart, c = found.separable, found.estimate.named["c"]
     if not apart.told:
-        told = "Angle and force cannot tell them apart: only 1/k + c is known."
+        told = "Angle and force cannot separate them: only 1/k + c is identified."
     else:
         told = (
-            f"Of what a yielding fixation does to the force, {apart.from_all:.1%} is its own beside the free numbers "
-            f"({apart.from_cuff:.1%} beside k alone); the rest looks like another cuff."
+            f"Of what a yielding fixation does to the force, {apart.from_all:.1%} is its own with all free numbers "
+            f"({apart.from_cuff:.1%} with k alone); the rest looks like another cuff."
         )
     if "c" in found.estimate.problem.names or c != 0.0:
         return f"Cuff (k) and fixation of the upper arm (c) yield in series. {told}"

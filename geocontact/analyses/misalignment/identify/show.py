@@ -80,7 +80,7 @@ def told_figure(
     alone_r2: Float[np.ndarray, " m"],
     profiles: Mapping[str, Profile],
 ) -> Figure:
-    """Draw the direction told least (a), R² along the scale line and along k alone (b), profiles (c).
+    """Draw the least identified direction (a), R² along the scale line and along k alone (b), profiles (c).
 
     Parameters
     ----------
@@ -249,9 +249,9 @@ def _given(size: float, unit: str) -> str:
 
 Entries = list[tuple["Artist | tuple[Artist, ...]", str]]
 TOLD = (
-    "Left: the direction in the logarithms of k and the lengths that the recordings tell least; (−1, 1, 1, 1, 1) is "
+    "Left: the direction in the logarithms of k and the lengths that is identified least; (−1, 1, 1, 1, 1) is "
     "the scale. Middle: R² along k/s, s × lengths, where it does not change, and where k changes alone. Right: how far "
-    "the sum of squares rises when a number is held beside its best value; an interval of 95 % ends at 1. Where "
+    "the sum of squares rises when a number is held away from its best value; an interval of 95 % ends at 1. Where "
     "nothing sets the scale these are the ratios that no scale changes."
 )
 FORCES = "Left: bin means of every trial and the explicit model. Right: spread of the samples in wider bins."
@@ -265,7 +265,7 @@ CONDITIONS = (
 )
 PICTURES = {
     "forces": ("Force over the angle", FORCES),
-    "identifiability": ("What the recordings tell apart", TOLD),
+    "identifiability": ("What the recordings separate", TOLD),
     "residuals": ("Residuals", RESIDUALS),
     "conditions": ("Joint locked and free", CONDITIONS),
 }
@@ -293,7 +293,7 @@ def fit_page(
     sections: list[Section] = [
         arm_drawing(found, np.radians(angle)),
         Curves("Constraint force", "N", [Curve(name, values) for name, values in force.items()]),
-        Words("What the data tell", [spelled(line) for line in explained(found, free)]),
+        Words("What the data identify", [spelled(line) for line in explained(found, free)]),
         *(Picture(*PICTURES[name], svg, wide=True) for name, svg in drawings.items()),
         frame_table("What was identified", tables["intervals"].dropna(axis="columns", how="all")),
         frame_table("Force that was not used", tables["held_out"]),

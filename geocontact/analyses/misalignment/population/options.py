@@ -37,13 +37,13 @@ class PopulationOptions(Options):
     limit
         |F| [N] whose exceeding is asked for.
     stroke
-        Ends between which a compensation joint slides freely: -20:35. Locked unless given.
+        Ends between which a compensation joint slides freely: -20:35. Locked by default.
     drift
         How the joint's axis wanders with the angle, as for a design; the same for everybody.
     samples
         People that are drawn.
     seed
-        Of the draw.
+        Seed of the draw.
     keep
         Also write samples.csv: the quantities, the force and the state of every one.
     """

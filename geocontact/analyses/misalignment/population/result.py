@@ -87,7 +87,7 @@ def run(population: Population, o: PopulationOptions) -> PopulationResult:
     """Quantiles of the largest force, how often it is above the limit, and what that depends on."""
     found = drawn(population.sampling, population.drift, o)
     _reserve(found)
-    _say(found)
+    _report(found)
     summary = described(found)
     note("samples_per_second_of_one_core", found.rate)
     note("population", summary)
@@ -107,15 +107,16 @@ def _reserve(d: Drawn) -> None:
         reserve(f"no shares of the variance, for {why}: the regression on ranks is all there is")
 
 
-def _say(d: Drawn) -> None:
+def _report(d: Drawn) -> None:
     middle, high = d.quantiles[0.5], d.quantiles[0.95]
-    say(f"largest |F| of {len(d.peak)} synthetic people: median {_said(middle)}, 95 % below {_said(high)}")
+    low = f"median {_interval_words(middle)}, 95 % below {_interval_words(high)}"
+    say(f"largest |F| of {len(d.peak)} synthetic people: {low}")
     b = d.beyond
     say(f"above {d.limit:g} N: {b.value:.4%} ({b.lower:.4%} … {b.upper:.4%})")
     say(f"{d.rate} samples per second of one core; grid of angles: error below {max(d.grid_error, 1e-9):.1e} N")
 
 
-def _said(e: IntervalEstimate) -> str:
+def _interval_words(e: IntervalEstimate) -> str:
     return f"{e.value:.3f} N ({e.lower:.3f} … {e.upper:.3f})" if math.isfinite(e.value) else "infinite"
 
 

@@ -51,7 +51,7 @@ def population_curves(d: Drawn) -> CurveSheet:
 TAIL = "The band is what the number of samples leaves open (exact interval)."
 DRAWN = (
     "The people are synthetic: drawn from the distributions in the description, which are as good as what they were "
-    "taken from. Intervals tell the error of drawing a finite number of them, nothing else. Samples whose limb or link "
+    "taken from. Intervals give the error of drawing a finite number of them, nothing else. Samples whose limb or link "
     "comes to a pole or a fold have no force; they count as beyond every force."
 )
 SHARES = "First-order: what knowing the factor takes away. Total: what is left if all others are known."

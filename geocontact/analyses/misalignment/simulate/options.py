@@ -53,45 +53,45 @@ class SimulateOptions(Options):
     -------
     numbers
         Numbers of the law (N/m, mm, N s/m, 1/mmHg, mm/N), as many as there are to change; the paper's
-        k=222.43,x=48,y=59,l=169,z=127,b=0,s=0,c=0 unless given. c is the compliance of the upper arm's fixation.
+        k=222.43,x=48,y=59,l=169,z=127,b=0,s=0,c=0 by default. c is the compliance of the upper arm's fixation.
     turning
         Stiffness of the cuff against turning by γ, the angle between link and forearm [N m/rad]; part of the moment.
     torque
         Torque of the actuator about the exoskeleton's axis, flexion positive [N m], in place of a column torque; the
-        tables then say what the joint has of it. None unless given.
+        tables then say what the joint has of it. None by default.
 
     The experiment
     --------------
     trials
-        Locked trials, and as many with the compensation joint free where `stroke` is given; 6 unless given.
+        Locked trials, and as many with the compensation joint free where `stroke` is given; 6 by default.
     seconds
-        Length of a trial [s]; 60 unless given.
+        Length of a trial [s]; 60 by default.
     rate
-        Samples per second; 1000 unless given.
+        Samples per second; 1000 by default.
     band
-        Frequencies of the multisine [Hz]; 0.05:0.35 unless given.
+        Frequencies of the multisine [Hz]; 0.05:0.35 by default.
     range
-        Angles from end to end [deg]; 8:92 unless given.
+        Angles from end to end [deg]; 8:92 by default.
     stroke
         Stroke of the compensation joint, such as -10:40: free trials are made besides, with its displacement. None
-        unless given.
+        by default.
     case
         Also write the locked trials as a gap case (folder case) that `geocontact gap diagnose` reads.
     pressure
-        Range of cuff pressures [mmHg], one drawn for each trial, such as 10:60; no pressure unless given.
+        Range of cuff pressures [mmHg], one drawn for each trial, such as 10:60; no pressure by default.
     bits
-        Of the converter, 0 for none; 12 unless given.
+        Bits of the converter, 0 for none; 12 by default.
 
     What is drawn at random
     -----------------------
     noise
-        Standard deviation of what the person adds to the force [N]; 0.8 unless given.
+        Standard deviation of what the person adds to the force [N]; 0.8 by default.
     memory
-        Its correlation time [s]; 0.3 unless given.
+        Its correlation time [s]; 0.3 by default.
     donning
-        Standard deviation of both offsets from trial to trial; 0 unless given.
+        Standard deviation of both offsets from trial to trial; 0 by default.
     seed
-        Of what is drawn at random; 0 unless given.
+        Seed of the random draws; 0 by default.
 
     Columns and units
     -----------------

@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 
 
 CASE = "case"
-SYNTHETIC = {"synthetic": True, "words": "made by geocontact elbow simulate; nobody was measured"}
+SYNTHETIC = {"synthetic": True, "words": "made by geocontact elbow simulate; no person was measured"}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -124,7 +124,7 @@ def run(recordings: Sequence[ElbowRecording], o: SimulateOptions) -> SimulateRes
         each = trial.recording
         low, high = np.degrees([each.beta.min(), each.beta.max()])
         span = f"{each.force.min():.1f} … {each.force.max():.1f} N over {low:.0f} … {high:.0f}°"
-        say(f"{each.name}, synthetic: {span}, {each.time[-1] - each.time[0]:g} s{_said(trial, o)}")
+        say(f"{each.name}, synthetic: {span}, {each.time[-1] - each.time[0]:g} s{_trial_line(trial, o)}")
     maps = surfaces(numbers["l"], numbers["z"])
     result = SimulateResult(options=o, numbers=numbers, made=tuple(made), surfaces=maps, design=design)
     note("truth", result.truth)
@@ -190,7 +190,7 @@ def _beyond(error: ValueError, numbers: Mapping[str, float], option: str, remedy
     return InputError("", "`numbers`", str(error), "give a smaller c, or less `torque`")
 
 
-def _said(trial: LoadedTrial, o: SimulateOptions) -> str:
+def _trial_line(trial: LoadedTrial, o: SimulateOptions) -> str:
     """Moment on the cuff, and torque of the joint where the actuator's is known; nothing of what was not asked for."""
     loads, driven = trial.loads, trial.recording.torque is not None
     told = ""

@@ -59,7 +59,7 @@ SURFACES = (
     "its two directions. Offsets may have either sign."
 )
 TURNS = "Moment on the forearm at the cuff, flexion positive"
-SYNTHETIC = "These recordings are synthetic: the explicit model with the numbers below, and noise. Nobody was measured."
+SYNTHETIC = "These recordings are synthetic: the explicit model with the numbers below, and noise. No one was measured."
 
 
 def simulation_page(loaded: Sequence[LoadedTrial], numbers: Mapping[str, float], drawing: bytes) -> Page:

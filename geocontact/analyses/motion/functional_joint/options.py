@@ -31,7 +31,7 @@ class JointOptions(Options):
         What that marker is called; on an axis NAME_1 and NAME_2, 5 cm on either side.
     near
         Markers whose middle is moved onto the axis to give its place: the epicondyles. All markers of both segments
-        unless given.
+        by default.
     axes
         Which of the markers' axes are x, y and z of what is written: x,z,-y where the laboratory's z is up.
     c3d_unit

@@ -201,7 +201,7 @@ def _report(o: JointOptions, pair: MovedPair, points: JointPoints, halves: float
     off = f"residual between the segments {1e3 * points.rms:.1f} mm root mean square"
     say(f"{len(pair.time)} frames, {np.degrees(turned(pair)):.0f} deg of turn: {off}{both}")
     if np.isnan(halves):
-        reserve(f"{o.trial}: half of the trial does not tell the {kind}: how far it can be trusted stays open")
+        reserve(f"{o.trial}: half of the trial does not determine the {kind}: its repeatability is unknown")
     elif halves > APART:
         what = f"two halves of the trial give the {kind} {1e3 * halves:.0f} mm apart"
         reserve(f"{o.trial}: {what}: {MOVE}")

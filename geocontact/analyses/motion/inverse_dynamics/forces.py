@@ -18,11 +18,11 @@ from geocontact.io.opensim.tool_setup_writer import write_id_setup
 
 
 def words(forces: GeneralisedForces) -> str:
-    """What is left over, in one clause; empty where no body is free."""
+    """Residuals, in one clause; empty where no body is free."""
     if not forces.at_ground.any():
         return ""
     force, moment = force_residual(forces), moment_residual(forces)
-    text = f"left over at the joint to the {GROUND}: {force.size:.3g} N at most, {force.share:.1%} of the"
+    text = f"residual at the joint to the {GROUND}: {force.size:.3g} N at most, {force.share:.1%} of the"
     if forces.peak == 0.0:
         return f"{text} weight, as nothing but gravity acts"
     return (
@@ -34,7 +34,7 @@ def words(forces: GeneralisedForces) -> str:
 def warn_of_residuals(forces: GeneralisedForces) -> None:
     """One line where more is left over than Hicks et al. allow, or where nothing tells."""
     if not forces.at_ground.any():
-        reserve(f"no joint frees a body from the {GROUND} with six coordinates: nothing tells what is left over")
+        reserve(f"no joint frees a body from the {GROUND} with six coordinates: there is no residual to check")
     elif forces.peak == 0.0 and force_residual(forces).too_large:
         reserve(
             f"{words(forces)} ({force_residual(forces).time:.3g} s): give `loads`, or `plates` with `plate`; moments "

@@ -50,7 +50,7 @@ def loads_on_bodies(
 
     `values` are the coordinates at those times [rad, m].
     """
-    file, loads = _given(o)
+    file, loads = _external_loads(o)
     if file is None:
         return {}
     plates = read_force_plates(file, o.c3d_unit)
@@ -77,7 +77,7 @@ def loads_on_bodies(
     return found
 
 
-def _given(o: IdOptions) -> tuple[Path | None, tuple[ExternalLoad, ...]]:
+def _external_loads(o: IdOptions) -> tuple[Path | None, tuple[ExternalLoad, ...]]:
     """The file of the plates, and which acts on what: by OpenSim's external loads or by `plates` and `plate`."""
     if o.loads is not None:
         file, loads = read_external_loads(o.loads)

@@ -43,7 +43,7 @@ class IdOptions(Options):
         First and last time [s] that are written: 0.4:1.6. The filter sees the whole recording.
     events
         Heel strikes of a side [s], between which moments are averaged over the gait cycle: right=0.63,1.86. May be
-        given again. Without it the loads of the plates tell them, by the side in their bodies' names.
+        given again. Without it the loads of the plates give them, by the side in their bodies' names.
     angles
         Unit of angles where the file does not say it: deg or rad.
     exclude
@@ -53,7 +53,7 @@ class IdOptions(Options):
 
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
-    Writes id.sto (for OpenSim), id.json with what is left over at the joint to the ground, cycles.csv where heel
+    Writes id.sto (for OpenSim), id.json with the residuals at the joint to the ground, cycles.csv where heel
     strikes are known, report.html (a moving skeleton) and run.json into OUT.
     """
 

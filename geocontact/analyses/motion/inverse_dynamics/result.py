@@ -126,7 +126,7 @@ def run(given: Loaded, o: IdOptions) -> IdResult:
     if single:
         reserve(f"OpenSim leaves out groups of forces only: with setup_id.xml it lets {listed(single)} act")
     warn_of_other_feet(given.model, given.shown, given.loads)
-    _tell(forces)
+    _report(forces)
     return IdResult(
         options=o,
         forces=forces,
@@ -145,7 +145,7 @@ def _of_the_model(passive: PassiveForces) -> dict[str, object]:
         reserve(f"forces of the model of kinds that are not read do not act here, in OpenSim they do: {names}")
     acting = [force.name for force in passive.acting]
     if acting:
-        say(f"Passive forces of the model act beside muscles: {listed(tuple(acting))}.")
+        say(f"Passive forces of the model act together with muscles: {listed(tuple(acting))}.")
     return {"passive_forces": acting, "passive_forces_left_out": [*passive.excluded, *passive.unread]}
 
 
@@ -181,7 +181,7 @@ def _summary(forces: GeneralisedForces) -> dict[str, object]:
     }
 
 
-def _tell(forces: GeneralisedForces) -> None:
+def _report(forces: GeneralisedForces) -> None:
     warn_of_residuals(forces)
     frame, largest = forces.largest(~forces.at_ground)
     name = forces.names[largest]

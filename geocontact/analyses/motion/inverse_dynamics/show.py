@@ -91,7 +91,7 @@ def answer(forces: GeneralisedForces, turning: Bool[np.ndarray, " n"]) -> list[s
     if forces.at_ground.any():
         left = force_residual(forces)
         of = "largest measured force" if forces.peak > 0.0 else "weight, as nothing but gravity acts"
-        told.append(f"Up to {left.size:.0f} N are left over at the ground: {left.share:.1%} of the {of}.")
+        told.append(f"Up to {left.size:.0f} N of residual force at the ground: {left.share:.1%} of the {of}.")
     return told
 
 
@@ -109,7 +109,7 @@ def _facts(forces: GeneralisedForces, turning: Bool[np.ndarray, " n"]) -> list[t
     if forces.at_ground.any():
         left = force_residual(forces)
         of = "the largest measured force" if forces.peak > 0.0 else "the weight, as nothing but gravity acts"
-        told.append(("Left over at the ground, at most", f"{left.size:.1f} N ({left.share:.1%} of {of})"))
+        told.append(("Largest residual at the ground", f"{left.size:.1f} N ({left.share:.1%} of {of})"))
     return told
 
 
@@ -126,8 +126,8 @@ def _residuals(forces: GeneralisedForces) -> list[Section]:
         mean = float(np.sqrt(np.mean(sizes**2)))
         told = verdict(peak.size) if unit == "N" else "-"
         rows.append((f"{name} [{unit}]", f"{peak.size:.1f}", f"{peak.time:.3g}", f"{mean:.1f}", limit, told))
-    header = ("left over", "largest", "at [s]", "root mean square", "Hicks et al.: below", "OpenSim, if reduced")
-    return [Table("Left over at the ground, and what it should be below", header, rows)]
+    header = ("residual", "largest", "at [s]", "root mean square", "Hicks et al.: below", "OpenSim, if reduced")
+    return [Table("Residual force and moment at the ground, and recommended limits", header, rows)]
 
 
 def _left_over(
@@ -141,5 +141,5 @@ def _left_over(
         names = [c.name for c, there in zip(forces.model.coordinates, which, strict=True) if there]
         if names:
             curves = [Curve(name, value) for name, value in zip(names, values[:, which].T, strict=True)]
-            found.append(Curves(f"Left over at the ground: {title}", unit, curves))
+            found.append(Curves(f"Residual at the ground: {title}", unit, curves))
     return found

@@ -13,7 +13,7 @@ from geocontact.data.plausible import GAP
 
 @dataclass(frozen=True)
 class IkOptions(Options):
-    """Joint angles from recorded markers: weighted least squares in every frame, limits of the model kept.
+    """Joint angles from recorded markers: weighted least squares in every frame, within the limits of the model.
 
     Parameters
     ----------

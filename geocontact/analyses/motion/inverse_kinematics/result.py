@@ -216,10 +216,10 @@ def _warn(found: Poses) -> None:
     never = np.asarray(~found.determined.any(axis=0))
     if never.any():
         names = tuple(name for name, each in zip(found.names, never, strict=True) if each)
-        reserve(f"no frame tells {listed(names)}: kept at the model's default")
+        reserve(f"no frame determines {listed(names)}: set to the model's default")
     for lost, what in (
-        (~found.determined & np.isfinite(found.values) & ~never, "filled between frames that tell them"),
-        (~np.isfinite(found.values), "left empty, markers do not tell them"),
+        (~found.determined & np.isfinite(found.values) & ~never, "filled between frames that determine them"),
+        (~np.isfinite(found.values), "left empty, markers do not determine them"),
     ):
         names = tuple(name for name, each in zip(found.names, lost.any(axis=0), strict=True) if each)
         if names:

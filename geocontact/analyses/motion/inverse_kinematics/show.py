@@ -22,8 +22,8 @@ from geocontact.view.page.content import Page, Readout, Row, Scene, Section, Tab
 
 SKIN = (
     "Markers lie on skin, which slides over bone by centimetres, and the model's joints are not the subject's: the "
-    "distances above tell how far both come together, not how wrong the angles are. Angles of joints that few markers "
-    "tell, and rotations about the long axis of a segment, are the least certain."
+    "distances above show how well both agree, not how wrong the angles are. Angles of joints that few markers "
+    "determine, and rotations about the long axis of a segment, are the least certain."
 )
 
 

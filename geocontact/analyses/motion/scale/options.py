@@ -13,7 +13,7 @@ from geocontact.data.plausible import MASS
 
 @dataclass(frozen=True)
 class ScaleOptions(Options):
-    """A model made to measure from a static trial: sizes of bodies, mass, places of markers.
+    """Scale a model to a subject from a static trial: sizes of bodies, mass, places of markers.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ class ScaleOptions(Options):
     model
         Generic OpenSim model (.osim) with markers.
     scale
-        Bodies and the pairs of markers whose distances tell their size: femur_r,femur_l=R.Hip/R.Knee,L.Hip/L.Knee.
+        Bodies and the pairs of markers whose distances give their size: femur_r,femur_l=R.Hip/R.Knee,L.Hip/L.Knee.
         May be given again; bodies that are not named keep their size. femur_r:xz=… is along these axes of the body,
         and a number takes the place of the pairs: femur_r:xz=1.05.
     marker_set
@@ -30,7 +30,7 @@ class ScaleOptions(Options):
     markers_map
         Names of recorded markers as the model calls them: RHEE=R.Heel,LHEE=L.Heel, or a file with a pair in each line.
     mass
-        Of the subject [kg], shared among the bodies as in the model.
+        Mass of the subject [kg], shared among the bodies as in the model.
     mass_by_volume
         Bodies become heavier as their volume grows, before the subject's mass is shared; otherwise sizes leave masses
         as they are.

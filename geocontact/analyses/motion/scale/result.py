@@ -133,7 +133,7 @@ def run(given: Standing, o: ScaleOptions) -> ScaleResult:
     moved = made if o.keep_markers else _placed(made, given.markers, pose)
     summary = _summary(given, pose, moved)
     results().update(plain(summary))
-    _tell(given, pose)
+    _report(given, pose)
     which = [[m.name for m in made.markers].index(name) for name in pose.markers]
     return ScaleResult(
         options=o,
@@ -174,7 +174,7 @@ def _summary(given: Standing, pose: Poses, made: Multibody) -> dict[str, object]
     }
 
 
-def _tell(given: Standing, pose: Poses) -> None:
+def _report(given: Standing, pose: Poses) -> None:
     errors = MarkerErrors.of(pose)
     errors.warn(STANDING)
     sizes = ", ".join(f"{name} {by:.3f}" for name, by in labelled(given.factors).items()) or "no body"

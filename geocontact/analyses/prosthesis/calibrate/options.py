@@ -39,22 +39,22 @@ class ProsthesisCalibrateOptions(Options):
     static
         Standing trial with all markers, the foot flat on the floor.
     mass
-        Of the body with the prosthesis.
+        Mass of the body with the prosthesis.
     side
-        Of the prosthesis.
+        Side of the prosthesis.
 
     The foot
-    ----------
+    --------
     setting
         Stiffness of the foot in this trial: low, medium or high, 10, 19 or 32 N/mm.
     fulcrum
         Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
     law
-        Usual numbers of the sole (.toml), about which those of the person are sought; built in unless given. How the
-        foot is beside its standing trial is sought anew.
+        Usual numbers of the sole (.toml), about which those of the person are sought; built in by default. How the
+        offset of the foot from its standing trial is identified anew.
 
     Force plates
-    ----------
+    ------------
     plates
         Ground reactions in the markers' axes (.mot, .sto, .c3d).
     plate
@@ -69,9 +69,9 @@ class ProsthesisCalibrateOptions(Options):
         foot with it: with the leg's inertia, the socket and the free pelvis. The trial needs the markers of pelvis and
         thigh too.
     starts
-        Starts spread over the bounds, beside the usual numbers.
+        Starts spread over the bounds, in addition to the usual numbers.
     seed
-        Of these starts.
+        Seed of the starts.
     level
         Probability of the intervals.
     machine_code
@@ -82,11 +82,11 @@ class ProsthesisCalibrateOptions(Options):
     force_noise
         Standard deviation of a component of the plate's force [N].
     height_error
-        Of the foot's height, constant over the stance [mm].
+        Standard deviation of the foot's height, constant over the stance [mm].
     pitch_error
-        Of the foot's pitch, constant over the stance.
+        Standard deviation of the foot's pitch, constant over the stance.
     speed_error
-        Of the foot's speed [m/s]: what markers and their filter leave of it.
+        Standard deviation of the foot's speed [m/s]: what markers and their filter leave of it.
 
     The motion
     ----------
@@ -104,9 +104,9 @@ class ProsthesisCalibrateOptions(Options):
     """
 
     writes: ClassVar[str] = """
-    Writes numbers.csv (value, interval, and whether the stance tells it), stance.csv (plate and model), law.toml (the
-    calibrated force law, as `geocontact cop` reads it, and how the foot is beside its standing trial), a figure,
-    report.html and run.json into OUT.
+    Writes numbers.csv (value, interval, and whether the stance identifies it), stance.csv (plate and model), law.toml
+    (the calibrated force law, as `geocontact cop` reads it, and the offset of the foot from its standing trial), a
+    figure, report.html and run.json into OUT.
     """
 
     markers: Path

@@ -48,15 +48,15 @@ if TYPE_CHECKING:
 
 HEAD = """\
 # Force law of the sole, calibrated on one stance; SI units. Numbers marked unknown were never loaded; those marked
-# not identified the stance hardly tells: the prior has most of the say.
+# not identified are determined by the prior, not by the stance.
 """
 FOOT = """
-[foot]  # beside where its standing trial has it, found with the law; `sd` are standard deviations
+[foot]  # offset from its standing trial, identified with the law; `sd` are standard deviations
 height = {height!r}  # m, its middle raised
 height_sd = {height_sd!r}  # m
 pitch = {pitch!r}  # rad, the toes up
 pitch_sd = {pitch_sd!r}  # rad
-standing = "{standing}"  # SHA-256 of that trial: [foot] holds beside no other"""
+standing = "{standing}"  # SHA-256 of that trial: [foot] holds for no other"""
 
 
 def law_toml(found: SoleCalibration | WholeCalibration, standing: str) -> str:
@@ -200,7 +200,7 @@ def _summarise_fit(r: ProsthesisCalibrateResult) -> None:
     e = r.stance.errors
     offset = r.last.offsets[0]
     say(
-        f"the foot is {offset.words} beside where its standing trial has it; prior {1e3 * e.standing:.1f} mm and "
+        f"the foot is {offset.words} off its standing trial; prior {1e3 * e.standing:.1f} mm and "
         f"{np.degrees(e.pitch):.2f} degrees"
     )
     for words in doubts_of_fit(offset.height / e.standing, offset.pitch / e.pitch, r.residual, r.vertical.rmsd):
@@ -217,7 +217,7 @@ def _summarise(r: ProsthesisCalibrateResult) -> None:
     if not found.converged:
         reserve("the search stopped before it settled; give more `starts`")
     apart = found.knowledge.told_apart
-    along = f"is met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s beside the recorded speed"
+    along = f"is met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s relative to the recorded speed"
     if r.whole is not None:
         along = f"fore and aft within {100.0 * fore_aft_error(r.predicted, r.stance):.1f} % of body weight"
     say(

@@ -43,23 +43,23 @@ def stance_curves(stance: RecordedStance, predicted: Float[ndarray, "t 4"]) -> C
 
 POSES = [
     "The keel is in equilibrium in every frame: its inertia is left out.",
-    "The foot may slip beside its recorded speed, within its error, so that the force along the floor is the plate's.",
-    "Friction is therefore told only where the foot slips in earnest.",
-    "Height and pitch of the foot are sought besides, as constant errors of the standing trial.",
+    "The foot may slip against its recorded speed, within its error, so that the force along the floor is the plate's.",
+    "Friction is therefore identified only where the foot really slips.",
+    "Height and pitch of the foot are identified as well, as constant errors of the standing trial.",
     "What errors of the poses do to each sample is in its weight.",
 ]
 WALKED = [
     "The stance is simulated: inertia, socket and the free pelvis act, and the force is what comes of the start.",
     'The search began with the numbers in the column "along poses", found with a keel without inertia.',
-    "Height and pitch of the foot are sought on, as constant errors of the standing trial.",
+    "Height and pitch of the foot continue to be identified, as constant errors of the standing trial.",
     "Angles are taken as they were recorded; what errors of the start, of hip and of knee do is in the weights.",
 ]
 READ = [
     "Known: the data at least halve the width of the prior.",
-    "Not identified: they do not; the value is stated beside its prior and has no interval.",
+    "Not identified: they do not; the value is stated with its prior and has no interval.",
     "Unknown: the stance never loaded the zone, and the value is the usual one.",
     "Intervals count that residuals remember from frame to frame; they hold for this model, not beyond it.",
-    "The last two rows, height and pitch of the foot (toes up) beside its standing trial, go into law.toml as [foot].",
+    "The last two rows, height and pitch of the foot (toes up) off its standing trial, go into law.toml as [foot].",
 ]
 
 

@@ -15,7 +15,7 @@ from geocontact.data.plausible import CUTOFF, GAP
 
 @dataclass(frozen=True)
 class ProsthesisCompareOptions(Options):
-    """Stances of a study, simulated, beside their force plates and beside two predictors without a model.
+    """Stances of a study, simulated, compared with their force plates and with two baseline predictors.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ class ProsthesisCompareOptions(Options):
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
 
     How it is simulated
-    ----------
+    -------------------
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
     machine_code

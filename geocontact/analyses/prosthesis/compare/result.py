@@ -155,7 +155,7 @@ def _summarise(r: ProsthesisCompareResult) -> None:
     persons, settings = (len({getattr(one, key) for one in stances}) for key in ("person", "setting"))
     say(
         f"{transfer} stances, {persons} person{'s'[: persons - 1]}, {settings} setting{'s'[: settings - 1]} of the foot"
-        + (f", beside {len(fitted)} that a sole was fitted to: {', '.join(fitted)}" if fitted else "")
+        + (f", and {len(fitted)} that a sole was fitted to: {', '.join(fitted)}" if fitted else "")
     )
     summary = summary_table(errors_table(stances))
     rows = summary[summary["setting"] == ALL].set_index("quantity")
@@ -171,7 +171,7 @@ def _summarise(r: ProsthesisCompareResult) -> None:
     turned = [one.stance.motion.leg.offset.given for one in stances]
     if any(turned):
         count = f"{sum(turned)} of {len(stances)} stances"
-        say(f"height and pitch of the foot beside its standing trial are taken from the law on {count}")
+        say(f"height and pitch of the foot relative to its standing trial are taken from the law on {count}")
     if late:
         say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms)")
     for one in stances:
@@ -179,7 +179,7 @@ def _summarise(r: ProsthesisCompareResult) -> None:
             what = f"is simulated over {one.errors.simulated:.0%} of its stance, and ends before toe-off"
             reserve(f"{one.name} {what}: no stance time of it, errors over that part")
         if (oddness_of := r.odd.get(one.name)) is not None and oddness_of.outlier:
-            seen = "; ".join(reasons(one)) or "nothing that is looked at tells why"
+            seen = "; ".join(reasons(one)) or "no checked cause explains it"
             reserve(f"{one.name} stands out with {one.errors.table['resultant'][1]:.1%} BW: {seen}")
     if transfer < FEWEST:
         reserve(f"with {transfer} stances none can stand out: {FEWEST} are needed")

@@ -52,7 +52,7 @@ def comparison_page(
     """Ensembles, errors beside trivial predictors, outliers."""
     sections: list[Section] = [
         *comparison_curves(stances).panels,
-        frame_table("Means by setting, beside predictors without a model", tables["summary"], 3),
+        frame_table("Means by setting, compared with baseline predictors", tables["summary"], 3),
         frame_table("Stances", tables["trials"], 3),
         frame_table("Errors of each stance", tables["errors"], 3),
         INPUTS,
@@ -60,7 +60,7 @@ def comparison_page(
         Words("How to read the numbers", [*WITHOUT, *MEASURES, NOT_A_DEVICE]),
     ]
     return Page(
-        title=f"{len(stances)} prosthetic stances beside their plates",
+        title=f"{len(stances)} prosthetic stances compared with their plates",
         subtitle="Ground reaction, centre of pressure and ankle moment of a variable-stiffness foot",
         time=100.0 * stances[0].errors.share,
         time_label="stance on the plate [%]",

@@ -29,7 +29,7 @@ PITCH = math.radians(0.5)
 
 @dataclass(frozen=True)
 class ProsthesisDesignOptions(Options):
-    """Fulcrum, alignment or stiffness of a prosthetic foot that suits a person best, and whether that can be told.
+    """Fulcrum, alignment or stiffness of a prosthetic foot that suits a person best, and whether the data identify it.
 
     Parameters
     ----------
@@ -41,24 +41,24 @@ class ProsthesisDesignOptions(Options):
     static
         Standing trial with all markers, the foot flat on the floor.
     mass
-        Of the body with the prosthesis.
+        Mass of the body with the prosthesis.
     side
-        Of the prosthesis.
+        Side of the prosthesis.
 
     The foot
-    ----------
+    --------
     setting
         Stiffness of the foot in this trial: low, medium or high, 10, 19 or 32 N/mm.
     fulcrum
         Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
     law
-        Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in unless given. With them go height
-        and pitch of the foot beside its standing trial, where that is `static`.
+        Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in by default. With them go height
+        and pitch of the foot relative to its standing trial, where that is `static`.
     numbers
-        Their intervals of 95 % (numbers.csv of `prosthesis calibrate`); what is believed of any sole unless given.
+        Their intervals of 95 % (numbers.csv of `prosthesis calibrate`); the priors of any sole by default.
 
     Force plates
-    ----------
+    ------------
     plates
         Ground reactions in the markers' axes (.mot, .sto, .c3d).
     plate
@@ -67,12 +67,13 @@ class ProsthesisDesignOptions(Options):
     The ground
     ----------
     slope
-        Angle by which the ground rises forwards that the foot is judged on, negative downhill; the trial is on a floor.
+        Angle by which the ground rises forwards on which the foot is evaluated, negative downhill; the trial is on a
+        floor.
     edge
-        Of a step that the foot is judged on, from the keel's posterior end: what is behind hangs in the air.
+        Place of a step on which the foot is evaluated, from the keel's posterior end; the part behind has no ground.
 
-    What is best
-    ------------
+    Objective
+    ---------
     vary
         What is changed: fulcrum, alignment (turn of the foot on the socket) or stiffness (of the keel).
     aim
@@ -84,28 +85,29 @@ class ProsthesisDesignOptions(Options):
         Walking trial with a step of the intact foot; as near as can be to what it has is wanted then, of peak ankle
         moment, radius and rate of loading. The standing trial shows the intact leg as well.
     intact_plates
-        Ground reactions of that trial; those of the prosthetic foot's unless given.
+        Ground reactions of that trial; those of the prosthetic foot's by default.
     intact_plate
         Name or number of the plate under the intact foot.
     together
         Whether the foot's alignment, 6 degrees to both sides, is varied together with fulcrum or stiffness.
 
-    How it is judged
-    ----------------
+    Validation
+    ----------
     feet
-        Drawn feet: numbers of the sole, keel and count of spheres as far as they are not known.
+        Drawn feet: numbers of the sole, keel and count of spheres that are not known.
     walks
         Drawn errors of markers and plate for each foot.
     seed
-        Of these draws.
+        Seed of the draws.
     level
         Probability of the intervals.
     marker_error
         Standard deviation of a marker's place along each axis [mm].
     pitch_error
-        Of the foot's pitch: how far it may not have stood flat. A law that knows the pitch better has its own.
+        Standard deviation of the foot's pitch: how far it may not have stood flat. A law that knows the pitch better
+        has its own.
     force_noise
-        Of a component of the plate's force [N].
+        Standard deviation of a component of the plate's force [N].
 
     The motion
     ----------

@@ -181,7 +181,7 @@ def _reserve(r: ProsthesisDesignResult, lost: int) -> None:
         reserve(f"the best {knob.vary} is sought with the recorded load; how the load changes is in the bands only")
     if knob.terrain != LEVEL:
         where = words(knob.terrain)
-        reserve(f"judged {where}: the stance was recorded on a floor, its load and its turns are kept")
+        reserve(f"evaluated {where}: the stance was recorded on a floor, its load and its turns are used unchanged")
 
 
 def _summarise(r: ProsthesisDesignResult) -> None:
@@ -196,7 +196,7 @@ def _summarise(r: ProsthesisDesignResult) -> None:
     place = words(knob.terrain)
     what = f"{f'{place}, ' if place else ''}{measure.words}, {chosen.wanted}"
     if not choice.told:
-        say(f"{what}: cannot tell which {knob.vary} is best: {choice.why}")
+        say(f"{what}: the best {knob.vary} is not identified: {choice.why}")
     else:
         say(
             f"{what}: {knob.vary} {shown(choice.best)} ({shown(choice.lower)} to {shown(choice.upper)}) is best, "
@@ -205,7 +205,7 @@ def _summarise(r: ProsthesisDesignResult) -> None:
         say(_beside_present(choice, measure.unit, shown(knob.present)))
         other = choice.sides["joint torques kept"]
         own = f"{shown(other.best)} ({shown(other.lower)} to {shown(other.upper)})"
-        say(f"with the torques of hip and knee kept: {own if other.verdict == 'told' else other.verdict}")
+        say(f"with the torques of hip and knee kept: {own if other.verdict == 'identified' else other.verdict}")
     if r.intact is not None:
         say(intact_words(r.intact))
         note("intact", plain(dict(r.intact)))
@@ -221,7 +221,7 @@ def _summarise(r: ProsthesisDesignResult) -> None:
         plain(
             {
                 each.aim: {
-                    "told": each.choice.told,
+                    "identified": each.choice.told,
                     "best": each.choice.best,
                     "lower": each.choice.lower,
                     "upper": each.choice.upper,
@@ -248,7 +248,7 @@ def _beside_present(choice: FootChoice, unit: str, present: str) -> str:
         f"{name} nearer by {median:.3g} ({lower:.3g} to {upper:.3g}) {unit}"
         for name, (median, lower, upper) in choice.gain.items()
     )
-    words = "it is better than" if choice.better else "cannot tell whether it is better than"
+    words = "it is better than" if choice.better else "not shown to be better than"
     return f"{words} the present {present}: {gains}"
 
 

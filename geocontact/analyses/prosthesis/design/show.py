@@ -86,7 +86,7 @@ LIMITS = [
         "Bands hold what is not known of the sole, rounding of the keel's compressions, the count of spheres in the "
         "model, errors of markers and plate. How a person differs from step to step is not in them."
     ),
-    "A best value is told where its interval is narrower than 60 % of the range in every response that it matters in.",
+    "A value is identified where its interval is narrower than 60 % of the range in every response that it matters in.",
     (
         "Rate of loading: stiffness of the landing foot times its speed; the sole's damping, whose numbers are "
         "invented, is not in it."
@@ -98,11 +98,11 @@ def design_page(curves: CurveSheet, sweep: Sweep, tables: Mapping[str, pd.DataFr
     """Outcomes, answers, what they hang on, numbers; `curves` are those of `design_curves`."""
     sections: list[Section] = [
         *curves.panels,
-        frame_table("What is best, and whether that can be told", tables["answers"], 3),
+        frame_table("What is best, and whether the data identify it", tables["answers"], 3),
         *(frame_table(INTACT, tables["intact"], 3) for _ in range("intact" in tables)),
         *(frame_table(PAIRS, tables["pairs"], 3) for _ in range("pairs" in tables)),
         frame_table("Between which ends each outcome lies, whatever the person keeps", tables["ranges"], 3),
-        frame_table("On what the outcomes of the present foot hang", tables["sensitivities"], 3),
+        frame_table("Sensitivities of the outcomes of the present foot", tables["sensitivities"], 3),
         frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
         INPUTS,
         OPTIONS,

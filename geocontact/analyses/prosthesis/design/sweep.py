@@ -80,7 +80,7 @@ def difference_words(sweep: Sweep) -> dict[str, str]:
             if off.small:
                 words.append(f"{name} the same")
             elif off.unsure:
-                words.append(f"{name} cannot tell ({off.lower:+.3g} to {off.upper:+.3g} {unit})")
+                words.append(f"{name} not identified ({off.lower:+.3g} to {off.upper:+.3g} {unit})")
             else:
                 words.append(f"{name} {off.median:+.3g} ({off.lower:+.3g} to {off.upper:+.3g}) {unit}")
         found[response] = "; ".join(words)
@@ -96,7 +96,7 @@ def answers_table(answers: tuple[AimAnswer, ...], vary: Vary) -> pd.DataFrame:
         row: dict[str, object] = {
             "outcome": each.aim,
             "wanted": each.wanted,
-            "told": choice.told,
+            "identified": choice.told,
             f"best {vary} [{unit}]": factor * choice.best,
             f"lower {vary} [{unit}]": factor * choice.lower,
             f"upper {vary} [{unit}]": factor * choice.upper,
@@ -157,7 +157,7 @@ def pair_words(vary: Vary, answer: AimAnswer, together: Together) -> str:
         for name, (median, lower, upper) in one.gain.items()
     )
     pair = f"{vary} {shown(one.value)} with the foot turned by {turn * one.alignment:+.0f} deg"
-    says = "is better than" if one.better else "cannot be told to be better than"
+    says = "is better than" if one.better else "is not shown to be better than"
     near = " to ".join(map(shown, one.as_good))
     turns = f"{turn * one.alignments[0]:+.0f} to {turn * one.alignments[1]:+.0f} deg"
     return f"{pair} {says} {shown(one.alone)} alone: {gains}; as good may be {near} and {turns}"

@@ -68,7 +68,7 @@ def read(o: ProsthesisDesignOptions) -> FootAndTrial:
     intact = intact_side(o, trial)
     zones = ZoneParameters(foot.sole, foot.law)
     if o.numbers is None:
-        reserve("nothing is known of this sole but what is believed of any: give the `numbers` of a calibration")
+        reserve("nothing is known of this sole but the prior of any: give the `numbers` of a calibration")
         return FootAndTrial(foot, trial, zones.sd, intact)
     return FootAndTrial(foot, trial, _known(o.numbers, zones), intact)
 
@@ -103,7 +103,7 @@ def intact_side(o: ProsthesisDesignOptions, trial: RecordedTrial) -> IntactStep 
     if o.intact is None:
         return None
     if o.target is not None and o.aim in OF_INTACT:
-        what = f"`intact` tells already which {MEASURES[o.aim].words} is wanted"
+        what = f"`intact` states already which {MEASURES[o.aim].words} is wanted"
         raise InputError("", "`target`", what, "give one of them")
     leg = standing_intact_leg(trial.standing, trial.person)
     seen = right_markers("`intact`", o.intact, o.side, o.axes, o.markers_map, o.c3d_unit)

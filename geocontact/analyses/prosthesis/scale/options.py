@@ -27,28 +27,28 @@ class ProsthesisScaleOptions(Options):
     The person
     ----------
     mass
-        Of the body with the prosthesis.
+        Mass of the body with the prosthesis.
     height
-        Of the person [m]: how far trunk, head and arms reach, and compared with the lengths of the legs; from these
-        unless given.
+        Height of the person [m]: how far trunk, head and arms reach, and compared with the lengths of the legs; from
+        these by default.
     side
-        Of the prosthesis.
+        Side of the prosthesis.
     sex
         Row of the table of segment masses.
     residual
-        Share of the shank's length that is left; 45% unless given, which is invented.
+        Share of the shank's length that is left; 45% by default, which is invented.
 
     The prosthesis
-    ----------
+    --------------
     prosthesis_mass
-        Of socket, pylon and foot together; else invented.
+        Mass of socket, pylon and foot together; else invented.
     setting
         Stiffness of the foot: low, medium or high, 10, 19 or 32 N/mm.
     fulcrum
         Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
 
     The markers
-    ----------
+    -----------
     markers_map
         Names of recorded markers as they are called here: R_HIP=RASI, or a file with a pair in each line.
     axes

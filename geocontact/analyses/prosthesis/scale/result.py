@@ -72,10 +72,10 @@ TRUNK = (
 )
 SKIN = (
     "Markers lie on skin. Centres from a functional trial are off by what skin moves, more if the joint moves little: "
-    "how far a joint is off itself tells the first, not the second."
+    "the residual of a joint shows the first, not the second."
 )
 HELD_PARTS = (
-    "amputee_ik.osim holds socket and keel, of which markers tell nothing; in amputee.osim they are free, with springs "
+    "amputee_ik.osim holds socket and keel, unseen by markers; in amputee.osim they are free, with springs "
     "of the fulcrum that was asked for."
 )
 

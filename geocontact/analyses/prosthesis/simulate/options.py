@@ -27,25 +27,25 @@ class ProsthesisSimulateOptions(Options):
     static
         Standing trial with all markers, the foot flat on the floor.
     mass
-        Of the body with the prosthesis.
+        Mass of the body with the prosthesis.
     side
-        Of the prosthesis.
+        Side of the prosthesis.
     sex
         Row of the table of segment masses.
     residual
-        Share of the shank's length that is left; 45% unless given, which is invented.
+        Share of the shank's length that is left; 45% by default, which is invented.
     functional
         Trial in which the thigh swings in all directions: gives the hip's centre, else a regression does.
 
     The foot
-    ----------
+    --------
     setting
         Stiffness of the foot: low, medium or high, 10, 19 or 32 N/mm.
     fulcrum
         Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
     law
-        Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in unless given. With them go height
-        and pitch of the foot beside its standing trial, where that is `static`.
+        Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in by default. With them go height
+        and pitch of the foot relative to its standing trial, where that is `static`.
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
 
@@ -53,10 +53,10 @@ class ProsthesisSimulateOptions(Options):
     ----------
     ground
         plane:nx,ny,nz,offset (all x with n.x = offset [m]), or stairs:h0,x1:h1,x2:h2 (height h1 [m] from x1 on, y up),
-        in the markers' axes; the floor y = 0 unless given.
+        in the markers' axes; the floor y = 0 by default.
 
     Force plates
-    ----------
+    ------------
     plates
         Ground reactions in the markers' axes (.mot, .sto, .c3d).
     other_plate
@@ -88,7 +88,7 @@ class ProsthesisSimulateOptions(Options):
 
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
-    Writes stance.csv, errors.csv and curves.csv beside a force plate, numbers.csv with the source of every number,
+    Writes stance.csv, errors.csv and curves.csv with a force plate, numbers.csv with the source of every number,
     coordinates.sto, ground_reaction.mot and .xml (external loads for OpenSim and `geocontact id`), paraview, a figure,
     report.html (moving foot with forces) and run.json into OUT.
     """

@@ -44,7 +44,7 @@ SOLE = (
 )
 CALIBRATED = (
     "The foot is a keel of eight hinges on spheres. Where the spheres are is invented; what they press with, and how "
-    "the foot is beside its standing trial, is what the law's file says of it."
+    "the foot is off its standing trial, is what the law's file says of it."
 )
 TWICE = (
     "Markers on the socket see the socket's own turn against the residual limb, so that it is in the knee angle as "
@@ -69,7 +69,7 @@ def stance_page(
     sections: list[Section] = [
         Scene(directions=DIRECTIONS, up=(0.0, 1.0, 0.0), view=(0.3, 0.2, 1.0), linkages=_lines(s, o, shown)),
         *curves.at(shown),
-        *([frame_table("Beside the force plate", tables["errors"])] if "errors" in tables else []),
+        *([frame_table("Compared with the force plate", tables["errors"])] if "errors" in tables else []),
         frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
         INPUTS,
         OPTIONS,

@@ -15,7 +15,7 @@ Clock = Annotated[float, Typed("s", "finite", "0.02", "[s]", float), Spelled(das
 
 @dataclass(frozen=True)
 class ShoulderCompareOptions(Options):
-    """Errors of a simulated exoskeleton arm beside its logger and a pressure mat, by channel and work phase.
+    """Errors of a simulated exoskeleton arm against its logger and a pressure mat, by channel and work phase.
 
     Parameters
     ----------

@@ -151,7 +151,7 @@ def comparison_page(recorded: str, channels: Sequence[ComparedChannel], sentence
     time = channels[0].time
     shown = thinned(len(time), [values for one in channels for values in (one.measured, one.model)])
     return Page(
-        title=f"Simulated arm beside {recorded}",
+        title=f"Simulated arm against {recorded}",
         subtitle="Shoulder exoskeleton: elevation of its arm, force in its cuff",
         time=time[shown],
         time_label="time [s]",

@@ -27,17 +27,17 @@ class ShoulderOptimiseOptions(Options):
     device
         lucy, lucy_new_cylinder (32 mm, 12.8 N m), lucy_new_cylinder_massless, or a file (.toml) with numbers.
 
-    What is best
-    ------------
+    Objective
+    ---------
     aim
         Share of the shoulder's torque that support takes away: its mean over persons, that of the worst person, or the
         mean over the worst cases (conditional value at risk).
     worst_share
-        Share of all cases that are the worst; 25% unless given.
+        Share of all cases that are the worst; 25% by default.
     force_limit
-        Largest force at the interface [N]; none unless given.
+        Largest force at the interface [N]; none by default.
     rate_limit
-        Largest rate of the support torque [N m/s]; none unless given.
+        Largest rate of the support torque [N m/s]; none by default.
     reserve
         Share of the torque that is left to the shoulder at every moment, such as 10%: room for persons not seen.
     certainty
@@ -47,14 +47,14 @@ class ShoulderOptimiseOptions(Options):
         arm: each person's factors in proportion to the weight of the person's arm, besides those that are the same for
         all; persons held out get the factors of the others by it. none: the same for everybody.
     dominant_share
-        Part of the push on the tool that the dominant hand exerts, where the study does not say: 100% unless given.
+        Part of the push on the tool that the dominant hand exerts, where the study does not say: 100% by default.
 
-    How it is judged
-    ----------------
+    Validation
+    ----------
     draws
         Draws of the model's errors for each person that is held out.
     seed
-        Of these draws.
+        Seed of the draws.
 
     The motion
     ----------
@@ -73,7 +73,7 @@ class ShoulderOptimiseOptions(Options):
 
     writes: ClassVar[str] = """
     Writes factors.csv (best, one factor for all, the paper's, each person's, by arm weight), scales.csv, simulated.csv,
-    outcomes.csv (planned), held_out.csv (made for the others, judged on one, with intervals), front.csv, a figure,
+    outcomes.csv (planned), held_out.csv (leave-one-person-out validation, with intervals), front.csv, a figure,
     report.html and run.json into OUT.
     """
 

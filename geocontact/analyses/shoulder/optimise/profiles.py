@@ -120,7 +120,7 @@ def sound(o: ShoulderOptimiseOptions, what: Callable[[], T]) -> T:
 def judged_held_out(given: WorkersAndDevice, loop: ClosedLoop, o: ShoulderOptimiseOptions) -> dict[str, HeldOutSupport]:
     """How profiles of the others fare, by person; empty where there is one only."""
     if len({trial.person for trial in given.trials}) == 1:
-        reserve("one person only: nobody can be held out, the profile is for this person")
+        reserve("one person only: no person can be held out, the profile is for this person")
         return {}
     by_arm = o.scale == "arm"
     try:

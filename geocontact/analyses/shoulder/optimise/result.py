@@ -138,7 +138,7 @@ class ShoulderOptimiseResult(Result):
             for case in self.cases:
                 if case.name in found:
                     told = {"profile": profile, "person": case.person, "task": case.task, "hand": case.hand}
-                    rows.append(told | _told(found[case.name]))
+                    rows.append(told | _outcome_row(found[case.name]))
         return pd.DataFrame(rows)
 
     def _held_out(self) -> pd.DataFrame:
@@ -172,7 +172,7 @@ class ShoulderOptimiseResult(Result):
         return scales_of(self.moments, makers)[person] if self.scales else 1.0
 
 
-def _told(found: SupportOutcome) -> dict[str, float]:
+def _outcome_row(found: SupportOutcome) -> dict[str, float]:
     return {
         "taken away [-]": found.reduction,
         "pushed up [-]": found.pushed_up,

@@ -87,7 +87,7 @@ def profile_page(drawn: CurveSheet, tables: Mapping[str, pd.DataFrame], sentence
             if len(tables["scales"])
             else []
         ),
-        *([frame_table("Made for the others, judged on this person", held, 3)] if len(held) else []),
+        *([frame_table("Leave-one-person-out validation: this person held out", held, 3)] if len(held) else []),
         frame_table("Simulated with the device's own motion", tables["simulated"], 3),
         frame_table("What each profile does, as planned around the profile of all persons", tables["outcomes"], 3),
         Curves("Taken away over the limit of interface force", "%", curves),

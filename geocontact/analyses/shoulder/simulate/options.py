@@ -35,11 +35,11 @@ class ShoulderSimulateOptions(Options):
         Support profile (factors.csv of `geocontact shoulder optimise`): a factor on the level in each work phase, as
         the device's controller detects it from its own arm and the tool's current.
     profile_name
-        Which of its profiles; the first unless given.
+        Which of its profiles; the first by default.
     task
         Task whose factors count, where the profile has several.
     dominant
-        Side of the dominant hand; right unless given.
+        Side of the dominant hand; right by default.
     side
         Arms that are simulated.
     cuff
@@ -60,7 +60,7 @@ class ShoulderSimulateOptions(Options):
     tool
         When the tool runs (.csv): a column event [-] of 0 and 1, or current [A].
     tool_current
-        Current from which it runs [A]; 1 unless given.
+        Current from which it runs [A]; 1 by default.
     markers_map
         Names of recorded markers as they are called here: R_UP=humerus_rup, or a file with a pair in each line.
     axes

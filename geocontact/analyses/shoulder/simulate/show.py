@@ -34,7 +34,7 @@ DIRECTIONS = {
 POINT = (
     "The cuff holds the arm at one point: a sphere in a tube of the same radius. That holds two of the three joints; "
     "the third is held by friction, stops and damping of the joints, which are invented, and so is what of the passive "
-    "joints, of slip and shear hangs on them. Padding, skin and the area of contact are not modelled."
+    "joints, of slip and shear depends on them. Padding, skin and the area of contact are not modelled."
 )
 SURFACE = (
     "The cuff holds the arm by an elastic foundation: pad and soft tissue as springs that do not know each other, the "

@@ -13,7 +13,8 @@ from geocontact.data.plausible import CUTOFF, GAP
 
 @dataclass(frozen=True)
 class StudyOptions(Options):
-    """Simulate the arms of a study along the motion in the device and along that without it, beside logger and mat.
+    """Simulate the arms of a study along the motion in the device and along that without it, compared with logger and
+    mat.
 
     Parameters
     ----------

@@ -51,7 +51,7 @@ MOST = 24
 """Arms that are drawn."""
 PASSIVE = (
     "What turns the passive joints is the sphere's push sideways; about the third direction only friction, stops and "
-    "joint damping hold them, so their angles hang on numbers that are invented."
+    "joint damping hold them, so their angles depend on numbers that are invented."
 )
 SHOWN = {ELEVATION: ("elevation of the exoskeleton's arm", "deg"), FORCE: ("force that lifts the arm", "N")}
 """Channels, with title and unit."""
@@ -115,7 +115,7 @@ class StudyResult(Result):
         }
         page = Page(
             title=f"Study of {len({each.trial.name for each in self.cases})} trials with {self.device.name}",
-            subtitle="Shoulder exoskeleton driven by human motion, beside its logger and a pressure mat",
+            subtitle="Shoulder exoskeleton driven by human motion, compared with its logger and a pressure mat",
             time=np.zeros(1),
             time_label="",
             headline=headline(self.sentences, most=2),

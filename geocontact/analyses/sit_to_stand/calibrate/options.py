@@ -15,7 +15,7 @@ MOST_STARTS, MOST_POINTS = 1000, 20
 
 @dataclass(frozen=True)
 class StandingCalibrateOptions(StandingSearchOptions):
-    """Parameters of foot and ground that let a planar chain stand up as recorded, from several trials at once.
+    """Calibrate foot and ground contact from sit-to-stand trials, from several trials at once.
 
     Parameters
     ----------
@@ -25,11 +25,11 @@ class StandingCalibrateOptions(StandingSearchOptions):
     The search
     ----------
     starts
-        Further starts, drawn from what is believed of the parameters.
+        Further starts, drawn from the prior of the parameters.
     resamples
         Calibrations of trials that the answer itself makes, whose mean error is taken off; fewer than two for none.
     seed
-        Of starts and resamples.
+        Seed of starts and resamples.
     level
         Probability of the intervals.
     profiles
@@ -37,7 +37,7 @@ class StandingCalibrateOptions(StandingSearchOptions):
     """
 
     writes: ClassVar[str] = """
-    Writes parameters.csv (value, interval, and whether the trials tell it), errors.csv (how near each channel is),
+    Writes parameters.csv (value, interval, and whether the trials identify it), errors.csv (how near each channel is),
     certificate.csv (of the motion), correlation.csv, numbers.csv and mesh.csv (all that ran), model.osim, a table over
     time and a trajectory for OpenSim's Moco for each trial, a figure, report.html and run.json into OUT.
 

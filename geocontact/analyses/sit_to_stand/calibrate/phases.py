@@ -46,7 +46,7 @@ def doubt_phase(one: CalibratedPhase) -> None:
             reserve(not_certified(f"{motion.name} in {phase}", seen.certificate))
     at_bound, believed, apart = (
         ", ".join(n.name for n in one.numbers.numbers if n.verdict == verdict)
-        for verdict in ("on its bound", "believed", "not separable")
+        for verdict in ("on its bound", "prior-dominated", "not separable")
     )
     if at_bound:
         reserve(f"on its bound, so that the value says where the bound is: {at_bound}")
@@ -59,7 +59,7 @@ def doubt_phase(one: CalibratedPhase) -> None:
             "the model lacks something, or the noise is larger than said"
         )
     if believed:
-        words = f"these trials tell little more than what was believed of {believed}"
+        words = f"these trials add little to the prior of {believed}"
         reserve(f"{words}: their values are mostly the belief's")
     most = max(one.shares, key=lambda name: one.shares[name])
     if one.shares[most] > MOST_OF_IT:
@@ -87,7 +87,7 @@ def parameters_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
             "value": n.value,
             "lower": n.lower,
             "upper": n.upper,
-            "sd believed": n.before,
+            "sd prior": n.before,
             "sd with the trials": n.after if np.isfinite(n.after) else np.nan,
             "sd of what is assumed": n.assumed,
             "verdict": n.verdict,

@@ -129,11 +129,11 @@ def run(given: StandingUpTrials, o: StandingCalibrateOptions) -> StandingCalibra
     result = StandingCalibrateResult(options=o, given=given, phases=phases, trials=trials)
     for phase in phases:
         doubt_phase(phase)
-    _say(result)
+    _report(result)
     return result
 
 
-def _say(r: StandingCalibrateResult) -> None:
+def _report(r: StandingCalibrateResult) -> None:
     errors = r.errors
     numbers = [number for phase in r.phases for number in phase.numbers.numbers if number.verdict != "held"]
     known = [number.name for number in numbers if number.verdict == "known"]
@@ -170,7 +170,7 @@ def _say(r: StandingCalibrateResult) -> None:
                 "misfit": phase.misfit,
                 "starts": [{"objective": end.objective, "solved": end.solved, "same": end.same} for end in phase.ends],
                 "condition": None if phase.numbers.told_apart is None else phase.numbers.told_apart.condition,
-                "sharper_than_believed": phase.numbers.directions.tolist(),
+                "sharper_than_prior": phase.numbers.directions.tolist(),
                 "cost_shares": phase.shares,
                 "parameters": {n.name: n.value for n in phase.numbers.numbers},
             },

@@ -16,13 +16,13 @@ MODEL = [
     "Both legs are one planar chain: masses, torques and the ground's force are those of both, a strap is that of one.",
     "Each deviation from the recording counts in parts of its noise.",
     "The motion is sought together with the parameters under exact equations of motion; it is not the recorded one.",
-    "Known: the trials at least halve the standard deviation that was believed beforehand. Believed: they do not.",
+    "Identified: the trials at least halve the standard deviation of the prior. Prior-dominated: they do not.",
     "Not separable: another minimum that costs little more has another value; the interval covers both.",
-    "What was believed is invented, as are the usual values.",
-    "Intervals hold for this model and white noise of the told size, not beyond.",
+    "The priors are invented, as are the usual values.",
+    "Intervals hold for this model and white noise of the stated size, not beyond.",
     "Values are less the mean error that calibrations of resampled trials show, where these were asked for.",
     "Certified: the balance holds between the collocation points to 5 N and 1 N m.",
-    "Beside that, another integrator that starts at any node follows the motion over one interval and over 0.2 s.",
+    "In addition, another integrator that starts at any node follows the motion over one interval and over 0.2 s.",
     "Standing up is unstable: an open loop departs even from an exact answer, at the growth rate in the table.",
 ]
 
@@ -37,9 +37,9 @@ def calibration_page(
     sections: list[Section] = [
         standing_scene(given.subject, trials),
         *standing_curves(trials),
-        frame_table("Parameters in SI: what these trials tell", tables["parameters"], 3),
+        frame_table("Parameters in SI: what these trials identify", tables["parameters"], 3),
         frame_table("Between and beyond the collocation points", tables["certificate"], 3),
-        frame_table("Root mean square differences and the noise that was told", tables["errors"], 3),
+        frame_table("Root mean square differences and the stated noise", tables["errors"], 3),
         frame_table("Correlation of the estimates", tables["correlation"], 2),
     ]
     residual = max(float(trial.judged.force.max()) for trial in trials)

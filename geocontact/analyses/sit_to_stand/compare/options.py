@@ -10,7 +10,7 @@ from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOpti
 
 @dataclass(frozen=True)
 class StandingCompareOptions(StandingPredictOptions):
-    """Predictions of trials that were not used beside their recordings, and beside predictors without a model.
+    """Predictions of held-out trials compared with their recordings and with baseline predictors.
 
     Parameters
     ----------

@@ -109,7 +109,7 @@ def run(given: HeldOutTrials, o: StandingCompareOptions) -> StandingCompareResul
         say(f"{trial.name}: nearest by its first and last posture is {near.name}")
     errors = _compared(given, predictions, trivial)
     result = StandingCompareResult(options=o, given=given, predictions=predictions, trivial=trivial, errors=errors)
-    _say(result)
+    _report(result)
     return result
 
 
@@ -149,7 +149,7 @@ def _rows(
             yield {**told, "given": "yes" if known else "no", **off, "r2 [-]": a.r2, "noise": each.factor * each.noise}
 
 
-def _say(r: StandingCompareResult) -> None:
+def _report(r: StandingCompareResult) -> None:
     errors = r.errors
     for quantity in ("strap", "knee"):
         own = errors[errors["quantity"] == quantity]

@@ -17,8 +17,8 @@ from geocontact.view.page.content import Page, Section
 from geocontact.view.page.tables import frame_table
 
 MEANT = [
-    "Given yes: that predictor is told the channel, so that its error there is no prediction.",
-    "All given: ground reaction, centre of pressure and torques; the others are told less.",
+    "Given yes: that predictor receives the channel, so that its error there is no prediction.",
+    "All given: ground reaction, centre of pressure and torques; the others receive less.",
     "Mean and nearest of the calibration know how long the trial is; the nearest is so by first and last posture.",
     "R² is about the mean of what was recorded: below 0 that mean is the better model.",
 ]

@@ -1,4 +1,4 @@
-"""Trials whose movement is to be kept, as they are read, and tables of the exoskeletons that are chosen for them."""
+"""Trials whose movement is to be the same, as they are read, and tables of the exoskeletons chosen for them."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ LEVEL = 0.95
 
 @dataclass(frozen=True, eq=False)
 class TrialsToHelp:
-    """Trials whose movement is to be kept.
+    """Trials whose movement is to be the same.
 
     Parameters
     ----------

@@ -21,12 +21,12 @@ class StandingDesignOptions(StandingSearchOptions):
     Parameters
     ----------
     study
-        Trials of a person with the exoskeleton (.toml), whose movement is to be kept.
+        Trials of a person with the exoskeleton (.toml), whose movement is to be the same.
     parameters
         parameters.csv of a calibration with the exoskeleton.
 
-    What is best
-    ------------
+    Objective
+    ---------
     vary
         What is chosen, separated by commas: share (of the person's knee torque), timing, place (of the strap), normal,
         tangential and turning (its stiffnesses).
@@ -35,8 +35,8 @@ class StandingDesignOptions(StandingSearchOptions):
     knee
         True peak of the torque of the person's knee at most, as part of that without help.
 
-    How it is judged
-    ----------------
+    Validation
+    ----------
     front
         Further limits of the knee between none and `knee`, each with its own best.
     draws
@@ -44,7 +44,7 @@ class StandingDesignOptions(StandingSearchOptions):
     robust
         Choose for the worst of the draws too.
     seed
-        Of the draws.
+        Seed of the draws.
     """
 
     writes: ClassVar[str] = """

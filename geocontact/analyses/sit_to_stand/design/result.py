@@ -170,7 +170,7 @@ def run(given: TrialsToHelp, o: StandingDesignOptions) -> StandingDesignResult:
         options=o, given=given, model=search.model, designs=tuple(designs), front=front, draws=draws
     )
     doubt(result, stopped=search.stop)
-    _say(result, search.movements.solved, search.movements.seconds)
+    _report(result, search.movements.solved, search.movements.seconds)
     return result
 
 
@@ -184,7 +184,7 @@ def _in_terms_of(o: StandingDesignOptions) -> Iterator[None]:
     except NoMovementError as error:
         if error.design == WORN:
             remedy = "check that they are of this person"
-            raise InputError(o.parameters, "", f"nobody stands up with these: {error}", remedy) from error
+            raise InputError(o.parameters, "", f"no standing up with these: {error}", remedy) from error
         remedy = "vary less, or give more `nodes`"
         raise InputError("", f"`vary`, {error.design}", f"a movement is not found: {error}", remedy) from error
 
@@ -211,7 +211,7 @@ def doubt(r: StandingDesignResult, *, stopped: bool) -> None:
         reserve(f"{r.options.draws - len(r.draws)} of {r.options.draws} draws have no movement and are left out")
 
 
-def _say(r: StandingDesignResult, solved: int, seconds: float) -> None:
+def _report(r: StandingDesignResult, solved: int, seconds: float) -> None:
     """The aim and the knee by each design, what was chosen, the gain, and what it cost to find."""
     aim, unit = MEASURES.index(r.options.aim), UNITS[r.options.aim]
     what, sought, beside = AIMS[r.options.aim]

@@ -21,7 +21,7 @@ MODEL = [
     "The person stands up as in the trial with little jerk and torque, and does not give way to spare the strap.",
     "The exoskeleton helps at the knee with a share of the person's torque, most at one time of the movement.",
     "Smooth peaks are the norm of order 24 over the movement. Largest values are true peaks, also between the points.",
-    "Without help the exoskeleton's weight hangs on the strap. A share lifts it, a larger one presses the other way.",
+    "Without help the strap carries the exoskeleton's weight. A share lifts it, a larger one presses the other way.",
     "The limit of the knee is a part of its true peak without help, and holds at every time.",
     "Both legs are one chain, a strap is that of one.",
     "What can be built, the width of the help and the sizes of the person's habit are invented.",

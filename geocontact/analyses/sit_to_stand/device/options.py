@@ -28,9 +28,9 @@ class StandingDeviceOptions(Options):
     motors
         Torques of its motors meanwhile, columns of the same names, of both legs [N m].
     height
-        Of the person whom it is set to, which says how long its parts are [m].
+        Height of the wearer, which says how long its parts are [m].
     cutoff
-        Of angles and torques alike [Hz].
+        Cut-off of the low-pass of angles and torques [Hz].
     level
         Probability of the intervals.
 
@@ -46,9 +46,9 @@ class StandingDeviceOptions(Options):
     """
 
     writes: ClassVar[str] = """
-    Writes parameters.csv (value, interval, and whether the motion tells it by itself), unloaded.csv (torques of the
-    motors and of the fit), numbers.csv (all that ran), with a trial torque.csv and torques.sto, a figure, report.html
-    and run.json into OUT.
+    Writes parameters.csv (value, interval, and whether the motion identifies it by itself), unloaded.csv (torques of
+    the motors and of the fit), numbers.csv (all that ran), with a trial torque.csv and torques.sto, a figure,
+    report.html and run.json into OUT.
     """
 
     over_time = True

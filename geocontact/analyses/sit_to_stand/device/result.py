@@ -54,9 +54,9 @@ if TYPE_CHECKING:
 
 MEANT = [
     "The motors' torque is linear in the parameters, and least squares find them; bodies are those of both legs.",
-    "By itself: the motion tells that parameter.",
+    "By itself: the motion identifies that parameter.",
     "Not at all: it does not act on the motors, so that 0 is shown.",
-    "In sums only: the motion tells it together with others; the shortest answer is shown, torques are those of all.",
+    "In sums only: the motion identifies it with others; the shortest answer is shown, torques are those of all.",
     "Angles and torques went through the same filter, so that the fit is not bent by it.",
     "In a trial the torque at a hinge is that of its motor less its friction.",
 ]
@@ -210,7 +210,7 @@ class StandingDeviceResult(Result):
                 "value": found,
                 "lower": lower,
                 "upper": upper,
-                "told": np.where(fit.alone, "by itself", np.where(found == 0.0, "not at all", "in sums only")),
+                "identified": np.where(fit.alone, "by itself", np.where(found == 0.0, "not at all", "in sums only")),
             }
         )
 
@@ -272,16 +272,16 @@ def run(given: DeviceRecordings, o: StandingDeviceOptions) -> StandingDeviceResu
     if dynamics.residual > POORLY * spread:
         reserve(
             f"{dynamics.residual:.2g} N m are left of the motors' torques, whose spread is {spread:.2g} N m: check the "
-            "names of the hinges, the signs and that nobody wears it"
+            "names of the hinges, the signs and that it is not worn"
         )
     still = [name for name, rate in zip(EXO_JOINTS, np.abs(of.u).max(axis=0), strict=True) if rate < np.radians(5.0)]
     if still:
-        reserve(f"{', '.join(still)} turned at less than 5 deg/s: its friction is hardly told")
+        reserve(f"{', '.join(still)} turned at less than 5 deg/s: its friction is hardly identified")
     result = StandingDeviceResult(options=o, given=given, dynamics=dynamics)
     table = result.table("parameters")
-    alone = table[table["told"] == "by itself"]
+    alone = table[table["identified"] == "by itself"]
     say(
-        f"{dynamics.rank} combinations of {len(table)} parameters told, {len(alone)} parameters by themselves; "
+        f"{dynamics.rank} combinations of {len(table)} parameters identified, {len(alone)} parameters by themselves; "
         f"{dynamics.residual:.2g} N m are left of the motors' torques (root mean square)"
     )
     note(

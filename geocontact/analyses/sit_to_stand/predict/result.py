@@ -213,11 +213,11 @@ def run(given: HeldOutTrials, o: StandingPredictOptions) -> StandingPredictResul
                 result_of(predictions).write_numbers(draft)
 
     result = result_of(predicted(given, o, keep))
-    _say(result)
+    _report(result)
     return result
 
 
-def _say(r: StandingPredictResult) -> None:
+def _report(r: StandingPredictResult) -> None:
     errors = r.errors
     strap = errors[errors["quantity"].str.endswith("strap")].groupby("predictor", sort=False)["rmsd"].max()
     turning = errors["quantity"].isin(COORDINATES) & (errors["unit"] == "deg")
@@ -227,7 +227,7 @@ def _say(r: StandingPredictResult) -> None:
         f"angles within {angles[ALL]:.2f}° (largest RMSD)"
     )
     others = [f"{name} {strap[name]:.1f} N and {angles[name]:.2f}°" for name in strap.index if name != ALL]
-    say(f"beside it: {'; '.join(others)}")
+    say(f"for comparison: {'; '.join(others)}")
     seen = [one.trial.judged.certificate for one in r.predictions]
     passed = sum(each is not None and each.converged for each in seen)
     say(f"{passed} of {counted(len(seen), 'motion')} certified")
