@@ -94,3 +94,36 @@ def test_the_page_says_what_made_its_tables(name: str, page: str) -> None:
     text = (ROOT / "docs" / page).read_text(encoding="utf-8").replace("\n", " ")
     assert f"commit {results(name)['commit']}" in text
     assert "were made before" not in text
+
+
+def test_known_best_fulcrums() -> None:
+    """Right of answered, and the median width of the intervals where there are several."""
+    found = results("prosthesis_design")
+    page = (ROOT / "docs" / "theory" / "prosthesis_design.md").read_text(encoding="utf-8")
+    assert f"commit {found['commit']})" in page
+    for label, known in (("calibrated", "known"), ("not calibrated", "blind")):
+        own = found["figures"][known]
+        (persons, *cells) = row("theory/prosthesis_design.md", label)
+        assert int(persons) == own["persons"]
+        for cell, aim in zip(cells, ("energy", "radius", "ankle_moment", "socket_moment", "loading_rate"), strict=True):
+            counts, _, width = cell.partition(", ")
+            assert counts == f"{own['aims'][aim]['within']} of {own['aims'][aim]['told']}", (label, aim)
+            assert not width or near(width, own["aims"][aim]["width_mm"]), (label, aim)
+
+
+def test_responses_of_the_leg() -> None:
+    level = results("prosthesis_responses")["figures"]["level"]
+    titles = {
+        "peak ankle moment [N m]": "ankle_moment",
+        "peak moment at the socket [N m]": "socket_moment",
+        "energy that the keel returns [J]": "energy",
+        "radius [m]": "radius",
+    }
+    for title, aim in titles.items():
+        cells = row("theory/prosthesis_design.md", title)
+        for cell, response in zip(cells, ("angles kept", "torque kept", "joint torques kept"), strict=True):
+            for shown, value in zip(
+                cell.split(" → "), (level[aim][response][0], level[aim][response][-1]), strict=True
+            ):
+                assert near(shown, value), (aim, response)
+    assert sorted(round(t, 2) for t in level["tracking 0"]["holds_s"]) == [0.34, 0.37, 0.72]

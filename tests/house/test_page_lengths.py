@@ -48,7 +48,7 @@ LIMITS = {
     "theory/prosthesis_both_sides.md": 1070,
     "theory/prosthesis_calibration.md": 1210,
     "theory/prosthesis_compare.md": 900,
-    "theory/prosthesis_design.md": 1430,
+    "theory/prosthesis_design.md": 1490,
     "theory/prosthesis_gap.md": 920,
     "theory/prosthesis_keel.md": 1170,
     "theory/prosthesis_stance.md": 1430,
