@@ -134,4 +134,5 @@ def test_an_axis_is_compared_with_the_line_of_two_markers(leg: tuple[Multibody, 
     along = np.diff(found.points.first, axis=0)[0]
     turn = np.degrees(np.arccos(abs(line @ along) / np.linalg.norm(line) / np.linalg.norm(along)))
     assert found.sentences[1] == f"the axis is {turn:.1f} deg from the line through femur_r0 and femur_r1"
+    assert "halves of the trial give axes 0.0 mm apart" in found.sentences[2]
     assert found.sentences[0].startswith("axis through ") and dict(found.facts())["direction"].count(",") == 2

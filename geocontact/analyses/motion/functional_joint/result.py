@@ -122,6 +122,7 @@ APART = 0.02
 LOOSE = 0.5
 """Looseness of an axis from which on a point fits as well."""
 FRAME = "axes of the markers as written, while standing or in the first whole frame; origin: the mean of its markers"
+SEVERAL = {"axis": "axes", "centre": "centres"}
 MOVE = "move the joint through its range, a hip forward, sideways and round, with all markers in sight"
 
 
@@ -197,7 +198,7 @@ def _report(o: JointOptions, pair: MovedPair, points: JointPoints, halves: float
     say(f"{place_words(points)} in the frame of {', '.join(pair.first.names)}{_error_words(points)}")
     if points.looseness is not None and (turn := _from_near(o, pair, points)) is not None:
         say(f"the axis is {np.degrees(turn):.1f} deg from the line through {' and '.join(marker_list(o.near or ''))}")
-    both = "" if np.isnan(halves) else f"; halves of the trial give {kind}s {1e3 * halves:.1f} mm apart"
+    both = "" if np.isnan(halves) else f"; halves of the trial give {SEVERAL[kind]} {1e3 * halves:.1f} mm apart"
     off = f"residual between the segments {1e3 * points.rms:.1f} mm root mean square"
     say(f"{len(pair.time)} frames, {np.degrees(turned(pair)):.0f} deg of turn: {off}{both}")
     if np.isnan(halves):
