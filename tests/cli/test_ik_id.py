@@ -507,7 +507,7 @@ def test_a_joint_on_a_frame_of_a_body_is_scaled_or_refused(tmp_path: Path) -> No
     (tmp_path / "turned.osim").write_text(turned, encoding="utf-8")
     longer = ("--scale", "femur_r:y=1.1", "--out", tmp_path / "t")
     result = call("scale", static, "--model", tmp_path / "turned.osim", *longer)
-    assert result.code == 2 and "hangs on frames in a way that is not scaled" in result.err
+    assert result.code == 2 and "is attached to frames in a way that is not scaled" in result.err
 
 
 REFUSED = {

@@ -183,7 +183,7 @@ def joint(folder: Path, slope: str = "1") -> JointModel:
 
 def test_a_model_without_a_joint_lists_those_it_has(tmp_path: Path) -> None:
     model = written(tmp_path, JOINT, "knee.osim")
-    with pytest.raises(InputError, match="`joint`: is missing beside `osim`; joints of the model are: knee"):
+    with pytest.raises(InputError, match="`joint`: is missing with `osim`; joints of the model are: knee"):
         read_motion(written(tmp_path, KNEE, "gait.mot"), osim=model)
 
 

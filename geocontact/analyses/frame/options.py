@@ -79,8 +79,11 @@ class Declared:
         return get_origin(self.kind) is tuple and get_args(self.kind)[-1] is Ellipsis
 
     def read(self, typed: Any) -> Any:
-        """What was typed on the command line, in SI."""
-        return typed if self.typed is None or typed is None else typed_text.read(self.typed, self.name, typed)
+        """What was typed on the command line or stands in a study, in SI."""
+        if self.typed is None or typed is None:
+            return typed
+        whole = isinstance(typed, int) and not isinstance(typed, bool) and self.typed.kind is float
+        return typed_text.read(self.typed, self.name, float(typed) if whole else typed)
 
     def coerced(self, value: Any) -> Any:
         """The value as the analysis takes it: in SI, paths for text and text for paths, a tuple for a single value."""

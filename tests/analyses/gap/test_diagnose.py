@@ -116,7 +116,7 @@ def test_stages_are_told_as_they_begin(found: DiagnoseResult) -> None:
             "two effects together",
             "whatever else it may be",
             "whether held-out trials are predicted better",
-            "what is left over",
+            "residuals",
             "what would be invisible",
             "what is one law with it",
             "the experiment to run next",

@@ -42,7 +42,7 @@ def test_held_parameters_do_not_count_and_untold_ones_are_refused() -> None:
     assert inverse[0, 0] > 0.0 and (inverse[1] == 0.0).all()
     both = solve(untold, options)
     assert inverse_reduced_hessian(untold, both, (False, True))[0, 0] == pytest.approx(inverse[0, 0], rel=1e-9)
-    with pytest.raises(ValueError, match="not told"):
+    with pytest.raises(ValueError, match="not identified"):
         inverse_reduced_hessian(untold, both)
 
 
