@@ -47,7 +47,7 @@ def test_measured_areas_stand_in_headline_and_curve():
     rows = compared(ours, reference, Path("measured.csv"))
     found = contact_page.contact_page(replace(here, compared=Compared(rows, 0.02)), "")
     worst = rows["relative [-]"].abs().max()
-    said = f"Beside 2 measured areas the largest difference is {worst:.1%}, beyond the tolerance of 2.0%."
+    said = f"Against 2 measured areas the largest difference is {worst:.1%}, beyond the tolerance of 2.0%."
     assert found.headline[1] == said
     (points,) = section(found, Curves).points
     assert points.name == "measured, fixed body"

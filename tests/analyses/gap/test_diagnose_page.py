@@ -292,7 +292,7 @@ def test_a_class_is_the_answer_where_effects_are_one_law() -> None:
     both = said(**alike | {"effects": ("damping", "preload")})[0]
     assert both.startswith("damping or filter_lag (one law on these trials) and preload are missing")
     many = said(**alike | {"effects": (), "verdict": "unresolved"})
-    assert many[1] == second and "tell damping, filter_lag and slip apart" in many[0]
+    assert many[1] == second and "separate damping, filter_lag and slip" in many[0]
 
 
 def test_what_is_not_ruled_out_stands_apart_from_what_cannot_be_told(told: Told) -> None:

@@ -37,7 +37,7 @@ def test_the_tray_shows_where_each_side_bears() -> None:
 
 def test_single_cycles_stand_beside_their_mean(tmp_path: Path) -> None:
     page = page_of(recorded(tmp_path), cycles="0.2:1.3,1.3:2.4,2.4:3.5")
-    (panel,) = [s for s in page.sections if isinstance(s, Curves) and "each cycle beside" in s.title]
+    (panel,) = [s for s in page.sections if isinstance(s, Curves) and "each cycle and the mean" in s.title]
     own, mean = panel.curves
     inside = (page.time > 0.25) & (page.time < 3.45)
     np.testing.assert_allclose(mean.values[inside], own.values[inside], atol=15.0)

@@ -149,7 +149,7 @@ def test_saturation_and_dead_cells_are_told(tmp_path: Path) -> None:
 def test_a_mat_that_hangs_over_leaves_its_cells_out(tmp_path: Path) -> None:
     over = marks(tmp_path, "a,0,0,80,30,0", "b,1,0,90,30,0", "c,0,3,80,60,0", name="over.csv")
     result = flat(tmp_path, uniform(), landmarks=over)
-    assert any("6 cells hang over the edge" in line for line in result.warnings)
+    assert any("6 cells reach beyond the edge" in line for line in result.warnings)
     assert result.table()["normal [N]"].iloc[0] == pytest.approx(6.0)
 
 

@@ -54,7 +54,7 @@ def test_it_holds_for_its_own_standing_trial_only(tmp_path: Path) -> None:
     file, heard = law(tmp_path, f'{FOOT}standing = "{own}"\n'), record()
     assert offset_of_law(file, TRIAL / "standing.trc") == OFFSET and not heard.warnings
     assert offset_of_law(file, out_of_flat(tmp_path, 0.01)) == AS_STOOD
-    assert "found beside another standing trial" in heard.warnings[0]
+    assert "of another standing trial" in heard.warnings[0]
 
 
 @pytest.mark.parametrize(
