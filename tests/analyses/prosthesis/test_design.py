@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.prosthesis.design.sweep import shown_values
 from geocontact.below_knee_prosthesis.design.knob import AIMS
 from tests.analyses.prosthesis.intact_trial import STANDING, known_step
 from tests.analyses.prosthesis.spoilt_trial import renamed_markers
@@ -80,7 +81,7 @@ def test_shipped_trial_to_files(tmp_path: Path) -> None:
     assert any("a weak spring at hip and knee" in each for each in found.warnings)
     hangs_on = found.table("sensitivities").set_index(["number", "response", "outcome"])["change"]
     assert hangs_on["fulcrum", "angles kept", "energy"] < 0.0
-    step = np.interp([10.0, 20.0], found.sweep.shown - found.sweep.shown[0], energy)
+    step = np.interp([10.0, 20.0], shown_values(found.sweep) - shown_values(found.sweep)[0], energy)
     assert hangs_on["fulcrum", "angles kept", "energy"] == pytest.approx(step[1] - step[0], rel=0.6)
     pairs = found.table("pairs").set_index("outcome")
     assert pairs.loc["socket_moment", "best alignment [deg]"] < 0.0  # toes down shortens the lever
