@@ -90,6 +90,6 @@ def test_refusals_name_arguments(markers: Path) -> None:
 def test_coordinates_that_markers_do_not_tell_come_first(markers: Path) -> None:
     """Markers of the pelvis alone fit very well, and say nothing of the leg."""
     left_out = tuple(f"{body}{k}=0" for body in ("femur_r", "tibia_r", "foot_r") for k in range(4))
-    with pytest.warns(gc.InputWarning, match="no frame tells hip_x"):
+    with pytest.warns(gc.InputWarning, match="no frame determines hip_x"):
         found = gc.inverse_kinematics(markers, model=LEG, weight=left_out)
     assert found.sentences[0].startswith("5 of 11 coordinates are not determined; 101 frames, 4 markers")

@@ -312,7 +312,7 @@ def test_frames_without_a_marker_stay_empty(tmp_path: Path) -> None:
 
 def test_what_no_frame_tells_stays_at_its_default(tmp_path: Path) -> None:
     result = done(ik(tmp_path, lost(tmp_path, slice(None), slice(12, 16))))
-    assert any("no frame tells ankle: kept at the model's default" in w for w in result.warnings)
+    assert any("no frame determines ankle: set to the model's default" in w for w in result.warnings)
     np.testing.assert_array_equal(knee_and_ankle(result.folder)[1], 0.0)
 
 

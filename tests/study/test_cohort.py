@@ -95,7 +95,7 @@ def test_no_room_ends_the_study_and_loses_nothing(tmp_path: Path, scheduler: str
     file, out = study(tmp_path, {**dict.fromkeys("ABCDEF", "1"), "G": "2 full"}), tmp_path / "out"
     ended = cohort(file, out, scheduler)
     assert ended.code == 1 and len(ended.complaints) == 1
-    assert ended.complaints[0].startswith(f"{out / 'results'}: No space left on device; what is done is kept")
+    assert ended.complaints[0].startswith(f"{out / 'results'}: No space left on device; finished trials stay")
     (tmp_path / "G.txt").write_text("2", encoding="utf-8")
     done = cohort(file, out, scheduler)
     assert done.code == 0 and "7 of 7" in done.out and ", 7 of them new" not in done.out
