@@ -282,7 +282,7 @@ def _angles(place: Path, model: Any, truth: Any) -> Row:
     answers = [_values(table, model) for table in (one, two)]
     squares = [_squares(model, tasks, seen, frames, values) for values in answers]
     run = json.loads((place / "ours_ik" / "run.json").read_text(encoding="utf-8"))
-    held = next((w for w in run["warnings"] if w.startswith("no frame tells")), "")
+    held = next((w for w in run["warnings"] if w.startswith("no frame determines")), "")
     known = np.array([c.kind == "rotational" and c.name not in held for c in model.coordinates])
     names = np.array([c.name for c in model.coordinates])[known]
     ours, theirs, true = (np.degrees(each[:, known]) for each in (*answers, truth[frames]))
@@ -291,7 +291,7 @@ def _angles(place: Path, model: Any, truth: Any) -> Row:
         "frames": len(two.time),
         "columns_missing": sorted(set(two.channels) - set(one.channels)),
         "times_off_s": float(np.abs(one.time - two.time).max()),
-        "held": held.removeprefix("no frame tells ").partition(":")[0],
+        "held": held.removeprefix("no frame determines ").partition(":")[0],
         "angles_off_deg": float(off.max()),
         "angles_beyond_0.1_deg": {str(n): float(each) for n, each in zip(names, off, strict=True) if each > 0.1},
         "frames_with_larger_sum": int((squares[0] > squares[1] * (1.0 + 1e-6)).sum()),

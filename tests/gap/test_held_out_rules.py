@@ -255,8 +255,9 @@ def test_each_of_two_effects_must_earn_its_place_beside_the_other_alone() -> Non
     rules = HeldOutRules.of(problem, base.judged)
     damper, drift = (with_one(problem, pair, one) for one in two)
     assert rules.over_base(pair) == "" and rules.objection(damper, ()) == ""
-    assert rules.objection(pair, (damper, drift)).startswith("compared with damping alone, trials left out are not surely")
-    assert rules.objection(pair, (drift,)).startswith("compared with damping alone"), "also where it was not judged alone"
+    said = "compared with damping alone, trials left out are not surely"
+    assert rules.objection(pair, (damper, drift)).startswith(said)
+    assert rules.objection(pair, (drift,)).startswith(said), "also where it was not judged alone"
 
 
 def test_the_share_that_is_gone_is_that_of_the_channel_that_gains_most():
