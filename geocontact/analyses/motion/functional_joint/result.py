@@ -4,8 +4,7 @@
 >>> leg = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim").write("leg")
 >>> thigh, shank = (",".join(f"{body}_r{k}" for k in range(3)) for body in ("femur", "tibia"))
 >>> gc.functional_joint(leg / "markers.trc", first=thigh, second=shank, axis=True).sentences[0]
-"101 frames, 60 deg of turn: the segments' axis is 0.0 mm off itself, root mean square; halves of the trial give it 0.0
-mm apart"
+'axis through 54.2, -345.8, -7.1 mm along 0.000, -0.021, 1.000 in the frame of femur_r0, femur_r1, femur_r2'
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 >>> import geocontact as gc
 >>> result = gc.inverse_dynamics("meshes/leg_swing.mot", model="meshes/leg.osim")
 >>> result.sentences[0]
-'101 frames; most at hip_z_moment, 26.8 N m; left over at the joint to the ground: 264 N at most, 117.0% of
+'101 frames; most at hip_z_moment, 26.8 N m; residual at the joint to the ground: 264 N at most, 117.0% of
 the weight, as nothing but gravity acts'
 """
 

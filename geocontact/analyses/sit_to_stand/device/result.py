@@ -3,8 +3,8 @@
 >>> import geocontact as gc
 >>> unloaded = "meshes/standing_up_exoskeleton/unloaded_"
 >>> gc.sit_to_stand.device(unloaded + "coordinates.sto", motors=unloaded + "motors.sto")
-15 combinations of 18 parameters told, 11 parameters by themselves; 0.22 N m are left of the motors' torques (root mean
-square)
+15 combinations of 18 parameters identified, 11 parameters by themselves; 0.22 N m are left of the motors' torques (root
+mean square)
 """
 
 from __future__ import annotations
