@@ -168,7 +168,8 @@ def test_more_styles_than_a_figure_tells_apart_are_said_and_kept(tmp_path: Path)
     with pytest.warns(InputWarning, match="7 styles are more than a figure can show"):
         result = load_cells(recorded(tmp_path), unit="N", cycles=table)
     assert result.table("ensemble")["style"].nunique() == 7
-    assert len(result.figure().axes) == 2, "cells and compartments over time stand in for the mean"
+    titles = [panel.title for panel in next(iter(result.curves().values())).panels]
+    assert titles == ["Contact force", "Total force, each cycle and the mean", "Load cells"], "in place of the mean"
 
 
 @pytest.mark.parametrize(
@@ -216,7 +217,7 @@ def test_samples_missing_inside_a_load_are_not_interpolated_over(tmp_path: Path)
     left = result.table("cycles").drop(columns=["style", "recording"])
     want = whole.drop(index=1).drop(columns=["style", "recording"]).reset_index(drop=True)
     pd.testing.assert_frame_equal(left, want)
-    line = result._over_time(result.recordings[0]).axes[0].lines[0]
+    line = result.figures()["loadcells"].axes[0].lines[0]
     assert np.isnan(line.get_ydata()).sum() == 1, "the figure draws no line across"
 
 
