@@ -28,7 +28,7 @@ IN_SI = (
     "gap/discriminability/answer.py",
     "mat/loads.py",
     "prosthesis/stance_files.py",
-    "shoulder/compare/errors.py",
+    "shoulder/compare/result.py",
     "sit_to_stand/exports.py",
     "virtual_markers/result.py",
 )

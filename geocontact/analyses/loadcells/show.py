@@ -17,7 +17,7 @@ from geocontact.data.text import seconds
 from geocontact.data.trial import mean_and_sd
 from geocontact.identify.signals.cycles import STEPS
 from geocontact.identify.signals.filters import broken, gaps
-from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Span, mean_curve
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Shade, mean_curve
 from geocontact.view.extremes import FRAMES
 from geocontact.view.page.content import (
     Choices,
@@ -296,7 +296,7 @@ def _curves(
     """Compartments, cells, and the total beside the mean of its cycles; broken where samples are missing."""
     per = unit.per_newton
     sides = {name: shown.of(values) for name, values in recorded.forces.curves.items()}
-    spans = [Span("cycle", cut.span.start, cut.span.end) for cut in cuts if cut.recording == recorded.file.stem]
+    spans = [Shade("cycle", cut.span.start, cut.span.end) for cut in cuts if cut.recording == recorded.file.stem]
     curves = [Curve(name, values * per) for name, values in sides.items()]
     panels = [Curves("Contact force", unit.name, curves, spans=spans)]
     if spans:

@@ -14,7 +14,7 @@ from geocontact.elastic_modulus.area_force import MODULUS
 from geocontact.elastic_modulus.identify import Identification, agreement
 from geocontact.elastic_modulus.sensitivity import constant
 from geocontact.identify.identifiability import Identifiability
-from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Limit, Points, Span, stroke
+from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Limit, Points, Shade, stroke
 from geocontact.view.page.content import IntervalRow, Intervals, Page, Section, Table, Words
 
 RISE = 2.0
@@ -47,7 +47,7 @@ def modulus_curves(found: Identified) -> CurveSheet:
         [],
         points=lines,
         limits=[Limit("95 % interval ends", 1.0)],
-        spans=[Span("best values", p.best * MPA, p.best * MPA) for p in profiles.values()],
+        spans=[Shade("best values", p.best * MPA, p.best * MPA) for p in profiles.values()],
         over=Course("E*", "MPa", np.array([reach.min(), reach.max()])),
         words=PROFILE,
     )

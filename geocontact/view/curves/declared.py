@@ -69,7 +69,7 @@ class Limit:
 
 
 @dataclass(frozen=True)
-class Span:
+class Shade:
     """A shaded stretch along the panel's axis, a line where both ends are one; spans of one name are one in the key."""
 
     name: str
@@ -107,7 +107,7 @@ class Curves:
     points: Sequence[Points] = ()
     limits: Sequence[Limit] = ()
     beside: Scale | None = None
-    spans: Sequence[Span] = ()
+    spans: Sequence[Shade] = ()
     over: Course | None = None
     log: bool = False
     words: str = ""

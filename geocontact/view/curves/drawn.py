@@ -55,7 +55,7 @@ HANDLE = 8
 
 
 @dataclass(frozen=True, eq=False)
-class Entry:
+class LegendEntry:
     """What a legend says of a line, a mark or a span; `look` tells those apart that look alike."""
 
     artist: Artist | tuple[Artist, ...]
@@ -93,7 +93,7 @@ def draw_on(axes: Axes, panel: Curves, over: Course | None = None) -> None:
     _head(axes, panel, _curves(axes, panel, over))
 
 
-def _head(axes: Axes, panel: Curves, entries: Sequence[Entry]) -> None:
+def _head(axes: Axes, panel: Curves, entries: Sequence[LegendEntry]) -> None:
     """Title of a panel, and below it what is drawn."""
     grid = axes.get_subplotspec()
     title = plain(panel.title, WORDS // (grid.get_gridspec().ncols if grid is not None else 1))
@@ -103,19 +103,19 @@ def _head(axes: Axes, panel: Curves, entries: Sequence[Entry]) -> None:
         axes.set_title(title, loc="left")
 
 
-def _shared(panels_shown: Sequence[Sequence[Entry]]) -> list[Entry] | None:
+def _shared(panels_shown: Sequence[Sequence[LegendEntry]]) -> list[LegendEntry] | None:
     """What one legend says of all panels; None where a name or a look means several things, or where it is long."""
     found = list({(entry.name, entry.look): entry for entries in panels_shown for entry in entries}.values())
     unique = len({entry.name for entry in found}) == len({entry.look for entry in found}) == len(found)
     return found if unique and len(found) <= SHARED else None
 
 
-def _curves(axes: Axes, panel: Curves, over: Course | None) -> list[Entry]:
+def _curves(axes: Axes, panel: Curves, over: Course | None) -> list[LegendEntry]:
     """Everything of a panel but its legend, whose entries are returned."""
     along = panel.over or over
     if along is None:
         raise ValueError(f"{panel.title}: along what do its curves run?")
-    entries: list[Entry] = []
+    entries: list[LegendEntry] = []
     x = along.values
     for k, curve in enumerate(panel.curves):
         number = _stroke(curve.stroke, k)
@@ -128,13 +128,15 @@ def _curves(axes: Axes, panel: Curves, over: Course | None) -> list[Entry]:
             continue
         line = axes.plot(*thinned_line(x, curve.values), **look, zorder=3)[0]
         _alone(axes, x, curve.values, look["color"])
-        entries.append(Entry(line if band is None else (band, line), curve.name, (number % (len(HUES) * DASHES),)))
+        entries.append(
+            LegendEntry(line if band is None else (band, line), curve.name, (number % (len(HUES) * DASHES),))
+        )
     entries = entries if len(entries) <= NAMED else []
     if len(entries) == 1 and entries[0].name.lower() in panel.title.lower():
         entries = []  # the axis says it
     entries += [entry for k, points in enumerate(panel.points) if (entry := _points(axes, points, k)).name]
     for limit in panel.limits:
-        entries.append(Entry(axes.axhline(limit.value, color=BLACK, lw=0.8, ls="--"), limit.name, ("limit",)))
+        entries.append(LegendEntry(axes.axhline(limit.value, color=BLACK, lw=0.8, ls="--"), limit.name, ("limit",)))
     entries += _spans(axes, panel)
     _frame(axes, panel, along)
     return entries
@@ -148,21 +150,21 @@ def _alone(axes: Axes, x: Float[np.ndarray, " t"], values: Float[np.ndarray, " t
         axes.plot(x[single], values[single], ".", color=colour, markersize=2.5)
 
 
-def _points(axes: Axes, points: Points, k: int) -> Entry:
+def _points(axes: Axes, points: Points, k: int) -> LegendEntry:
     if points.joined:
         number = _stroke(points.stroke, k)
         mark = "." if len(points.time) == 1 else None
         line = axes.plot(points.time, points.values, marker=mark, **_look(number))[0]
-        return Entry(line, points.name, (number % (len(HUES) * DASHES),))
+        return LegendEntry(line, points.name, (number % (len(HUES) * DASHES),))
     colour = BLACK if points.stroke is None else HUES[points.stroke % len(HUES)]
     mark = MARKS[k % len(MARKS)]
     dots = axes.plot(
         points.time, points.values, mark, color=colour, markersize=3.0, markerfacecolor="white", markeredgewidth=0.8
     )
-    return Entry(dots[0], points.name, (mark, colour))
+    return LegendEntry(dots[0], points.name, (mark, colour))
 
 
-def _spans(axes: Axes, panel: Curves) -> list[Entry]:
+def _spans(axes: Axes, panel: Curves) -> list[LegendEntry]:
     """Shaded stretches and lines; those that follow each other are shaded in turns."""
     named: dict[str, Artist] = {}
     for k, span in enumerate(panel.spans):
@@ -171,7 +173,7 @@ def _spans(axes: Axes, panel: Curves) -> list[Entry]:
         else:
             artist = axes.axvspan(span.start, span.end, color=GREY, alpha=0.24 if k % 2 else 0.14, lw=0, zorder=0)
         named.setdefault(span.name, artist)
-    return [Entry(artist, name, (type(artist).__name__,)) for name, artist in named.items() if name]
+    return [LegendEntry(artist, name, (type(artist).__name__,)) for name, artist in named.items() if name]
 
 
 def _frame(axes: Axes, panel: Curves, along: Course) -> None:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.view.curves.declared import Curve, Curves, Limit, Points, Scale, Span
+from geocontact.view.curves.declared import Curve, Curves, Limit, Points, Scale, Shade
 from geocontact.view.page.plan import Length, Mark, Plan, Track
 from geocontact.view.page.scene import FaceMap, Linkage, Scene, SceneBody
 
@@ -73,7 +73,7 @@ __all__ = [
     "Scene",
     "SceneBody",
     "Section",
-    "Span",
+    "Shade",
     "Strip",
     "Table",
     "Track",

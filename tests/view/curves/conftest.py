@@ -15,7 +15,7 @@ from geocontact.data.gap_cells import Cell
 from geocontact.data.motion import Course
 from geocontact.view.curves.before_after import before_after
 from geocontact.view.curves.bland_altman import bland_altman
-from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Limit, Points, Span
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Limit, Points, Shade
 from geocontact.view.curves.diagnosis_answers import Ranked, ranking_figure
 from geocontact.view.curves.drawn import drawn
 from geocontact.view.curves.gap_map import gap_map_figure, gap_residuals
@@ -115,7 +115,7 @@ def declared(name: str) -> Figure:
         curves,
         [Points("by hand", PERCENT[::9], np.cos(ANGLE)[::9])],
         [Limit("limit 1 N", 1.0)],
-        spans=[Span(name, 10.0, 30.0), Span("present", 50.0, 50.0)],
+        spans=[Shade(name, 10.0, 30.0), Shade("present", 50.0, 50.0)],
     )
     own = Curves("Moment", "mm", [Curve("mean", ANGLE)], over=Course("cycle", "%", PERCENT), log=True)
     joined = Curves("Path", "mm", [], [Points("way", np.cos(ANGLE), np.sin(ANGLE), joined=True)], over=time)

@@ -22,7 +22,7 @@ from geocontact.view.curves.declared import (
     Limit,
     Points,
     Scale,
-    Span,
+    Shade,
     mean_curve,
     stroke,
 )
@@ -45,7 +45,7 @@ def force() -> Curves:
         [Curve("recorded", SINE, stroke=INK), Curve("model", RAMP, RAMP - 1.0, RAMP + 1.0, stroke=1)],
         points=[Points("by hand", np.array([0.5]), np.array([1.5]))],
         limits=[Limit("limit 4 N", 4.0)],
-        spans=[Span("tool runs", 0.5, 1.0), Span("present", 1.5, 1.5)],
+        spans=[Shade("tool runs", 0.5, 1.0), Shade("present", 1.5, 1.5)],
     )
 
 

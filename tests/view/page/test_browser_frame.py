@@ -27,7 +27,7 @@ from geocontact.view.page.content import (
     Readout,
     Row,
     Scene,
-    Span,
+    Shade,
     Table,
     Words,
 )
@@ -189,7 +189,7 @@ def test_a_panel_with_an_axis_of_its_own_is_read_there_alone(opened: Open) -> No
         over=cycle,
         log=True,
     )
-    timed = Curves("F", "N", [Curve("f", time)], spans=[Span("work", 0.25, 0.5), Span("now", 0.75, 0.75)])
+    timed = Curves("F", "N", [Curve("f", time)], spans=[Shade("work", 0.25, 0.5), Shade("now", 0.75, 0.75)])
     here = opened(Page("a", "", time, "time [s]", sections=[timed, own]))
     plot = here.tab.locator("#section-1 .plot svg")
     plot.scroll_into_view_if_needed()

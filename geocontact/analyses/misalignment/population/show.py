@@ -10,7 +10,7 @@ from geocontact.analyses.misalignment.planar import MODEL, STATES, WITHOUT_FORCE
 from geocontact.analyses.misalignment.population.drawn import Drawn, influence_table, quantile_table
 from geocontact.data.motion import Course
 from geocontact.identify.intervals.sampling import Indices
-from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Span
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Shade
 from geocontact.view.page.content import (
     IntervalRow,
     Intervals,
@@ -30,7 +30,7 @@ def population_curves(d: Drawn) -> CurveSheet:
     value, lower, upper = (
         100.0 * np.array([getattr(one, end) for one in d.exceedance]) for end in ("value", "lower", "upper")
     )
-    limit = [Span(f"limit {d.limit:g} N", d.limit, d.limit)]
+    limit = [Shade(f"limit {d.limit:g} N", d.limit, d.limit)]
     known = d.peak[np.isfinite(d.peak)]
     counts, edges = np.histogram(known, BINS, (0.0, float(d.levels[-1])))
     density = Curve("density", np.repeat(counts / (max(len(known), 1) * np.diff(edges)), 2))

@@ -16,7 +16,7 @@ from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES, Knob, 
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, shank_path
 from geocontact.below_knee_prosthesis.design.sweep import AimAnswer, Sweep
 from geocontact.data.motion import Course
-from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Points, Span, stroke
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Points, Shade, stroke
 from geocontact.view.page.content import Page, Section, Words
 from geocontact.view.page.tables import frame_table
 
@@ -33,7 +33,7 @@ def design_curves(
 ) -> CurveSheet:
     """Outcomes over what is varied with bands, the present value, the interval of the best; roll-over shapes."""
     vary, factor, bands = sweep.knob.vary, SHOWN[sweep.knob.vary][0], sweep.bands
-    present = Span("present value", factor * sweep.knob.present, factor * sweep.knob.present)
+    present = Shade("present value", factor * sweep.knob.present, factor * sweep.knob.present)
     panels = []
     for k, answer in enumerate(answers):
         curves = [
@@ -41,7 +41,7 @@ def design_curves(
             for j, response in enumerate(RESPONSES)
         ]
         best = answer.choice
-        spans = [Span("interval of the best", factor * best.lower, factor * best.upper)] if best.told else []
+        spans = [Shade("interval of the best", factor * best.lower, factor * best.upper)] if best.told else []
         measure = MEASURES[AIMS[k]]
         title = f"{measure.words[:1].upper()}{measure.words[1:]}"
         panels.append(Curves(title, measure.unit, curves, spans=[*spans, present], words="" if k else FIGURE))

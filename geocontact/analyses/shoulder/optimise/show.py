@@ -21,7 +21,7 @@ from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome
 from geocontact.shoulder_exoskeleton.support.phase_machine import SCREW
 from geocontact.shoulder_exoskeleton.support.profile_limits import Limits, SupportCase
-from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Span, stroke
+from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Shade, stroke
 from geocontact.view.page.content import Page, Section, Words
 from geocontact.view.page.tables import frame_table
 
@@ -48,7 +48,7 @@ def profile_curves(
     for name, own in by_task.items():
         time = own[0].time
         running = time[own[0].phase == SCREW]
-        spans = [Span("screw-in, as detected", float(running[0]), float(running[-1]))] if len(running) else []
+        spans = [Shade("screw-in, as detected", float(running[0]), float(running[-1]))] if len(running) else []
         needed, raised = [], []
         for case in own[:2]:
             hue, hand = HANDS[case.hand], f"{case.hand} hand"

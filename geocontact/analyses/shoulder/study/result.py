@@ -56,7 +56,7 @@ PASSIVE = (
 SHOWN = {ELEVATION: ("elevation of the exoskeleton's arm", "deg"), FORCE: ("force that lifts the arm", "N")}
 """Channels, with title and unit."""
 SAMPLES = 301
-"""Of each curve on the page."""
+"""Samples of each curve on the page."""
 
 
 def study_curves(cases: Sequence[StudyCase]) -> CurveSheet:
