@@ -704,7 +704,7 @@ def test_damaged_files_and_faults() -> None:
 
 
 def test_the_plan_of_a_large_study() -> None:
-    """Every row of the simulation, and what a trial costs."""
+    """Every row of the simulation that the page has, and what a trial costs."""
     page, told = "reference/large_study.md", results("cohort_plan")
     figures, trials = told["figures"], told["asked"]["trials"]
     trial, study = figures["trial"], figures["study"]
@@ -721,7 +721,7 @@ def test_the_plan_of_a_large_study() -> None:
         one, every = (cell.partition(" ")[0] for cell in row(page, label))
         assert near(one, value) and near(every, value, scale * trials), label
     simulated = [cells for cells in rows(page) if len(cells) == 10 and cells[0] in ("area", "gap diagnose")]
-    assert len(simulated) == 18 and trials == 100_000
+    assert len(simulated) == 6 and trials == 100_000
     for analysis, scenario, workers, hours, used, lost, *counts in simulated:
         own = figures[f"{analysis}, {scenario}, {workers}"]
         for cell, key in ((hours, "hours"), (lost, "lost_cpu_hours")):
