@@ -83,7 +83,13 @@ def constants() -> str:
     numbers = sum(not isinstance(value, tuple) for value in judging.values())
     return (
         "\n\n".join(
-            [*head(runs, numbers, len(judging) - numbers), table(moving), *foot(rows, still), *beside(told, aside)]
+            [
+                *head(runs, numbers, len(judging) - numbers),
+                table([row for row in moving if moves(row[2]) > 1]),
+                once([row[0] for row in moving if moves(row[2]) == 1]),
+                *foot(rows, still),
+                *beside(told, aside),
+            ]
         )
         + "\n"
     )
@@ -129,7 +135,7 @@ def same(value: Value, stored: Value) -> bool:
 
 
 def table(rows: Sequence[tuple[str, Value, list[Effect | None]]]) -> str:
-    """Constants that move an answer: how many, and what becomes of false alarms and right names."""
+    """Constants that move answers: how many, and what becomes of false alarms and right names."""
     lines = ["| constant | value | " + " | ".join(FACTORS.values()) + " |", "|---|---|---|---|"]
     for label, value, effects in rows:
         lines.append(
@@ -138,6 +144,16 @@ def table(rows: Sequence[tuple[str, Value, list[Effect | None]]]) -> str:
             + " |"
         )
     return "\n".join(lines)
+
+
+def moves(effects: Sequence[Effect | None]) -> int:
+    """Answers that are other ones, over all factors."""
+    return sum(one.moved for one in effects if one)
+
+
+def once(labels: Sequence[str]) -> str:
+    """Constants that move a single answer, with one factor."""
+    return f"{len(labels)} move one answer, with one factor: {', '.join(f'`{one}`' for one in labels)}."
 
 
 def foot(
