@@ -120,14 +120,16 @@ def descriptions() -> str:
         rows = list(rows_of(file.kind))
         for name, kind in file.entries.items():
             rows += rows_of(kind, name)
-        lines, above = ["| table | key | holds | meaning |", "|---|---|---|---|"], ""
+        lines: list[str] = []
+        above = ""
         for row, alike in groupby(rows, lambda row: replace(row, key="")):
             keys = ", ".join(f"**{one.key}**" if row.default == REQUIRED else one.key for one in alike)
             usual = f", by default {row.default}" if row.default not in ("", REQUIRED) else ""
-            cells = ("" if row.table == above else row.table, keys, row.holds + usual, row.meaning)
-            lines.append(f"| {' | '.join(cells)} |".replace("  ", " "))
+            if row.table != above:
+                lines += ["", f"{row.table}:", ""]
+            lines.append(f"- {keys}: {row.holds}{usual}." + (f" {row.meaning}" if row.meaning else ""))
             above = row.table
-        parts += [f"## {file.title}", f"{file.commands}.", "\n".join(lines)]
+        parts += [f"## {file.title}", f"{file.commands}.", "\n".join(lines).strip()]
     return "\n\n".join(parts) + "\n"
 
 
