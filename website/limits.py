@@ -1,7 +1,7 @@
 """All known limits: docs/reference/limits.md, gathered from the sections of the pages that tell them, and from tests.
 
-A page tells its limits below a heading of `HEADINGS`; the page gathered from them has the first sentence of each and says
-where it stands.
+A page tells its limits below a heading of `HEADINGS`; the page gathered from them has the first sentence of each and
+says where it stands.
 """
 
 from __future__ import annotations

@@ -23,13 +23,15 @@ def main() -> None:
 
 def summary() -> list[str]:
     """Median and largest difference of each kind, over all models and set-ups that have it."""
-    known = [{**row, **row.get("rewritten", {})} for row in _results("opensim_packages")["models"] if "refused" not in row]
+    models_read = [row for row in _results("opensim_packages")["models"] if "refused" not in row]
+    known = [{**row, **row.get("rewritten", {})} for row in models_read]
+    angles = [row for row in known if "angles_off_deg" in row]
     scaled, fitted, forces = (_setups(key) for key in ("scaled_off", "sum_over_opensims", "forces_off_share"))
     rows = [
         _spread("places of bodies [mm]", known, "bodies_apart_mm"),
         _spread("generalised forces, of range", known, "forces_off_share"),
         _spread("scaled masses, inertia, places", known, "scaled_off"),
-        _spread("angles of inverse kinematics [deg]", [row for row in known if "angles_off_deg" in row], "angles_off_deg"),
+        _spread("angles of inverse kinematics [deg]", angles, "angles_off_deg"),
         _spread("set-ups of scaling: masses, places", scaled, "scaled_off"),
         _spread("moments of inertia", scaled, "inertia_off"),
         _spread("places of markers [mm]", scaled, "markers_apart_mm"),

@@ -11,7 +11,7 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 45_600, "how-to": 25_100, "everything": 80_600}
+ALL_WORDS = {"theory, reference": 45_700, "how-to": 25_200, "everything": 80_900}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them."""
 LIMITS = {
