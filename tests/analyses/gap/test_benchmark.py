@@ -136,7 +136,7 @@ def test_a_case_whose_process_is_lost_counts_as_wrong(monkeypatch: pytest.Monkey
         result = benchmark(system="elbow", cases=2, kinds="none", seed=SEED)
     assert result.outcome.kinds == {"none": 2} and result.table()["verdict"].tolist() == ["failed"] * 2
     assert result.record.options["seed"] == SEED and "<img src=" in result._repr_html_()
-    assert repr(result).startswith(f"# Gap benchmark\n\nSeed {SEED}, ")
+    assert str(result).startswith(f"# Gap benchmark\n\nSeed {SEED}, ")
 
 
 def counted(worked_on: list[Lot]) -> Callable[..., Iterator[tuple[Task, Worked]]]:

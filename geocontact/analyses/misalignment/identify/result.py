@@ -218,7 +218,10 @@ class IdentifyResult(Result):
 
     @property
     def numbers(self) -> dict[str, float]:
-        """k, x, y, l, z, b and s in SI; where nothing sets the scale, one point of the line that fits alike."""
+        """Law's numbers: k [N/m], x, y, l, z [m], b [N s/m], s [1/Pa]; without a scale a point of the line that fits alike.
+
+        Where nothing sets the scale, all points of the line of `scale_line` fit alike.
+        """
         return self.fit.estimate.named
 
     def figures(self) -> dict[str, Figure]:
