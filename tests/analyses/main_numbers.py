@@ -105,6 +105,12 @@ def markers(out: Path) -> dict[str, Any]:
     return {name: rows[:, 3 * k : 3 * k + 3] * factor for k, name in enumerate(name for name in names if name)}
 
 
+def storage(file: Path) -> dict[str, Any]:
+    """Columns of a storage file of OpenSim."""
+    names, *rows = file.read_text(encoding="utf-8").partition("endheader\n")[2].strip().splitlines()
+    return dict(zip(names.split(), np.array([row.split() for row in rows], dtype=float).T, strict=True))
+
+
 def trials(name: str) -> Read:
     return lambda out: {
         file.stem: pd.read_csv(file)[name].to_numpy(float) for file in sorted((out / "trials").glob("*.csv"))
@@ -169,7 +175,10 @@ WRITTEN: Mapping[str, Mapping[str, Read]] = {
         "evidence": entry("planted.json", "evidence_at_most_nats"),
         "probabilities": entries("diagnosis/diagnosis.json", "probabilities", each=()),
     },
-    "inverse_dynamics": {},
+    "inverse_dynamics": {
+        "time": lambda out: storage(out / "id.sto")["time"],
+        "moments": lambda out: {name: values for name, values in storage(out / "id.sto").items() if name != "time"},
+    },
     "inverse_kinematics": {
         "rms": entry("ik.json", "rms_mm", factor=MM),
         "rms_mm": entry("ik.json", "rms_mm"),
@@ -278,5 +287,6 @@ def unlike(found: Any, written: Any) -> str:
         if list(found) != list(written):
             return f"{list(found)} are not {list(written)}"
         return "; ".join(f"{name}: {one}" for name in written if (one := unlike(found[name], written[name])))
-    same = np.allclose(np.asarray(found, float), np.asarray(written, float), rtol=1e-6, atol=1e-9, equal_nan=True)
-    return "" if np.shape(found) == np.shape(written) and same else f"{found} is not {written}"
+    one, other = np.asarray(found, float), np.asarray(written, float)
+    same = one.shape == other.shape and np.allclose(one, other, rtol=1e-6, atol=1e-9, equal_nan=True)
+    return "" if same else f"{found} is not {written}"

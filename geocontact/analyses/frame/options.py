@@ -87,8 +87,7 @@ class Declared:
 
     def coerced(self, value: Any) -> Any:
         """The value as the analysis takes it: in SI, paths for text and text for paths, a tuple for a single value."""
-        if self.typed is not None:
-            value = typed_text.from_python(self.typed, self.name, self.kind, self.spelled.each, value)
+        value = self._from_text(value)
         if value is None:
             return None
         if self.several:
@@ -107,6 +106,14 @@ class Declared:
             self._require_numbers(value)
         if self.choices and value not in self.choices:
             raise InputError("", f"`{self.name}`", f"{value!r} is not a choice", f"one of {', '.join(self.choices)}")
+        return value
+
+    def _from_text(self, value: Any) -> Any:
+        """What a text of Python stands for; anything else as it is."""
+        if self.typed is not None:
+            return typed_text.from_python(self.typed, self.name, self.kind, self.spelled.each, value)
+        if isinstance(self.range, Plausible) and self.kind is float and isinstance(value, str):
+            return typed_text.with_unit(self.name, self.range.unit.si, value)
         return value
 
     def _number(self, value: Any) -> float:

@@ -218,9 +218,9 @@ class IdentifyResult(Result):
 
     @property
     def numbers(self) -> dict[str, float]:
-        """Law's numbers: k [N/m], x, y, l, z [m], b [N s/m], s [1/Pa]; without a scale a point of the line that fits alike.
+        """Numbers of the law: k [N/m], x, y, l, z [m], b [N s/m], s [1/Pa].
 
-        Where nothing sets the scale, all points of the line of `scale_line` fit alike.
+        Where nothing sets the scale they are one point of the line that fits alike, `scale_line`.
         """
         return self.fit.estimate.named
 

@@ -71,7 +71,7 @@ class PopulationResult(Result):
 
     @property
     def quantiles(self) -> dict[float, float]:
-        """Quantiles of the largest force by share [N]: `quantiles[0.95]`."""
+        """Quantiles of the largest force by share [N]."""
         return {share: one.value for share, one in self.drawn.quantiles.items()}
 
     @property
