@@ -181,6 +181,7 @@ WRITTEN: Mapping[str, Mapping[str, Read]] = {
     },
     "inverse_kinematics": {
         "rms": entry("ik.json", "rms_mm", factor=MM),
+        "distances": by_column("markers.csv", "{} [mm]", MM),
         "rms_mm": entry("ik.json", "rms_mm"),
         "markers_mm": lambda out: json.loads((out / "ik.json").read_text())["markers"],
     },
@@ -223,8 +224,8 @@ WRITTEN: Mapping[str, Mapping[str, Read]] = {
         "force": by_side("{}.csv", "force [N]", 1.0, ("locked_1",)),
     },
     "modulus": {
-        "modulus": entry("modulus.json", "sides", "total", "E_star", "Pa"),
-        "interval": entry("modulus.json", "sides", "total", "E_star", "ci95_Pa"),
+        "modulus": entry("modulus.json", "E_star_Pa"),
+        "interval": entry("modulus.json", "E_star_ci95_Pa"),
     },
     "prosthesis.calibrate": {
         "time": column("stance.csv", "time [s]"),
@@ -257,7 +258,9 @@ WRITTEN: Mapping[str, Mapping[str, Read]] = {
         "stored_energy": column("stance.csv", "stored [J]"),
     },
     "scale": {
-        "rms": entry("scale.json", "rms_mm", factor=MM),
+        "rms": entry("scale.json", "static_rms_mm", factor=MM),
+        "distances": entries("scale.json", "markers_mm", each=(), factor=MM),
+        "scale_factors": entries("scale.json", "factors", each=()),
     },
     "shoulder.compare": {"rmsd": by_rows("comparison.csv", ["channel", "phase"], "rmsd")},
     "shoulder.optimise": {"factors": factors},

@@ -112,7 +112,7 @@ def numbers_unlike_files(entry: Entry, result: Result, folder: Path) -> dict[str
     parts = mock.patch.object(kind, "parts", property(lambda one, all_of=kind.parts: all_of.fget(one) & {"tables"}))
     with parts, chdir(folder), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        out = result.write("files")
+        out = folder / result.write("files")
     found = {name: unlike(getattr(result, name), read(out)) for name, read in WRITTEN[entry.name].items()}
     return {name: words for name, words in found.items() if words}
 

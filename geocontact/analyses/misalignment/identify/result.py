@@ -218,7 +218,7 @@ class IdentifyResult(Result):
 
     @property
     def numbers(self) -> dict[str, float]:
-        """Numbers of the law: k [N/m], x, y, l, z [m], b [N s/m], s [1/Pa].
+        """Numbers of the law: k [N/m], x, y, l, z [m], b [N s/m], s [1/Pa], c [m/N].
 
         Where nothing sets the scale they are one point of the line that fits alike, `scale_line`.
         """

@@ -80,7 +80,7 @@ class ScaleResult(Result):
     @property
     def rms(self) -> float:
         """Distance of the markers from the model in the static pose, root mean square [m]."""
-        return 1e-3 * float(self.summary["rms_mm"])
+        return 1e-3 * float(self.summary["static_rms_mm"])
 
     @property
     def distances(self) -> dict[str, float]:
