@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 
 MM, MM2, MPA, DEG = 1e-3, 1e-6, 1e6, np.pi / 180.0
-IN_SI = {"mm": MM, "deg": DEG, "MPa": MPA, "mm^2": MM2, "%": 0.01, "1/mmHg": 1.0 / 133.322387415, "mm/N": MM}
+IN_SI = {"mm": MM, "deg": DEG, "MPa": MPA, "mm^2": MM2, "%": 0.01, "1/mmHg": 1.0 / 133.322387415, "mm/N": MM, "mm/s": MM, "deg/s": DEG}
 Read = Callable[[Path], Any]
 
 
@@ -210,8 +210,8 @@ WRITTEN: Mapping[str, Mapping[str, Read]] = {
         "force": column("force.csv", "force [N]"),
         "peak": entry("design.json", "offset", "peak_N"),
         "needed_stroke": lambda out: (
-            entry("design.json", "needed_stroke", "lower_mm", factor=MM)(out),
-            entry("design.json", "needed_stroke", "upper_mm", factor=MM)(out),
+            entry("design.json", "needed_stroke", "lower_end_at_most_mm", factor=MM)(out),
+            entry("design.json", "needed_stroke", "upper_end_at_least_mm", factor=MM)(out),
         ),
     },
     "misalignment.identify": {"numbers": by_rows("intervals.csv", "number", "value")},

@@ -12,7 +12,8 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.options import declared
-from geocontact.analyses.frame.result import Result
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.result import WIDEST, Result
 from geocontact.io.text.units import si_unit
 from tests.analyses.jobs import JOBS
 from tests.analyses.main_numbers import WRITTEN, unlike
@@ -21,7 +22,7 @@ from website.api.entries import entries
 
 PUBLIC: dict[str, Job[Any, Any]] = {each.name: each.thing for each in entries() if each.group == OF_JOBS}
 UNIT = re.compile(r"\[([^]]+)\]")
-KNOWN = {"J", "nats", "BW", "N m/kg", "N/kg", "N/m^n", "kg m", "1/Pa", "share of the foot", "mm"}
+KNOWN = {"J", "nats", "m/N", "BW", "N m/kg", "N/kg", "N/m^n", "kg m", "1/Pa", "share of the foot", "mm"}
 """Units beyond those of files; `rms_mm` and `markers_mm` have theirs in their names."""
 
 
@@ -89,8 +90,28 @@ def test_every_number_with_a_unit_has_a_range(job: Job[Any, Any]) -> None:
     ] == []
 
 
-class Told(Result):
-    """A result that says one thing."""
+class Said(Result):
+    """A result that says what it is made with."""
 
     def tables(self) -> dict[str, Any]:
         return {}
+
+
+def test_a_result_is_its_first_sentence_in_one_line() -> None:
+    record = Record("said", {}, {})
+    record.say("area of FIXED within 4 mm: 1773.3 … 2484.0 mm^2")
+    record.say("medial is +z")
+    assert repr(Said(record=record)) == "<Said: area of FIXED within 4 mm: 1773.3 … 2484.0 mm^2>"
+    record.warn("the bodies overlap")
+    assert repr(Said(record=record)).endswith("mm^2; 1 warning>")
+    assert str(Said(record=record)).splitlines()[1:] == ["medial is +z", "warning: the bodies overlap"]
+
+
+@pytest.mark.parametrize("words", ["", "of 12 frames " * 40, "first\nsecond " * 30])
+def test_a_result_has_no_line_longer_than_a_prompt_shows(words: str) -> None:
+    record = Record("said", {}, {})
+    record.say(words)
+    record.warn("one")
+    record.warn("two")
+    line = repr(Said(record=record))
+    assert len(line) <= WIDEST and "\n" not in line and line.endswith("2 warnings>") and line.startswith("<Said: ")
