@@ -21,8 +21,8 @@ N_PER_M, N_PER_MM = Unit("N/m", "N/m", 1.0), Unit("N/mm", "N/m", 1e3)
 N_S_PER_M, N_S_PER_MM = Unit("N s/m", "N s/m", 1.0), Unit("N s/mm", "N s/m", 1e3)
 J_PER_M2 = Unit("J/m^2", "J/m^2", 1.0)
 KHZ, G, TONNE = Unit("kHz", "Hz", 1e3), Unit("g", "kg", 1e-3), Unit("t", "kg", 1e3)
-KNOWN = (*UNITS, N, HZ, S, KG, RAD, PA, M_PER_S, N_PER_M, N_PER_MM, N_S_PER_M, N_S_PER_MM, J_PER_M2, KHZ, G, TONNE)
-KNOWN += (PLAIN,)
+OF_SI = (N, HZ, S, KG, RAD, PA, M_PER_S, N_PER_M, N_S_PER_M, J_PER_M2, PLAIN)
+KNOWN: tuple[Unit, ...] = (*UNITS, *OF_SI, N_PER_MM, N_S_PER_MM, KHZ, G, TONNE)
 """Units that a number may have been meant in."""
 
 ROUNDING = 1e-9

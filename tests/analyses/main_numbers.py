@@ -14,7 +14,17 @@ import numpy as np
 import pandas as pd
 
 MM, MM2, MPA, DEG = 1e-3, 1e-6, 1e6, np.pi / 180.0
-IN_SI = {"mm": MM, "deg": DEG, "MPa": MPA, "mm^2": MM2, "%": 0.01, "1/mmHg": 1.0 / 133.322387415, "mm/N": MM, "mm/s": MM, "deg/s": DEG}
+IN_SI = {
+    "mm": MM,
+    "deg": DEG,
+    "MPa": MPA,
+    "mm^2": MM2,
+    "%": 0.01,
+    "1/mmHg": 1.0 / 133.322387415,
+    "mm/N": MM,
+    "mm/s": MM,
+    "deg/s": DEG,
+}
 Read = Callable[[Path], Any]
 
 
