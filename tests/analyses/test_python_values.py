@@ -115,6 +115,7 @@ def test_a_bare_number_that_cannot_be_meant_names_the_likely_unit() -> None:
         ("knee settle", "piece", 2, "2000 mm cannot be the edge of a piece of a surface: .* is 2 mm meant?"),
         ("elbow simulate", "pressure", (10, 60), "0.450037 mmHg cannot be the pressure of a cuff: .* 60 mmHg meant?"),
         ("elbow design", "range", (0, 120), "6875.49 deg cannot be an angle of a joint: .* is 120 deg meant?"),
+        ("sit-to-stand predict", "time_limit", 0, "0 s cannot be the time of a search: that is 0.001 to 1e"),
         ("knee settle", "poisson", 46, "46 cannot be Poisson's ratio of a layer, below 0.5: that is 0 to 0.4999"),
     ],
 )
