@@ -25,7 +25,7 @@ from geocontact.data.plausible import KNOWN, ByName, ByPlace, Plausible, Range, 
 from geocontact.data.units import Unit
 from geocontact.io.mocap.force_plates import read_force_plates
 from geocontact.io.text.tables import read_table
-from geocontact.io.text.units import LENGTH
+from geocontact.io.text.units import LENGTH, si_unit
 from tests.analyses.jobs import JOBS
 
 SAMPLES = Path(__file__).parents[2] / "meshes"
@@ -167,6 +167,23 @@ def test_a_number_in_another_unit_is_refused_or_warned_of() -> None:
     silent = {known.what for _, known, number, _ in mixed_up() if not known.refusal(number) and not known.doubt(number)}
     assert silent <= set(WIDE)
     assert len(list(mixed_up())) > 100
+
+
+SINGLE = [
+    pytest.param(one, one.range, id=f"{command} {name}")
+    for (command, name), one in OPTIONS.items()
+    if isinstance(one.range, Plausible) and one.range.unit.si != "1"
+    if one.kind in (float, tuple[float, ...])
+]
+
+
+@pytest.mark.parametrize(("one", "known"), SINGLE)
+def test_every_number_is_taken_with_its_unit_as_text(one: Declared, known: Plausible) -> None:
+    units = [unit for unit in KNOWN if unit.si == known.unit.si and si_unit(unit.name) is not None]
+    assert units
+    for unit in units:
+        value = one.coerced(f"{12.5 * known.unit.factor / unit.factor!r} {unit.name}")
+        assert np.ravel(value) == pytest.approx(12.5 * known.unit.factor, rel=1e-12), unit.name
 
 
 POSES = RigidTransform.from_translation([[0.0, 0.0, 0.0], [0.0, 0.01, 0.0]])
