@@ -180,8 +180,7 @@ SINGLE = [
 @pytest.mark.parametrize(("one", "known"), SINGLE)
 def test_every_number_is_taken_with_its_unit_as_text(one: Declared, known: Plausible) -> None:
     units = [unit for unit in KNOWN if unit.si == known.unit.si and si_unit(unit.name) is not None]
-    assert units
-    for unit in units:
+    for unit in (known.unit, *units):
         value = one.coerced(f"{12.5 * known.unit.factor / unit.factor!r} {unit.name}")
         assert np.ravel(value) == pytest.approx(12.5 * known.unit.factor, rel=1e-12), unit.name
 
