@@ -89,7 +89,7 @@ def test_files_that_are_no_table(tmp_path: Path, content: bytes) -> None:
         (("--unit", "mm"), "--unit: has no effect here"),
         (("--plate", "1"), "--plate: has no effect without --compare"),
         (("--plate-pose", "x.txt"), "--plate-pose: has no effect without --compare"),
-        (("--compare", str(MESHES / "gait.csv")), "is not a file of ground reactions"),
+        (("--compare", str(MESHES / "sphere_r20.stl")), "is not a file of ground reactions"),
         (("--order", "XYZ"), "--order: has no effect here"),
         (("--angles", "deg"), "--angles: has no effect here"),
         (("--moving", "parent"), "--moving: has no effect without --osim"),

@@ -105,7 +105,7 @@ class CopOptions(Options):
     Comparison with a force plate
     -----------------------------
     compare
-        Ground reactions of force plates (.mot .sto .c3d) to compare with.
+        Ground reactions of force plates (.mot .sto .c3d .csv) to compare with.
     plate
         Name or number of the plate; needed when there are several.
     c3d_unit

@@ -9,12 +9,14 @@ from dataclasses import dataclass, field
 from html import escape
 from os import PathLike
 from pathlib import Path
+from textwrap import shorten
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from geocontact.analyses.frame.collector import collecting, current
 from geocontact.analyses.frame.folder import written_whole
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.table_forms import TableForms
+from geocontact.analyses.frame.words import counted
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,6 +28,8 @@ if TYPE_CHECKING:
 
 REPORT = "report.html"
 """Page of a folder of results."""
+WIDEST = 200
+"""Characters of the line that stands for a result in a list or at the prompt."""
 
 Part = Literal["tables", "figures", "pages"]
 PARTS: frozenset[Part] = frozenset(("tables", "figures", "pages"))
@@ -233,8 +237,16 @@ class Result(ABC):
             self.write_page(path)
         return path
 
-    def __repr__(self) -> str:
+    def __str__(self) -> str:
+        """Sentences and reservations, as the command prints them."""
         return "\n".join((*self.sentences, *(f"warning: {line}" for line in self.warnings)))
+
+    def __repr__(self) -> str:
+        """The first sentence and how many reservations there are, in one line of `WIDEST` characters at most."""
+        name, count = type(self).__name__, len(self.warnings)
+        end = f"; {counted(count, 'warning')}>" if count else ">"
+        words = " ".join((self.sentences or ("",))[0].split())
+        return f"<{name}: {shorten(words, WIDEST - len(name) - len(end) - 3, placeholder=' …')}{end}"
 
     def _repr_html_(self) -> str:
         """Sentences, reservations and figure, as a notebook shows them."""

@@ -21,10 +21,10 @@ from geocontact.analyses.frame.marks import (
 )
 from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import BORDER, CUTOFF, DISPLACEMENT, FORCE, SHARE, TOUCH
+from geocontact.data.plausible import BORDER, CLOCK, CUTOFF, DISPLACEMENT, FORCE, SHARE, TOUCH
 
 TimeWindows = Annotated[
-    tuple[tuple[float, float], ...], Typed("s", "windows", "((0.0, 0.5), (9.0, 9.5))"), Spelled(dashed=True)
+    tuple[tuple[float, float], ...], Typed("s", "windows", "((0.0, 0.5), (9.0, 9.5))"), CLOCK, Spelled(dashed=True)
 ]
 Displacement = Annotated[tuple[float, float], Typed("m, rad", "registration", "(gc.mm(1), gc.deg(2))"), DISPLACEMENT]
 FromMotion = Requires("motion")

@@ -6,7 +6,7 @@
 >>> pd.DataFrame(areas).to_csv("area.csv", index=False)
 >>> force = 4 / 3 * gc.MPa(2) * (area * 1e-6 / np.pi) ** 1.5 / gc.mm(34)
 >>> pd.DataFrame({"time [s]": time, "total [N]": force}).to_csv("forces.csv", index=False)
->>> gc.modulus("area.csv", "forces.csv", radius=gc.mm(34))
+>>> print(gc.modulus("area.csv", "forces.csv", radius=gc.mm(34)))
 total: E* 2 MPa (95 % 2 … 2), RMSE 0 N, R² 1.00
 E and ν are one number here: area and force identify E* = E/(1 - ν²), and E only for a stated ν
 """

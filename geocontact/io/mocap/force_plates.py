@@ -1,4 +1,4 @@
-"""Ground reactions measured by force plates: OpenSim's .mot and .sto, and .c3d."""
+"""Ground reactions measured by force plates: OpenSim's .mot and .sto, tables with units, and .c3d."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.wrench import Wrench
 from geocontact.io.mocap.c3d_plates import MOMENTS_LAST, Arrays, PlateUnits, plate_units, read_c3d_plates
 from geocontact.io.mocap.plate_zero import zero_samples
-from geocontact.io.text.tables import TextTable, listed, read_table
+from geocontact.io.text.tables import CELLS, TextTable, listed, read_table
+from geocontact.io.text.units import si_unit
 
 OUTSIDE = 0.2
 """Share of a plate's length, beyond its edge: farther off, the median centre of pressure is warned of."""
@@ -124,16 +125,17 @@ class ForcePlate:
 
 
 def read_force_plates(path: str | PathLike[str], c3d_unit: str | None = None) -> tuple[ForcePlate, ...]:
-    """All force plates of a .mot, .sto or .c3d file, in its order; forces are those on the foot.
+    """All force plates of a .mot, .sto, .c3d, .csv or .xlsx file, in its order; forces are those on the foot.
 
+    Columns of a .csv have the names of OpenSim's and their units: `ground_force_vx [N]`, `ground_force_px [mm]`.
     `c3d_unit` is the unit of places in a .c3d file whose own is empty.
     """
     suffix = Path(fspath(path)).suffix.lower()
     if suffix == ".c3d":
         return _from_c3d(path, c3d_unit)
-    if suffix in (".mot", ".sto"):
+    if suffix in (".mot", ".sto", *CELLS):
         return _from_table(read_table(path))
-    raise InputError(path, "", f"'{suffix}' is not a file of ground reactions", "give a .mot, .sto or .c3d file")
+    raise InputError(path, "", f"'{suffix}' is not a file of ground reactions", "give a .mot, .sto, .c3d or .csv file")
 
 
 def plate_named(
@@ -213,13 +215,13 @@ def _from_table(table: TextTable) -> tuple[ForcePlate, ...]:
 
 def _plate(table: TextTable, head: str, tail: str) -> ForcePlate:
     name = f"{head}force{tail}".strip("_")
-    force = _three(table, f"{head}force{tail}v")
-    point = _three(table, f"{head}force{tail}p")
+    force = _three(table, f"{head}force{tail}v", "N")
+    point = _three(table, f"{head}force{tail}p", "m")
     kinds = [f"{head}{word}{tail}{letter}" for word in ("torque", "moment") for letter in ("", "m")]
     torque = next((kind for kind in kinds if f"{kind}x" in table.channels), None)
     if torque is None:
         warnings.warn(InputWarning(f"{table.file}: no torque for {name}; its free moment is not known"), stacklevel=4)
-    moment = np.full_like(force, np.nan) if torque is None else _three(table, torque)
+    moment = np.full_like(force, np.nan) if torque is None else _three(table, torque, "N m")
     on = np.abs(force[:, 1]) >= LOADED
     if not on.any():
         warnings.warn(InputWarning(f"{table.file}: {name} never carries {LOADED:g} N"), stacklevel=4)
@@ -230,20 +232,32 @@ def _plate(table: TextTable, head: str, tail: str) -> ForcePlate:
     return ForcePlate(name, table.time, wrench, surface, np.array([0.0, 1.0, 0.0]))
 
 
-def _three(table: TextTable, stem: str) -> Float[np.ndarray, "t 3"]:
+def _three(table: TextTable, stem: str, si: str) -> Float[np.ndarray, "t 3"]:
     names = tuple(f"{stem}{axis}" for axis in "xyz")
     for name in names:
         if table.channels.count(name) != 1:
             count = table.channels.count(name)
             what = f"column '{name}' occurs {count} times" if count else f"no column '{name}'"
             raise InputError(table.file, "", what, f"columns are: {listed(table.channels)}")
-    values = np.column_stack([table.column(name) for name in names])
+    values = np.column_stack([table.column(name) * _factor(table, name, si) for name in names])
     endless = np.argwhere(np.isinf(values))
     if len(endless):
         row, column = endless[0]
         what = f"'{names[column]}' is {values[row, column]}"
         raise InputError(table.file, f"line {table.lines[row]}", what, "write NaN where nothing was measured")
     return values
+
+
+def _factor(table: TextTable, name: str, si: str) -> float:
+    """How many SI units one unit of a column is; OpenSim's files are in SI and name none."""
+    if Path(table.file).suffix.lower() not in CELLS:
+        return 1.0
+    written = table.units[table.channels.index(name)]
+    known = si_unit(written)
+    if known is None or known[0] != si:
+        what = f"column '{name}' has no unit" if not written else f"'{written}' is no unit in which {name} can be"
+        raise InputError(table.file, "", what, f"name it '{name} [{si}]'")
+    return known[1]
 
 
 def _from_c3d(path: str | PathLike[str], c3d_unit: str | None) -> tuple[ForcePlate, ...]:

@@ -35,7 +35,7 @@ def test_says_what_was_found(tmp_path: Path) -> None:
     result = load_cells(recorded(tmp_path), unit="N", cycles="stride")
     peaks = {side: float(values.max()) for side, values in sides(gait(np.arange(0.0, 5.0, 0.01))).items()}
     told = ", ".join(f"{side} {peak:.1f} N" for side, peak in peaks.items())
-    assert repr(result) == f"largest forces: {told} (total at 0.53 s)\n4 cycles of walk"
+    assert str(result) == f"largest forces: {told} (total at 0.53 s)\n4 cycles of walk"
     summary = result.record.results["recording"]
     assert summary["peak_total_N"] == pytest.approx(peaks["total"], rel=1e-6) and summary["frames"] == 500
     assert result.record.results["cycles"] == {"walk": 4}

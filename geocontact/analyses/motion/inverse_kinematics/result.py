@@ -3,7 +3,7 @@
 >>> import geocontact as gc
 >>> markers = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim").write("virtual") / "markers.trc"
 >>> result = gc.inverse_kinematics(markers, model="meshes/leg.osim")
->>> result
+>>> print(result)
 101 frames, 16 markers: 0.0 mm from the model, root mean square, and 0.0 mm at most, foot_r2 at 0.57 s
 (OpenSim advises less than 20 and 40 mm)
 >>> list(result.table("coordinates"))[:3]
@@ -96,6 +96,16 @@ class IkResult(Result):
     def markers_mm(self) -> dict[str, dict[str, float]]:
         """Root mean square and largest distance of each marker that was seen [mm]."""
         return dict(self.summary["markers"])
+
+    @property
+    def rms(self) -> float:
+        """Distance of the markers from the model, root mean square over markers and frames [m]."""
+        return 1e-3 * self.rms_mm
+
+    @property
+    def distances(self) -> dict[str, Float[np.ndarray, " t"]]:
+        """Distance of each marker from the model over time [m]; NaN where it was not seen."""
+        return dict(zip(self.poses.markers, np.asarray(self.poses.distances).T, strict=True))
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`coordinates` [deg, m], `markers` with the distance of each; `knees` and `cycles` where there are some."""

@@ -3,7 +3,7 @@
 >>> import geocontact as gc
 >>> static = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim").write("virtual") / "markers.trc"
 >>> result = gc.scale(static, model="meshes/leg.osim", mass=70.0)
->>> result
+>>> print(result)
 scaled: no body; markers 25.8 mm from the model, root mean square, and 50.3 mm at most, foot_r2 at 0 s
 (OpenSim advises less than 10 and 20 mm)
 warning: virtual/markers.trc: foot_r2 moves 491 mm away from its mean: is this standing still?
@@ -76,6 +76,21 @@ class ScaleResult(Result):
     seen: Float[np.ndarray, "m 3"]
     modelled: Float[np.ndarray, "m 3"]
     summary: dict[str, Any]
+
+    @property
+    def rms(self) -> float:
+        """Distance of the markers from the model in the static pose, root mean square [m]."""
+        return 1e-3 * float(self.summary["static_rms_mm"])
+
+    @property
+    def distances(self) -> dict[str, float]:
+        """Distance of each marker from the model in the static pose [m]."""
+        return dict(zip(self.pose.markers, self.pose.distances[0].tolist(), strict=True))
+
+    @property
+    def scale_factors(self) -> dict[str, float]:
+        """Factor of each body that was scaled [-]; by body and axis where they differ."""
+        return labelled(self.factors)
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`markers`, how far each is from the scaled model; `factors` by body, or by body and axis."""

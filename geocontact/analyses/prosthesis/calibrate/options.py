@@ -56,7 +56,7 @@ class ProsthesisCalibrateOptions(Options):
     Force plates
     ------------
     plates
-        Ground reactions in the markers' axes (.mot, .sto, .c3d).
+        Ground reactions in the markers' axes (.mot, .sto, .c3d, .csv).
     plate
         Name or number of the plate under the prosthetic foot.
     other_plate

@@ -24,6 +24,7 @@ from numpy import ndarray
 
 from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.prosthesis.calibrate.foot_on_plate import FootOnPlate, along_poses, on_whole_model, read
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
@@ -130,6 +131,26 @@ class ProsthesisCalibrateResult(Result):
     def last(self) -> SoleCalibration | WholeCalibration:
         """The last calibration."""
         return self.calibration if self.whole is None else self.whole
+
+    @property
+    def time(self) -> Float[np.ndarray, " t"]:
+        """Time of the frames of the stance [s]."""
+        return self.stance.time
+
+    @property
+    def force(self) -> Float[np.ndarray, "t 3"]:
+        """Force of the ground on the foot over time by the calibrated model [N]."""
+        return self.predicted[:, :3]
+
+    @property
+    def plate_force(self) -> Float[np.ndarray, "t 3"]:
+        """The same on the plate [N]."""
+        return self.stance.force
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """Value of each number that was calibrated, by its name [N/m^n, N s/m, m, rad, -]."""
+        return by_name(self.table("numbers"), ("number",), "value")
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`numbers`, `stance`."""

@@ -93,6 +93,16 @@ class ProsthesisDesignResult(Result):
     numbers: Mapping[str, Number]
     intact: Mapping[Aim, float] | None = None
 
+    @property
+    def best(self) -> dict[str, float]:
+        """Best value of what is varied, by aim: fulcrum [m], alignment [rad], stiffness [-]."""
+        return {each.aim: each.choice.best for each in self.answers}
+
+    @property
+    def interval(self) -> dict[str, tuple[float, float]]:
+        """Interval of the same at `level` [m, rad, -]."""
+        return {each.aim: (each.choice.lower, each.choice.upper) for each in self.answers}
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`answers`, `ranges`, `sensitivities`, `sweep`, `shapes`, `numbers`; `intact`; `pairs` and `together`."""
         vary = self.sweep.knob.vary

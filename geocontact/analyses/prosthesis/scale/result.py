@@ -4,7 +4,7 @@
 >>> stood = "meshes/amputee_P1/"
 >>> person = {"mass": 77.3, "height": 1.81}
 >>> result = gc.prosthesis.scale(stood + "standing.trc", functional=stood + "functional.trc", **person)
->>> result
+>>> print(result)
 both legs of 77.3 kg in 17 bodies with 36 coordinates, pelvis with all above it 46.9 kg, residual limb 1.78
 kg
 5 of 5 joint centres from the functional trial
@@ -22,6 +22,7 @@ from typing import cast
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
@@ -195,6 +196,16 @@ class ProsthesisScaleResult(Result):
     moved: Poses | None
     joints: tuple[JointFound, ...]
     numbers: Mapping[str, Number]
+
+    @property
+    def masses(self) -> dict[str, float]:
+        """Mass of each segment [kg]."""
+        return {body.name: body.mass for body in self.model.bodies}
+
+    @property
+    def joint_centres(self) -> dict[str, Float[np.ndarray, " 3"]]:
+        """Centre of each joint in the laboratory while standing [m]."""
+        return {each.name: each.place for each in self.joints}
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`segments`, `joints`, `numbers`, and `markers` of the functional trial where there is one."""

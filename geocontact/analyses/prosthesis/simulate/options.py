@@ -58,7 +58,7 @@ class ProsthesisSimulateOptions(Options):
     Force plates
     ------------
     plates
-        Ground reactions in the markers' axes (.mot, .sto, .c3d).
+        Ground reactions in the markers' axes (.mot, .sto, .c3d, .csv).
     other_plate
         Name or number of the plate under the other foot: its force stands for the other leg.
     plate

@@ -100,6 +100,21 @@ class ShoulderOptimiseResult(Result):
     held_out: Mapping[str, HeldOutSupport]
     front: tuple[FrontPoint, ...]
 
+    @property
+    def factors(self) -> dict[tuple[str, str, str, str], float]:
+        """Factor of the support by profile, task, hand and phase [-]."""
+        return {(p.name, k.task, k.hand, k.phase): value for p in self.profiles for k, value in p.factors.items()}
+
+    @property
+    def reduction(self) -> dict[tuple[str, str], float]:
+        """Share of the shoulder's torque that the support takes away, by profile and case [-]."""
+        return {(name, case): one.reduction for name, found in self.outcomes.items() for case, one in found.items()}
+
+    @property
+    def force(self) -> dict[tuple[str, str], float]:
+        """Largest force at the interface by profile and case [N]."""
+        return {(name, case): one.force for name, found in self.outcomes.items() for case, one in found.items()}
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`factors`, `scales`, `outcomes`, `simulated`, `held_out`, `front`."""
         return {

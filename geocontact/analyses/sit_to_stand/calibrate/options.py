@@ -9,6 +9,7 @@ from typing import Annotated, ClassVar
 from geocontact.analyses.frame.marks import Fraction, Spelled
 from geocontact.analyses.sit_to_stand.search_options import NODES, StandingSearchOptions, within
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import SEARCH
 
 MOST_STARTS, MOST_POINTS = 1000, 20
 
@@ -47,7 +48,7 @@ class StandingCalibrateOptions(StandingSearchOptions):
     study: Path
     _: KW_ONLY
     nodes: Annotated[float, NODES] = 30.0
-    time_limit: float = 600.0
+    time_limit: Annotated[float, SEARCH] = 600.0
     starts: int = 0
     resamples: int = 6
     seed: int = 0

@@ -17,6 +17,7 @@ import pandas as pd
 
 from geocontact.analyses.frame.collector import listener, note, say
 from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
@@ -86,6 +87,16 @@ class StandingCalibrateResult(Result):
     def errors(self) -> pd.DataFrame:
         """Root mean square difference of each channel of each trial."""
         return errors_table(self.trials, self.given.noise, self.given.tracks)
+
+    @property
+    def parameters(self) -> dict[tuple[str, str], float]:
+        """Value of each parameter of the contacts, by phase and name [SI unit of each]."""
+        return by_name(self.table("parameters"), ("phase", "parameter"), "value")
+
+    @property
+    def rmsd(self) -> dict[tuple[str, str], float]:
+        """Root mean square difference by trial and quantity: angles [rad], lengths [m], forces [N]."""
+        return by_name(self.errors, ("trial", "quantity"), "rmsd")
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`parameters`, `errors`, `certificate`, `correlation`, `numbers`, `mesh`, `trial_NAME`; `profiles` too."""

@@ -20,6 +20,7 @@ import pandas as pd
 
 from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.design.designs import (
@@ -98,13 +99,13 @@ class StandingDesignResult(Result):
 
     @property
     def gain(self) -> float:
-        """Part of the reference's aim that is saved."""
+        """Part of the reference's aim that is saved [-]."""
         k = MEASURES.index(self.options.aim)
         return 1.0 - float(self.best.movement.asked.sizes[k] / self.reference.movement.asked.sizes[k])
 
     @property
     def true_gain(self) -> float:
-        """The same of true peaks, or of the largest energy."""
+        """The same of true peaks, or of the largest energy [-]."""
         k = MEASURES.index(self.options.aim)
         return 1.0 - float(self.best.movement.asked.largest[k] / self.reference.movement.asked.largest[k])
 
@@ -114,6 +115,11 @@ class StandingDesignResult(Result):
         each, o = (*self.designs, *self.front), self.options
         wanted = (2 if o.varied == ("share",) else 3) + int(o.robust) + o.front
         return len(each) == wanted and all(one.certified and (one.design is None or one.design.met) for one in each)
+
+    @property
+    def chosen(self) -> dict[str, float]:
+        """Value of each thing that was varied, at the best design [SI unit of each]."""
+        return by_name(self.table("chosen"), ("name",), "value")
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`designs`, `chosen`, `sensitivity`, `certificate`, `numbers`, `mesh`; `front` and `draws` if asked for."""
