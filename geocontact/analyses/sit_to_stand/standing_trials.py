@@ -11,10 +11,11 @@ from jaxtyping import Bool, Float
 
 from geocontact.analyses.frame.collector import add_input
 from geocontact.data.errors import InputError
+from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.model import Multibody
 from geocontact.data.wrench import Wrench
 from geocontact.identify.signals.filters import UNEVEN
-from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
+from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.io.opensim.coordinates import columns_of, motion_of
 from geocontact.io.recordings.standing_study import StandingTrialFiles, read_standing_study
 from geocontact.io.text.tables import read_table
