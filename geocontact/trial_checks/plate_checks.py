@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.trial_checks.landmarks import FOOT, middle, points
@@ -64,7 +64,7 @@ class Step:
     centre: Float[np.ndarray, "t 3"]
 
     @property
-    def heavy(self) -> Float[np.ndarray, " t"]:
+    def heavy(self) -> Bool[np.ndarray, " t"]:
         """Where the load is large enough to be compared."""
         return np.asarray(self.normal >= HEAVY * self.normal.max())
 
