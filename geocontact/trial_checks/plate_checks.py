@@ -19,6 +19,9 @@ MEAN = (0.55, 1.02)
 """Shares of the body weight between which the mean vertical force of such a step lies. Each foot carries half of the
 weight over a cycle and is on the floor for a share D of it, so that the mean is 1 / (2 D): 0.76 to 0.86 for walking
 people, D = 0.58 to 0.66 (Perry, Gait Analysis, 1992), and below 1 where both feet are on the floor at times."""
+STANDING, WEIGHT, OTHER_WEIGHT = 0.3, 0.1, 0.2
+"""s, over which the weight of who stands is averaged; shares of it: rising at 1 m/s^2 is as much as the one, and with
+twice as much the mass is another one."""
 HEAVY = 0.3
 """Share of the largest normal force from which samples are compared."""
 SHEAR, TWIST = 0.5, 0.12
@@ -97,6 +100,25 @@ def mass(trial: RecordedTrial) -> Iterator[Contradiction]:
         f"by a walking person's step, 0.8, the mass is about {person:.0f} kg: check {trial.mass_option} and its unit"
     )
     yield Contradiction(worst.on.source, worst.on.plate.name, what, remedy)
+
+
+def standing_weight(trial: RecordedTrial) -> Iterator[Contradiction]:
+    """The weight by the plates while the person stands on them against the mass."""
+    if trial.mass is None or trial.stands_at is None or not trial.plates:
+        return
+    normal = 0.0
+    for on in trial.plates:
+        there = np.abs(on.plate.time - trial.stands_at) <= 0.5 * STANDING
+        normal += float(on.normal[there].mean()) if there.any() else np.nan
+    share = normal / (trial.mass * GRAVITY)
+    if np.isfinite(share) and abs(share - 1.0) > WEIGHT:
+        names = " and ".join(on.plate.name for on in trial.plates)
+        what = f"carries {share:.2f} times the weight of {trial.mass:.4g} kg while the person stands, at"
+        remedy = (
+            f"by the plates it is {normal / GRAVITY:.1f} kg: check {trial.mass_option}, and that no plate is missing"
+        )
+        what += f" {trial.stands_at:.2f} s"
+        yield Contradiction(trial.plates[0].source, names, what, remedy, refuse=abs(share - 1.0) > OTHER_WEIGHT)
 
 
 def sizes(trial: RecordedTrial) -> Iterator[Contradiction]:
@@ -296,6 +318,13 @@ PLATE_CHECKS = (
         f"{MEAN[0]:g} to {MEAN[1]:g} times the weight, for steps of {STANCE:g} to {STILL:g} s; walking people: 0.76 to "
         "0.86 (half of the weight over 0.58 to 0.66 of the cycle; Perry, Gait Analysis, 1992)",
         mass,
+    ),
+    Check(
+        "standing weight",
+        "force out of the floor of all plates, while the person stands on them, with the weight of the mass",
+        f"{WEIGHT:.0%} of the weight, mean of {STANDING:g} s; rising at 1 m/s² is as much; refused from "
+        f"{OTHER_WEIGHT:.0%} on",
+        standing_weight,
     ),
     Check(
         "size of shear",

@@ -68,6 +68,8 @@ class RecordedTrial:
         Of the person [kg]; None where it is not given.
     mass_option
         How the user gave it, for messages: an option or a key of a file.
+    stands_at
+        Time at which the person stands on the plates, all together, and hardly moves [s]; None where none is known.
     up
         Unit vector upwards.
     turn
@@ -79,6 +81,7 @@ class RecordedTrial:
     plates: tuple[FootPlate, ...] = ()
     mass: float | None = None
     mass_option: str = "`mass`"
+    stands_at: float | None = None
     up: Float[np.ndarray, " 3"] = field(default_factory=UP.copy)
     turn: Rotation | None = None
 

@@ -138,6 +138,15 @@ def exchanged(trial: RecordedTrial) -> RecordedTrial:
     return replace(trial, plates=(replace(right, side="left"), replace(left, side="right")))
 
 
+def stood(kilograms: float) -> Callable[[RecordedTrial], RecordedTrial]:
+    """Somebody of 75 kg who stands on a plate, whose mass is said to be another."""
+    time = np.arange(0.0, 1.0, 1e-3)
+    force = np.column_stack([0.0 * time, np.full_like(time, MASS * GRAVITY), 0.0 * time])
+    wrench = Wrench(force, 0.0 * force, 0.0 * force, "ground")
+    plate = ForcePlate("feet", time, wrench, np.zeros(3), np.array([0.0, 1.0, 0.0]))
+    return lambda _: RecordedTrial(plates=(FootPlate(plate, "plates.mot"),), mass=kilograms, stands_at=0.9)
+
+
 def renamed(trial: RecordedTrial) -> RecordedTrial:
     """Right called left."""
     assert trial.markers is not None
@@ -171,6 +180,7 @@ DAMAGED: dict[str, tuple[str, Callable[[RecordedTrial], RecordedTrial]]] = {
     "mass x 2.2, pounds": ("mass", lambda t: replace(t, mass=2.20462 * MASS)),
     "force / 2": ("mass", lambda t: plated(t, forced((0.5, 0.5, 0.5)))),
     "force in kN": ("mass", lambda t: plated(t, forced((0.1, 0.1, 0.1)))),
+    "90 kg where the plate carries 75": ("standing weight", stood(90.0)),
     "moments in N mm": ("size of shear", lambda t: plated(t, twisted)),
     "shear ten times": ("size of shear", lambda t: plated(t, forced((10.0, 1.0, 10.0)))),
     "sign along the walk": ("braking", lambda t: plated(t, forced((-1.0, 1.0, 1.0)))),
@@ -188,6 +198,7 @@ NEARLY: dict[str, Callable[[RecordedTrial], RecordedTrial]] = {
     "mass x 0.85": lambda t: replace(t, mass=0.85 * MASS),
     "mass x 1.3": lambda t: replace(t, mass=1.3 * MASS),
     "force x 0.8": lambda t: plated(t, forced((0.8, 0.8, 0.8))),
+    "80 kg where the plate carries 75": stood(80.0),
     "half of the braking": lambda t: plated(t, forced((0.5, 1.0, 1.0))),
     "0.03 s late": lambda t: plated(t, later(0.03)),
     "floor 15 mm up": lambda t: moved(t, lambda p: p + np.array([0.0, 0.015, 0.0])),
@@ -228,6 +239,11 @@ def test_mass_is_estimated() -> None:
     """0.8 times the weight for 1 / (2 x 0.62) = 0.806: the mass within 1 %."""
     (found,) = [one for check, one in contradictions(replace(walk(), mass=0.5 * MASS)) if check.name == "mass"]
     assert "about 76 kg" in found.remedy or "about 75 kg" in found.remedy
+
+
+def test_another_mass_is_refused_with_that_of_the_plates() -> None:
+    (found,) = [one for _, one in contradictions(stood(100.0)(walk()))]
+    assert found.refuse and "75.0 kg" in found.remedy
 
 
 def test_lateness_is_estimated() -> None:
