@@ -22,6 +22,8 @@ LARGER, FAR = 1.25, 3.0
 the noise of a recording to better than a quarter."""
 AT_BOUND = 1e-3
 """Share of the width of its bounds within which a parameter is on one of them."""
+SAID = 3
+"""Doubts that a sentence names; run.json has them all."""
 MUCH = 0.5
 """Share of the samples outside of what a model describes, from which it describes something else."""
 
@@ -36,10 +38,13 @@ class Doubt:
         In words, with the numbers and the place.
     contradicts
         Whether the result cannot be right; else it may be.
+    size
+        How large it is beside others of its kind.
     """
 
     what: str
     contradicts: bool
+    size: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -69,8 +74,9 @@ class GoodnessOfFit:
         """A sentence; empty where the result fits."""
         if not self.doubts:
             return ""
-        first = sorted(self.doubts, key=lambda doubt: not doubt.contradicts)
-        said = "; ".join(doubt.what for doubt in first)
+        first = sorted(self.doubts, key=lambda doubt: (not doubt.contradicts, -doubt.size))
+        said = "; ".join(doubt.what for doubt in first[:SAID])
+        said += f"; and {len(first) - SAID} more, see run.json" if len(first) > SAID else ""
         if self.outcome == "contradicts":
             return f"the result contradicts its data, and its numbers must not be used: {said}"
         return f"the fit is doubtful: {said}"
@@ -136,7 +142,7 @@ def of_residual(name: str, unit: str, residual: Float[np.ndarray, " n"], noise: 
     test = residual_test(residual, noise)
     if test.excess > SURE and test.ratio > LARGER:
         times = f"{test.ratio:.3g} times the stated noise of {noise:.3g} {unit}"
-        yield Doubt(f"{name}: residual {test.rms:.3g} {unit} is {times}", test.ratio > FAR)
+        yield Doubt(f"{name}: residual {test.rms:.3g} {unit} is {times}", test.ratio > FAR, test.ratio)
 
 
 def of_r2(name: str, r2: float) -> Iterable[Doubt]:
