@@ -9,7 +9,7 @@ from jaxtyping import Float
 
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.tilt import axes_upright
-from geocontact.trial_checks.landmarks import FOOT, middle
+from geocontact.trial_checks.landmarks import FOOT, middle, points
 from geocontact.trial_checks.recorded import Check, Contradiction, RecordedTrial
 
 STEP, ACCELERATION = 0.04, 200.0
@@ -21,6 +21,9 @@ LYING = 0.15
 """m, of the pelvis above the feet: who stands, walks or sits has it higher up."""
 TURNED = 0.3
 """Cosine between where the body faces by its right and left and by its front and back, below 0."""
+LEVEL, ON_FLOOR, FLOORS = 0.05, (-0.015, 0.065), 0.035
+"""m, between heel and toes of a foot that stands flat; of its lowest marker above the floor; of the heel's marker
+between standing and stance."""
 RIGID, MOVED, FEWEST = 0.006, 0.025, 2
 """m, of standard deviation of the distance of two markers on one segment; m, by which that distance then differs from
 the standing trial; pairs of a marker that have to say so."""
@@ -161,6 +164,47 @@ def same_person(trial: RecordedTrial) -> Iterator[Contradiction]:
             yield Contradiction(moving.source, "", what, "has it been moved, or exchanged with another one?")
 
 
+def flat_foot(trial: RecordedTrial) -> Iterator[Contradiction]:
+    """Heel and toes of the standing trial against each other, and against the floor that is taken."""
+    still = trial.standing
+    if still is None:
+        return
+    for side in ("right", "left"):
+        heel, toe = (float(_height(still, (kind,), side, trial)) for kind in ("heel", "toe"))
+        if abs(heel - toe) > LEVEL:
+            what = f"heel and toes of the {side} foot are {1e3 * heel:.0f} and {1e3 * toe:.0f} mm high while standing"
+            yield Contradiction(still.source, "", what, "does the foot stand flat there, and are the labels right?")
+        lowest = min(heel, toe) if np.isfinite(heel) and np.isfinite(toe) else np.nan
+        if trial.floor is not None and not np.isnan(lowest):
+            above = lowest - trial.floor
+            if not ON_FLOOR[0] <= above <= ON_FLOOR[1]:
+                what = f"the lowest marker of the {side} foot is {1e3 * above:.0f} mm above the floor while standing"
+                yield Contradiction(still.source, "", what, f"is the floor at {trial.floor:g} m along the way up?")
+
+
+def _height(seen: MarkerTrajectories, kinds: tuple[str, ...], side: str, trial: RecordedTrial) -> float:
+    """Median height of the lowest landmark of these kinds [m]; NaN where there is none."""
+    places = points(seen, kinds, side) @ trial.up
+    known = places[np.isfinite(places).all(axis=1)] if places.shape[1] else places[:0]
+    return float(np.median(known.min(axis=1))) if len(known) else float("nan")
+
+
+def same_floor(trial: RecordedTrial) -> Iterator[Contradiction]:
+    """The least height of a heel in a walk against its height in the standing trial."""
+    still, seen = trial.standing, trial.markers
+    if still is None or seen is None or not trial.plates:
+        return
+    for side in ("right", "left"):
+        places = points(seen, ("heel",), side) @ trial.up
+        if not places.size or not np.isfinite(places).any():
+            continue
+        lowest, standing = float(np.nanpercentile(places, 2.0)), _height(still, ("heel",), side, trial)
+        if abs(lowest - standing) > FLOORS:
+            what = f"the heel of the {side} foot comes down to {1e3 * lowest:.0f} mm in the walk"
+            what += f", and stands at {1e3 * standing:.0f} mm in {still.source}"
+            yield Contradiction(seen.source, "", what, "have both trials one origin, and one floor?")
+
+
 MARKER_CHECKS = (
     Check(
         "jump",
@@ -186,6 +230,18 @@ MARKER_CHECKS = (
         "distances of markers on one segment with those of the standing trial",
         f"{1e3 * MOVED:.0f} mm, of pairs that keep their distance to {1e3 * RIGID:.0f} mm; skin moves by 5 to 20 mm",
         same_person,
+    ),
+    Check(
+        "foot while standing",
+        "heights of heel and toes with each other, and with the floor where the analysis takes one",
+        f"{1e3 * LEVEL:.0f} mm; {1e3 * ON_FLOOR[0]:.0f} to {1e3 * ON_FLOOR[1]:.0f} mm above the floor",
+        flat_foot,
+    ),
+    Check(
+        "floor of both trials",
+        "least height of the heel in the walk with its height in the standing trial",
+        f"{1e3 * FLOORS:.0f} mm",
+        same_floor,
     ),
 )
 """Checks that need markers only."""

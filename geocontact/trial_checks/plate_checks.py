@@ -22,6 +22,8 @@ people, D = 0.58 to 0.66 (Perry, Gait Analysis, 1992), and below 1 where both fe
 STANDING, WEIGHT, OTHER_WEIGHT = 0.3, 0.1, 0.2
 """s, over which the weight of who stands is averaged; shares of it: rising at 1 m/s^2 is as much as the one, and with
 twice as much the mass is another one."""
+LEAST = 0.3
+"""Share of the weight that somebody who steps on a plate exceeds."""
 HEAVY = 0.3
 """Share of the largest normal force from which samples are compared."""
 SHEAR, TWIST = 0.5, 0.12
@@ -86,6 +88,12 @@ def mass(trial: RecordedTrial) -> Iterator[Contradiction]:
     if trial.mass is None:
         return
     weight = trial.mass * GRAVITY
+    most = max((float(on.normal.max(initial=0.0)) for on in trial.plates), default=np.inf)
+    if most < LEAST * weight:
+        first = trial.plates[0]
+        what = f"no plate ever carries more than {most:.3g} N, {most / weight:.1%} of the weight of {trial.mass:.4g} kg"
+        remedy = f"is the force in N, {trial.mass_option} in kg, and does anybody stand on it?"
+        yield Contradiction(first.source, first.plate.name, what, remedy)
     walked = [step for step in steps(trial) if step.time[-1] - step.time[0] < STILL]
     if not walked:
         return
@@ -210,14 +218,26 @@ def under_a_foot(trial: RecordedTrial) -> Iterator[Contradiction]:
         if not known:
             continue
         nearest = min(known, key=lambda side: known[side])
-        if len(known) == 2 and known[nearest] > AWAY:
-            what = f"its centre of pressure is {known[nearest]:.2f} m from the {nearest} foot, the nearer one (median)"
-            remedy = "are plates and markers in the same axes, on one clock, and of one trial?"
+        if known[nearest] > AWAY and (len(known) == 2 or on.side == nearest):
+            what = f"its centre of pressure is {known[nearest]:.2f} m from the {nearest} foot (median)"
+            remedy = "are plates and markers in the same axes and unit, on one clock, and of one trial?"
             yield Contradiction(on.source, on.plate.name, what, remedy)
         elif on.side in known and nearest != on.side and known[on.side] > max(AWAY, 2.0 * known[nearest]):
             what = f"the {nearest} foot stands on it ({known[nearest]:.2f} m), not the {on.side} one"
             what += f" ({known[on.side]:.2f} m)"
             yield Contradiction(on.source, on.plate.name, what, "are the plates of the two feet exchanged?")
+
+
+def one_foot_each(trial: RecordedTrial) -> Iterator[Contradiction]:
+    """The loads of two plates against each other."""
+    for k, one in enumerate(trial.plates):
+        for other in trial.plates[k + 1 :]:
+            same = one.plate.wrench.force.shape == other.plate.wrench.force.shape and np.array_equal(
+                one.plate.wrench.force, other.plate.wrench.force, equal_nan=True
+            )
+            if same and one.side != other.side and one.normal.any():
+                what = f"its force is that of {other.plate.name}, sample by sample, under the other foot"
+                yield Contradiction(one.source, one.plate.name, what, "name the plate of each foot", refuse=True)
 
 
 def _distance(
@@ -343,6 +363,12 @@ PLATE_CHECKS = (
         "centre of pressure with heel, toes and ankle of the foot that is said to stand there",
         f"{AWAY:g} m, in the median under load; a foot is 0.2 to 0.3 m long",
         under_a_foot,
+    ),
+    Check(
+        "one plate for each foot",
+        "forces of the two plates with each other",
+        "equal in every sample",
+        one_foot_each,
     ),
     Check(
         "floor",

@@ -70,6 +70,8 @@ class RecordedTrial:
         How the user gave it, for messages: an option or a key of a file.
     stands_at
         Time at which the person stands on the plates, all together, and hardly moves [s]; None where none is known.
+    floor
+        Height of the floor that the analysis takes [m]; None where it takes none.
     up
         Unit vector upwards.
     turn
@@ -82,6 +84,7 @@ class RecordedTrial:
     mass: float | None = None
     mass_option: str = "`mass`"
     stands_at: float | None = None
+    floor: float | None = None
     up: Float[np.ndarray, " 3"] = field(default_factory=UP.copy)
     turn: Rotation | None = None
 

@@ -97,6 +97,15 @@ def plated(trial: RecordedTrial, change: Callable[[ForcePlate], ForcePlate]) -> 
     return replace(trial, plates=tuple(replace(on, plate=change(on.plate)) for on in trial.plates))
 
 
+def standing_moved(trial: RecordedTrial, marker: int | None, by: float) -> RecordedTrial:
+    """With one marker of the standing trial, or all of them, higher up [m]."""
+    still = trial.standing
+    assert still is not None
+    places = still.positions.copy()
+    places[:, slice(None) if marker is None else marker, 1] += by
+    return replace(trial, standing=replace(still, positions=places))
+
+
 def spiked(by: float) -> Callable[[np.ndarray], np.ndarray]:
     """Three frames of one marker aside [m]."""
 
@@ -130,6 +139,11 @@ def forced(factors: tuple[float, float, float]) -> Callable[[ForcePlate], ForceP
 def twisted(plate: ForcePlate) -> ForcePlate:
     """Moments in N mm."""
     return replace(plate, wrench=replace(plate.wrench, moment=1e3 * plate.wrench.moment))
+
+
+def millimetres(plate: ForcePlate) -> ForcePlate:
+    """Centre of pressure in mm."""
+    return replace(plate, wrench=replace(plate.wrench, origin=1e3 * plate.wrench.origin))
 
 
 def exchanged(trial: RecordedTrial) -> RecordedTrial:
@@ -187,7 +201,16 @@ DAMAGED: dict[str, tuple[str, Callable[[RecordedTrial], RecordedTrial]]] = {
     "plates turned by 90 degrees": ("braking", lambda t: plated(t, lambda p: p.turned(TURNED))),
     "plates elsewhere": ("foot on plate", lambda t: moved(t, lambda p: p + np.array([0.8, 0.0, 0.0]))),
     "plates exchanged": ("foot on plate", exchanged),
+    "one plate for both feet": (
+        "one plate for each foot",
+        lambda t: replace(t, plates=(t.plates[0], replace(t.plates[0], side="left"))),
+    ),
+    "centre of pressure in mm": ("foot on plate", lambda t: plated(t, millimetres)),
+    "nobody on the plates": ("mass", lambda t: plated(t, forced((0.02, 0.02, 0.02)))),
     "floor 50 mm up": ("floor", lambda t: moved(t, lambda p: p + np.array([0.0, 0.05, 0.0]))),
+    "a foot that does not stand flat": ("foot while standing", lambda t: standing_moved(t, 1, 0.07)),
+    "a floor 50 mm lower": ("foot while standing", lambda t: standing_moved(replace(t, floor=0.0), None, 0.05)),
+    "the walk alone 50 mm up": ("floor of both trials", lambda t: moved(t, lambda p: p + np.array([0.0, 0.05, 0.0]))),
     "a plate 0.1 s late": ("clock", lambda t: plated(t, later(0.1))),
     "a plate 0.1 s early": ("clock", lambda t: plated(t, later(-0.1))),
 }
@@ -199,6 +222,8 @@ NEARLY: dict[str, Callable[[RecordedTrial], RecordedTrial]] = {
     "mass x 1.3": lambda t: replace(t, mass=1.3 * MASS),
     "force x 0.8": lambda t: plated(t, forced((0.8, 0.8, 0.8))),
     "80 kg where the plate carries 75": stood(80.0),
+    "toes 20 mm higher than the heel": lambda t: standing_moved(t, 1, 0.02),
+    "a floor 15 mm lower": lambda t: standing_moved(replace(t, floor=0.0), None, 0.015),
     "half of the braking": lambda t: plated(t, forced((0.5, 1.0, 1.0))),
     "0.03 s late": lambda t: plated(t, later(0.03)),
     "floor 15 mm up": lambda t: moved(t, lambda p: p + np.array([0.0, 0.015, 0.0])),

@@ -91,6 +91,7 @@ class Laboratory:
         file: Path | None = None,
         own: ForcePlate | None = None,
         other: ForcePlate | None = None,
+        floor: float | None = 0.0,
     ) -> None:
         """Warn of whatever two of these say differently; InputError where that leaves no result.
 
@@ -102,10 +103,12 @@ class Laboratory:
             Of the person [kg].
         file, own, other
             Plates, and of these the one under the prosthesis and the one under the other foot.
+        floor
+            Height that the floor is taken to have [m]; None where it is not level.
         """
         feet = ((own, self.side), (other, OTHER[self.side]))
         plates = tuple(FootPlate(plate, fspath(file), side) for plate, side in feet if plate is not None and file)
-        check_trial(RecordedTrial(seen, standing, plates, mass, turn=turn_of(self.axes)))
+        check_trial(RecordedTrial(seen, standing, plates, mass, floor=floor, turn=turn_of(self.axes)))
 
 
 def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableStiffnessFoot:

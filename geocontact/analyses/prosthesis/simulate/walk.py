@@ -71,7 +71,7 @@ def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
     add_input("`plates`", file, plates=len(plates))
     other = plate_named(plates, o.other_plate, file, "`other_plate`")
     own = None if o.plate is None else plate_named(plates, o.plate, file, "`plate`")
-    lab.check(standing, seen, cast(float, o.mass), file, own, other)
+    lab.check(standing, seen, cast(float, o.mass), file, own, other, 0.0 if o.ground is None else None)
     plate = None if own is None else lab.stance(own, file)
     return RecordedWalk(
         lab.right(standing), moving, lab.right(seen), lab.stance(other, file), plate, ground, foot, offset
