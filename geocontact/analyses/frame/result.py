@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from geocontact.analyses.frame.pages import Thinned
+    from geocontact.identify.goodness_of_fit import Outcome
     from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
@@ -66,13 +67,19 @@ class Result(ABC):
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        """What was found, in words."""
-        return tuple(self.record.sentences)
+        """What was found, in words; what contradicts the data, or makes the fit doubtful, comes first."""
+        judged = self.record.judged
+        return (*((judged,) if judged else ()), *self.record.sentences)
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """Reservations, each one line."""
         return tuple(self.record.warnings)
+
+    @property
+    def fit_outcome(self) -> Outcome | None:
+        """Whether the result agrees with its data: fits, doubtful, contradicts; None where nothing was compared."""
+        return None if self.record.fit is None else self.record.fit.outcome
 
     @property
     def accepted(self) -> bool:
@@ -82,7 +89,7 @@ class Result(ABC):
     @property
     def exit_code(self) -> int:
         """What the command ends with."""
-        return 0 if self.accepted else 1
+        return 0 if self.accepted and self.fit_outcome != "contradicts" else 1
 
     @property
     def folders(self) -> tuple[str, ...]:

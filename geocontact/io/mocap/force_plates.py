@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import warnings
-from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.multibody.force_plate import LOADED, ForcePlate
 from geocontact.data.wrench import Wrench
 from geocontact.io.mocap.c3d_plates import MOMENTS_LAST, Arrays, PlateUnits, plate_units, read_c3d_plates
 from geocontact.io.mocap.plate_zero import zero_samples
@@ -24,42 +24,8 @@ OUTSIDE = 0.2
 FAR = 1.0
 """Share of a plate's length, beyond its edge: farther off, the plate cannot be used."""
 
-HEAVY = 0.2
-"""Share of the largest force from which samples count: below it the centre of pressure is not sharp."""
-
-
-def lengths_outside(
-    centre: Float[np.ndarray, "t 3"], load: Float[np.ndarray, " t"], corners: Float[np.ndarray, "4 3"], gate: float
-) -> float:
-    """Median distance of the loaded centre of pressure beyond the plate's edge, in its lengths; below 0 inside.
-
-    Parameters
-    ----------
-    centre
-        Centre of pressure [m], NaN where there is none.
-    load
-        Normal force [N].
-    corners
-        Of the surface [m], one after another around it.
-    gate
-        Normal force [N] from which a sample counts, at least.
-
-    NaN for a plate that is never loaded.
-    """
-    heavy = (load >= max(gate, HEAVY * float(load.max()))) & np.isfinite(centre).all(axis=1)
-    if not heavy.any():
-        return float("nan")
-    a, b, c, d = corners
-    edges = np.stack([(a - b + d - c) / 2.0, (a - d + b - c) / 2.0])
-    along = (centre[heavy] - corners.mean(axis=0)) @ edges.T / np.sum(edges**2, axis=1)
-    return float(np.median(np.abs(along).max(axis=1)) - 0.5)
-
-
 OPENSIM_FRAME = "ground of the .mot (OpenSim, y up)"
 LABORATORY_FRAME = "laboratory of the .c3d"
-LOADED = 20.0
-"""Load [N] from which a sample tells in which direction a plate is loaded."""
-
 WORN = 0.4
 """Share of the body's weight that a force may press down with as a device that is worn: of a plate the wrong way round
 half of it and more, by one of two feet that stand."""
@@ -69,59 +35,6 @@ RETURNS = 10.0
 
 _WITH_CENTRE = 1  # type of plate whose channels hold the centre of pressure: no offset of it can be taken off
 _FORCE = re.compile(r"(?P<head>.*)force(?P<tail>.*)vx", re.IGNORECASE)
-
-
-@dataclass(frozen=True)
-class ForcePlate:
-    """Reaction of one plate on the foot.
-
-    Parameters
-    ----------
-    name
-        Name to choose it by.
-    time
-        [s].
-    wrench
-        Force on the foot [N] with its moment [N m], in the file's frame; NaN where the file has nothing.
-    point, normal
-        A point of the plate's surface [m] and its unit normal, out of the floor.
-    corners
-        Of its surface [m], one after another around it; None where the file does not have them.
-    """
-
-    name: str
-    time: Float[np.ndarray, " t"]
-    wrench: Wrench
-    point: Float[np.ndarray, " 3"]
-    normal: Float[np.ndarray, " 3"]
-    corners: Float[np.ndarray, "4 3"] | None = None
-
-    def centre_of_pressure(self, gate: float = LOADED) -> Float[np.ndarray, "t 3"]:
-        """Centre of pressure on the plate's surface [m]; NaN where the normal force is below `gate` [N]."""
-        return self.wrench.centre_of_pressure(self.point, self.normal, gate)
-
-    def at(self, time: Float[np.ndarray, " f"]) -> Wrench:
-        """Reaction at other times [s], linear between samples, moment about the frame's origin; NaN outside its own."""
-        about = self.wrench.moved_to(np.zeros(3))
-        force, moment = (
-            np.column_stack([np.interp(time, self.time, column, np.nan, np.nan) for column in values.T])
-            for values in (about.force, about.moment)
-        )
-        return Wrench(force, moment, np.zeros_like(force), about.frame)
-
-    def free_moment(self, gate: float = LOADED) -> Float[np.ndarray, " t"]:
-        """Moment about the plate's normal through the centre of pressure [N m]; NaN below the gate."""
-        return self.wrench.free_moment(self.centre_of_pressure(gate), self.normal)
-
-    def outside(self) -> float:
-        """How far the centre of pressure lies beyond the plate's edge under load, in the median, in its lengths.
-
-        Below 0 on the plate; NaN where nobody stands on it or its corners are not known.
-        """
-        if self.corners is None:
-            return float("nan")
-        load = self.wrench.force @ self.normal
-        return lengths_outside(self.centre_of_pressure(), load, self.corners, LOADED)
 
 
 def read_force_plates(path: str | PathLike[str], c3d_unit: str | None = None) -> tuple[ForcePlate, ...]:
@@ -222,7 +135,7 @@ def _plate(table: TextTable, head: str, tail: str) -> ForcePlate:
     if torque is None:
         warnings.warn(InputWarning(f"{table.file}: no torque for {name}; its free moment is not known"), stacklevel=4)
     moment = np.full_like(force, np.nan) if torque is None else _three(table, torque, "N m")
-    on = np.abs(force[:, 1]) >= LOADED
+    on = np.linalg.norm(force, axis=1) >= LOADED
     if not on.any():
         warnings.warn(InputWarning(f"{table.file}: {name} never carries {LOADED:g} N"), stacklevel=4)
     surface = np.array([0.0, float(np.median(point[on, 1])) if on.any() else 0.0, 0.0])

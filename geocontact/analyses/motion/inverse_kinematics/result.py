@@ -177,7 +177,7 @@ def run(seen: KinematicsInputs, o: IkOptions) -> IkResult:
     errors = MarkerErrors.of(found)
     exchanged = exchanged_markers(tree, seen.markers, seen.tasks, found, MOVING.rms, MOVING.largest)
     errors.warn(MOVING, "" if exchanged is None else exchange_question(exchanged))
-    if exchanged is None:
+    if exchanged is None and "upright" not in seen.doubts:
         warn_of_tilt(seen.model, found.values, o.axes)
     _warn(found)
     told = "" if (free := _never(found)) <= UNTOLD * len(found.names) else f"{free} of {len(found.names)} coordinates "

@@ -32,7 +32,7 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
 from geocontact.analyses.motion.skeleton import MARKER, scene_of, skeleton
-from geocontact.analyses.prosthesis.recorded_files import right_markers
+from geocontact.analyses.prosthesis.recorded_files import Laboratory
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
 from geocontact.analyses.prosthesis.stance_files import numbers_table
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
@@ -139,14 +139,15 @@ class Stood:
 
 def read(o: ProsthesisScaleOptions) -> Stood:
     """Everything the options name."""
-    seen = right_markers("static", o.static, o.side, o.axes, o.markers_map, o.c3d_unit)
+    lab = Laboratory(o.side, o.axes, o.markers_map, o.c3d_unit)
+    standing = lab.markers("static", o.static)
+    moved = None if o.functional is None else lab.markers("`functional`", o.functional)
+    lab.check(standing, moved, cast(float, o.mass))
+    seen, moving = lab.right(standing), None if moved is None else lab.right(moved)
     name, far = largest_motion(seen)
     if far > MOVED:
         what = f"{name} moves {1e3 * far:.0f} mm away from its median: is this standing still?"
         reserve(f"{seen.source}: {what}")
-    moving = None
-    if o.functional is not None:
-        moving = right_markers("`functional`", o.functional, o.side, o.axes, o.markers_map, o.c3d_unit)
     joints = NO_JOINTS if moving is None else standing_joints(seen, moving)
     foot = vsf_foot()
     keel = foot.keel.posterior_mass + foot.keel.joints * foot.keel.segment_mass

@@ -9,7 +9,8 @@ from typing import TypeVar
 import numpy as np
 
 from geocontact.analyses.frame.collector import add_input, reserve
-from geocontact.analyses.motion.markers import markers_given, renamed_as_told
+from geocontact.analyses.motion.checked_trial import check_trial
+from geocontact.analyses.motion.markers import markers_given, renamed_as_told, turn_of
 from geocontact.analyses.shoulder.devices import device_named, wearer_of_lengths
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.recordings import tool_current
@@ -34,6 +35,7 @@ from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport, hel
 from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds
 from geocontact.shoulder_exoskeleton.support.profile_limits import Limits
 from geocontact.shoulder_exoskeleton.synthetic import all_arms
+from geocontact.trial_checks.recorded import RecordedTrial
 
 T = TypeVar("T")
 WORST = 0.25
@@ -85,6 +87,7 @@ def read(o: ShoulderOptimiseOptions) -> WorkersAndDevice:
 def _arms(o: ShoulderOptimiseOptions, study: OverheadStudy, trial: StudyTrial, lengths: Wearer) -> list[ArmTrial]:
     person, task = study.persons[trial.person], study.tasks[trial.task]
     recorded = renamed_as_told(markers_given(trial.markers, o.axes, None, o.c3d_unit), o.markers_map)
+    check_trial(RecordedTrial(markers=recorded, turn=turn_of(o.axes)))
     seen = filled_markers(recorded, o.gap_limit)
     add_input(f"{trial.person} {trial.task}", trial.markers, frames=len(seen))
     current = tool_current(trial.tool, seen.time)
