@@ -363,7 +363,7 @@ def test_gaps_are_filled_up_to_a_limit(tmp_path: Path) -> None:
         ({"certainty": 1.5}, "150 % is not 0 to 100 %; is 1.5 % meant?"),
         ({"dominant_share": 1.5}, "150 % is not 0 to 100 %"),
         ({"draws": 3}, "3 draws are too few for an interval; give 20 or more"),
-        ({"cutoff": 0.0}, "0 leaves noise in accelerations"),
+        ({"cutoff": 0.0}, "0 leaves the noise in the accelerations"),
         ({"device": "nothing"}, "neither a file nor a built-in device"),
     ],
 )

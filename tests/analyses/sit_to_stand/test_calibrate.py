@@ -199,7 +199,7 @@ def doubts(**other: object) -> tuple[list[str], list[str]]:
         ({"ends": (Ended(1.0005, True, False), BEST)}, "ends in a minimum that another start beats"),
         ({"misfit": 1.74}, "phase A leaves 1.7 times the squares that the noise makes"),
         ({"verdict": "not separable"}, "not separable, with intervals that cover both: heel"),
-        ({"verdict": "on its bound"}, "on its bound, so that the value says where the bound is: heel"),
+        ({"verdict": "on its bound"}, "at a bound, so the value only reflects the bound: heel"),
         ({"verdict": "prior-dominated"}, "add little to the prior of heel"),
         ({"doubt": "it is singular"}, "phase A has no intervals: it is singular"),
     ],

@@ -64,7 +64,7 @@ def read(o: ProsthesisCalibrateOptions) -> FootOnPlate:
     fit = walked(seen, leg, cutoff=ANGLES_CUTOFF, gap_limit=o.gap_limit)
     other = right_plate(read_force_plates(o.plates, o.c3d_unit), o.other_plate, o.plates, o.side, "other_plate")
     on_model = walked_stance(stance, fit, other, seen.source)
-    reserve("the hip's centre is that of a regression")
+    reserve("the hip's centre comes from a regression")
     return FootOnPlate(foot, stance, seen, fit, on_model)
 
 

@@ -125,13 +125,13 @@ def say_profiles(made: MadeProfiles, loop: ClosedLoop, trials: Sequence[ArmTrial
         "cvar": f" in the mean of the worst {loop.worst_share:.0%} of the cases",
     }[loop.aim]
     say(
-        f"{made.group.value:.1%} of the shoulders' torque is taken away{whose} in the simulation "
+        f"{made.group.value:.1%} of the shoulders' torque is removed{whose} in the simulation "
         f"({made.group.profile.value:.1%} planned){_kept(loop.limits)}; one factor for all tasks, hands and phases "
         f"takes {made.one.value:.1%}{_out(made.group, made.one)}"
     )
     best, one = (_by(trials, each, "mean") for each in (made.group, made.one))
     if loop.aim != "mean":
-        say(f"in the mean over persons it is {best:.1%}, and {one:.1%} with one factor{_out(made.group, made.one)}")
+        say(f"the mean over persons is {best:.1%}, and {one:.1%} with one factor{_out(made.group, made.one)}")
     taken = {
         "taken away": best,
         "taken away by one factor": one,
