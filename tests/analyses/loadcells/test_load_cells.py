@@ -90,7 +90,7 @@ def test_weights_of_another_tray(tmp_path: Path, name: str, text: str) -> None:
 def test_weights_that_lose_force_are_said(tmp_path: Path) -> None:
     matrix = tmp_path / "two.toml"
     matrix.write_text('cells = ["PM", "AM"]\nmedial = [1.0, 0.5]\nlateral = [0.0, 0.4]\n', encoding="utf-8")
-    with pytest.warns(InputWarning, match="do not count each cell's force once: AM 0.9") as said:
+    with pytest.warns(InputWarning, match="weights of a cell do not sum to 1: AM 0.9") as said:
         result = load_cells(recorded(tmp_path), unit="N", matrix=matrix)
     assert [str(each.message) for each in said] == list(result.warnings)
 
