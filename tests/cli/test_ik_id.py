@@ -320,7 +320,7 @@ def test_what_two_markers_cannot_tell_is_refused(tmp_path: Path) -> None:
     result = ik(tmp_path, lost(tmp_path, slice(None), slice(2, 16)))
     assert result.code == 2 and "no frame shows more than 2 markers" in result.err
     nothing = ik(tmp_path, lost(tmp_path, slice(None), slice(None)))
-    assert nothing.code == 2 and "no marker is seen in any frame" in nothing.err
+    assert nothing.code == 2 and "no marker is visible in any frame" in nothing.err
 
 
 def test_a_held_coordinate_is_told_without_markers(tmp_path: Path) -> None:

@@ -134,7 +134,7 @@ def sole_law(table: SphereTable, o: CopOptions) -> SoleLaw:
         without = sorted({zone for zone in table.zone if "k" not in zones.get(zone, {})})
         some = any("k" in zone for zone in zones.values())
         where = f"zone {', '.join(without)}" if some else "every sphere"
-        reserve(f"no stiffness given for {where}: {assumed['k']:g} N/m^n is taken; forces are only as good as that")
+        reserve(f"no stiffness given for {where}: {assumed['k']:g} N/m^n is taken; forces depend on this value")
     _check_sizes(o, law)
     shown = [f"{key} = {assumed[key]:g}{unit}" for key, unit in UNITS.items() if key in assumed]
     if shown:

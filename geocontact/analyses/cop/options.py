@@ -68,7 +68,7 @@ class CopOptions(Options):
     The centre
     ----------
     point
-        What the normal forces weigh: the points on the ground, or the centres of the spheres.
+        What is averaged, weighted by normal force: points on the ground, or centres of spheres.
     gate
         Normal force [N] below which there is no centre of pressure.
     toe

@@ -143,7 +143,7 @@ def _axis(foot: Foot, toe: str, length: float | None) -> FootAxis:
 
 def _loads(foot: Foot, o: CopOptions) -> SphereLoads:
     if len(foot.motion) == 1 and foot.law.needs_velocity:
-        reserve(f"{o.motion} has one frame: the foot is taken to stand still")
+        reserve(f"{o.motion} has one frame: the foot is assumed to stand still")
     rate = pose_rate(foot.motion.time, foot.motion.poses)
     try:
         with listener().preparing():

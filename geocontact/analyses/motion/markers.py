@@ -85,7 +85,7 @@ def _refuse_absurd(seen: MarkerTrajectories) -> None:
     """A body spans decimetres to metres; more or less is another unit than the file says."""
     places = seen.positions[np.isfinite(seen.positions).all(axis=2)]
     if not len(places):
-        raise InputError(seen.source, "", "no marker is seen in any frame", "is it the right file?")
+        raise InputError(seen.source, "", "no marker is visible in any frame", "is it the right file?")
     first = next(frame for frame in seen.positions if np.isfinite(frame).all(axis=1).any())
     there = first[np.isfinite(first).all(axis=1)]
     size = float(np.linalg.norm(np.ptp(there, axis=0)))

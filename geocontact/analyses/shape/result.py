@@ -182,7 +182,7 @@ def _interval(fit: ShapeFit) -> str:
 
 def _warn_of_doubts(name: str, fit: ShapeFit) -> None:
     if not fit.quality.converged:
-        reserve(f"{name}: the search did not end by itself; the fit may not be the best")
+        reserve(f"{name}: the search did not converge; the fit may not be the best")
     if fit.shape == "cylinder" and fit.arc < FLATTEST:
         reserve(
             f"{name}: the points cover {np.degrees(fit.arc):.0f} degrees about the axis; "

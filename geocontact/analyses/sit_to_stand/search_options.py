@@ -23,9 +23,9 @@ class StandingSearchOptions(Options):
     The search
     ----------
     nodes
-        Intervals in a second to begin with; those that leave too much of the balance are halved.
+        Initial intervals per second; those with too large an error of the balance are halved.
     degree
-        Collocation points in an interval (Radau).
+        Collocation points per interval (Radau).
     iterations
         Largest number of iterations.
     time_limit

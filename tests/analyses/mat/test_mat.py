@@ -60,7 +60,7 @@ def test_the_result_says_what_was_found(tmp_path: Path) -> None:
     assert str(result).splitlines() == [
         "force up to 12.0 N at 0 s, pressure up to 10.0 kPa, area up to 12 cm²",
         "warning: 12 cells clip at 10 kPa, in 100% of the frames: forces are too low",
-        "warning: the mat never reads less than 12 N: if it was unloaded at some time, say when with `unloaded`",
+        "warning: the mat never reads less than 12 N: if it was unloaded at some time, give this time as `unloaded`",
     ]
     assert result.figure() is not None
 

@@ -128,7 +128,7 @@ def _reserve(d: Designed) -> None:
             x, y = d.map.offsets[int(np.argmax(d.map.fate == fate))] * MM
             reserve(f"{count} of {len(d.map.fate)} offsets of the map (x = {x:g} mm, y = {y:g} mm …): {words}")
     if d.boundary.least >= d.boundary.most:
-        reserve("the limit is exceeded nowhere within the map: how far offsets may go is computed up to its edge only")
+        reserve("the limit is not exceeded anywhere in the map: how far offsets may go is computed up to its edge only")
     if np.isnan(d.sensitivities[0].peak_slope):
         reserve("no sensitivities where there is no force: give another `offset` than what is aimed at")
 

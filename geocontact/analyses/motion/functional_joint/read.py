@@ -92,7 +92,7 @@ def read(o: JointOptions) -> MovedPair:
             raise InputError(seen.source, option, str(error), "name other markers of that segment") from error
     one, other, together = seen_together(tracks[0][:2], tracks[1][:2])
     if not together.any():
-        raise InputError(seen.source, "", "no frame shows both segments", "name markers that were seen together")
+        raise InputError(seen.source, "", "no frame shows both segments", "name markers that are visible together")
     off = tuple(float(np.sqrt(np.nanmean(track[2] ** 2))) for track in tracks)
     return MovedPair(still or seen, seen.time[together], *segments, one, other, (off[0], off[1]))
 
@@ -126,7 +126,7 @@ def means_of(trial: MarkerTrajectories, names: tuple[str, ...], option: str) -> 
     tracks = trial.of(names)
     unseen = [name for k, name in enumerate(names) if not np.isfinite(tracks[:, k]).all(axis=1).any()]
     if unseen:
-        raise InputError(trial.source, option, f"{unseen[0]} is seen in no frame", "leave it out")
+        raise InputError(trial.source, option, f"{unseen[0]} is visible in no frame", "leave it out")
     return np.asarray(np.nanmean(tracks, axis=0))
 
 

@@ -222,7 +222,7 @@ def _summary(found: Poses, seconds: float) -> dict[str, object]:
 def _warn(found: Poses) -> None:
     if not found.settled.all():
         count = int((~found.settled).sum())
-        reserve(f"{count} frames did not settle: markers and model may not belong together")
+        reserve(f"{count} frames did not converge: markers and model may not match")
     never = np.asarray(~found.determined.any(axis=0))
     if never.any():
         names = tuple(name for name, each in zip(found.names, never, strict=True) if each)

@@ -144,7 +144,7 @@ def run(given: Standing, o: ScaleOptions) -> ScaleResult:
     except ValueError as error:
         raise InputError(o.static, "", str(error), "is it the right file?") from error
     if not pose.settled.all():
-        reserve("the static pose did not settle: markers and model may not belong together")
+        reserve("the static pose did not converge: markers and model may not match")
     moved = made if o.keep_markers else _placed(made, given.markers, pose)
     summary = _summary(given, pose, moved)
     results().update(plain(summary))

@@ -66,7 +66,7 @@ def read(o: ProsthesisCalibrateOptions) -> FootOnPlate:
         return FootOnPlate(foot, stance, seen, None, None)
     fit = walked(seen, leg, cutoff=ANGLES_CUTOFF, gap_limit=o.gap_limit)
     on_model = walked_stance(stance, fit, lab.stance(there, o.plates), seen.source)
-    reserve("the hip's centre is that of a regression")
+    reserve("the hip's centre comes from a regression")
     return FootOnPlate(foot, stance, seen, fit, on_model)
 
 

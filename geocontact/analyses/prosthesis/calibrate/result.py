@@ -234,9 +234,9 @@ def _summarise(r: ProsthesisCalibrateResult) -> None:
     verdicts = Counter(number.verdict for number in found.knowledge.numbers)
     unknown = [number.name for number in found.knowledge.numbers if number.verdict == "unknown"]
     if unknown:
-        reserve(f"never loaded, so that their usual values say nothing: {', '.join(unknown)}")
+        reserve(f"never loaded, so the data do not inform their values: {', '.join(unknown)}")
     if not found.converged:
-        reserve("the search stopped before it settled; give more `starts`")
+        reserve("the search stopped before convergence; give more `starts`")
     apart = found.knowledge.told_apart
     along = f"is met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s relative to the recorded speed"
     if r.whole is not None:

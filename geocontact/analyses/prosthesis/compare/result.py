@@ -189,12 +189,12 @@ def _summarise(r: ProsthesisCompareResult) -> None:
     for one in stances:
         if np.isnan(one.errors.stance[0]):
             what = f"is simulated over {one.errors.simulated:.0%} of its stance, and ends before toe-off"
-            reserve(f"{one.name} {what}: no stance time of it, errors over that part")
+            reserve(f"{one.name} {what}: no stance time, errors are for that part only")
         if (oddness_of := r.odd.get(one.name)) is not None and oddness_of.outlier:
             seen = "; ".join(reasons(one)) or "no checked cause explains it"
-            reserve(f"{one.name} stands out with {one.errors.table['resultant'][1]:.1%} BW: {seen}")
+            reserve(f"{one.name} is an outlier with {one.errors.table['resultant'][1]:.1%} BW: {seen}")
     if transfer < FEWEST:
-        reserve(f"with {transfer} stances none can stand out: {FEWEST} are needed")
+        reserve(f"with {transfer} stances outliers cannot be detected: {FEWEST} are needed")
     note("compare", plain({one.name: _numbers(one) for one in stances}))
 
 

@@ -67,7 +67,7 @@ def read(o: ProsthesisDesignOptions) -> FootAndTrial:
     intact = intact_side(o, trial)
     zones = ZoneParameters(foot.sole, foot.law)
     if o.numbers is None:
-        reserve("nothing is known of this sole but the prior of any: give the `numbers` of a calibration")
+        reserve("for this sole only the general prior is known: give the `numbers` of a calibration")
         return FootAndTrial(foot, trial, zones.sd, intact)
     return FootAndTrial(foot, trial, _known(o.numbers, zones), intact)
 

@@ -61,7 +61,7 @@ def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
     standing = lab.markers("`static`", cast(Path, o.static))
     moving = None
     if o.functional is None:
-        reserve("the hip's centre is that of a regression; a `functional` trial determines it better")
+        reserve("the hip's centre comes from a regression; a `functional` trial determines it better")
     else:
         moving = lab.right(lab.markers("`functional`", o.functional))
     offset = offset_of_law(o.law, cast(Path, o.static))
@@ -107,9 +107,9 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
         gap_limit=o.gap_limit,
     )
     if walk.hip is not None:
-        say(f"hip centre from the functional trial, {1e3 * walk.hip.rms:.1f} mm off itself")
+        say(f"hip centre from the functional trial: residual {1e3 * walk.hip.rms:.1f} mm (root mean square)")
     if walk.off > MOVING.rms:
-        reserve(f"{walk.seen.source}: markers are {1e3 * walk.off:.0f} mm from the standing leg in the median")
+        reserve(f"{walk.seen.source}: markers are {1e3 * walk.off:.0f} mm (median) away from the standing leg")
     return walk
 
 

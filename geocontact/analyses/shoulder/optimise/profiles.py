@@ -73,7 +73,7 @@ def read(o: ShoulderOptimiseOptions) -> WorkersAndDevice:
     add_input("`study`", o.study, persons=len(study.persons), trials=len(study.trials))
     bare = [trial for trial in study.trials if trial.level is None]
     if not bare:
-        reserve("every trial was recorded in the device: the shoulder's torque is that of arms that it supported")
+        reserve("every trial was recorded in the device: the shoulder's torque is for arms that it supported")
     lengths = {name: wearer_of_lengths(o.study, each.lengths) for name, each in study.persons.items()}
     arms = [arm for trial in bare or study.trials for arm in _arms(o, study, trial, lengths[trial.person])]
     unseen = {
@@ -123,7 +123,7 @@ def sound(o: ShoulderOptimiseOptions, what: Callable[[], T]) -> T:
 def judged_held_out(given: WorkersAndDevice, loop: ClosedLoop, o: ShoulderOptimiseOptions) -> dict[str, HeldOutSupport]:
     """How profiles of the others fare, by person; empty where there is one only."""
     if len({trial.person for trial in given.trials}) == 1:
-        reserve("one person only: no person can be held out, the profile is for this person")
+        reserve("only one person: cross-validation is impossible, the profile is for this person")
         return {}
     by_arm = o.scale == "arm"
     try:

@@ -3,7 +3,7 @@
 >>> import geocontact as gc
 >>> result = gc.shoulder.optimise()
 >>> result.sentences[0]
-"36.1% of the shoulders' torque is taken away in the simulation (36.1% planned) without ever pushing an arm up,
+"36.1% of the shoulders' torque is removed in the simulation (36.1% planned) without ever pushing an arm up,
 nor in 95% of the draws of the model's errors that it was chosen with; one factor for all tasks, hands and phases
 takes 19.2%"
 """

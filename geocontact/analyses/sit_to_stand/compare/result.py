@@ -168,7 +168,7 @@ def _report(r: StandingCompareResult) -> None:
     others = errors[errors["predictor"].isin([MEAN, NEAREST])].groupby(["trial", "quantity"])["rmsd"].min()
     free = errors[(errors["predictor"] == ALL) & (errors["given"] == "no")].set_index(["trial", "quantity"]).index
     better = int((best[free] < others[free]).sum())
-    say(f"of {len(free)} channels that are not given, {better} are nearer than by either trivial predictor")
+    say(f"of {len(free)} predicted channels, {better} have a smaller error than with either trivial predictor")
     note("better than both", [better, len(free)])
 
 

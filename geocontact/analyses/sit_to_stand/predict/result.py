@@ -57,7 +57,7 @@ MODEL = [
     "Coordinates between them and the strap's force are predicted; parameters are held.",
     "Without ground reaction, without torques: the same with less given.",
     "Mean of the calibration: coordinates and strap of its trials over parts of the movement.",
-    "Both legs are one planar chain: torques and the ground's force are those of both, a strap is that of one.",
+    "Both legs are one planar chain: torques and the ground's force are for both, a strap's force for one.",
 ]
 COMPARED = ("coordinates", "force", "centre", "torque", "strap")
 
