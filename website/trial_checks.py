@@ -36,11 +36,14 @@ called known and no interval is written. `sit-to-stand calibrate` has it; other 
 
 | compares | doubtful | contradicts |
 |---|---|---|
-| residual r of a channel with its stated noise s: z = (mean r²/s² − 1) / √(2/n (1 + 2 Σρ²)), ρ the residual's autocorrelation up to its first negative value (Bartlett 1946) | z > {fit.SURE:g} and rms above {fit.LARGER:g} s | z > {fit.SURE:g} and rms above {fit.FAR:g} s |
+| residual r of a channel with its stated noise s, see below | z > {fit.SURE:g}, rms > {fit.LARGER:g} s | z > {fit.SURE:g}, rms > {fit.FAR:g} s |
 | a model with the mean of what it describes | | R² < 0 |
 | a parameter with the bounds of its search | on one of them | |
 | an interval with what is physical | | wholly outside |
 | samples outside of what the model describes | any | {fit.MUCH:.0%} or more |
+
+z = (mean r²/s² − 1) / √(2/n (1 + 2 Σρ²)), with ρ the residual's autocorrelation up to its first negative value, which
+makes the excess of a slow residual less sure (Bartlett 1946).
 """
 
 

@@ -27,7 +27,7 @@ LEAST = 0.3
 HEAVY = 0.3
 """Share of the largest normal force from which samples are compared."""
 SHEAR, TWIST = 0.5, 0.12
-"""Of the normal force: its share along the floor, and the free moment [m], in the median under load. People who walk
+"""Force along the floor and free moment [m] in parts of the normal force, in the median under load. People who walk
 have 0.1 and 0.02 m."""
 SPEED, IMPULSE = 0.5, 0.02
 """m/s, from which somebody walks; share of the body's weight that braking or propulsion has in the mean of half a
