@@ -36,7 +36,7 @@ called known and no interval is written. `sit-to-stand calibrate` has it; other 
 
 | compares | doubtful | contradicts |
 |---|---|---|
-| residual r of a channel with its stated noise s, see below | z > {fit.SURE:g}, rms > {fit.LARGER:g} s | z > {fit.SURE:g}, rms > {fit.FAR:g} s |
+| residual r with its noise s | z > {fit.SURE:g}, rms > {fit.LARGER:g} s | z > {fit.SURE:g}, rms > {fit.FAR:g} s |
 | a model with the mean of what it describes | | R² < 0 |
 | a parameter with the bounds of its search | on one of them | |
 | an interval with what is physical | | wholly outside |
