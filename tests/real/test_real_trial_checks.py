@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from geocontact.analyses.motion.checked_trial import turned_plates
 from geocontact.io.mocap.force_plates import read_force_plates
 from geocontact.io.mocap.markers import read_markers
-from geocontact.trial_checks.recorded import FootPlate, RecordedTrial
+from geocontact.trial_checks.recorded import FootPlate, TrialInputs
 from geocontact.trial_checks.table import contradictions
 
 Z_UP = Rotation.from_matrix([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
@@ -34,7 +34,7 @@ def test_a_real_trial_passes(name: str, data_dir: Path) -> None:
     markers, plates, mass = TRIALS[name]
     seen, turn = read_markers(data_dir / markers), Z_UP if markers.endswith(".c3d") else None
     under = turned_plates(read_force_plates(data_dir / plates), turn, data_dir / plates)
-    trial = RecordedTrial(
+    trial = TrialInputs(
         seen if turn is None else seen.turned(turn),
         plates=tuple(FootPlate(plate, plates) for plate in under),
         mass=mass,
@@ -54,5 +54,5 @@ def test_a_wrong_mass_is_seen(name: str, data_dir: Path) -> None:
     on = tuple(FootPlate(plate, plates) for plate in under)
     right = mass or 70.0 * (1.15 if name == "walk" else 1.0)
     for factor in (0.7, 2.2046):
-        found = {check.name for check, _ in contradictions(RecordedTrial(plates=on, mass=factor * right))}
+        found = {check.name for check, _ in contradictions(TrialInputs(plates=on, mass=factor * right))}
         assert "mass" in found

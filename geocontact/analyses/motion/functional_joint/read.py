@@ -16,7 +16,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.functional_joint import FEWEST, seen_together, segment_poses
 from geocontact.io.text.tables import listed
-from geocontact.trial_checks.recorded import RecordedTrial
+from geocontact.trial_checks.recorded import TrialInputs
 
 SIGHT = "name markers that one frame shows all of, or give `static`"
 
@@ -77,7 +77,7 @@ def read(o: JointOptions) -> MovedPair:
     still = None if o.static is None else markers_given(o.static, o.axes, None, o.c3d_unit)
     if o.static is not None and still is not None:
         add_input("`static`", o.static, frames=len(still), markers=len(still.names))
-    check_trial(RecordedTrial(markers=seen, standing=still, turn=turn_of(o.axes)))
+    check_trial(TrialInputs(markers=seen, standing=still, turn=turn_of(o.axes)))
     first, second = marker_list(o.first), marker_list(o.second)
     both = [name for name in first if name in second]
     if both:
