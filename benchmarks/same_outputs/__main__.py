@@ -39,11 +39,12 @@ def main() -> int:
     three.add_argument("before", type=Path)
     three.add_argument("after", type=Path)
     three.add_argument("--results", default="", metavar="NAME", help="also write benchmarks/results/NAME.json")
+    three.add_argument("--note", default="", help="with --results: what is to be known of the recordings")
     given = parser.parse_args()
     if given.verb == "record":
         return record(given.folder, given.checkout, given.only, given.jobs)
     if given.verb == "numbers":
-        return numbers_compared(given.before, given.after, Meant.of(), given.results)
+        return numbers_compared(given.before, given.after, Meant.of(), given.results, given.note)
     return compared(given.before, given.after, given.strip)
 
 

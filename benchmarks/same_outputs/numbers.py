@@ -19,6 +19,8 @@ import numpy as np
 from benchmarks.machine import write_results
 from benchmarks.same_outputs.comparing import INPUTS, NUMBERS, Recording
 from benchmarks.same_outputs.content import STRIPPED, STRIPPED_COLUMNS, pair, stripped
+from benchmarks.same_outputs.recording import RUNS
+from benchmarks.same_outputs.recording import runs as planned
 
 MEANT = Path(__file__).with_name("meant.toml")
 """Names that were changed, and numbers that were changed on purpose, by the commit that did it."""
@@ -87,7 +89,7 @@ class Verdict:
     why: list[str] = field(default_factory=list)
 
 
-def numbers_compared(before: Path, after: Path, meant: Meant, results: str = "") -> int:
+def numbers_compared(before: Path, after: Path, meant: Meant, results: str = "", note: str = "") -> int:
     """Print a line for each file whose numbers differ and a summary; exit code 1 where one differs without a reason."""
     old, new = Recording.of(before), Recording.of(after)
     runs = {run: files_compared(old, new, run, meant) for run in old.runs()}
@@ -102,7 +104,7 @@ def numbers_compared(before: Path, after: Path, meant: Meant, results: str = "")
     print(f"{len(runs)} runs: " + ", ".join(f"{n} {one}" for one, n in count.items()))
     print(f"{unexplained} files differ without a reason")
     if results:
-        asked = {"before": about(before), "after": about(after)}
+        asked = {"before": about(before), "after": about(after), "note": note}
         write_results(results, asked, figures(runs, count), frozenset({"scipy", "pandas"}))
     return 1 if unexplained or not runs else 0
 
@@ -124,6 +126,7 @@ def about(folder: Path) -> str:
 def figures(runs: Mapping[str, Mapping[str, Verdict]], count: Mapping[str, int]) -> dict[str, Any]:
     """What is kept: the outcome of every run; of files that are not equal to the byte what differs, and why."""
     kept: dict[str, Any] = {"runs": dict(count), "numbers": sum(f.numbers for r in runs.values() for f in r.values())}
+    kept["not compared"] = [name for name in planned(RUNS.read_text("utf-8")) if name not in runs]
     kept["outcomes"] = {}
     for run, files in runs.items():
         one: dict[str, Any] = {"outcome": worst(files), "files": len(files), BYTE: bytewise(files)}
@@ -179,7 +182,7 @@ def _same_lines(old: Recording, new: Recording, path: Path, now: Path) -> bool:
 def compared(before: Path, after: Path, meant: Meant) -> Verdict:
     """The numbers of two files, place by place; a number that is no longer there is a difference, a new one is none."""
     if before.read_bytes() == after.read_bytes():
-        return Verdict(numbers=len(by_place(before, meant, named_rows=False)))
+        return Verdict(numbers=len(by_place(before, meant, named_rows=False)) if before.suffix in NUMBERS else 0)
     named = _rows(before) != _rows(after)
     old, new = by_place(before, meant, named_rows=named), by_place(after, meant, named_rows=named)
     found = Verdict(EQUAL, numbers=len(old), gone=len(old.keys() - new.keys()), new=len(new.keys() - old.keys()))
