@@ -16,7 +16,7 @@ from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import AS_STOOD, FootOffset, Side
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
-from geocontact.below_knee_prosthesis.plate_checks import require_weight
+from geocontact.below_knee_prosthesis.plate_checks import require_weight, weight_doubt
 from geocontact.below_knee_prosthesis.simulate import GATE
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
@@ -66,7 +66,14 @@ def plate_under_foot(
     plate = right_plate(read_force_plates(file, c3d_unit), name, file, side, option)
     add_input(f"`{option}s`", file, plate=plate.name)
     require_weight(plate, mass * GRAVITY, f"`{option}`")
+    doubt_weight(plate, mass)
     return plate
+
+
+def doubt_weight(plate: PlateStance, mass: float) -> None:
+    """A reservation where a walking person of that mass [kg] does not make this force."""
+    if doubt := weight_doubt(plate, mass * GRAVITY):
+        reserve(doubt)
 
 
 def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableStiffnessFoot:

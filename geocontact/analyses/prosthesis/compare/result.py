@@ -31,7 +31,7 @@ from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.workers import each
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
-from geocontact.analyses.prosthesis.compare.show import comparison_curves, comparison_page
+from geocontact.analyses.prosthesis.compare.show import NAMES, comparison_curves, comparison_page
 from geocontact.analyses.prosthesis.compare.stances import (
     ALL,
     StudiedStance,
@@ -99,7 +99,7 @@ class ProsthesisCompareResult(Result):
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Ensembles, errors beside trivial predictors, outliers."""
-        return {REPORT: comparison_page(self.stances, self.tables(), self.sentences)}
+        return {REPORT: comparison_page(self.stances, self.tables())}
 
     def write_files(self, folder: Path) -> None:
         """Coordinates, loads, spheres and numbers of each stance besides, as `prosthesis simulate` writes them."""
@@ -113,7 +113,7 @@ class ProsthesisCompareResult(Result):
         super().write_files(folder)
 
 
-WORDS = {"resultant": "resultant force", "cop_ground": "centre of pressure", "ankle_moment": "ankle moment"}
+WORDS = {name: NAMES[name] for name in ("resultant", "cop_ground", "ankle_moment")}
 SAID = tuple(WORDS)
 """Quantities that have a sentence."""
 PLAIN = ("mean of the others rmse", "another rmse")
@@ -182,8 +182,17 @@ def _summarise(r: ProsthesisCompareResult) -> None:
             seen = "; ".join(reasons(one)) or "no checked cause explains it"
             reserve(f"{one.name} stands out with {one.errors.table['resultant'][1]:.1%} BW: {seen}")
     if transfer < FEWEST:
-        reserve(f"with {transfer} stances none can stand out: {FEWEST} are needed")
+        reserve(f"outliers are sought among {FEWEST} stances or more, here are {transfer}: none is marked")
+    for quantity, r2 in rows["r2 [-]"].items():
+        if r2 < 0.0:
+            reserve(_below_zero(str(quantity), float(r2)))
     note("compare", plain({one.name: _numbers(one) for one in stances}))
+
+
+def _below_zero(quantity: str, r2: float) -> str:
+    """What a coefficient of determination below 0 says."""
+    asked = ": are mass, setting, and unit and sign of the plates right?" if quantity in SAID else ""
+    return f"{NAMES.get(quantity, quantity)}: R² is {r2:.2f}, a constant would fit better{asked}"
 
 
 def _of_setting(name: str, row: pd.Series) -> str:

@@ -11,7 +11,13 @@ import numpy as np
 from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_tasks import MOVING
-from geocontact.analyses.prosthesis.recorded_files import foot_with_law, offset_of_law, right_markers, right_plate
+from geocontact.analyses.prosthesis.recorded_files import (
+    doubt_weight,
+    foot_with_law,
+    offset_of_law,
+    right_markers,
+    right_plate,
+)
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import of_side
@@ -61,7 +67,7 @@ def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
     standing = right_markers("`static`", cast(Path, o.static), *given)
     moving = None
     if o.functional is None:
-        reserve("the hip's centre is that of a regression; a `functional` trial determines it better")
+        reserve("the hip's centre is that of a regression; a functional trial determines it better")
     else:
         moving = right_markers("`functional`", o.functional, *given)
     offset = offset_of_law(o.law, cast(Path, o.static))
@@ -102,6 +108,9 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
         cutoff=None if o.cutoff == 0.0 else o.cutoff,
         gap_limit=o.gap_limit,
     )
+    for plate in (recorded.other, recorded.plate):
+        if plate is not None:
+            doubt_weight(plate, cast(float, o.mass))
     if walk.hip is not None:
         say(f"hip centre from the functional trial, {1e3 * walk.hip.rms:.1f} mm off itself")
     if walk.off > MOVING.rms:
