@@ -185,11 +185,11 @@ def _summarise(r: ProsthesisCompareResult) -> None:
         reserve(f"outliers are sought among {FEWEST} stances or more, here are {transfer}: none is marked")
     for quantity, r2 in rows["r2 [-]"].items():
         if r2 < 0.0:
-            reserve(_below_zero(str(quantity), float(r2)))
+            reserve(below_zero(str(quantity), float(r2)))
     note("compare", plain({one.name: _numbers(one) for one in stances}))
 
 
-def _below_zero(quantity: str, r2: float) -> str:
+def below_zero(quantity: str, r2: float) -> str:
     """What a coefficient of determination below 0 says."""
     asked = ": are mass, setting, and unit and sign of the plates right?" if quantity in SAID else ""
     return f"{NAMES.get(quantity, quantity)}: R² is {r2:.2f}, a constant would fit better{asked}"
