@@ -97,8 +97,8 @@ def weight_doubt(plate: PlateStance, weight: float) -> str:
     if USUAL[0] <= mean <= USUAL[1]:
         return ""
     return (
-        f"the vertical force on {plate.name} is {mean:.2f} times body weight in the mean over its stance, where walking "
-        f"has {USUAL[0]:g} to {USUAL[1]:g}: is `mass` this person's, in kg?"
+        f"the vertical force on {plate.name} is {mean:.2f} times body weight in the mean over its stance, where "
+        f"walking has {USUAL[0]:g} to {USUAL[1]:g}: is `mass` this person's, in kg?"
     )
 
 

@@ -78,7 +78,9 @@ def test_a_plate_is_recorded_as_long_as_the_markers() -> None:
             require_covering(plate(), np.array(time))
 
 
-@pytest.mark.parametrize(("mass", "shown"), [(77.3, ""), (170.4, "0.36 times"), (35.06, "1.76 times"), (55.0, "1.12 times")])
+@pytest.mark.parametrize(
+    ("mass", "shown"), [(77.3, ""), (170.4, "0.36 times"), (35.06, "1.76 times"), (55.0, "1.12 times")]
+)
 def test_a_mass_that_is_not_the_walkers_is_seen_by_the_mean_force(mass: float, shown: str) -> None:
     """0.8 times 77.3 kg in the mean; in pounds, with pounds taken for kilograms the other way, another person's."""
     force = 0.8 * 77.3 * 9.81

@@ -59,7 +59,9 @@ def recorded_channels(
 def _column(table: TextTable, channel: str, mapping: Mapping[str, tuple[float, str]]) -> tuple[float, str] | None:
     sign, name = mapping.get(channel, (1.0, channel))
     if name in table.words:
-        raise InputError(table.file, "", f"column '{name}' holds words, no {channel}", f"name another: `map` {channel}=NAME")
+        raise InputError(
+            table.file, "", f"column '{name}' holds words, no {channel}", f"name another: `map` {channel}=NAME"
+        )
     found = resolve(table, name)
     if found is None and channel in mapping:
         what = f"no column '{name}' for {channel}; columns are: {listed(table.channels)}"

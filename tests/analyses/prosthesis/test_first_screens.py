@@ -66,7 +66,11 @@ def test_numbers_of_a_sole_have_their_exponent_and_no_powers_of_ten(exponent: fl
     assert shown["number"].tolist() == ["stiffness, heel back", "foot, height"]
     assert shown["unit"].tolist() == [unit, "m"] and shown["value"].tolist() == ["16400", "-0.000824"]
     fit = CalibratedFit(
-        Agreement(0.0, 0.0573, 0.0, 0.97, 0.0, 1.0, 9), Agreement(0.0, 0.016, 0.0, 1.0, 0.0, 1.0, 9), "is met", "1 mm", 1
+        Agreement(0.0, 0.0573, 0.0, 0.97, 0.0, 1.0, 9),
+        Agreement(0.0, 0.016, 0.0, 1.0, 0.0, 1.0, 9),
+        "is met",
+        "1 mm",
+        1,
     )
     assert answer(fit, rows)[0].endswith("the stance identifies 1 of 1 of its numbers.")
 
@@ -75,8 +79,8 @@ def test_a_best_value_at_the_end_of_the_range_says_so() -> None:
     most = AimAnswer("ankle_moment", None, choice(True, 0.151, "identified"))
     middle = AimAnswer("energy", None, choice(True, 0.1, "identified"))
     none = AimAnswer("loading_rate", None, choice(False, NAN, "no effect"))
-    assert best_words(most, SWEEP) == "151 mm (141 mm to 151 mm, the end of the range)"
-    assert best_words(middle, SWEEP) == "100 mm (90 mm to 100 mm)"
+    assert best_words(most, SWEEP) == "151 mm (141 to 151 mm, the end of the range)"
+    assert best_words(middle, SWEEP) == "100 mm (90 to 100 mm)"
     assert best_words(none, SWEEP) == "no effect"
     (line,) = others_words([most, middle, none], "radius", SWEEP)
     assert line.startswith("Identified for other aims: peak ankle moment, the least: 151 mm") and "loading" not in line

@@ -128,9 +128,7 @@ def test_a_damaged_number_is_no_column_of_words(tmp_path: Path, row: int) -> Non
         (1.0, 15.0, r"force: R² is -\d.*a constant would fit better"),
     ],
 )
-def test_a_recording_that_cannot_be_meant_is_warned_of(
-    tmp_path: Path, factor: float, shift: float, words: str
-) -> None:
+def test_a_recording_that_cannot_be_meant_is_warned_of(tmp_path: Path, factor: float, shift: float, words: str) -> None:
     """A force turned round, in kN under [N], and with an offset larger than its spread."""
     angle = np.degrees(raised(TIME))
     file = recorded(tmp_path, **{"elevation [deg]": angle, "force [N]": factor * 0.2 * angle + shift})

@@ -397,7 +397,7 @@ def test_sensitivity_is_written_where_it_is_asked_for() -> None:
 
 
 def test_the_page_opens_at_the_largest_force_with_trunk_and_head(found: ShoulderSimulateResult) -> None:
-    """The trunk is as long as the wearer's, from the shoulders down; the head is above them, behind both arms' cuffs."""
+    """The trunk is as long as the wearer's, from the shoulders down; the head is above them."""
     page = found.pages({})["report.html"]
     lifting = np.max([each.simulation.supporting for each in found.arms], axis=0)
     time = found.arms[0].simulation.motion.time

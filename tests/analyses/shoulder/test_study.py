@@ -171,7 +171,9 @@ def test_equal_warnings_are_one_line_with_their_range(found: StudyResult) -> Non
 def test_the_headline_has_force_and_elevation(found: StudyResult) -> None:
     """Elevations are 2 and 4 degrees off, the force 3 N."""
     page = found.pages({})["report.html"]
-    assert page.headline[0].startswith("Over 2 recorded arms the simulation misses the elevation by 3° and the force by")
+    assert page.headline[0].startswith(
+        "Over 2 recorded arms the simulation misses the elevation by 3° and the force by"
+    )
     assert any(label.startswith("force") and value == "3 N" for label, value in page.facts)
 
 

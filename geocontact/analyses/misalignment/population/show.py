@@ -143,7 +143,9 @@ COLUMNS = {
 
 def _influences(d: Drawn) -> pd.DataFrame:
     rows = influence_table(d).dropna(axis="columns", how="all")
-    return rows.assign(quantity=[_named(name) for name in rows["quantity"]]).drop(columns="factor").rename(columns=COLUMNS)
+    return (
+        rows.assign(quantity=[_named(name) for name in rows["quantity"]]).drop(columns="factor").rename(columns=COLUMNS)
+    )
 
 
 def _force(value: float, digits: int = 3) -> str:

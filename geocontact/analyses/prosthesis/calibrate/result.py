@@ -165,7 +165,11 @@ class ProsthesisCalibrateResult(Result):
         numbers, walked = self.tables()["numbers"], self.whole is not None
         law = self.last.law
         fit = CalibratedFit(
-            self.vertical, self.centre, _along(self), self.last.offsets[0].words, float(np.ravel(law.exponent)[0])
+            self.vertical,
+            self.centre,
+            _along(self, NO_TEST),
+            self.last.offsets[0].words,
+            float(np.ravel(law.exponent)[0]),
         )
         return {REPORT: calibration_page(self.stance, self.curves()["stance"], numbers, fit, walked)}
 
@@ -210,10 +214,14 @@ def _summarise_fit(r: ProsthesisCalibrateResult) -> None:
         reserve(words)
 
 
-def _along(r: ProsthesisCalibrateResult) -> str:
-    """What is said of the force along the floor."""
+NO_TEST = ", which makes it no test of the sole"
+
+
+def _along(r: ProsthesisCalibrateResult, met: str = "") -> str:
+    """What is said of the force along the floor; `met` follows where the foot's slips were chosen to meet it."""
     if r.whole is None:
-        return f"is met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s relative to the recorded speed"
+        slip = 1e3 * float(np.sqrt(np.mean(r.slip**2)))
+        return f"is met by slips of {slip:.0f} mm/s relative to the recorded speed{met}"
     return f"fore and aft within {100.0 * fore_aft_error(r.predicted, r.stance):.1f} % of body weight"
 
 

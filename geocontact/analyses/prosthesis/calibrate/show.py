@@ -90,9 +90,12 @@ class CalibratedFit:
 
 def answer(fit: CalibratedFit, numbers: pd.DataFrame) -> list[str]:
     """How well the calibrated sole makes the force on the plate, and how many of its numbers that identifies."""
-    return [
+    missed = (
         f"The calibrated sole misses the vertical force by {fit.vertical.rmsd:.1%} of body weight and the centre of "
-        f"pressure by {fit.centre.rmsd:.1%} of the foot; the stance identifies {_identified(numbers)} of its numbers.",
+        f"pressure by {fit.centre.rmsd:.1%} of the foot; the stance identifies {_identified(numbers)} of its numbers."
+    )
+    return [
+        missed,
         f"The force along the floor {fit.along}.",
         f"The foot is {fit.offset} off its standing trial.",
     ]

@@ -183,10 +183,15 @@ def _summarise(r: ProsthesisCompareResult) -> None:
             reserve(f"{one.name} stands out with {one.errors.table['resultant'][1]:.1%} BW: {seen}")
     if transfer < FEWEST:
         reserve(f"outliers are sought among {FEWEST} stances or more, here are {transfer}: none is marked")
+    _reserve_below_a_constant(rows)
+    note("compare", plain({one.name: _numbers(one) for one in stances}))
+
+
+def _reserve_below_a_constant(rows: pd.DataFrame) -> None:
+    """A reservation on every quantity whose mean R² is below 0."""
     for quantity, r2 in rows["r2 [-]"].items():
         if r2 < 0.0:
             reserve(below_zero(str(quantity), float(r2)))
-    note("compare", plain({one.name: _numbers(one) for one in stances}))
 
 
 def below_zero(quantity: str, r2: float) -> str:

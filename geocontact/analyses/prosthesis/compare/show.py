@@ -83,7 +83,7 @@ def _over_all(summary: pd.DataFrame) -> dict[str, dict[str, float]]:
 
 def _size(name: str, value: float) -> str:
     unit, factor = ANSWERED[name]
-    return f"{factor * value:.2g} {unit}"
+    return f"{factor * value:.3g} {unit}"
 
 
 def _facts(summary: pd.DataFrame) -> list[tuple[str, str]]:

@@ -101,8 +101,9 @@ def best_words(answer: AimAnswer, sweep: Sweep) -> str:
         return "no effect" if _without_effect(answer) else "not identified"
     ends = sweep.knob.settings[[0, -1]]
     at_end = ", the end of the range" if np.isclose(choice.best, ends).any() else ""
-    lower, upper = (value_words(vary, each) for each in (choice.lower, choice.upper))
-    return f"{value_words(vary, choice.best)} ({lower} to {upper}{at_end})"
+    best, upper = (value_words(vary, each) for each in (choice.best, choice.upper))
+    lower = f"{SHOWN[vary][0] * choice.lower:.{DIGITS[vary]}f}"
+    return f"{best} ({lower} to {upper}{at_end})"
 
 
 def _without_effect(answer: AimAnswer) -> bool:
@@ -154,8 +155,9 @@ def design_page(
     aim
         What was asked for.
     """
+    vary, where = sweep.knob.vary, words(sweep.knob.terrain)
     flat = [each for each in answers if _without_effect(each)]
-    idle = [f"No curve of the {MEASURES[each.aim].words}: it does not depend on the {sweep.knob.vary}." for each in flat]
+    idle = [f"There is no curve of the {MEASURES[each.aim].words}: the {vary} has no effect on it." for each in flat]
     panels = [panel for panel, each in zip(curves.panels, [*answers, None], strict=True) if each not in flat]
     told = next(each for each in answers if each.aim == aim).choice.told
     sections: list[Section] = [
@@ -163,14 +165,17 @@ def design_page(
         frame_table("What is best, and whether the data identify it", answers_in_words(answers, sweep), 3),
         *(frame_table(INTACT, _outcomes_in_words(tables["intact"]), 3) for _ in range("intact" in tables)),
         *(frame_table(PAIRS, _outcomes_in_words(tables["pairs"]), 3) for _ in range("pairs" in tables)),
-        frame_table("Between which ends each outcome lies, whatever the person keeps", _outcomes_in_words(tables["ranges"]), 3),
-        frame_table("Sensitivities of the outcomes of the present foot", _outcomes_in_words(tables["sensitivities"]), 3),
+        frame_table(
+            "Between which ends each outcome lies, whatever the person keeps", _outcomes_in_words(tables["ranges"]), 3
+        ),
+        frame_table(
+            "Sensitivities of the outcomes of the present foot", _outcomes_in_words(tables["sensitivities"]), 3
+        ),
         frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
         INPUTS,
         OPTIONS,
         Words("What the numbers do and do not contain", [*LIMITS, *idle, NOT_A_DEVICE]),
     ]
-    vary, where = sweep.knob.vary, words(sweep.knob.terrain)
     place = f"; {where}" if where else ""
     return Page(
         title=f"Which {vary} of the foot suits this person",
@@ -179,8 +184,10 @@ def design_page(
         time_label=f"{vary} [{UNITS[vary]}]",
         headline=[*headline(sentences, most=2 if told else 1), *others_words(answers, aim, sweep)],
         facts=[
-            (f"{MEASURES[each.aim].words.partition(',')[0]}, {each.wanted}", best_words(each, sweep)) for each in answers
+            (f"{MEASURES[each.aim].words.partition(',')[0]}, {each.wanted}", best_words(each, sweep))
+            for each in answers
         ],
         sections=tuple(sections),
+        start_frame=int(np.argmin(np.abs(sweep.knob.settings - sweep.knob.present))),
         plays=False,
     )

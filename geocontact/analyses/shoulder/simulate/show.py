@@ -76,7 +76,10 @@ def simulation_page(
             directions=DIRECTIONS,
             up=(0.0, 0.0, 1.0),
             view=VIEW[arms[0].side],
-            linkages=[*_lines(arms, markers, shown), *wearer_body(wearer, arms[0].simulation.motion.shoulder.mean(axis=0))],
+            linkages=[
+                *_lines(arms, markers, shown),
+                *wearer_body(wearer, arms[0].simulation.motion.shoulder.mean(axis=0)),
+            ],
         ),
         *arm_curves(arms).at(shown),
         Readout([row for each in arms for row in _phases(each, shown)]),

@@ -64,7 +64,9 @@ def _stops(found: Sequence[tuple[str, ArmSimulation]], reserved: str) -> None:
 def _range(shares: Iterable[float]) -> str:
     every = sorted(shares)
     least, most = every[0], every[-1]
-    return share_words(most) if share_words(least) == share_words(most) else f"{share_words(least)} to {share_words(most)}"
+    return (
+        share_words(most) if share_words(least) == share_words(most) else f"{share_words(least)} to {share_words(most)}"
+    )
 
 
 def _named(shares: dict[str, float]) -> str:

@@ -14,7 +14,7 @@ r"""A study of a shoulder exoskeleton: `geocontact shoulder study`, `gc.shoulder
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np

@@ -49,7 +49,7 @@ def _curve(arm: SimulatedArm, channel: str) -> Float[np.ndarray, " t"]:
 
 
 def answer(cases: Sequence[StudyCase], sentences: Sequence[str]) -> tuple[str, ...]:
-    """How far elevation and force are off, and the joints at their stops; the run's own sentences without recordings."""
+    """How far elevation and force are off, and joints at their stops; without recordings the run's own sentences."""
     sizes = _sizes(summary_table(cases), ALL)
     stops = headline([line for line in sentences if " is at a stop in all of " in line])
     if not sizes:
