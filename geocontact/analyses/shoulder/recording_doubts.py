@@ -27,7 +27,7 @@ def recording_doubts(one: ComparedChannel, delay: float | None = None) -> list[s
     found = []
     r2 = one.errors[ALL].r2
     if r2 < 0.0:
-        found.append(f"R² is {r2:.2f}, a constant would fit better{_likely(model, measured)}")
+        found.append(f"R² is {r2:.2g}, a constant would fit better{_likely(model, measured)}")
     clock = _clock(one, delay)
     return [*found, clock] if clock else found
 

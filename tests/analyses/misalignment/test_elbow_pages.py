@@ -129,7 +129,7 @@ def test_both_shares_stand_side_by_side(tmp_path: Path) -> None:
     assert population_page.answer(d)[0].startswith(f"In {d.beyond.value:.2%} of 5000 synthetic people")
     (shares,) = (each for each in population_page._shares(d) if isinstance(each, Intervals))
     assert shares.bars and [(one.name, one.kind) for one in shares.intervals] == [
-        (name, kind) for name in ("offset along the upper arm y", "stiffness of cuff and fixation k")
+        (name, kind) for name in ("offset along the upper arm (y)", "stiffness of cuff and fixation (k)")
         for kind in ("total", "first-order")
     ]  # fmt: skip
     assert all(one.lower <= one.value <= one.upper for one in shares.intervals)

@@ -149,4 +149,4 @@ def test_the_page_has_no_infinite_force_and_names_of_quantities(tmp_path: Path) 
     ]
     assert dict(page.facts)["95 % stay below"] == "no finite force"
     assert not any(re.search(r"\b(inf|nan)\b", text) for text in texts)
-    assert any("offset across the upper arm x" in text for text in texts)
+    assert any("offset across the upper arm (x)" in text for text in texts)

@@ -125,7 +125,7 @@ MEANING = {
 
 
 def _named(name: str) -> str:
-    return f"{MEANING[name]} {name}"
+    return f"{MEANING[name]} ({name})"
 
 
 COLUMNS = {
@@ -170,7 +170,7 @@ def answer(d: Drawn) -> list[str]:
     most = ""
     if d.indices is not None:
         k = _ordered(d.indices)[0]
-        most = f" Most of the spread comes from {_factor(d, k)}: a total share of {d.indices.total[k]:.0%}."
+        most = f" Most of the spread comes from the {_factor(d, k)}: a total share of {d.indices.total[k]:.0%}."
     return [told, f"{median}; {tail}.{most}"]
 
 

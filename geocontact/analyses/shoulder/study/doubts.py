@@ -37,7 +37,9 @@ def say_doubts(cases: Sequence[StudyCase], reserved: str) -> None:
     short = {case.name: case.beside.share for case in cases if case.beside is not None and case.beside.share < 1.0}
     if short:
         recorded = counted(sum(case.beside is not None for case in cases), "recording")
-        reserve(f"{len(short)} of {recorded}: {_range(short.values())} of the simulated time: {_named(short)}")
+        span = _range(short.values())
+        verb = "holds" if len(short) == 1 else "hold"
+        reserve(f"{len(short)} of {recorded} {verb} {span} of the simulated time only: {_named(short, least=True)}")
     for case in cases:
         for name, one in {} if case.beside is None else case.beside.channels.items():
             for words in recording_doubts(one) if name != COPIED else ():
@@ -69,8 +71,8 @@ def _range(shares: Iterable[float]) -> str:
     )
 
 
-def _named(shares: dict[str, float]) -> str:
-    """The arms with the largest shares, and how many more there are."""
-    most = sorted(shares, key=lambda name: -shares[name])
+def _named(shares: dict[str, float], least: bool = False) -> str:
+    """The arms with the largest shares, or the `least`, and how many more there are."""
+    most = sorted(shares, key=lambda name: shares[name] if least else -shares[name])
     more = f" and {len(most) - NAMED} more" if len(most) > NAMED else ""
     return ", ".join(most[:NAMED]) + more
