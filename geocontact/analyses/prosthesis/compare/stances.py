@@ -72,7 +72,7 @@ def _stance(
         walk = walk_of(read_walk(asked), asked)
     for entry in own.inputs:
         current().inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
-    for line in own.warnings:
+    for line in (each.replace("`", "") for each in own.warnings):  # keys of the study, no options of this command
         seen.setdefault(line, []).append(trial.name)
     if walk.plate is None:  # every stance of a study names its plate
         raise ValueError(f"{trial.name}: no plate")

@@ -8,7 +8,7 @@
 stance of 0.73 s at the fulcrum of 117 mm: vertical force up to 1.30 BW, ankle moment up to 100 N m, keel
 stores 11.0 J
 against the plate: R² 0.92, 7.8% BW; centre of pressure R² 1.00, 1.1% of the foot; stance -6 ms
-warning: the hip's centre is that of a regression; a functional trial determines it better
+warning: the hip's centre is that of a regression; a `functional` trial determines it better
 warning: 79 of 142 numbers of leg and foot are invented, see numbers.csv
 """
 

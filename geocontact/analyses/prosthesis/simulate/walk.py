@@ -67,7 +67,7 @@ def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
     standing = right_markers("`static`", cast(Path, o.static), *given)
     moving = None
     if o.functional is None:
-        reserve("the hip's centre is that of a regression; a functional trial determines it better")
+        reserve("the hip's centre is that of a regression; a `functional` trial determines it better")
     else:
         moving = right_markers("`functional`", o.functional, *given)
     offset = offset_of_law(o.law, cast(Path, o.static))

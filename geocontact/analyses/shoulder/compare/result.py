@@ -11,6 +11,7 @@ elevation, all: MAE 4.02, RMSD 4.51 deg
 elevation, work: MAE 4.93, RMSD 5.12 deg
 force, all: MAE 13.4, RMSD 14.7 N
 force, work: MAE 16.1, RMSD 16.6 N
+warning: force: R² is -0.66, a constant would fit better
 """
 
 from __future__ import annotations

@@ -97,9 +97,9 @@ def profile_page(drawn: CurveSheet, tables: Mapping[str, pd.DataFrame], taken: M
     `drawn` are those of `profile_curves`, `tables` those of the result, `taken` what `say_profiles` returns.
     """
     front = tables["front"]
-    limits, reserves, taken = (front[name].to_numpy(float) for name in front.columns)
+    limits, reserves, shares = (front[name].to_numpy(float) for name in front.columns)
     curves = [
-        Curve(f"reserve {100.0 * reserve:g} %", 100.0 * taken[reserves == reserve]) for reserve in np.unique(reserves)
+        Curve(f"reserve {100.0 * reserve:g} %", 100.0 * shares[reserves == reserve]) for reserve in np.unique(reserves)
     ]
     held = tables["held_out"]
     sections: list[Section] = [
