@@ -142,14 +142,12 @@ def residual_curves(
     beta: Float[np.ndarray, " b"], residual: Float[np.ndarray, " b"], standard: Float[np.ndarray, " b"], test: str
 ) -> CurveSheet:
     """Residuals of bins over the angle, and in their SD: histogram, quantiles with the words of the `test`."""
-    zero = [Limit("no residual", 0.0)]
     panels = [
         Curves(
             "Residual force: measured less fitted mean of each bin",
             "N",
             [],
             points=[Points("residual", np.degrees(beta), residual, stroke(0))],
-            limits=zero,
             over=_angles(np.array([beta.min(), beta.max()])),
         )
     ]
