@@ -70,7 +70,7 @@ def test_numbers_of_a_sole_have_their_exponent_and_no_powers_of_ten(exponent: fl
         Agreement(0.0, 0.016, 0.0, 1.0, 0.0, 1.0, 9),
         "is met",
         "1 mm",
-        1,
+        1.0,
     )
     assert answer(fit, rows)[0].endswith("the stance identifies 1 of 1 of its numbers.")
 

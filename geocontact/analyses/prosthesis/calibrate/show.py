@@ -116,8 +116,9 @@ def numbers_in_words(numbers: pd.DataFrame, exponent: float) -> pd.DataFrame:
     named = [", ".join(each.replace("_", " ").split(".")) for each in numbers["number"]]
     units = [unit if each == "N/m^n" else each for each in numbers["unit"]]
     shown = numbers.assign(number=named, unit=units)
-    floats = shown.select_dtypes("float").columns
-    return shown.assign(**{name: [text(each) for each in shown[name]] for name in floats})
+    for name in shown.select_dtypes("float").columns:
+        shown[name] = shown[name].map(text)
+    return shown
 
 
 def calibration_page(

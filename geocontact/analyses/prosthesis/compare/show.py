@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -76,7 +77,7 @@ def answer(summary: pd.DataFrame) -> list[str]:
     return [f"The model is nearer to the plate than both baseline predictors on {won}.", off]
 
 
-def _over_all(summary: pd.DataFrame) -> dict[str, dict[str, float]]:
+def _over_all(summary: pd.DataFrame) -> dict[str, dict[Hashable, Any]]:
     own = summary[(summary["setting"] == "all") & summary["quantity"].isin(ANSWERED)]
     return {str(row["quantity"]): row for row in own.to_dict("records")}
 

@@ -41,8 +41,9 @@ def say_doubts(cases: Sequence[StudyCase], reserved: str) -> None:
         verb = "holds" if len(short) == 1 else "hold"
         reserve(f"{len(short)} of {recorded} {verb} {span} of the simulated time only: {_named(short, least=True)}")
     for case in cases:
-        for name, one in {} if case.beside is None else case.beside.channels.items():
-            for words in recording_doubts(one) if name != COPIED else ():
+        channels = {} if case.beside is None else case.beside.channels
+        for name, compared in channels.items():
+            for words in recording_doubts(compared) if name != COPIED else ():
                 reserve(f"{case.name}, {name}: {words}")
 
 
