@@ -12,9 +12,9 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
-from geocontact.analyses.prosthesis.compare.result import below_zero
 from geocontact.analyses.prosthesis.compare.show import comparison_curves
 from geocontact.analyses.prosthesis.compare.stances import read as read_study
+from geocontact.analyses.prosthesis.quantity_words import below_zero
 from tests.cli.calls import MESHES
 from tests.recording import opened
 

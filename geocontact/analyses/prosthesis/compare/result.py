@@ -31,7 +31,7 @@ from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.workers import each
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
-from geocontact.analyses.prosthesis.compare.show import NAMES, comparison_curves, comparison_page
+from geocontact.analyses.prosthesis.compare.show import comparison_curves, comparison_page
 from geocontact.analyses.prosthesis.compare.stances import (
     ALL,
     StudiedStance,
@@ -43,6 +43,7 @@ from geocontact.analyses.prosthesis.compare.stances import (
     summary_table,
     trials_table,
 )
+from geocontact.analyses.prosthesis.quantity_words import NAMES, SAID, below_zero
 from geocontact.analyses.prosthesis.stance_files import (
     counted_twice,
     numbers_table,
@@ -113,9 +114,7 @@ class ProsthesisCompareResult(Result):
         super().write_files(folder)
 
 
-WORDS = {name: NAMES[name] for name in ("resultant", "cop_ground", "ankle_moment")}
-SAID = tuple(WORDS)
-"""Quantities that have a sentence."""
+WORDS = {name: NAMES[name] for name in SAID}
 PLAIN = ("mean of the others rmse", "another rmse")
 """Columns of both predictors without a model."""
 
@@ -192,12 +191,6 @@ def _reserve_below_a_constant(rows: pd.DataFrame) -> None:
     for quantity, r2 in rows["r2 [-]"].items():
         if r2 < 0.0:
             reserve(below_zero(str(quantity), float(r2)))
-
-
-def below_zero(quantity: str, r2: float) -> str:
-    """What a coefficient of determination below 0 says."""
-    asked = ": are mass, setting, and unit and sign of the plates right?" if quantity in SAID else ""
-    return f"{NAMES.get(quantity, quantity)}: R² is {r2:.2f}, a constant would fit better{asked}"
 
 
 def _of_setting(name: str, row: pd.Series) -> str:

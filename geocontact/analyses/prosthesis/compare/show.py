@@ -11,6 +11,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
+from geocontact.analyses.prosthesis.quantity_words import NAMES
 from geocontact.below_knee_prosthesis.comparison import by_setting, curves_of, plain_curves
 from geocontact.below_knee_prosthesis.evaluation import ANOTHER, MEAN, JudgedStance
 from geocontact.data.motion import Course
@@ -26,17 +27,6 @@ SHOWN = {
     "ankle_moment": ("Ankle moment over body mass", "N m/kg", 1.0),
 }
 """Title, unit and factor of the quantities that are drawn."""
-NAMES = {
-    "resultant": "resultant force",
-    "vertical": "vertical force",
-    "fore_aft": "fore-aft force",
-    "medio_lateral": "sideways force",
-    "impulse": "impulse",
-    "cop_ground": "centre of pressure",
-    "cop_sphere": "centre of pressure, middle of the spheres",
-    "ankle_moment": "ankle moment",
-}
-"""Quantities in words."""
 ANSWERED = {
     "resultant": ("% BW", 100.0),
     "cop_ground": ("% of the foot", 100.0),
