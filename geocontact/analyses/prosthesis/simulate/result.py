@@ -204,8 +204,8 @@ def beside_words(errors: StanceErrors) -> str:
 
 
 def below_a_constant(errors: StanceErrors) -> list[str]:
-    """Words on force, centre of pressure and ankle moment where a constant would fit the plate better."""
-    return [below_zero(name, float(errors.table[name][0])) for name in SAID if errors.table[name][0] < 0.0]
+    """Words on the force and the centre of pressure where a constant would fit the plate better."""
+    return [below_zero(name, float(r2)) for name, (r2, _) in errors.table.items() if name in SAID and r2 < 0.0]
 
 
 def _lasting(errors: StanceErrors) -> str:
