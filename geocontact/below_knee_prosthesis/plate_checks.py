@@ -18,9 +18,6 @@ from geocontact.loads.sphere_set import SphereSet
 FLOOR = HalfSpace()
 LEAST, MOST = 0.3, 5.0
 """Shares of the body weight between which the largest vertical force of a step lies."""
-USUAL = 0.6, 1.0
-"""Shares of the body weight between which the mean vertical force of a walking step lies: both legs bear it over a
-stride, and each stands for 55 to 70 % of that."""
 BESIDE = 1.0
 """Lengths of the foot from its middle beyond which a centre of pressure is not its."""
 APART = 0.06
@@ -82,24 +79,6 @@ def require_weight(plate: PlateStance, weight: float, option: str = "`plate`") -
         return
     what = f"the vertical force on {plate.name} is {most:.3g} times body weight at most"
     raise InputError(plate.source, option, what, "is it in N, `mass` in kg, and y up?")
-
-
-def weight_doubt(plate: PlateStance, weight: float) -> str:
-    """What is odd about the mean vertical force of the longest stance for a walking person of that weight [N]; "" else.
-
-    A mass in pounds, or another person's, is seen by it: errors over body weight would be too small.
-    """
-    span = longest_stance(plate.time, plate.force[:, 1])
-    if span is None:
-        return ""
-    on = (plate.time >= span[0]) & (plate.time <= span[1])
-    mean = float(np.mean(plate.force[on, 1])) / weight
-    if USUAL[0] <= mean <= USUAL[1]:
-        return ""
-    return (
-        f"the vertical force on {plate.name} is {mean:.2f} times body weight in the mean over its stance, where "
-        f"walking has {USUAL[0]:g} to {USUAL[1]:g}: is `mass` this person's, in kg?"
-    )
 
 
 def require_one_clock(

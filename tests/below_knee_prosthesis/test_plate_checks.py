@@ -14,7 +14,6 @@ from geocontact.below_knee_prosthesis.plate_checks import (
     require_one_clock,
     require_under_foot,
     require_weight,
-    weight_doubt,
 )
 from geocontact.data.errors import InputError
 
@@ -76,14 +75,3 @@ def test_a_plate_is_recorded_as_long_as_the_markers() -> None:
     for time in ([-0.03, 0.9], [0.1, 1.02]):
         with pytest.raises(InputError, match="both need one clock"):
             require_covering(plate(), np.array(time))
-
-
-@pytest.mark.parametrize(
-    ("mass", "shown"), [(77.3, ""), (170.4, "0.36 times"), (35.06, "1.76 times"), (55.0, "1.12 times")]
-)
-def test_a_mass_that_is_not_the_walkers_is_seen_by_the_mean_force(mass: float, shown: str) -> None:
-    """0.8 times 77.3 kg in the mean; in pounds, with pounds taken for kilograms the other way, another person's."""
-    force = 0.8 * 77.3 * 9.81
-    doubt = weight_doubt(plate(force), mass * 9.81)
-    assert shown in doubt and bool(doubt) == bool(shown)
-    assert not doubt or "is `mass` this person's, in kg?" in doubt
