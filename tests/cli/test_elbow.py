@@ -164,7 +164,7 @@ def test_the_page_and_its_figures(fitted: Call) -> None:
         "known beforehand",
         "comes from prior knowledge",
         "Lilliefors",
-        "Joint locked and free",
+        "Mean force, joint locked and free",
     ):
         assert words in page
     assert fitted.out.startswith("k ") and "k by the free joint's displacement" in fitted.out

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,13 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.json_file import plain
-from geocontact.analyses.prosthesis.simulate.result import beside_words, curves_table, errors_table, found_words
+from geocontact.analyses.prosthesis.simulate.result import (
+    below_a_constant,
+    beside_words,
+    curves_table,
+    errors_table,
+    found_words,
+)
 from geocontact.below_knee_prosthesis.evaluation import stance_errors
 from geocontact.below_knee_prosthesis.stance_summary import doubts, summary
 from geocontact.io.opensim.external_loads import read_external_loads
@@ -117,3 +124,14 @@ def test_a_whole_stance_has_its_length() -> None:
     assert not any("still on the floor" in line for line in doubts(found))
     assert found_words(found, summary(found)).startswith("stance of 0.69 s at the fulcrum of 117 mm")
     assert beside_words(stance_errors(found, plate_of(own))).endswith("stance +0 ms")
+
+
+def test_a_stance_that_fits_worse_than_a_constant_is_asked_about() -> None:
+    """As where x and z of the plate are exchanged: R² of the centre of pressure -31."""
+    own = np.arange(0.0, 0.95, 0.002)
+    errors = stance_errors(a_stance(own, walked(own)), plate_of(own))
+    fits = dict.fromkeys(errors.table, (0.9, 0.1))
+    errors = replace(errors, table=fits)
+    assert below_a_constant(errors) == []
+    (line,) = below_a_constant(replace(errors, table=fits | {"cop_ground": (-31.28, 0.9), "fore_aft": (-1.0, 0.1)}))
+    assert line.startswith("centre of pressure: R² is -31.28, a constant would fit better: are mass, setting, and unit")

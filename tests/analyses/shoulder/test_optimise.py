@@ -15,6 +15,7 @@ from geocontact.analyses.shoulder.devices import read_profiles
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.optimise.profiles import WORST, read
 from geocontact.analyses.shoulder.optimise.result import ShoulderOptimiseResult
+from geocontact.analyses.shoulder.optimise.show import answer
 from geocontact.data.errors import InputError
 from geocontact.io.text.results import write_table
 from geocontact.shoulder_exoskeleton.support.closed_loop_profile import ClosedLoop
@@ -371,3 +372,20 @@ def test_what_cannot_be_asked_for_is_refused(options: dict[str, object], what: s
     with pytest.raises(InputError) as error:
         gc.shoulder.optimise(**options)
     assert what in str(error.value)
+
+
+def test_the_headline_has_what_is_left_for_persons_held_out() -> None:
+    """One of two persons is pushed up, the other's gain is beyond the model's error."""
+    held = pd.DataFrame(
+        {
+            "taken away [-]": [0.356, 0.325],
+            "gain over one factor [-]": [0.13, 0.191],
+            "pushed up [-]": [0.01, 0.0],
+            "gain beyond the model's error": [False, True],
+        }
+    )
+    first, second = answer({"taken away": 0.361, "taken away by one factor": 0.192}, held)
+    assert first.startswith("36.1% of the shoulders' torque is taken away") and first.endswith("phases takes 19.2%.")
+    assert "32.5 to 35.6 %, 13.0 to 19.1 points over one factor; 1 of 2 are pushed up" in second
+    assert second.endswith("beyond the model's error for 1 of 2.")
+    assert answer({"taken away": 0.361, "taken away by one factor": 0.192}, held.iloc[:0]) == [first]
