@@ -84,7 +84,7 @@ def _quantity(name: str, typed: Typed, text: str) -> float:
     if plain:
         raise _without_unit(name, typed, text)
     if found is None or known is None or known[0] != typed.si:
-        raise InputError("", f"`{name}`", f"{text!r} is no value in {typed.si}", f"write {typed.python}")
+        raise InputError("", f"`{name}`", f"{text!r} is not a value in {typed.si}", f"write {typed.python}")
     return float(found["number"]) * known[1]
 
 

@@ -97,7 +97,7 @@ def _require_up(plate: ForcePlate, plates: tuple[ForcePlate, ...], path: Path, w
         raise InputError(path, plate.name, f"{what}: that is the force on the plate", remedy)
     part = f"{-usual / weight:.0%} of the model's weight"
     warnings.warn(
-        InputWarning(f"{path} {plate.name}: {what}, {part}: it presses down, as a device does that is worn"),
+        InputWarning(f"{path} {plate.name}: {what}, {part}: it presses down, as a worn device does"),
         stacklevel=4,
     )
 

@@ -280,7 +280,7 @@ def test_a_pressure_that_stays_tells_no_stiffness_over_it(tmp_path: Path, made: 
     ("given", "said"),
     [
         ({"known": {"l": 169.0}}, "169000 mm cannot be a link of an exoskeleton"),
-        ({"prior": {"q": (1.0, 1.0)}}, "'q' is no number of the law"),
+        ({"prior": {"q": (1.0, 1.0)}}, "'q' is not a number of the law"),
         ({"bin": 2.0}, "`bin`: 114.592 deg cannot be a width of bins: that is 0.1 to 30 deg; is 2 deg meant?"),
         ({"free": ("k",)}, "`free`: 'k' is not b, s or c"),
         ({"rotary_free": True}, "`rotary_free`: has no effect without `unlocked`"),

@@ -34,11 +34,11 @@ def words(forces: GeneralisedForces) -> str:
 def warn_of_residuals(forces: GeneralisedForces) -> None:
     """One line where more is left over than Hicks et al. allow, or where nothing tells."""
     if not forces.at_ground.any():
-        reserve(f"no joint frees a body from the {GROUND} with six coordinates: there is no residual to check")
+        reserve(f"no joint of six coordinates connects a body to the {GROUND}: there is no residual to check")
     elif forces.peak == 0.0 and force_residual(forces).too_large:
         reserve(
             f"{words(forces)} ({force_residual(forces).time:.3g} s): give `loads`, or `plates` with `plate`; moments "
-            "are those of a body in the air"
+            "are computed without ground contact"
         )
     elif (force := force_residual(forces)).too_large or moment_residual(forces).too_large:
         when = f"at {force.time:.3g} and {moment_residual(forces).time:.3g} s, limits of Hicks et al. 2015"

@@ -20,8 +20,8 @@ from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Scale
 from geocontact.view.page.content import Page, Section, Table, Words
 
 LEFT = (
-    "The joint to the ground has no muscle: what is found along its coordinates is what motion, masses and plates do "
-    "not agree upon. Hicks et al. (2015, J Biomech Eng 137, 020905) ask for peaks below 5 % of the largest external "
+    "The joint to the ground has no muscle: a force or moment along its coordinates shows how far motion, masses and "
+    "plates disagree. Hicks et al. (2015, J Biomech Eng 137, 020905) ask for peaks below 5 % of the largest external "
     "force, and for moments below 1 % of that force times the height of the mass centre. OpenSim calls a largest force "
     "up to 10 N good, up to 25 N okay and more bad after residual reduction, which nothing here has done."
 )
