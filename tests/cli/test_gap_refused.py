@@ -31,7 +31,7 @@ def refused(case: Path, out: Path, *options: object) -> str:
 K = '[parameters.k]\nstart = 280.0\nlower = 50.0\nupper = 1000.0\nunit = "N/m"\n'
 WRONG = {
     # system, file, what is replaced by what, words of the line
-    "unknown system": ("elbow", "case.toml", '"elbow"', '"ankle"', "case.toml system: 'ankle' is unknown; write one of e"),
+    "unknown system": ("elbow", "case.toml", '"elbow"', '"ankle"', "case.toml system: 'ankle' is unknown; write one"),
     "no table": ("elbow", "case.toml", '"elbow"', '"shoulder"', "shoulder: the table of support torques is missing"),
     "own module": ("elbow", "case.toml", '"elbow"', '"no_such:MODEL"', "module no_such cannot be imported"),
     "constant missing": ("elbow", "case.toml", "\nl = ", "\nl_in = ", "elbow: l is missing; give it as a parameter"),

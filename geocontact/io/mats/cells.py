@@ -32,7 +32,7 @@ def warn_implausible(file: str, name: str, highest: float, unit: float) -> None:
     value = highest / unit
     meant = next((each for each in LIKELY if LEAST < value * DIMENSIONS["Pa"][each] < MOST), None)
     bound = f"more than {MOST * 1e-6:g} MPa" if highest > MOST else f"less than {LEAST:g} Pa"
-    said = f"{file}: the largest pressure of '{name}' is {value:.4g} {read}, {bound}, which is not plausible for skin under load"
+    said = f"{file}: the largest pressure of '{name}' is {value:.4g} {read}, {bound}, implausible for skin under load"
     warnings.warn(InputWarning(f"{said}{f'; is the file in {meant}?' if meant else ''}"), stacklevel=5)
 
 
