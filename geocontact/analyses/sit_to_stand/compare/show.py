@@ -19,7 +19,7 @@ from geocontact.view.page.tables import frame_table
 MEANT = [
     "Given yes: the predictor receives this channel, so its error there is not an error of prediction.",
     "All given: ground reaction, centre of pressure and torques; the others receive less.",
-    "Mean and nearest of the calibration know the duration of the trial; the nearest is that by first and last posture.",
+    "Mean and nearest of the calibration know its duration; the nearest has the most similar first and last posture.",
     "R² compares with the mean of the recording: below 0 that mean is the better model.",
 ]
 PREDICTED = "{} of {}, by predictor"
