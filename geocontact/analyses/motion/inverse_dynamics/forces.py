@@ -24,7 +24,7 @@ def words(forces: GeneralisedForces) -> str:
     force, moment = force_residual(forces), moment_residual(forces)
     text = f"residual at the joint to the {GROUND}: {force.size:.3g} N at most, {force.share:.1%} of the"
     if forces.peak == 0.0:
-        return f"{text} weight, as nothing but gravity acts"
+        return f"{text} weight (only gravity acts)"
     return (
         f"{text} largest measured force (below {FORCE:.0%} is asked for), and {moment.size:.3g} N m, "
         f"{moment.share:.1%} of that force at the height of the mass centre (below {MOMENT:.0%})"
