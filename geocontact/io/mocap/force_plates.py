@@ -168,7 +168,7 @@ def _factor(table: TextTable, name: str, si: str) -> float:
     written = table.units[table.channels.index(name)]
     known = si_unit(written)
     if known is None or known[0] != si:
-        what = f"column '{name}' has no unit" if not written else f"'{written}' is no unit in which {name} can be"
+        what = f"column '{name}' has no unit" if not written else f"'{written}' is not a unit in which {name} can be"
         raise InputError(table.file, "", what, f"name it '{name} [{si}]'")
     return known[1]
 
