@@ -317,7 +317,7 @@ def spoilt(folder: Path, old: str, new: str) -> Path:
         ('unit = "N"', 'unit = "kg"', "'kg' is not a unit of it"),
         ('person = "P1"', 'person = "P9"', "no [persons.P9]; there are P1"),
         ('task = "T1"', 'task = "T9"', "no [tasks.T9]; there are T1, T2"),
-        ("upright = [0.0, 0.25]", "upright = 3", "upright: 3 is no span"),
+        ("upright = [0.0, 0.25]", "upright = 3", "upright: 3 is not a span"),
         ("[tasks.T1]", "[tasks.T1]\ndominant_share = 2", "[tasks.T1] dominant_share: is not at most 1"),
         (
             "[tasks.T1]",

@@ -44,7 +44,7 @@ def test_trials_without_an_exoskeleton_are_refused(study: Path, against: Path, w
     [
         ("parameter,unit", "name,unit", "has no columns"),
         ("strap normal,N/m,4500", "strap normal,N/mm,4.5", "'N/mm'"),
-        ("strap normal,N/m,4500", "strap normal,N/m,soft", "is no number"),
+        ("strap normal,N/m,4500", "strap normal,N/m,soft", "is not a number"),
         ("strap normal,", "strap_normal,", "no strap normal"),
         ("strap normal,N/m,4500", "strap normal,N/m,-4500", "outside 100 to 100000"),
         ("heel,m,-0.045", "heel,m,-45", "outside -0.09 to 0.02"),

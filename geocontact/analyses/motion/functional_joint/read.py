@@ -108,7 +108,9 @@ def _segment(
     for trial in (seen, *([] if still is None else [still])):
         _require(trial, names, option)
     if len(names) < FEWEST:
-        raise InputError(seen.source, option, f"{len(names)} markers fix no pose", f"name {FEWEST} at the least")
+        raise InputError(
+            seen.source, option, f"{len(names)} markers do not determine a pose", f"name {FEWEST} at the least"
+        )
     if still is not None:
         places = means_of(still, names, option)
     else:

@@ -56,7 +56,7 @@ def _analog(o: IkOptions) -> TextTable | None:
     if not o.analog:
         return None
     if o.markers.suffix.lower() != ".c3d":
-        raise InputError(o.markers, "`analog`", "is no .c3d file", "leave it out: only a .c3d holds analog channels")
+        raise InputError(o.markers, "`analog`", "is not a .c3d file", "leave it out: only a .c3d holds analog channels")
     found = read_c3d_analogs(o.markers, plates=False)
     if not found.channels or not len(found.time):
         raise InputError(o.markers, "`analog`", "no analog channel but those of force plates", "leave it out")

@@ -129,7 +129,9 @@ def _named(bodies: str) -> list[tuple[str, list[int]]]:
         if not colon:
             name, axes = axes, AXES
         if not axes or set(axes) - set(AXES) or len(set(axes)) < len(axes):
-            raise InputError("", "`scale`", f"'{axes}' is not some of the axes x, y and z", "write femur_r:xz=1.05")
+            raise InputError(
+                "", "`scale`", f"'{axes}' is not one or more of the axes x, y and z", "write femur_r:xz=1.05"
+            )
         found.append((name, [AXES.index(axis) for axis in axes]))
     return found
 

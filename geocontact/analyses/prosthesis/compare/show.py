@@ -39,7 +39,7 @@ WIDEST = 3
 """Settings side by side in the figure."""
 WORDS = "Mean over the stances of a setting, a band of one standard deviation; both predictors know no model."
 WITHOUT = [
-    "Both predictors without a model know when the stance on the plate begins and ends; the simulation has to find it.",
+    "Both predictors without a model know when the stance on the plate begins and ends; the simulation predicts it.",
     "Mean of the others: of the same person's other trials at any setting; of all others where there are none.",
     "Another setting: the plate of the person's first trial on another setting of the foot.",
     "The pelvis is free upwards, so that the impulse is nearly body weight times time, whatever the foot is.",
@@ -49,8 +49,8 @@ MEASURES = [
         "Errors are over the stance that the plate saw. The study takes a quarter of a second of swing on both sides "
         "as well, where both forces are nothing, which makes its errors smaller."
     ),
-    "Force and centre of pressure of the other leg are recorded and given; trials that a sole was fitted to are apart.",
-    "An outlier is further off than three standard deviations by the study's rule, or by the median.",
+    "Force and centre of pressure of the other leg are recorded and given; trials of a sole fit are listed apart.",
+    "An outlier deviates by more than three standard deviations by the study's rule, or by the median.",
 ]
 
 

@@ -238,7 +238,7 @@ def _lasting(errors: StanceErrors) -> str:
     late = 1e3 * (errors.stance[0] - errors.stance[1])
     if np.isfinite(late):
         return f"stance {late:+.0f} ms"
-    return f"over the first {errors.simulated:.0%} of the plate's stance, for the simulation ended before toe-off"
+    return f"over the first {errors.simulated:.0%} of the plate's stance, because the simulation ended before toe-off"
 
 
 simulate = Job("prosthesis simulate", ProsthesisSimulateOptions, read, run)

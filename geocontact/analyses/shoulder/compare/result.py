@@ -94,7 +94,7 @@ def _simulated(path: Path) -> tuple[Channels, tuple[str, ...], float]:
     phase = tuple(map(str, table["phase"]))
     odd = [name for name in phase if name not in PHASES]
     if odd:
-        raise InputError(path, "phase", f"{odd[0]!r} is no phase", f"phases are {', '.join(PHASES)}")
+        raise InputError(path, "phase", f"{odd[0]!r} is not a phase", f"phases are {', '.join(PHASES)}")
     values = {channel: np.asarray(table[name], float) for channel, name in SIMULATED.items()}
     out = float(np.mean([str(each) != "0" for each in table[OUT]])) if OUT in table else 0.0
     return Channels(np.asarray(table["time [s]"], float), values), phase, out
