@@ -30,7 +30,7 @@ test: $(VENV)/full.stamp
 
 # Shapes and types of all arguments are checked while the unit tests of these rooms run
 SHAPES := below_knee_prosthesis chain contact data dynamics house/test_checked_shapes.py identify io loads shoulder_exoskeleton \
-	standing_up systems
+	standing_up systems trial_checks
 
 shapes: $(VENV)/full.stamp
 	@$(BIN)/python -m pytest -m "not slow and not oracle and not real" $(TOGETHER) $(addprefix tests/,$(SHAPES))
