@@ -57,6 +57,7 @@ from geocontact.study.tables import (
     differences_of,
     ensemble_table,
     latex,
+    means_by_condition,
     outlier_table,
     value_table,
 )
@@ -283,8 +284,13 @@ def _looked_at(
     note("trials", {"all": len(trials), "done": len(done)})
     all_of_them = f"{len(done)} of {counted(len(trials), 'trial')} of {planned.file.analysis}"
     say(f"{all_of_them} have results, {new} of them new")
+    for one in done:
+        for line in store.told(one.address)["warnings"]:
+            reserve(f"{one.trial.name}: {line}")
     curves = curves_of(planned.file, [(one.trial, one.address) for one in done], store)
     surface = surface_values(planned.file, [(one.trial, one.address) for one in done], store)
+    for line in means_by_condition(curves):
+        say(line)
     _report_conditions(curves)
     if surface is not None:
         _report_surface(surface)

@@ -9,10 +9,11 @@ import pandas as pd
 
 from geocontact.analyses.frame.collector import current
 from geocontact.analyses.frame.result import REPORT
-from geocontact.analyses.frame.words import headline
+from geocontact.analyses.frame.words import MOST, headline
 from geocontact.data.motion import Course
 from geocontact.io.text.units import split_header
 from geocontact.study.curves import STEPS, StudyCurves
+from geocontact.study.tables import means_by_condition
 from geocontact.view.curves.declared import Curves, CurveSheet, mean_curve
 from geocontact.view.curves.style import PALETTE
 from geocontact.view.page.content import Page, Section, Table
@@ -33,23 +34,35 @@ def study_page(title: str, curves: Sequence[StudyCurves], tables: Mapping[str, p
         ("outliers", "Trials that lie apart"),
     ):
         if name in tables and len(tables[name]):
-            sections.append(frame_table(words, tables[name]))
+            sections.append(frame_table(words, _known(tables[name])))
     sections.append(_trials(tables["trials"]))
     return Page(
         title,
         f"geocontact {current().command}",
         STEPS if curves else np.zeros(1),
         "cycle [%]" if curves else "",
-        headline=headline(current().sentences),
+        headline=headline(_answer_first(current().sentences, means_by_condition(curves))),
         sections=tuple(sections),
         plays=False,
     )
 
 
+def _answer_first(sentences: Sequence[str], answers: Sequence[str]) -> list[str]:
+    """Means by condition before the count of trials."""
+    return [*answers[: MOST - 1], *(line for line in sentences if line not in answers), *answers[MOST - 1 :]]
+
+
+def _known(table: pd.DataFrame) -> pd.DataFrame:
+    """The table without columns that have no value, such as the SD of one subject."""
+    return table.loc[:, [name for name in table.columns if (table[name].notna() & (table[name] != "")).any()]]
+
+
 def _panel(one: StudyCurves) -> Curves:
     name, unit = split_header(one.column)
     drawn = [mean_curve(condition, values, k) for k, (condition, values) in enumerate(_drawn(one).items())]
-    return Curves(f"{name.replace('_', ' ')} over the cycle, subjects", _printed(unit), drawn)
+    several = any(len(values) > 1 for values in _drawn(one).values())
+    title = f"{name.replace('_', ' ')} over the cycle"
+    return Curves(f"{title}, mean of the subjects" if several else title, _printed(unit), drawn)
 
 
 def _drawn(one: StudyCurves) -> dict[str, np.ndarray]:
@@ -66,7 +79,7 @@ def _printed(unit: str | None) -> str:
 def _trials(manifest: pd.DataFrame) -> Table:
     shown = manifest.iloc[:ROWS]
     words = f"Trials, {ROWS} of {len(manifest)}" if len(manifest) > ROWS else "Trials"
-    told = frame_table(words, shown.drop(columns="folder"))
+    told = frame_table(words, _known(shown.drop(columns="folder")))
     links = [f"{folder}/{REPORT}" if folder else "" for folder in shown["folder"]]
     return Table(told.title, told.header, told.rows, links=links)
 

@@ -79,6 +79,36 @@ def value_table(curves: Sequence[StudyCurves]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+NAMED = 4
+"""Conditions whose means are written out."""
+
+
+def means_by_condition(curves: Sequence[StudyCurves]) -> list[str]:
+    """The mean over the curve of each quantity by condition, of two conditions their difference in common subjects.
+
+    SD is that of subjects, said of two or more. Without two conditions nothing is said.
+    """
+    lines = []
+    for one in curves:
+        name, unit = split_header(one.column)
+        ending = f" {unit}" if unit and unit != "-" else ""
+        known = {each: values[np.isfinite(values).all(axis=1)].mean(axis=1) for each, values in one.groups.items()}
+        means = {each: found for each, found in known.items() if len(found)}
+        if not 2 <= len(means) <= NAMED:
+            continue
+        parts = ", ".join(f"{each} {_mean(found)}{ending}" for each, found in means.items())
+        apart = [a.mean(axis=1) - b.mean(axis=1) for other, *_, a, b in _pairs([one]) if other is one]
+        minus = f": difference {_mean(apart[0])}{ending}" if len(means) == 2 and apart else ""
+        lines.append(f"{name}, mean over the curve: {parts}{minus}")
+    return lines
+
+
+def _mean(values: Float[np.ndarray, " n"]) -> str:
+    """ "1210", "1210 (SD 35)"."""
+    text = f"{values.mean():.{DIGITS}g}".replace("-", "−")
+    return f"{text} (SD {values.std(ddof=1):.3g})" if len(values) > 1 else text
+
+
 def outlier_table(curves: Sequence[StudyCurves]) -> pd.DataFrame:
     """Trials whose curve lies apart from those of its condition, with their modified z score."""
     rows = []

@@ -73,7 +73,7 @@ def test_virtual_markers_are_shown_on_the_skeleton(tmp_path: Path) -> None:
     result = gc.virtual_markers(SWING, model=LEG)
     np.testing.assert_allclose(result.model.marker_places(result.values), result.markers.positions, atol=1e-12)
     page = result.page(tmp_path / "page.html").read_text(encoding="utf-8")
-    assert "segments and joints" in page and "moves farthest" in page
+    assert "segments and joints" in page and "they move within boxes of" in page
 
 
 def test_refusals_name_arguments(markers: Path) -> None:

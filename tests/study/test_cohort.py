@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import platform
 import re
@@ -20,8 +21,8 @@ from geocontact.study.curves import StudyCurves
 from geocontact.study.result import CohortResult
 from geocontact.study.show import study_curves, study_page
 from geocontact.study.store import LOCK, sole_writer
-from geocontact.study.tables import ensemble_table
-from geocontact.view.page.content import Curves
+from geocontact.study.tables import ensemble_table, means_by_condition
+from geocontact.view.page.content import Curves, Table
 from tests.cli.calls import Call, call
 from tests.study.quick import compared, study, tables, told
 
@@ -222,3 +223,43 @@ def test_a_study_that_is_refused_leaves_no_folder(tmp_path: Path) -> None:
     told = call("cohort", tmp_path / "study.toml", "--out", tmp_path / "out")
     assert told.code == 2 and "did you mean 'area'?" in told.err
     assert not (tmp_path / "out").exists()
+
+
+def test_the_page_answers_with_the_means_by_condition_and_their_difference() -> None:
+    """A subject in two conditions; then two subjects, whose SD is by hand."""
+    step = np.linspace(0.0, 2.0, 101)
+    manifest = {
+        "trials": pd.DataFrame({"name": ["a", "b"], "folder": ["", ""], "words": ["", ""], "state": ["done"] * 2})
+    }
+    one = StudyCurves("area_fixed [mm^2]", ("a", "b"), ("A", "A"), ("flat", "bent"), np.stack([step + 9.0, step + 6.0]))
+    assert means_by_condition([one]) == [
+        "area_fixed, mean over the curve: flat 10 mm^2, bent 7 mm^2: difference 3 mm^2"
+    ]
+    page = study_page("study", [one], manifest)
+    assert page.headline[0] == "area_fixed, mean over the curve: flat 10 mm², bent 7 mm²: difference 3 mm²."
+    titles = [section.title for section in page.sections if isinstance(section, Curves)]
+    assert titles == ["area fixed over the cycle"], "no mean of one subject"
+    table = next(section for section in page.sections if isinstance(section, Table) and section.title == "Trials")
+    assert list(table.header) == ["name", "state"], "no column without a word in it"
+    names = ("a", "b", "c", "d"), ("A", "A", "B", "B"), ("flat", "bent", "flat", "bent")
+    two = StudyCurves("angle [deg]", *names, np.array([[4.0], [1.0], [6.0], [5.0]]) + np.zeros(101))
+    sd = np.sqrt(2.0)
+    (line,) = means_by_condition([two])
+    assert line.startswith(f"angle, mean over the curve: flat 5 (SD {sd:.3g}) deg, bent 3 (SD {2.0 * sd:.3g}) deg")
+    assert line.endswith(f"difference 2 (SD {sd:.3g}) deg")
+
+
+def test_warnings_of_trials_are_those_of_the_study(tmp_path: Path, scheduler: str) -> None:
+    """A ball 0.5 mm inside the plate warns once in each trial: one line on the terminal, both in run.json."""
+    from tests.cli.calls import PLATE, SPHERE, poses
+
+    motion = poses(tmp_path, (0, -30.0, 0), (0, -31.0, 0))
+    text = (
+        f'analysis = "area"\n[options]\nmoving = "{SPHERE}"\nfixed = "{PLATE}"\nunit = "mm"\nmotion = "{motion.name}"\n'
+    )
+    (tmp_path / "study.toml").write_text(text + "[sweep]\nthreshold = [1, 2]\n", encoding="utf-8")
+    done = cohort(tmp_path / "study.toml", tmp_path / "out", scheduler)
+    kept = json.loads((tmp_path / "out" / "run.json").read_text("utf-8"))["warnings"]
+    manifest = done.table("trials.csv")
+    assert manifest["warnings [-]"].sum() == len(kept) > 0
+    assert len(done.warnings) < len(kept)

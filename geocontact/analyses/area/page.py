@@ -13,7 +13,10 @@ from geocontact.analyses.area.page_sections import (
     Told,
     compared_areas,
     comparison_tables,
+    congruence_curves,
+    congruence_range,
     in_mm,
+    largest_within,
     rows,
     scene,
     strip,
@@ -156,6 +159,19 @@ def headline(told: Told, k: int) -> list[str]:
     if told.pressures is not None:
         moving, fixed = part(told.moving.name), part(told.fixed.name)
         said.insert(0, pressure.sentence(told.pressures, told.motion.course, moving, fixed))
+    if told.uncertainty is not None:
+        low, high = largest_within(told.uncertainty, k)
+        said.append(
+            f"With the error of the pose the largest area is {low:.0f} … {high:.0f} mm² (95 %, "
+            f"{len(told.uncertainty.error.draws)} draws)."
+        )
+    alike = congruence_range(told, k)
+    if alike is not None:
+        low, high, _ = alike
+        said.append(
+            f"The index of congruence is {_span(low, high)} 1/mm (0: they fit exactly): as of a sphere of "
+            f"{_span(1.0 / high, 1.0 / low)} mm radius on a plane."
+        )
     if told.compared is not None:
         said.append(_compared(told.compared))
     return said
@@ -195,9 +211,32 @@ def facts(told: Told, k: int) -> list[tuple[str, str]]:
         lines.append(("Range over the motion", span))
         if area[largest] > 0.0:
             lines.append(("Where, in that frame", _where(told, largest, k)))
+    lines += _uncertain_facts(told, k)
     word = "Deepest overlap" if e.min_distance[nearest] < 0.0 else "Smallest distance"
     lines.append((word, f"{abs(e.min_distance[nearest]) * MM:.2f} mm at {course.at(nearest)}"))
     return lines
+
+
+def _uncertain_facts(told: Told, k: int) -> list[tuple[str, str]]:
+    """The largest area with the error of the pose, how well its SD is known, and the congruence."""
+    lines = []
+    u, alike = told.uncertainty, congruence_range(told, k)
+    if u is not None:
+        low, high = largest_within(u, k)
+        sd, least, most = (u.deviation(k) * MM2)[:, int(np.argmax(u.drawn_sd(k)))]
+        lines.append(("Largest area with the pose's error, 95 %", f"{low:.0f} … {high:.0f} mm²"))
+        drawn = f"{sd:.3g} mm² (95 % {least:.3g} … {most:.3g}; {len(u.error.draws)} draws)"
+        lines.append(("Largest SD of the area", drawn))
+    if alike is not None:
+        low, high, share = alike
+        lines.append(("Index of congruence", f"{_span(low, high)} 1/mm, over {share:.0%} of the area or more"))
+    return lines
+
+
+def _span(low: float, high: float) -> str:
+    """Two ends of three digits, or the one that both are."""
+    ends = dict.fromkeys((f"{low:.3g}", f"{high:.3g}"))
+    return " … ".join(ends)
 
 
 def _where(told: Told, frame: int, k: int) -> str:
@@ -291,6 +330,7 @@ def contact_page(told: Told, title: str) -> Page:
             *pressed,
             compared_areas(told, k),
             *uncertainty_curves(told, k),
+            *congruence_curves(told, k),
             distance,
             *shared,
             *after,

@@ -16,7 +16,7 @@ from geocontact.geometry.contact_area.comparison import Compared
 from geocontact.geometry.contact_area.congruence import CongruenceEvolution
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
-from geocontact.geometry.contact_area.pose_error import NORMAL, AreaUncertainty
+from geocontact.geometry.contact_area.pose_error import ENDS, NORMAL, AreaUncertainty
 from geocontact.geometry.surface import Surface
 from geocontact.view.page.content import Curve, Curves, Points, Row, Scene, SceneBody, Strip, Table
 from geocontact.view.surfaces.camera import camera_directions
@@ -162,11 +162,39 @@ def uncertainty_curves(told: Told, main: int) -> list[Curves]:
         Curve("first order, lower", np.maximum(area - sd, 0.0)),
         Curve("first order, upper", area + sd),
     ]
-    odd = sum(u.verdict(frame, main) != "yes" for frame in range(len(u.cells)))
-    title = (
-        f"Error of the pose carried into the area ({in_mm(told.evolution, main)}; first order disagrees in {odd} of "
-    )
-    return [Curves(title + f"{len(u.cells)} frames)", "mm²", curves)]
+    met = sum(u.verdict(frame, main) == "yes" for frame in range(len(u.cells)))
+    words = f"First order agrees with the draws in {met} of {len(u.cells)} frames."
+    return [
+        Curves(f"Contact area with the error of the pose ({in_mm(told.evolution, main)})", "mm²", curves, words=words)
+    ]
+
+
+def largest_within(u: AreaUncertainty, k: int) -> tuple[float, float]:
+    """95 % interval of the largest area over the motion, by draws [mm²]."""
+    low, high = np.quantile(u.drawn(k).max(axis=0), ENDS) * MM2
+    return float(low), float(high)
+
+
+def congruence_range(told: Told, k: int) -> tuple[float, float, float] | None:
+    """Least and largest index of congruence [1/mm] and the least share of the area they are over; None without any."""
+    if told.congruence is None:
+        return None
+    index = told.congruence.index[:, k]
+    known = np.isfinite(index)
+    if not known.any():
+        return None
+    share = told.congruence.share[known, k]
+    return float(index[known].min()) / MM, float(index[known].max()) / MM, float(share.min())
+
+
+def congruence_curves(told: Told, k: int) -> list[Curves]:
+    """The index of congruence in each frame, where it is known."""
+    if congruence_range(told, k) is None or told.congruence is None:
+        return []
+    index = told.congruence.index[told.frames, k] / MM
+    words = "0 where the surfaces fit exactly; 1/R for a sphere of radius R on a plane."
+    title = f"Index of congruence ({in_mm(told.evolution, k)})"
+    return [Curves(title, "1/mm", [Curve("index of congruence", index)], words=words)]
 
 
 def _measured(told: Told, k: int) -> list[Points]:

@@ -19,6 +19,7 @@ from geocontact.analyses.frame.options import Declared, Options, declared
 from geocontact.analyses.frame.record import Listener, Record, as_python
 from geocontact.analyses.frame.result import Result
 from geocontact.analyses.frame.table_forms import AS_ALWAYS, TableForms
+from geocontact.analyses.frame.warning_kinds import merged
 from geocontact.data.errors import InputError, InputWarning
 
 I = TypeVar("I")
@@ -81,7 +82,7 @@ class Job(Generic[I, R]):
             parts = map(held.spelled, (fspath(error.file), error.place, error.what, error.remedy))
             raise InputError(*parts) from error
         record.name_in_memory()
-        for line in record.warnings:
+        for line in merged(record.warnings):
             warnings.warn(line, InputWarning, stacklevel=2)
         return result
 
@@ -144,6 +145,9 @@ def execute(job: Job[Any, R], options: Options, out: Path, call: Call) -> tuple[
         job.command, call.typed, options.in_si(), listener=call.listener, spell=call.spell, forms=call.forms, out=out
     )
     with collecting(record), written_whole(out, call.overwrite) as draft:
-        tell_doubts(options, record)
-        result = job.run(job.read(options), options)
-        return result, result.put(draft)
+        with record.stage():
+            tell_doubts(options, record)
+            inputs = job.read(options)
+        with record.stage():
+            result = job.run(inputs, options)
+            return result, result.put(draft)

@@ -14,6 +14,7 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.warning_kinds import merged
 from geocontact.analyses.frame.words import MOST, headline
 from geocontact.view.curves.style import save
 from geocontact.view.extremes import FRAMES, with_extremes
@@ -133,8 +134,11 @@ def finished(page: Page, record: Record, folder: str, reservations: Sequence[str
         sections[at : at + 1] = [table]
     first = headline([record.judged]) if record.judged else ()
     told = tuple(line for line in page.headline if line not in first)
-    reserved = (*reservations, *page.reservations)
-    return replace(page, sections=tuple(sections), reservations=reserved, headline=(*first, *told))
+    every = [*reservations, *page.reservations]
+    kinds = merged(every)
+    if len(kinds) < len(every):
+        sections.append(Table("All warnings", ("warning",), [(line,) for line in every], folded=True))
+    return replace(page, sections=tuple(sections), reservations=tuple(kinds), headline=(*first, *told))
 
 
 def write_finished(page: Page | Thinned, file: Path, record: Record, folder: str, reservations: Sequence[str]) -> None:

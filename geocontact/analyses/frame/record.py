@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 from geocontact.analyses.frame.folder import RUN, digest, written
 from geocontact.analyses.frame.in_memory import InMemory
 from geocontact.analyses.frame.table_forms import AS_ALWAYS, TableForms
+from geocontact.analyses.frame.warning_kinds import merged
 from geocontact.data.errors import InputWarning
 from geocontact.data.version import VERSION
 
@@ -28,7 +29,7 @@ class Listener:
     """Hears nothing; whoever shows something overrides what it hears."""
 
     def warn(self, line: str) -> None:
-        """A reservation, as soon as it is known."""
+        """A warning, or one line for all of a kind from one stage of the work."""
 
     def fail(self, line: str) -> None:
         """A part of the work that could not be done, in one line; the rest goes on."""
@@ -105,6 +106,7 @@ class Record:
     forms: TableForms = AS_ALWAYS
     out: Path | None = None
     held: InMemory = field(default_factory=InMemory)
+    _holds: bool = field(default=False, init=False, repr=False)
 
     def name_in_memory(self) -> None:
         """Replace files that stand for values of a Python session by what those are."""
@@ -123,7 +125,20 @@ class Record:
         line = self.spell(" ".join(line.split()))
         if line not in self.warnings:
             self.warnings.append(line)
-            self.listener.warn(line)
+            if not self._holds:
+                self.listener.warn(line)
+
+    @contextmanager
+    def stage(self) -> Iterator[None]:
+        """A part of the work after which its warnings are shown, one line for each kind; `warnings` keeps them all."""
+        before, held = len(self.warnings), self._holds
+        self._holds = True
+        try:
+            yield
+        finally:
+            self._holds = held
+            for line in () if held else merged(self.warnings[before:]):
+                self.listener.warn(line)
 
     def judge(self, fit: GoodnessOfFit) -> None:
         """Keep the outcome of a test of fit; of several the doubts of all, the worst of them first."""

@@ -16,6 +16,7 @@ from geocontact.analyses.frame.collector import collecting, current
 from geocontact.analyses.frame.folder import written_whole
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.table_forms import TableForms
+from geocontact.analyses.frame.warning_kinds import merged
 from geocontact.analyses.frame.words import counted
 
 if TYPE_CHECKING:
@@ -245,8 +246,12 @@ class Result(ABC):
         return path
 
     def __str__(self) -> str:
-        """Sentences and reservations, as the command prints them."""
-        return "\n".join((*self.sentences, *(f"warning: {line}" for line in self.warnings)))
+        """Sentences and warnings, as the command prints them."""
+        return "\n".join(self._lines())
+
+    def _lines(self) -> list[str]:
+        """Sentences, and one line for each kind of warning."""
+        return [*self.sentences, *(f"warning: {line}" for line in merged(self.warnings))]
 
     def __repr__(self) -> str:
         """The first sentence and how many reservations there are, in one line of `WIDEST` characters at most."""
@@ -257,7 +262,7 @@ class Result(ABC):
 
     def _repr_html_(self) -> str:
         """Sentences, reservations and figure, as a notebook shows them."""
-        lines = [*self.sentences, *(f"warning: {line}" for line in self.warnings)]
+        lines = self._lines()
         text = "".join(f"<p>{escape(line)}</p>" for line in lines)
         figure = self.figure()
         if figure is None:

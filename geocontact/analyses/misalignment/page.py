@@ -39,7 +39,7 @@ def elbow_page(
 ) -> Page:
     """The page with the answer, in the words of `record`.
 
-    `start_frame` is that of bins of the angle; None where the frames run in time, from the first.
+    `start_frame` is that of bins of the angle; None where the frames run in time, from the peak.
     """
     return Page(
         title,
@@ -49,6 +49,6 @@ def elbow_page(
         headline=[spelled(line) for line in answer],
         facts=facts[:FACTS],
         sections=tuple(sections),
-        start_frame=start_frame or 0,
+        start_frame=start_frame,
         plays=start_frame is None,
     )

@@ -36,6 +36,7 @@ from geocontact.analyses.modulus.identified import (
 )
 from geocontact.analyses.modulus.inputs import ModulusInputs, model_of, read, threshold_given, unknowns
 from geocontact.analyses.modulus.options import ModulusOptions
+from geocontact.analyses.modulus.recommended import reason
 from geocontact.analyses.modulus.show import moduli, modulus_curves, modulus_page, told_apart
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
@@ -219,6 +220,8 @@ def _report(found: Identified) -> None:
         span = f"{p.lower * 1e-6:.4g} … {p.upper * 1e-6:.4g}"
         sticks = "" if each.model.adhesion is None else f", {each.model.adhesion.words}"
         say(f"{side}: E* {each.modulus * 1e-6:.4g} MPa (95 % {span}), RMSE {rmse:.0f} N, R² {r2:.2f}{sticks}")
+    if why := reason(found):
+        say(why)
     say("E and ν are one number here: area and force identify E* = E/(1 - ν²), and E only for a stated ν")
     for told in found.predictions:
         if told.measured is not None:

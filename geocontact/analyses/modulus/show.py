@@ -9,11 +9,13 @@ import numpy as np
 
 from geocontact.analyses.frame.words import NOT_A_DEVICE, rounded
 from geocontact.analyses.modulus.identified import PER_SI, UNITS, Identified
+from geocontact.analyses.modulus.recommended import MPA, reason, recommended, undescribed
 from geocontact.data.motion import Course
 from geocontact.elastic_modulus.area_force import MODULUS
 from geocontact.elastic_modulus.identify import Identification, agreement
 from geocontact.elastic_modulus.sensitivity import constant
 from geocontact.identify.identifiability import Identifiability
+from geocontact.identify.intervals.profile_likelihood import Profile
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Limit, Points, Shade, stroke
 from geocontact.view.page.content import IntervalRow, Intervals, Page, Section, Table, Words
 
@@ -54,37 +56,41 @@ def modulus_curves(found: Identified) -> CurveSheet:
     return CurveSheet([*panels, profile], Course("time", "s", next(iter(pairs.values())).time))
 
 
-DESCRIBES = 0.5
-"""R² below which the law leaves more of a force's course than it describes: E* is no answer then."""
-MPA = 1e-6
-
-
-def undescribed(found: Identified) -> dict[str, float]:
-    """R² of the sides whose forces the law does not describe."""
-    met = {side: agreement(each.measured, each.predicted)[1] for side, each in found.sides.items()}
-    return {side: r2 for side, r2 in met.items() if r2 < DESCRIBES}
-
-
 def headline(found: Identified) -> list[str]:
-    """Whether the law holds, E* of the first side, and a trial that was not used."""
+    """Whether the law holds, E* of the sides to use and why those, and a trial that was not used."""
     missed = undescribed(found)
     lines = [] if not missed else [_not_described(found, missed)]
-    side, first = next(iter(found.sides.items()))
-    p = first.profiles[MODULUS]
-    value, span = f"{rounded(p.best * MPA)} MPa", f"95 % {rounded(p.lower * MPA)} … {rounded(p.upper * MPA)} MPa"
-    rmse, r2 = agreement(first.measured, first.predicted)
-    if side in missed:
-        lines.append(f"E* of {value} ({span}) is only the number that fits the {_force(side)} best{_sticking(found)}.")
-    else:
-        lines.append(
-            f"E* is {value} ({span}): the law{_sticking(found)} meets the {_force(side)} to {rmse:.0f} N, R² {_r2(r2)}."
-        )
+    chosen = recommended(found)
+    lines.append(_answer(found, chosen, missed))
+    why = reason(found)
+    lines += [f"{why[0].upper()}{why[1:]}."] if why else []
     lines += [
         f"In a trial not used it meets the {_force(told.side)} to {told.rmse:.0f} N, R² {_r2(told.r2)}."
         for told in found.predictions
-        if told.measured is not None and told.side == side
+        if told.measured is not None and told.side in chosen
     ]
     return lines
+
+
+def _answer(found: Identified, chosen: tuple[str, ...], missed: dict[str, float]) -> str:
+    """E* of one side with how well the law meets its force, or of medial and lateral."""
+    each = {side: found.sides[side] for side in chosen}
+    values = {side: _with_interval(one.profiles[MODULUS]) for side, one in each.items()}
+    if len(chosen) > 1:
+        met = ", ".join(f"{agreement(one.measured, one.predicted)[0]:.0f} N" for one in each.values())
+        shown = ", ".join(f"{value} {side}" for side, value in values.items())
+        return f"E* is {shown}: the law{_sticking(found)} meets these forces to {met}."
+    side = chosen[0]
+    rmse, r2 = agreement(each[side].measured, each[side].predicted)
+    if side in missed:
+        return f"E* of {values[side]} is only the number that fits the {_force(side)} best{_sticking(found)}."
+    met = f"the law{_sticking(found)} meets the {_force(side)} to {rmse:.0f} N, R² {_r2(r2)}"
+    return f"E* is {values[side]}: {met}."
+
+
+def _with_interval(p: Profile) -> str:
+    """ "1.415 MPa (95 % 1.406 … 1.424 MPa)"."""
+    return f"{rounded(p.best * MPA)} MPa (95 % {rounded(p.lower * MPA)} … {rounded(p.upper * MPA)} MPa)"
 
 
 def _not_described(found: Identified, missed: dict[str, float]) -> str:
@@ -115,13 +121,16 @@ def _r2(value: float) -> str:
 
 
 def facts(found: Identified) -> list[tuple[str, str]]:
-    """E* of each side, then E for each stated Poisson's ratio of the first one; five at most."""
+    """E* of each side, those to use first, then E of the first for each stated Poisson's ratio; five at most."""
     lines = []
-    for side, each in found.sides.items():
+    chosen = recommended(found)
+    sides = {side: found.sides[side] for side in (*chosen, *(other for other in found.sides if other not in chosen))}
+    for side, each in sides.items():
         p = each.profiles[MODULUS]
         span = f"{rounded(p.best * MPA)} MPa ({rounded(p.lower * MPA)} … {rounded(p.upper * MPA)})"
-        lines.append((f"E*, {side}", span))
-    side, first = next(iter(found.sides.items()))
+        use = "use" if len(sides) > 1 and side in chosen else "do not use" if len(sides) > 1 and reason(found) else ""
+        lines.append((", ".join(filter(None, (f"E*, {side}", use))), span))
+    side, first = next(iter(sides.items()))
     lines += [
         (f"E, {side}, for ν = {nu:g}", f"{rounded(first.modulus * (1.0 - nu**2) * MPA)} MPa") for nu in found.poisson
     ]

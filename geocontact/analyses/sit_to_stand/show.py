@@ -169,10 +169,10 @@ def standing_curves(trials: Sequence[TrialResult]) -> list[Curves]:
                 curves.append(Curve(f"{name} recorded", factor * recorded, stroke=of_trial(k, recorded=True)))
         panels.append(Curves(title, unit, curves))
     single: list[tuple[str, str, Of]] = [
-        ("Residual of the forces between the points", "N", lambda t: t.residual(t.judged.force)),
-        ("Residual of the moments between the points", "N m", lambda t: t.residual(t.judged.moment)),
         ("Knee torque of both legs", "N m", lambda t: t.model.torque[:, 1]),
         ("Hip torque of both legs", "N m", lambda t: t.model.torque[:, 2]),
+        ("Residual of the forces between the points", "N", lambda t: t.residual(t.judged.force)),
+        ("Residual of the moments between the points", "N m", lambda t: t.residual(t.judged.moment)),
     ]
     for title, unit, of_one in single:
         curves = [

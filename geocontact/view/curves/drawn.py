@@ -13,6 +13,7 @@ from geocontact.data.motion import Course
 from geocontact.view.curves.declared import DASHES, Curves, CurveSheet, Points
 from geocontact.view.curves.quantity import WRAP
 from geocontact.view.curves.sheet import plain
+from geocontact.view.curves.strokes import assigned, lines_of, with_strokes
 from geocontact.view.curves.style import BLACK, COLOURS, DOUBLE, GREY, in_style, legend, panels
 from geocontact.view.extremes import thinned_line
 
@@ -73,7 +74,9 @@ def drawn(sheet: CurveSheet) -> Figure:
     rows = -(-count // wide)
     height = 0.012 + (TALL if rows == 1 else rows * ((LOW if rows <= ROWS else LOWEST) + 0.008))
     figure, axes = panels(rows, wide, DOUBLE, height)
-    entries = [_curves(own, panel, sheet.over) for panel, own in zip(sheet.panels, axes, strict=False)]
+    strokes = assigned([lines_of(panel) for panel in sheet.panels])
+    shown = [with_strokes(panel, own) for panel, own in zip(sheet.panels, strokes, strict=True)]
+    entries = [_curves(own, panel, sheet.over) for panel, own in zip(shown, axes, strict=False)]
     shared = _shared(entries) if count > 1 else None
     if shared:
         names = [plain(entry.name, WORDS) for entry in shared]
@@ -90,7 +93,8 @@ def drawn(sheet: CurveSheet) -> Figure:
 @in_style
 def draw_on(axes: Axes, panel: Curves, over: Course | None = None) -> None:
     """Draw one panel with its legend on axes that are there, such as those beside a map."""
-    _head(axes, panel, _curves(axes, panel, over))
+    shown = with_strokes(panel, *assigned([lines_of(panel)]))
+    _head(axes, panel, _curves(axes, shown, over))
 
 
 def _head(axes: Axes, panel: Curves, entries: Sequence[LegendEntry]) -> None:

@@ -225,7 +225,8 @@ class Page:
     reservations
         What changes how the answer is to be read, each one line.
     start_frame
-        Frame shown first: its index in `time`, from 0.
+        Frame shown first: its index in `time`, from 0. By default where the first curve is farthest from zero, of the
+        frames in which most curves are known; the first one of a page without curves.
     sections
         In reading order, at most one of them a `Scene`.
     numbers, total
@@ -248,7 +249,7 @@ class Page:
     headline: Sequence[str] = ()
     facts: Sequence[tuple[str, str]] = ()
     reservations: Sequence[str] = ()
-    start_frame: int = 0
+    start_frame: int | None = None
     sections: Sequence[Section] = field(default_factory=tuple)
     numbers: Int[np.ndarray, " shown"] | None = None
     total: int | None = None
@@ -258,7 +259,7 @@ class Page:
 
     def __post_init__(self) -> None:
         frames = len(self.time)
-        if not 0 <= self.start_frame < frames:
+        if not 0 <= self.opening < frames:
             raise ValueError(f"start_frame is {self.start_frame}, expected one of the {frames} frames")
         if not np.isfinite(self.time).all():
             raise ValueError("time must be finite in every frame")
@@ -272,6 +273,11 @@ class Page:
         for name, length in _lengths([*self.sections, *instead]):
             if length != frames:
                 raise ValueError(f"{name}: {length} frames, expected the {frames} of the page's time")
+
+    @property
+    def opening(self) -> int:
+        """Index of the frame shown first."""
+        return peak(self.sections) if self.start_frame is None else self.start_frame
 
     @property
     def leads(self) -> range:
@@ -304,6 +310,17 @@ class Page:
             raise ValueError(
                 f"numbers end at {numbers[-1]} of {total} frames; pass total, the frames of the whole motion"
             )
+
+
+def peak(sections: Sequence[Section]) -> int:
+    """Where the first curve over the page's time is farthest from zero, of the frames in which most are known."""
+    panels = [each for each in sections if isinstance(each, Curves) and each.over is None]
+    curves = [curve.values for panel in panels for curve in panel.curves if not curve.thin]
+    if not curves or len({len(values) for values in curves}) > 1:  # lengths that differ are refused below
+        return 0
+    known = np.isfinite(curves).sum(axis=0)
+    size = np.where(known == known.max(), np.abs(np.nan_to_num(curves[0])), -1.0)
+    return int(np.argmax(size))
 
 
 def _lengths(sections: Sequence[Section]) -> list[tuple[str, int]]:

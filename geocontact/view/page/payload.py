@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection, Sequence
 from dataclasses import asdict, dataclass
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.text import seconds
+from geocontact.view.curves.declared import HUES
+from geocontact.view.curves.strokes import Line, assigned, lines_of, with_strokes
 from geocontact.view.page.content import (
     Curves,
     FaceMap,
@@ -18,6 +21,7 @@ from geocontact.view.page.content import (
     Readout,
     Scene,
     SceneBody,
+    Section,
     Strip,
     Track,
 )
@@ -52,7 +56,7 @@ def payload(page: Page) -> Payload:
         "time": _numbers(time),
         "timeLabel": label,
         "title": page.title,
-        "start": page.start_frame,
+        "start": page.opening,
         "numbers": None if page.numbers is None else [int(number) for number in page.numbers],
         "total": len(page.time) if page.total is None else int(page.total),
         "plays": page.plays,
@@ -60,23 +64,26 @@ def payload(page: Page) -> Payload:
     }
     parts: list[dict[str, object]] = []
     position_error = distance_error = 0.0
-    for name, _, _, section in page.placed():
+    placed = page.placed()
+    strokes = assigned([_lines(section) for *_, section in placed])
+    named = {line for *_, section in placed if not isinstance(section, Intervals) for line, _ in _lines(section)}
+    for (name, _, _, section), own in zip(placed, strokes, strict=True):
         place = {"id": name}
         match section:
             case Scene():
                 levels = _levels(section)
-                data["scene"] = _scene(section, page.start_frame, levels, blocks)
+                data["scene"] = _scene(section, page.opening, levels, blocks)
                 grids = [*(Grid.around(b.vertices) for b in section.bodies), *(each.grid for each in section.linkages)]
                 position_error = max(grid.error for grid in grids)
                 distance_error = levels.error
             case Curves():
-                parts.append(place | {"kind": "curves"} | _curves(section))
+                parts.append(place | {"kind": "curves"} | _curves(with_strokes(section, own)))
             case Strip():
                 parts.append(place | {"kind": "strip"} | _strip(section))
             case Plan():
-                parts.append(place | {"kind": "plan"} | _plan(section))
+                parts.append(place | {"kind": "plan"} | _plan(section, own))
             case Intervals():
-                parts.append(place | {"kind": "intervals"} | _intervals(section))
+                parts.append(place | {"kind": "intervals"} | _intervals(section, own, named))
             case Readout():
                 texts = [[shown(text) for text in row.texts] for row in section.rows]
                 parts.append(place | {"kind": "readout", "texts": texts})
@@ -204,10 +211,10 @@ def _curves(panel: Curves) -> dict[str, object]:
             "values": _numbers(curve.values),
             "lower": None if curve.lower is None else _numbers(curve.lower),
             "upper": None if curve.upper is None else _numbers(curve.upper),
-            "stroke": k if curve.stroke is None else curve.stroke,
+            "stroke": curve.stroke,
             "thin": curve.thin,
         }
-        for k, curve in enumerate(panel.curves)
+        for curve in panel.curves
     ]
     points = [
         {"name": p.name, "time": _numbers(p.time), "values": _numbers(p.values), "stroke": p.stroke, "joined": p.joined}
@@ -226,23 +233,40 @@ def _curves(panel: Curves) -> dict[str, object]:
     }
 
 
-def _track(track: Track) -> dict[str, object]:
+def _lines(section: Section) -> list[Line]:
+    """What a section's key names by a colour."""
+    match section:
+        case Curves():
+            return lines_of(section)
+        case Plan():
+            return [(track.name, None) for track in section.tracks]
+        case Intervals():
+            return [(kind, None) for kind in _kinds(section)]
+    return []
+
+
+def _kinds(shown: Intervals) -> list[str]:
+    return [kind for kind in dict.fromkeys(one.kind for one in shown.intervals) if kind]
+
+
+def _track(track: Track, stroke: int) -> dict[str, object]:
     points: dict[str, object] = {
         "name": track.name,
         "x": _numbers(track.points[:, 0]),
         "y": _numbers(track.points[:, 1]),
+        "stroke": stroke,
     }
     return {**points, "told": list(track.told)} if track.told else points
 
 
-def _plan(plan: Plan) -> dict[str, object]:
+def _plan(plan: Plan, strokes: Sequence[int]) -> dict[str, object]:
     return {
         "title": plan.title,
         "unit": plan.unit,
         "across": plan.across,
         "up": plan.up,
         "lines": [[_numbers(line[:, 0]), _numbers(line[:, 1])] for line in plan.lines],
-        "tracks": [_track(track) for track in plan.tracks],
+        "tracks": [_track(track, own) for track, own in zip(plan.tracks, strokes, strict=True)],
         "marks": [{"name": mark.name, "at": [float(x) for x in mark.point]} for mark in plan.marks],
         "lengths": [
             {"name": each.name, "told": minus(each.told), "ends": [list(map(float, p)) for p in (each.start, each.end)]}
@@ -251,12 +275,14 @@ def _plan(plan: Plan) -> dict[str, object]:
     }
 
 
-def _intervals(shown: Intervals) -> dict[str, object]:
+def _intervals(shown: Intervals, strokes: Sequence[int], named: Collection[str]) -> dict[str, object]:
+    """Rows; a kind that a curve or a track is `named` as has its hue."""
     rows = []
     for one in shown.intervals:
         value, lower, upper = _numbers(np.array([one.value, one.lower, one.upper]))
         rows.append({"name": one.name, "value": value, "lower": lower, "upper": upper, "kind": one.kind})
-    return {"title": shown.title, "unit": shown.unit, "bars": shown.bars, "intervals": rows}
+    hues = {kind: own % HUES for kind, own in zip(_kinds(shown), strokes, strict=True) if kind in named}
+    return {"title": shown.title, "unit": shown.unit, "bars": shown.bars, "hues": hues, "intervals": rows}
 
 
 def _chosen(page: Page) -> list[float | None]:

@@ -52,7 +52,7 @@ def bounded(page: Page) -> Page:
         return page
     along = [section for section in page.sections if isinstance(section, Curves) and section.over is None]
     curves = [curve.values for section in along for curve in section.curves]
-    kept = np.arange(count) if count <= SPARE * FRAMES else with_extremes(count, curves, always=(page.start_frame,))
+    kept = np.arange(count) if count <= SPARE * FRAMES else with_extremes(count, curves, always=(page.opening,))
 
     def fewer(section: Section) -> Section:
         return _fewer(section, kept)
@@ -67,7 +67,7 @@ def bounded(page: Page) -> Page:
         page,
         time=page.time[kept],
         reservations=(*page.reservations, *said),
-        start_frame=int(np.searchsorted(kept, page.start_frame)),
+        start_frame=int(np.searchsorted(kept, page.opening)),
         sections=tuple(fewer(section) for section in page.sections),
         numbers=numbers[kept],
         total=count if page.total is None else page.total,

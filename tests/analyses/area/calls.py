@@ -9,6 +9,7 @@ from typing import Any
 from geocontact.analyses.area.result import AreaResult, pressure
 from geocontact.analyses.area.result import area as analysis
 from geocontact.data.errors import InputWarning
+from geocontact.view.page.content import Page
 from tests.cli.calls import FEMUR, INSERT
 
 
@@ -36,3 +37,9 @@ def _given(motions: tuple[Path, ...], options: dict[str, Any]) -> dict[str, Any]
     if isinstance(options.get("threshold"), float):
         options["threshold"] = (options["threshold"],)
     return {"unit": "mm", **options}
+
+
+def page_of(result: AreaResult) -> Page:
+    """The page of the only motion, with all its frames."""
+    (page,) = result.pages({}).values()
+    return page.of(page.most)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError
-from tests.analyses.area.calls import area
+from geocontact.view.page.content import Curves
+from tests.analyses.area.calls import area, page_of
 from tests.cli.calls import FEMUR, INSERT, SPHERE, gait, poses
 
 COLUMNS = [f"relative_curvature_{end} [1/mm]" for end in ("min", "max")] + ["congruence_index [1/mm]"]
@@ -70,3 +72,20 @@ def test_surfaces_that_do_not_face_each_other_get_no_radius_proposed(tmp_path: P
     """Two balls deep in each other: whatever lies within the other looks the same way, with any radius."""
     with pytest.raises(InputError, match=r"no radius to 10\.1 mm does better, so the surfaces do not face each other"):
         area(SPHERE, SPHERE, poses(tmp_path, (0, 3, 0)), threshold=1e-3, congruence=4e-3)
+
+
+def test_the_page_answers_with_the_index_and_shows_it_over_the_motion(tmp_path: Path) -> None:
+    """Two balls of 20 mm: 2/20 1/mm, as of one of 10 mm on a plane."""
+    motion = poses(tmp_path, (0, 40.2, 0), (24, 0, 32.3), (0, 80, 0))
+    result = area(SPHERE, SPHERE, motion, threshold=1e-3, congruence=4e-3)
+    page = page_of(result)
+    index, radius = page.headline[1].split(" 1/mm (0: they fit exactly): as of a sphere of ")
+    assert index.startswith("The index of congruence is ") and radius.endswith(" mm radius on a plane.")
+    for text, by_hand in ((index, 0.1), (radius, 10.0)):
+        ends = [float(number) for number in re.findall(r"[\d.]+\d|\d+", text)]
+        assert ends == pytest.approx([by_hand] * len(ends), rel=0.02)
+    assert dict(page.facts)["Index of congruence"].endswith("1/mm, over 100% of the area or more")
+    (card,) = [each for each in page.sections if isinstance(each, Curves) and each.title.startswith("Index of")]
+    np.testing.assert_allclose(card.curves[0].values, [0.1, 0.1, np.nan], rtol=0.02)
+    plain = page_of(area(SPHERE, SPHERE, motion, threshold=1e-3))
+    assert "congruence" not in " ".join(plain.headline)

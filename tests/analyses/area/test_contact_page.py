@@ -25,7 +25,7 @@ def test_where_how_much_and_when_are_said_at_the_top():
     found, evolution = page()
     said = dict(found.facts)
     largest = evolution.fixed.area[2, 1] * 1e6
-    assert found.start_frame == 2
+    assert found.opening == 2
     assert said["Largest contact area on the fixed body"] == f"{largest:.0f} mm² at 0.2 s"
     assert said["Range over the motion"].startswith(f"0 … {largest:.0f} mm²")
     assert said["Smallest distance"] == f"{evolution.min_distance[2] * 1e3:.2f} mm at 0.2 s"
@@ -119,7 +119,7 @@ def test_long_motions_are_thinned_and_keep_the_frames_that_answer(monkeypatch):
     thinned = thinned_page(*here)
     found = thinned.of(thinned.most)
     frames = [k - 1 for k in found.numbers]
-    assert 3 in frames and len(frames) <= 4 and found.total == 9 and frames[found.start_frame] == 3
+    assert 3 in frames and len(frames) <= 4 and found.total == 9 and frames[found.opening] == 3
     assert list(found.time) == pytest.approx([0.1 * k for k in frames])
     table = here[-2].table().query("`threshold [mm]` == 4")["area_fixed [mm^2]"].to_numpy()
     rows = {row.label: row for row in section(found, Readout).rows}

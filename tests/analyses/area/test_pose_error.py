@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError
-from tests.analyses.area.calls import area
+from tests.analyses.area.calls import area, page_of
 from tests.cli.calls import PLATE, SPHERE, poses, written
 
 SD = (0.0, 0.3e-3, 0.0, 0.0, 0.0, 0.0)
@@ -50,6 +50,11 @@ def test_the_deviation_of_few_draws_is_said_with_its_own_error(tmp_path: Path) -
     (line,) = [line for line in result.sentences if "standard deviation of the area" in line]
     assert line.startswith("largest standard deviation of the area ") and ": 50 draws know it to " in line
     summary = result.record.results["pose_error"]["at_4_mm"]
+    page, peak = page_of(result), summary["largest_area_ci95_mm2"]
+    span = f"{peak[0]:.0f} … {peak[1]:.0f} mm²"
+    assert page.headline[1] == f"With the error of the pose the largest area is {span} (95 %, 50 draws)."
+    assert dict(page.facts)["Largest area with the pose's error, 95 %"] == span
+    assert dict(page.facts)["Largest SD of the area"].endswith("50 draws)")
     assert summary["largest_sd_ci95_mm2"] == pytest.approx(
         [table[f"drawn_sd_{end} [mm^2]"].max() for end in ("lower", "upper")], abs=1e-3
     )

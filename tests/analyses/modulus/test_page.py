@@ -12,7 +12,7 @@ from geocontact.analyses.modulus.result import ModulusResult, modulus
 from geocontact.analyses.modulus.show import moduli, modulus_curves, modulus_page
 from geocontact.data.errors import InputWarning
 from geocontact.view.page.content import Curves, Intervals, Page
-from tests.analyses.modulus.synthetic_step import areas, forces
+from tests.analyses.modulus.synthetic_step import SHARE, areas, forces
 from tests.identify.synthetic_contact import TRUE
 
 
@@ -56,3 +56,35 @@ def test_a_soft_body_that_sticks_is_identified_and_named_with_its_law(tmp_path: 
     page = page_of(result)
     assert f"the law with {sticks} meets the total force" in page.headline[0]
     assert sticks in page.subtitle and sticks in repr(result)
+
+
+def test_two_patches_read_as_one_are_not_the_answer(tmp_path: Path) -> None:
+    """The law's own force of each side, and their sum: by hand the total is too soft by the sum of the shares' powers.
+
+    Both sides have the same modulus; A^3/2 (s^3/2 + (1 - s)^3/2) is the total's force, A^3/2 what it is read by.
+    """
+    file = forces(tmp_path)
+    table = pd.read_csv(file)
+    table["total [N]"] = table["medial [N]"] + table["lateral [N]"]
+    table.to_csv(file, index=False)
+    result = modulus(areas(tmp_path), file, radius=0.037, bootstrap=0)
+    soft = TRUE * (SHARE**1.5 + (1.0 - SHARE) ** 1.5)
+    assert result.modulus == pytest.approx(soft, rel=1e-3), "the first side stays the total"
+    page = page_of(result)
+    assert page.headline[0].startswith(f"E* is {TRUE * 1e-6:g} MPa (95 %") and "lateral: the law" in page.headline[0]
+    assert page.headline[1].startswith(f"Use E* of the sides, which agree: the total's {soft * 1e-6:.4g} MPa reads two")
+    assert [name for name, _ in page.facts][:3] == ["E*, medial, use", "E*, lateral, use", "E*, total, do not use"]
+    assert any(line.startswith("use E* of the sides") for line in result.sentences)
+
+
+@pytest.mark.parametrize(("factor", "words"), [(1.0, "use E* of the total: "), (2.0, "since they differ")])
+def test_the_total_is_the_answer_where_all_agree(tmp_path: Path, factor: float, words: str) -> None:
+    """Total and sides of one modulus; then a lateral side that is twice as stiff."""
+    file = forces(tmp_path)
+    table = pd.read_csv(file)
+    table["total [N]"] = (table["medial [N]"] + table["lateral [N]"]) / (SHARE**1.5 + (1.0 - SHARE) ** 1.5)
+    table["lateral [N]"] *= factor
+    table.to_csv(file, index=False)
+    result = modulus(areas(tmp_path), file, radius=0.037, bootstrap=0)
+    assert any(words in line for line in result.sentences)
+    assert page_of(result).facts[0][0] == ("E*, total, use" if factor == 1.0 else "E*, medial, use")

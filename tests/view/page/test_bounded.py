@@ -115,7 +115,7 @@ def long_page() -> Page:
 def test_all_that_runs_along_time_is_thinned_out_alike() -> None:
     whole, page = long_page(), bounded(long_page())
     kept = page.time.astype(int)
-    assert 500 < len(kept) <= FRAMES and kept[page.start_frame] == 12_345
+    assert 500 < len(kept) <= FRAMES and kept[page.opening] == 12_345
     assert page.total == COUNT and page.numbers is not None and page.numbers.tolist() == (kept + 1).tolist()
     assert page.reservations == (f"the page shows {len(kept)} of {COUNT} samples; the tables have all",)
     scene, force, strip, plan, readout, words = page.sections

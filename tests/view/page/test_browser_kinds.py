@@ -12,7 +12,7 @@ from benchmarks.page_pictures.kinds import KINDS, make_pages
 from tests.view.page.conftest import DESKTOP, PHONE, Open
 
 STILL = {
-    *("fit", "modulus", "elbow_fit", "elbow_design", "elbow_population"),
+    *("cohort", "fit", "modulus", "elbow_fit", "elbow_design", "elbow_population"),
     *("scale", "gap_gather", "gap_diagnose", "gap_discriminability"),
     *("prosthesis_scale", "prosthesis_calibrate", "prosthesis_compare", "prosthesis_design"),
 }

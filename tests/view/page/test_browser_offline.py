@@ -31,7 +31,7 @@ def test_opens_from_any_folder_asking_nobody(opened: Open, device: dict[str, Any
     assert here.complaints == []
     seen = pixels(here.picture()).reshape(-1, 3)
     assert len(np.unique(seen, axis=0)) > 500, "not blank"
-    assert here.frame() == small_page().start_frame
+    assert here.frame() == small_page().opening
     assert here.tab.evaluate("document.documentElement.scrollWidth <= window.innerWidth"), "no sideways scrolling"
     for scrolled in ("#view", "#section-3"):
         here.tab.locator(scrolled).evaluate("e => e.scrollIntoView({block: 'center'})")

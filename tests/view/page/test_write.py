@@ -201,7 +201,7 @@ def test_the_page_opens_where_the_patch_is_seen() -> None:
     page = small_page()
     scene = page.sections[0]
     assert isinstance(scene, Scene)
-    view = opening_view(scene, page.start_frame)
+    view = opening_view(scene, page.opening)
     assert view @ [0.0, 1.0, 0.0] > 0.8, "the plate's patch looks up"
     assert np.linalg.norm(view) == pytest.approx(1.0)
 

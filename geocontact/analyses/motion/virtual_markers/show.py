@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
-from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
+from geocontact.analyses.frame.words import NOT_A_DEVICE, counted, rounded
 from geocontact.analyses.motion.skeleton import JOINT, MARKER, scene_of, skeleton
 from geocontact.data.motion import Course
 from geocontact.data.multibody.markers import MarkerTrajectories
@@ -14,6 +14,9 @@ from geocontact.data.multibody.model import Multibody
 from geocontact.view.curves.declared import Curve, Curves, CurveSheet
 from geocontact.view.page.content import Linkage, Page, Scene, Section, Words
 
+MM = 1e3
+EXTREMES = ((np.nanargmin, np.nanmin), (np.nanargmax, np.nanmax))
+"""Of the heights: which marker is lowest, which highest."""
 MODELLED = "Markers sit on rigid segments: they do not slide as those on skin do, and hold no noise of cameras."
 
 
@@ -49,7 +52,9 @@ def markers_curves(markers: MarkerTrajectories) -> CurveSheet:
     """Every axis of the markers over time."""
     panels = [
         Curves(
-            f"{axis} of the markers", "m", [Curve(n, markers.positions[:, k, i]) for k, n in enumerate(markers.names)]
+            f"{axis} of the markers",
+            "mm",
+            [Curve(n, MM * markers.positions[:, k, i]) for k, n in enumerate(markers.names)],
         )
         for i, axis in enumerate("xyz")
     ]
@@ -57,15 +62,20 @@ def markers_curves(markers: MarkerTrajectories) -> CurveSheet:
 
 
 def answer(model: Multibody, markers: MarkerTrajectories) -> list[str]:
-    """How long the markers were followed, and which one moves farthest and which comes lowest."""
+    """How many markers were followed for how long, how far they travel, and between which heights."""
     time, places = markers.time, markers.positions
     reach = np.linalg.norm(np.nanmax(places, axis=0) - np.nanmin(places, axis=0), axis=1)
-    heights = places @ model.up
-    far, low = int(np.nanargmax(reach)), int(np.nanargmin(np.nanmin(heights, axis=0)))
+    heights = MM * (places @ model.up)
+    near, far = int(np.nanargmin(reach)), int(np.nanargmax(reach))
+    low, high = (int(pick(end(heights, axis=0))) for pick, end in EXTREMES)
     told = f"{counted(len(markers.names), 'marker')} over {time[-1] - time[0]:.3g} s in {counted(len(time), 'frame')}"
+    ends = (f"{rounded(MM * reach[k], 3)} mm ({markers.names[k]})" for k in (near, far))
+    span = " to ".join(ends)
+    least = f"{rounded(np.nanmin(heights[:, low]))} mm ({markers.names[low]})"
+    most = f"{rounded(np.nanmax(heights[:, high]))} mm ({markers.names[high]})"
     return [
-        f"{told}: {markers.names[far]} moves farthest, within a box of {reach[far]:.3g} m from corner to corner.",
-        f"The lowest is {markers.names[low]}, down to {np.nanmin(heights[:, low]):.3g} m over the ground's origin.",
+        f"{told}: they move within boxes of {span} across.",
+        f"Heights over the ground's origin are {least} to {most}; markers.trc holds all places.",
     ]
 
 

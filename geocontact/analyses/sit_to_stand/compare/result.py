@@ -4,7 +4,7 @@
 >>> held_out, planted = "meshes/standing_up_held_out/study.toml", "meshes/standing_up_exoskeleton/truth.csv"
 >>> given = {"parameters": planted, "against": "meshes/standing_up_exoskeleton/study.toml", "nodes": 5}
 >>> gc.sit_to_stand.compare(held_out, **given).sentences[0]
-'P1: nearest by its first and last posture is T2'
+'the prediction is nearer than both baselines on … of 10 channels that are not given'
 """
 
 from __future__ import annotations
@@ -45,6 +45,8 @@ if TYPE_CHECKING:
     from geocontact.view.curves.declared import CurveSheet
 
 NEAREST = "nearest of the calibration"
+BASELINES = (MEAN, NEAREST)
+"""Predictors without a model."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -96,7 +98,8 @@ class StandingCompareResult(Result):
         """Moving chains, curves, errors by predictor."""
         best = [one.trial for one in self.predictions if one.name == ALL]
         subject, predicted = self.given.trials.subject, self.curves()["comparison"]
-        return {REPORT: compared_page(self.sentences, subject, best, predicted, self.tables())}
+        tiles = compared_tiles(self.errors)
+        return {REPORT: compared_page(self.sentences, tiles, subject, best, predicted, self.tables())}
 
 
 def run(given: HeldOutTrials, o: StandingCompareOptions) -> StandingCompareResult:
@@ -110,12 +113,12 @@ def run(given: HeldOutTrials, o: StandingCompareOptions) -> StandingCompareResul
 
     predictions = predicted(given, o, keep)
     trivial = _trivial(given, predictions)
-    for trial in trials_begun(predictions):
-        near = nearest_trial(given.known.trials, trial)
-        say(f"{trial.name}: nearest by its first and last posture is {near.name}")
     errors = _compared(given, predictions, trivial)
     result = StandingCompareResult(options=o, given=given, predictions=predictions, trivial=trivial, errors=errors)
     _report(result)
+    for trial in trials_begun(predictions):
+        near = nearest_trial(given.known.trials, trial)
+        say(f"{trial.name}: nearest by its first and last posture is {near.name}")
     return result
 
 
@@ -157,19 +160,45 @@ def _rows(
 
 def _report(r: StandingCompareResult) -> None:
     errors = r.errors
+    won, channels_free = nearer_than_both(errors)
+    say(f"the prediction is nearer than both baselines on {won} of {channels_free} channels that are not given")
+    note("better than both", [won, channels_free])
     for quantity in ("strap", "knee"):
         own = errors[errors["quantity"] == quantity]
         each = own.groupby("predictor", sort=False)["rmsd"].max()
         unit = str(own["unit"].iloc[0]).replace("deg", "°")
         words = ", ".join(f"{name} {value:.3g} {unit}" for name, value in each.items())
-        say(f"{quantity}, largest RMSD of {counted(len(r.trivial), 'trial')}: {words}")
+        say(f"{quantity}, largest RMSD of {counted(len(r.trivial), 'trial')}: {words}; {_verdict(each)}")
         note(quantity, {str(name): float(value) for name, value in each.items()})
+
+
+def nearer_than_both(errors: pd.DataFrame) -> tuple[int, int]:
+    """Channels that are not given and on which the prediction is nearer than both baselines, of how many."""
     best = errors[errors["predictor"] == ALL].set_index(["trial", "quantity"])["rmsd"]
-    others = errors[errors["predictor"].isin([MEAN, NEAREST])].groupby(["trial", "quantity"])["rmsd"].min()
+    others = errors[errors["predictor"].isin(BASELINES)].groupby(["trial", "quantity"])["rmsd"].min()
     free = errors[(errors["predictor"] == ALL) & (errors["given"] == "no")].set_index(["trial", "quantity"]).index
-    better = int((best[free] < others[free]).sum())
-    say(f"of {len(free)} predicted channels, {better} have a smaller error than with either trivial predictor")
-    note("better than both", [better, len(free)])
+    return int((best[free] < others[free]).sum()), len(free)
+
+
+def _verdict(rmsd: pd.Series) -> str:
+    """Whether the prediction is nearer than both baselines, by RMSD of each predictor."""
+    nearer = [name for name in BASELINES if rmsd[name] <= rmsd[ALL]]
+    return (
+        f"nearer than the prediction: {', '.join(nearer)}" if nearer else "the prediction is nearer than both baselines"
+    )
+
+
+def compared_tiles(errors: pd.DataFrame) -> list[tuple[str, str]]:
+    """Channels won, and the largest RMSD of strap and knee beside that of the better baseline."""
+    won, free = nearer_than_both(errors)
+    found = [("channels nearer than both baselines", f"{won} of {free}")]
+    for quantity in ("strap", "knee"):
+        own = errors[errors["quantity"] == quantity]
+        each = own.groupby("predictor", sort=False)["rmsd"].max()
+        unit = str(own["unit"].iloc[0]).replace("deg", "°")
+        least = min(each[name] for name in BASELINES)
+        found.append((f"{quantity}, RMSD (better baseline)", f"{each[ALL]:.3g} {unit} ({least:.3g} {unit})"))
+    return found
 
 
 compare = Job("sit-to-stand compare", StandingCompareOptions, read, run)

@@ -28,6 +28,7 @@ PREDICTED = "{} of {}, by predictor"
 
 def compared_page(
     sentences: Sequence[str],
+    facts: Sequence[tuple[str, str]],
     subject: Subject,
     trials: Sequence[TrialResult],
     predicted: CurveSheet,
@@ -45,7 +46,7 @@ def compared_page(
         "Standing up, predicted and recorded",
         f"{', '.join(t.recorded.name for t in trials)}; contacts calibrated on other trials",
     )
-    return motion_page(titles, sentences, sections, MEANT)
+    return motion_page(titles, sentences, sections, MEANT, facts)
 
 
 def compared_curves(recorded: StandingTrial, by: Mapping[str, StandingTrial]) -> CurveSheet:

@@ -21,7 +21,7 @@ from geocontact.standing_up.assisted_model import ASSISTANCE_PARAMETERS, ASSISTE
 from geocontact.standing_up.assisted_movement import MEASURES, UNITS
 from geocontact.standing_up.exoskeleton import WORN_PARAMETERS
 from geocontact.standing_up.help_search import CertifiedDesign, DrawnGain
-from geocontact.standing_up.strap_sites import deviations, searched, usual
+from geocontact.standing_up.strap_sites import ContactParameter, deviations, searched, usual
 from geocontact.standing_up.trials import StandingUpTrials
 
 LEVEL = 0.95
@@ -123,10 +123,20 @@ def sensitivity_table(best: CertifiedDesign, sd: Float[np.ndarray, " p"]) -> pd.
             slope = float(best.design.slopes[k])
             per = "1 of the logarithm" if of.logarithm else f"1 {of.unit}" if of.unit != "-" else "1"
             told = {"number": of.name, "per": per, f"change [{UNITS[task.aim]}]": slope}
-            rows.append({**told, "sd": sd[k] or np.nan, "change by one sd": slope * sd[k] or np.nan})
+            by_sd = {"sd": sd[k] or np.nan, "change by one sd": slope * sd[k] or np.nan}
+            step, size = _step(of)
+            rows.append({**told, **by_sd, "step": step, f"change by a step [{UNITS[task.aim]}]": slope * size})
     told = {"number": "limit of the knee", "per": "1 N m", f"change [{UNITS[task.aim]}]": -best.design.price}
-    rows.append({**told, "sd": np.nan, "change by one sd": np.nan})
+    step_of_limit = {"step": "+1 N m", f"change by a step [{UNITS[task.aim]}]": -best.design.price}
+    rows.append({**told, "sd": np.nan, "change by one sd": np.nan, **step_of_limit})
     return pd.DataFrame(rows)
+
+
+def _step(of: ContactParameter) -> tuple[str, float]:
+    """A step that somebody might take of a number, and its size in what is searched: 10 %, 1 mm, 0.01."""
+    if of.logarithm:
+        return "+10 %", float(np.log(1.1))
+    return {"m": ("+1 mm", 1e-3), "-": ("+0.01", 0.01)}.get(of.unit, (f"+1 {of.unit}", 1.0))
 
 
 def draws_table(draws: Sequence[DrawnGain], aim: str) -> pd.DataFrame:

@@ -9,7 +9,7 @@ peak force of the strap, smooth: without help … N, chosen … N
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,6 +23,7 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
+from geocontact.analyses.sit_to_stand.design.answer import AnsweredDesign, answer, at_bounds, tiles
 from geocontact.analyses.sit_to_stand.design.designs import (
     TrialsToHelp,
     certificates_table,
@@ -39,6 +40,7 @@ from geocontact.analyses.sit_to_stand.exports import write_motion, write_standin
 from geocontact.analyses.sit_to_stand.trial_tables import mesh_table, not_certified, ran_table
 from geocontact.data.errors import InputError
 from geocontact.dynamics.collocation.solve import SolverOptions, stopped_by_ctrl_c
+from geocontact.standing_up.assistance_room import ROOM
 from geocontact.standing_up.assisted_model import ASSISTED_PARAMETERS, AssistedModel
 from geocontact.standing_up.assisted_movement import MEASURES, UNITS, StoppedByHandError
 from geocontact.standing_up.help_search import (
@@ -145,7 +147,25 @@ class StandingDesignResult(Result):
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The chosen exoskeleton moving, curves of all, tables."""
         subject, curves = self.given.trials.subject, self.curves()["design"]
-        return {REPORT: choice_page(self.sentences, subject, self.designs, curves, self.tables())}
+        what, unit = AIMS[self.options.aim][0], UNITS[self.options.aim]
+        known = self.answered(self.designs)
+        said = [*answer(what, unit, known, self.answered(self.front)), *self.sentences]
+        facts = tiles(what, unit, known, in_units(self.best))
+        return {REPORT: choice_page(said, facts, subject, self.designs, curves, self.tables())}
+
+    def answered(self, designs: Sequence[CertifiedDesign]) -> list[AnsweredDesign]:
+        """Aim (smooth) and knee (true) of designs."""
+        aim, knee = MEASURES.index(self.options.aim), MEASURES.index("knee")
+        peak = float(self.designs[0].movement.asked.largest[knee])
+        return [
+            AnsweredDesign(
+                one.name,
+                one.limit,
+                float(one.movement.asked.sizes[aim]),
+                float(one.movement.asked.largest[knee]) / peak,
+            )
+            for one in designs
+        ]
 
     def write_files(self, folder: Path) -> None:
         """Trajectories and model; tables, figure, page."""
@@ -210,9 +230,10 @@ def doubt(r: StandingDesignResult, *, stopped: bool) -> None:
             if seen is not None and not seen.converged:
                 reserve(not_certified(f"{trial.recorded.name} {one.name}", seen))
     best = r.best.design
-    if best is not None and best.on_end.any():
-        names = ", ".join(name for name, end in zip(best.task.vary, best.on_end, strict=True) if end)
-        reserve(f"at the limit of what can be built, so the value only reflects that limit: {names}")
+    if best is not None:
+        room = {name: (least, most) for name, (_, least, most) in ROOM.items()}
+        for line in at_bounds(in_units(r.best), best.on_end.tolist(), room):
+            reserve(f"{line}: what can be built decides here, not the strap")
     if len(r.draws) < r.options.draws and not stopped:
         reserve(f"{r.options.draws - len(r.draws)} of {r.options.draws} draws gave no movement and are left out")
 
@@ -226,6 +247,8 @@ def _report(r: StandingDesignResult, solved: int, seconds: float) -> None:
         each = ", ".join(f"{name} {getattr(of, sizes)[aim]:.3g} {unit}" for name, of in asked.items())
         say(f"{what}, {how}: {each}")
     say(_of_knee(r))
+    for line in answer(what, unit, r.answered(r.designs), r.answered(r.front))[1:]:
+        say(line)
     numbers = ", ".join(f"{name} {value:.3g} {PARTS.get(name, of)}" for name, value, of in in_units(r.best))
     say(f"{r.best.name}: {numbers}")
     gain, (low, high) = r.gain, gain_interval(r.draws)

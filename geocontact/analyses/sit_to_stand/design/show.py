@@ -41,6 +41,7 @@ FRONT = "Least {}, {}, over the limit of the knee"
 
 def choice_page(
     sentences: Sequence[str],
+    facts: Sequence[tuple[str, str]],
     subject: Subject,
     designs: Sequence[CertifiedDesign],
     curves: CurveSheet,
@@ -51,13 +52,38 @@ def choice_page(
     sections: list[Section] = [
         standing_scene(subject, best.trials),
         *curves.panels,
-        *(frame_table(title, tables[name], 3) for name, title in NAMES.items() if name in tables),
+        *(frame_table(title, shown(tables[name]), 3) for name, title in NAMES.items() if name in tables),
     ]
     titles = (
         "An exoskeleton chosen for standing up",
         f"{', '.join(t.recorded.name for t in best.trials)}; {subject.mass:g} kg, {subject.height:g} m",
     )
-    return motion_page(titles, sentences, sections, MODEL)
+    return motion_page(titles, sentences, sections, MODEL, facts)
+
+
+STIFFNESSES = ("normal", "tangential", "turning")
+
+
+def shown(table: pd.DataFrame) -> pd.DataFrame:
+    """The table as it is read: lengths in mm, stiffnesses by their name, no columns without a value.
+
+    Of a change by a step (1 mm, 10 %) the derivative is left to the file.
+    """
+    found = table.dropna(axis=1, how="all")
+    if "step" in found.columns:
+        found = found.drop(columns=["per", *(name for name in found.columns if name.startswith("change ["))])
+    if {"unit", "value", "least", "most"} <= set(found.columns):
+        found, metres = found.copy(), found["unit"] == "m"
+        found.loc[metres, ["value", "least", "most"]] *= 1e3
+        found["unit"] = found["unit"].where(~metres, "mm")
+        found["name"] = [f"{name} stiffness" if name in STIFFNESSES else name for name in found["name"]]
+    named = {
+        name: f"{kind} stiffness{name[len(kind) :]}"
+        for name in found.columns
+        for kind in STIFFNESSES
+        if name.startswith(f"{kind} [")
+    }
+    return found.rename(columns=named)
 
 
 def design_curves(designs: Sequence[CertifiedDesign], front: Sequence[CertifiedDesign], aim: str) -> CurveSheet:

@@ -65,11 +65,23 @@ def read(o: StandingPredictOptions) -> HeldOutTrials:
     if lacking:
         what = f"has a strap at the {min(lacking)}, which the calibration does not have"
         raise InputError(o.study, "", what, f"leave strap_{min(lacking)} out, or calibrate with it")
+    warn_of_known(trials.trials, known.trials)
     every = contact_parameters(known.sites)
     bounds = {each.name: (each.least, each.most) for each in every}
     values = read_contact_parameters(o.parameters, {each.name: each.unit for each in every}, bounds)
     add_input("`parameters`", o.parameters, parameters=len(values))
     return HeldOutTrials(trials, searched(every, [values[each.name] for each in every]), known)
+
+
+def warn_of_known(held_out: Sequence[StandingTrial], known: Sequence[StandingTrial]) -> None:
+    """Trials of the calibration among those that are to be predicted: the same recording under any name."""
+    for trial in held_out:
+        same = [one.name for one in known if one.q.shape == trial.q.shape and np.array_equal(one.q, trial.q)]
+        if same:
+            reserve(
+                f"{trial.name}: the same recording is {same[0]} in `against`: it is not held out, and errors of "
+                "prediction and baselines are too small"
+            )
 
 
 def trials_begun(predictions: Sequence[PredictedTrial]) -> tuple[StandingTrial, ...]:

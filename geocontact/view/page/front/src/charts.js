@@ -30,7 +30,7 @@ export function curves(figure, part, pageTime, pageLabel, { go, plays }) {
       ...spans.map((span) => html("li", "", spanSample(span), html("bdi", "", span.name))),
     ),
   );
-  let now = 0;
+  let [now, begun] = [0, false];
   const plot = axes(figure, {
     x: course([...time, ...part.points.flatMap((p) => p.time)], time),
     y: part.log ? decades(all) : extent(all, part.unit),
@@ -67,7 +67,9 @@ export function curves(figure, part, pageTime, pageLabel, { go, plays }) {
 
   function move(frame) {
     now = frame;
-    named.forEach((c, k) => (values[k].textContent = brief(c.values[frame])));
+    // nothing is known there: said of a place that the reader chose, not of the one where the page opens
+    named.forEach((c, k) => (values[k].textContent = begun || c.values[frame] !== null ? brief(c.values[frame]) : ""));
+    begun = true;
     place(plot);
   }
 
@@ -94,15 +96,20 @@ export function curves(figure, part, pageTime, pageLabel, { go, plays }) {
     plot.frame.addEventListener("pointermove", (event) => (event.buttons || part.over || !plays) && point(event));
   }
   if (!part.over) return move;
-  move(peak(named[0]?.values ?? []));
+  move(peak(named.map((c) => c.values)));
   return () => {};
 }
 
 const line = (plot, stroke, xs, ys, thin) =>
   svg("path", { class: `line ${colour(stroke)}${thin ? " thin" : ""}`, d: path(plot, xs, ys), ...(thin ? {} : { "stroke-dasharray": dash(stroke) }) });
 
-/** Where a curve is farthest from zero. */
-const peak = (values) => values.reduce((best, value, k) => (Math.abs(value ?? 0) > Math.abs(values[best] ?? 0) ? k : best), 0);
+/** Where the first curve is farthest from zero, of the places where most curves are known. */
+function peak(all) {
+  const known = (k) => all.filter((values) => values[k] !== null).length;
+  const most = Math.max(0, ...(all[0] ?? []).map((_, k) => known(k)));
+  const size = (k) => (known(k) === most ? Math.abs(all[0][k] ?? 0) : -1);
+  return (all[0] ?? []).reduce((best, _, k) => (size(k) > size(best) ? k : best), 0);
+}
 
 function describe(curve, unit) {
   const known = curve.values.filter((value) => value !== null);

@@ -10,7 +10,7 @@ const swatch = (k) => svg("svg", { class: "sample small", viewBox: "0 0 16 12", 
 export function intervals(figure, part) {
   const rows = part.intervals;
   const kinds = [...new Set(rows.map((row) => row.kind))];
-  const tone = (row) => (part.bars ? BARS : [0, 1, 2])[kinds.indexOf(row.kind) % 3];
+  const tone = ({ kind }) => part.hues[kind] ?? (part.bars ? BARS : [0, 1, 2])[kinds.indexOf(kind) % 3];
   if (kinds.length > 1) {
     figure.append(html("ul", "key", ...kinds.map((kind) => html("li", "", swatch(tone({ kind })), html("bdi", "", kind)))));
   }

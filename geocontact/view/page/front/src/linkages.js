@@ -4,7 +4,6 @@ import { svg } from "./svg.js";
 import { unpack } from "./unpack.js";
 
 const MISSING = 65535;
-const TONES = { bone: "#4a5560", seen: "#d55e00", model: "#0072b2", force: "#00805e", floor: "#c3c8ce" };
 const NOTHING = new Matrix4().makeScale(0, 0, 0);
 const ALONG = new Vector3(0, 1, 0); // axis of three.js' cylinder
 
@@ -38,7 +37,7 @@ export async function linkageOf(described) {
     glslVersion: GLSL3,
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
-    uniforms: { tone: { value: new Color(TONES[described.tone]) } },
+    uniforms: { tone: { value: new Color() } },
   });
   const balls = new InstancedMesh(new SphereGeometry(radius, 12, 8), tone, radius > 0 ? count : 0);
   const rods = new InstancedMesh(new CylinderGeometry(width / 2, width / 2, 1, 8), tone, lines.length);
@@ -65,6 +64,8 @@ export async function linkageOf(described) {
 
   return {
     group,
+    /** Takes the colour that its tone has in the page's scheme. */
+    repaint: (colourOf) => tone.uniforms.tone.value.set(colourOf(described.tone)),
     show(frame) {
       for (let k = 0; k < balls.count; k++) {
         const place = at(frame, k, from);
@@ -88,16 +89,31 @@ export async function linkageOf(described) {
   };
 }
 
-/** Legend of a scene of linkages alone: a dot and a name for each. */
+const [ROW, DOT, LETTER, BETWEEN] = [18, 16, 6.4, 18]; // of a legend, in pixels at its size of type
+
+/** Legend of a scene of linkages alone: a dot and a name for each, in as many rows as the width asks for. */
 export function names(place, scene) {
-  const widths = scene.linkages.map(({ name }) => 34 + 7.2 * name.length);
-  const whole = widths.reduce((sum, width) => sum + width, 0);
-  const bar = svg("svg", { viewBox: `0 0 ${whole} 22`, width: whole, height: 22, role: "img", "aria-label": scene.linkages.map(({ name }) => name).join(", ") });
-  let x = 10;
-  scene.linkages.forEach(({ name, tone }, k) => {
-    bar.append(svg("circle", { cx: x, cy: 11, r: 5, fill: TONES[tone] }));
-    bar.append(svg("text", { class: "tick", x: x + 10, y: 15 }, name));
-    x += widths[k];
-  });
+  const label = scene.linkages.map(({ name }) => name).join(", ");
+  const bar = svg("svg", { role: "img", "aria-label": label });
   place.replaceChildren(bar);
+  function fill() {
+    const style = getComputedStyle(place);
+    const room = place.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight);
+    if (!(room > 0)) return;
+    let [x, row] = [0, 0];
+    const drawn = scene.linkages.flatMap(({ name, tone }) => {
+      const most = Math.max(1, Math.floor((room - DOT) / LETTER));
+      const text = name.length > most ? `${name.slice(0, most - 1)}…` : name;
+      const wide = DOT + LETTER * text.length;
+      if (x && x + wide > room) [x, row] = [0, row + 1];
+      const [at, y] = [x, ROW * row + ROW / 2 + 2];
+      x += wide + BETWEEN;
+      return [svg("circle", { class: `tone-${tone}`, cx: at + 6, cy: y, r: 5 }), svg("text", { class: "tick", x: at + DOT, y: y + 4 }, text)];
+    });
+    const tall = ROW * (row + 1) + 4;
+    for (const [key, value] of Object.entries({ viewBox: `0 0 ${room} ${tall}`, width: room, height: tall })) bar.setAttribute(key, value);
+    bar.replaceChildren(...drawn);
+  }
+  new ResizeObserver(fill).observe(place);
+  fill();
 }

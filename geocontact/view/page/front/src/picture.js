@@ -8,11 +8,13 @@ const KINDS = ["video/mp4;codecs=avc1.42E028", "video/mp4", "video/webm;codecs=v
 /** The current picture, `PRINT` pixels wide. */
 export async function savePicture(scene, drawings, caption, name) {
   const small = scene.enlarge(PRINT);
+  scene.onPaper(true);
   try {
     const { sheet, paint } = await sheetOf(scene, drawings, caption.length);
     paint(caption);
     save(await new Promise((done) => sheet.toBlob(done, "image/png")), `${name}.png`);
   } finally {
+    scene.onPaper(false);
     small();
   }
 }
@@ -24,6 +26,7 @@ const kind = () => KINDS.find((each) => MediaRecorder.isTypeSupported(each));
 /** One loop of all frames as a video, as long as a loop lasts when it is played; `at` hears of the part that is done. */
 export async function saveVideo(scene, drawings, caption, time, seconds, name, at) {
   const before = time.frame();
+  scene.onPaper(true);
   const { sheet, paint } = await sheetOf(scene, drawings, caption().length);
   const recorder = new MediaRecorder(sheet.captureStream(RATE), { mimeType: kind(), videoBitsPerSecond: 8e6 });
   const parts = [];
@@ -44,6 +47,7 @@ export async function saveVideo(scene, drawings, caption, time, seconds, name, a
   }
   recorder.stop();
   await ended;
+  scene.onPaper(false);
   time.go(before);
   save(new Blob(parts, { type: recorder.mimeType }), `${name}.${recorder.mimeType.includes("mp4") ? "mp4" : "webm"}`);
 }
@@ -54,7 +58,8 @@ async function sheetOf(scene, { legend, triad, scale }, lines) {
   const { width, height, clientWidth } = scene.canvas;
   const ratio = width / clientWidth;
   const even = (size) => 2 * Math.ceil(size / 2); // what videos ask for
-  const below = (54 + 18 * lines) * ratio;
+  const key = legend.getBoundingClientRect().height;
+  const below = (16 + key + 18 * lines) * ratio;
   const sheet = Object.assign(document.createElement("canvas"), { width: even(width), height: even(height + below) });
   const pen = sheet.getContext("2d");
   const placed = async (drawing, x, y) => {
@@ -72,7 +77,7 @@ async function sheetOf(scene, { legend, triad, scale }, lines) {
     for (const each of over) pen.drawImage(...each);
     pen.fillStyle = "#1b1f24";
     pen.font = `${13 * ratio}px sans-serif`;
-    caption.forEach((line, k) => pen.fillText(line, 12 * ratio, height + (60 + 18 * k) * ratio, width - 24 * ratio));
+    caption.forEach((line, k) => pen.fillText(line, 12 * ratio, height + (22 + key + 18 * k) * ratio, width - 24 * ratio));
     pen.fillText(scale.textContent.trim(), 14 * ratio, height - 20 * ratio);
     pen.fillRect(14 * ratio, height - 14 * ratio, bar * ratio, 3 * ratio);
   }

@@ -9,10 +9,10 @@ const [LEFT, RIGHT, TOP, BOTTOM] = [44, 14, 8, 34];
 /** Puts the plan into `figure`; returns what moves its points. */
 export function plan(figure, part) {
   const { tracks, marks, lines, lengths } = part;
-  const stroke = (k) => tracks.length + k; // of a length
+  const stroke = (k) => Math.max(tracks.length, ...tracks.map((t) => t.stroke + 1)) + k; // of a length
   const values = tracks.map(() => html("span", "value"));
   if (tracks.length + lengths.length) {
-    const moving = tracks.map((t, k) => html("li", "", sample(k), html("bdi", "", t.name), values[k]));
+    const moving = tracks.map((t, k) => html("li", "", sample(t.stroke), html("bdi", "", t.name), values[k]));
     const fixed = lengths.map((l, k) => html("li", "", sample(stroke(k)), html("bdi", "", l.name), html("span", "value", l.told)));
     figure.append(html("ul", "key", ...fixed, ...moving));
   }
@@ -53,13 +53,13 @@ export function plan(figure, part) {
     frame.append(svg("text", { class: "axis", x: 12 + start - LEFT, y: 0.5 * (TOP + bottom), "text-anchor": "middle", transform: aside.replace("12", 12 + start - LEFT) }, `${part.up} [${part.unit}]`));
     const outline = lines.map(([xs, ys]) => path(plot, xs, ys)).join("");
     frame.append(svg("path", { class: "outline", d: outline }));
-    tracks.forEach((t, k) => frame.append(svg("path", { class: `line ${colour(k)}`, d: path(plot, t.x, t.y), "stroke-dasharray": dash(k) })));
+    tracks.forEach((t, k) => frame.append(svg("path", { class: `line ${colour(t.stroke)}`, d: path(plot, t.x, t.y), "stroke-dasharray": dash(t.stroke) })));
     lengths.forEach((l, k) => frame.append(...measured(l, stroke(k))));
     for (const { name, at } of marks) {
       frame.append(svg("circle", { class: "mark", cx: plot.x(at[0]), cy: plot.y(at[1]), r: 3.5 }));
       frame.append(svg("text", { class: "named", x: plot.x(at[0]) + 7, y: plot.y(at[1]) + 15 }, name));
     }
-    dots = tracks.map((_, k) => svg("circle", { class: `dot ${colour(k)}`, r: 5 }));
+    dots = tracks.map((t) => svg("circle", { class: `dot ${colour(t.stroke)}`, r: 5 }));
     frame.append(...dots);
     move(now);
   }

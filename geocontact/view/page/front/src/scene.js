@@ -13,7 +13,7 @@ export async function openScene(data, canvas) {
   const renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
   const shared = sharedUniforms(data);
   const world = new Scene();
-  world.background = new Color(getComputedStyle(canvas).getPropertyValue("--scene").trim());
+  world.background = new Color();
   const bodies = [];
   for (const [k, described] of data.bodies.entries()) {
     const maps = data.maps.map((map) => (map.body === k ? map.values : null));
@@ -47,9 +47,28 @@ export async function openScene(data, canvas) {
     view.fit(width, height);
     draw();
   }
+  /** Takes the colours that the page has now: of its scheme, or of paper. */
+  function repaint() {
+    const style = getComputedStyle(canvas);
+    const colourOf = (name) => style.getPropertyValue(`--${name}`).trim();
+    world.background.set(colourOf("scene"));
+    for (const each of linkages) each.repaint(colourOf);
+  }
+  /** Paper is light in either scheme, with all that lies over the picture. */
+  function onPaper(on) {
+    canvas.closest(".scene").classList.toggle("paper", on);
+    repaint();
+    draw();
+  }
+  repaint();
   new ResizeObserver(fit).observe(canvas.parentElement);
   view.changed(later);
-  window.addEventListener("beforeprint", draw);
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+    repaint();
+    later();
+  });
+  window.addEventListener("beforeprint", () => onPaper(true));
+  window.addEventListener("afterprint", () => onPaper(false));
   canvas.addEventListener("webglcontextrestored", fit); // the renderer has put its programs and arrays back by then
 
   const scene = {
@@ -58,6 +77,7 @@ export async function openScene(data, canvas) {
     bodies,
     reach,
     draw,
+    onPaper,
     /** Draws as many pixels across as wanted, where that is more than now; the function it returns undoes that. */
     enlarge(pixels) {
       const { clientWidth: width, clientHeight: height } = canvas.parentElement;

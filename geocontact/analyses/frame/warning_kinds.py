@@ -1,0 +1,75 @@
+"""Warnings of one kind as one line: the same words about several trials, frames or numbers."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+WORD = re.compile(r"[^\s,;()\"'`–…]+")
+NUMBER = re.compile(r"[-−+]?\d+(\.\d+)?([eE][-−+]?\d+)?%?")
+NAME = re.compile(r"(?!1/)(?=.*[^\W\d_])(?!.*\^)(.*[\d_].*|.+\.\w+)")
+"""Names of trials, bodies and files: letters with a digit, an underscore or an ending, but no units such as mm^2."""
+NAMED = 3
+"""Names that are all written out; of more, two."""
+SLOT = "\0"
+
+
+def merged(lines: Sequence[str]) -> list[str]:
+    """One line for each kind of warning, in the order of their first.
+
+    Lines are of one kind where they differ in numbers, in names (with a digit, an underscore or an ending), or in the
+    one word before a first colon. Of numbers that differ the least and the largest remain, of names up to three.
+
+    >>> merged(["arm_1: strap is slack for 4 % of the time", "arm_2: strap is slack for 12 % of the time"])
+    ['arm_1, arm_2: strap is slack for 4 … 12 % of the time (2 times)']
+    >>> merged(["the surface is open"])
+    ['the surface is open']
+    """
+    kinds: dict[str, list[list[str]]] = {}
+    for line in lines:
+        words, skeleton = _parted(line)
+        kinds.setdefault(skeleton, []).append(words)
+    return [_line(skeleton, rows) for skeleton, rows in kinds.items()]
+
+
+def _parted(line: str) -> tuple[list[str], str]:
+    """What may differ among warnings of one kind, and the line with a slot for each of it."""
+    found: list[str] = []
+
+    def slot(match: re.Match[str]) -> str:
+        word = match[0].rstrip(".:")
+        ending = match[0][len(word) :]
+        leads = match.start() == 0 and ending == ":"
+        if not (leads or NUMBER.fullmatch(word) or NAME.fullmatch(word)):
+            return match[0]
+        found.append(word)
+        return f"{SLOT}{'n' if NUMBER.fullmatch(word) else 'w'}{ending}"
+
+    return found, WORD.sub(slot, line)
+
+
+def _line(skeleton: str, rows: Sequence[Sequence[str]]) -> str:
+    columns = iter(zip(*rows, strict=True))
+    text = re.sub(rf"{SLOT}([nw])", lambda kind: _slot(kind[1], next(columns)), skeleton)
+    if len(rows) == 1:
+        return text
+    stop = "." if text.endswith(".") else ""
+    return f"{text.removesuffix('.')} ({len(rows)} times){stop}"
+
+
+def _slot(kind: str, values: Sequence[str]) -> str:
+    """The value that all have, the range of numbers, or names."""
+    different = list(dict.fromkeys(values))
+    if len(different) == 1:
+        return different[0]
+    if kind == "n":
+        ordered = sorted(different, key=_number)
+        least = ordered[0].removesuffix("%") if ordered[-1].endswith("%") else ordered[0]
+        return f"{least} … {ordered[-1]}"
+    if len(different) <= NAMED:
+        return ", ".join(different)
+    return f"{', '.join(different[:2])} and {len(different) - 2} others"
+
+
+def _number(text: str) -> float:
+    return float(text.removesuffix("%").replace("−", "-"))
