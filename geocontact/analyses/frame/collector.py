@@ -65,8 +65,13 @@ def say(text: str) -> None:
 
 
 def judge(fit: GoodnessOfFit) -> None:
-    """Keep whether the result agrees with its data: first of all sentences, in `run.json`, and in the exit code."""
+    """Keep whether the result agrees with its data: in `run.json`, and a doubt as a warning.
+
+    What contradicts the data is the first of all sentences, and the command ends with 1.
+    """
     current().judge(fit)
+    if fit.outcome == "doubtful":
+        reserve(fit.words)
 
 
 def note(key: str, value: object) -> None:

@@ -149,8 +149,9 @@ class Record:
 
     @property
     def judged(self) -> str:
-        """What the test of fit says, in a sentence; empty where the result fits or nothing was tested."""
-        return "" if self.fit is None else self.spell(self.fit.words)
+        """What contradicts the data, in a sentence; empty where nothing does."""
+        known = self.fit
+        return self.spell(known.words) if known is not None and known.outcome == "contradicts" else ""
 
     def say(self, text: str) -> None:
         """Keep a sentence of what was found."""

@@ -68,7 +68,7 @@ class Result(ABC):
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        """What was found, in words; what contradicts the data, or makes the fit doubtful, comes first."""
+        """What was found, in words; what contradicts the data comes first."""
         judged = self.record.judged
         return (*((judged,) if judged else ()), *self.record.sentences)
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from geocontact.analyses.frame.collector import reserve, say
+from geocontact.analyses.frame.collector import judge, reserve, say
 from geocontact.analyses.frame.json_file import finite
 from geocontact.analyses.misalignment.identify.fitted import Fitted, Free, ShownInterval, stroke_stiffness
 from geocontact.analyses.misalignment.law_numbers import MMHG, with_units
@@ -16,6 +16,7 @@ from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.compensation import EndStop
 from geocontact.axis_misalignment.law import LENGTHS
 from geocontact.axis_misalignment.uncertainty import Direction
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_r2
 from geocontact.identify.intervals.bin_tests import LEVEL, BinPair, BinTest
 
 FEW_STRETCHES = 12
@@ -34,24 +35,28 @@ def reserve_doubts(found: Fitted, free: Free | None) -> None:
     _say_what_is_open(found)
     if free is not None:
         _doubt_displacement(found, free)
-    e, excess = found.estimate, found.residuals.excess
+    e = found.estimate
     if found.stretches < FEW_STRETCHES:
         reserve(f"{found.stretches} stretches of {found.data.stretch:.2g} s are few: intervals are approximate")
     if not e.converged:
         reserve("the search did not converge; see `start` and `bounds`")
-    if excess.p < RARE and excess.ratio > MORE:
-        reserve(
-            f"the fit leaves {excess.ratio:.2g} times what noise within the trials would: offsets that change "
-            "from trial to trial, or something the law misses; intervals do not know of it and are too short"
-        )
-    if found.r2 < 0.0:
-        reserve(f"R² is {found.r2:.2f}: a constant force would do better than the law")
-    bad = [f"{each.name} ({each.r2:.2f})" for each in found.held if each.r2 < 0.0]
-    if bad:
-        reserve(f"R² of unused data is below 0, a constant force would do better: {', '.join(bad)}")
+    judge(against_the_forces(found))
     if found.mirrored_r2 > found.r2 + BETTER:
         told = f"the force with its sign turned fits better (R² {found.mirrored_r2:.3f} instead of {found.r2:.3f})"
         reserve(f"{told}: is its sign turned? see `map` force=-…")
+
+
+def against_the_forces(found: Fitted) -> GoodnessOfFit:
+    """The law against the forces that it was fitted to, and against those that were left out."""
+    excess = found.residuals.excess
+    doubts = list(of_r2("the force that was fitted", found.r2))
+    if excess.p < RARE and excess.ratio > MORE:
+        what = f"the residual is {excess.ratio:.2g} times what noise within the trials would leave"
+        cause = "offsets that change from trial to trial, or something the law misses; intervals are too short"
+        doubts.append(Doubt(f"{what}: {cause}", False, excess.ratio))
+    for each in found.held:
+        doubts += of_r2(f"the force of {each.name}, which was left out", each.r2)
+    return GoodnessOfFit(tuple(doubts), ("force", *(each.name for each in found.held)))
 
 
 def _doubt_displacement(found: Fitted, free: Free) -> None:

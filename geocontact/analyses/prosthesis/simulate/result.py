@@ -23,11 +23,11 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import note, reserve, say
+from geocontact.analyses.frame.collector import judge, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.prosthesis.quantity_words import SAID, below_zero
+from geocontact.analyses.prosthesis.quantity_words import NAMES, SAID
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.show import stance_curves, stance_page
 from geocontact.analyses.prosthesis.simulate.walk import (
@@ -57,6 +57,7 @@ from geocontact.below_knee_prosthesis.stance_model import FLOOR
 from geocontact.below_knee_prosthesis.stance_summary import doubts, summary
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Number
+from geocontact.identify.goodness_of_fit import GoodnessOfFit, of_r2
 
 if TYPE_CHECKING:
     from geocontact.view.curves.declared import CurveSheet
@@ -199,8 +200,7 @@ def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimul
     say(found_words(found, told))
     if errors is not None:
         say(beside_words(errors))
-        for line in below_a_constant(errors):
-            reserve(line)
+        judge(against_the_plate(errors))
         note("errors", plain({name: {"r2": r2, "rmse": off} for name, (r2, off) in errors.table.items()}))
     if walk.leg.offset.given:
         say(offset_words(walk.leg.offset))
@@ -229,9 +229,10 @@ def beside_words(errors: StanceErrors) -> str:
     )
 
 
-def below_a_constant(errors: StanceErrors) -> list[str]:
-    """Words on the force and the centre of pressure where a constant would fit the plate better."""
-    return [below_zero(name, float(r2)) for name, (r2, _) in errors.table.items() if name in SAID and r2 < 0.0]
+def against_the_plate(errors: StanceErrors) -> GoodnessOfFit:
+    """Force and centre of pressure beside the plate's: a constant must not describe them better."""
+    tested = {NAMES.get(name, name): float(r2) for name, (r2, _) in errors.table.items() if name in SAID}
+    return GoodnessOfFit(tuple(doubt for name, r2 in tested.items() for doubt in of_r2(name, r2)), tuple(tested))
 
 
 def _lasting(errors: StanceErrors) -> str:

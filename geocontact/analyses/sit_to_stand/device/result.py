@@ -18,7 +18,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import add_input, note, reserve, say
+from geocontact.analyses.frame.collector import add_input, judge, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.sit_to_stand.device.options import StandingDeviceOptions
@@ -26,6 +26,7 @@ from geocontact.analyses.sit_to_stand.show import motion_page
 from geocontact.analyses.sit_to_stand.trial_tables import ran_table
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_physics
 from geocontact.identify.signals.filters import ORDER, UNEVEN
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of
 from geocontact.io.opensim.storage_writer import write_storage
@@ -34,6 +35,7 @@ from geocontact.standing_up.chain import JOINTS, Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
 from geocontact.standing_up.exoskeleton_torque import (
     ALONE,
+    FRICTIONS,
     MARGIN,
     TURNS,
     UNITS,
@@ -269,16 +271,29 @@ def _numbers(of: DeviceMotion, fit: ExoskeletonDynamics, o: StandingDeviceOption
     ]
 
 
+def goodness_of(fit: ExoskeletonDynamics, spread: float, level: float) -> GoodnessOfFit:
+    """The fit against the spread of the motors' torques [N m], and friction against its sign."""
+    doubts: list[Doubt] = []
+    if fit.residual > POORLY * spread:
+        what = f"{fit.residual:.2g} N m of the motors' torques are not explained, whose spread is {spread:.2g} N m"
+        doubts.append(Doubt(f"{what}: check the names of the hinges, the signs, and that it is not worn", True))
+    ends = zip(fit.names, *fit.intervals(level), fit.alone, strict=True)
+    friction = {
+        name: (float(lower), float(upper))
+        for name, lower, upper, alone in ends
+        if alone and any(kind in name for kind in FRICTIONS)
+    }
+    units = dict(zip(fit.names, UNITS, strict=True))
+    doubts += of_physics(friction, dict.fromkeys(friction, (0.0, np.inf)), units)
+    return GoodnessOfFit(tuple(doubts), ("torques of the motors", *friction))
+
+
 def run(given: DeviceRecordings, o: StandingDeviceOptions) -> StandingDeviceResult:
     """Fit, doubt, tell."""
     of = given.unloaded
     dynamics = identified_from(given.subject, of, o.cutoff)
     spread = float(np.std(of.motors, axis=0).max())
-    if dynamics.residual > POORLY * spread:
-        reserve(
-            f"{dynamics.residual:.2g} N m are left of the motors' torques, whose spread is {spread:.2g} N m: check the "
-            "names of the hinges, the signs and that it is not worn"
-        )
+    judge(goodness_of(dynamics, spread, o.level))
     still = [name for name, rate in zip(EXO_JOINTS, np.abs(of.u).max(axis=0), strict=True) if rate < np.radians(5.0)]
     if still:
         reserve(f"{', '.join(still)} turned at less than 5 deg/s: its friction is hardly identified")
