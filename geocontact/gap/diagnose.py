@@ -30,9 +30,9 @@ from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.noise_sources import coarse_rates
 from geocontact.gap.case.refit import free
 from geocontact.gap.experiment.proposal import first_of, next_experiment
+from geocontact.gap.held_out_growth import confirmed
 from geocontact.gap.identifiability.non_identifiable import non_identifiable
 from geocontact.gap.identifiability.separability import one_law
-from geocontact.gap.held_out_growth import confirmed
 from geocontact.gap.levels import SURE, WORTH_NAMING
 from geocontact.gap.localise.gap_map import gap_map, windows
 from geocontact.gap.localise.on_surface import on_surface

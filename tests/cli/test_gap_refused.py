@@ -38,7 +38,7 @@ WRONG = {
     "parameter missing": ("elbow", "case.toml", K, "", "elbow: k is missing; give it as a parameter or as a constant"),
     "two meanings": ("elbow", "case.toml", "\nl = ", "\nk = 2.0\nl = ", "[parameters.k]: is in [constants] too"),
     "overlap": ("elbow", "case.toml", "['t03', 't04']", "['t02', 't04']", "evaluation: 't02' is listed in calibration"),
-    "one to fit": ("elbow", "case.toml", "['t01', 't02']", "['t01']", "calibration: 1 trial to fit to: how much trials"),
+    "one to fit": ("elbow", "case.toml", "['t01', 't02']", "['t01']", "calibration: 1 trial to fit to: how much"),
     "no such trial": ("elbow", "case.toml", "'t04'", "'t09'", "evaluation: no file trials/t09.csv"),
     "noise of nothing": ("elbow", "case.toml", "force = ", "torque = ", "[noise]: no trial has a channel 'torque'"),
     "noise below zero": ("elbow", "case.toml", "force = ", "force = -", "[noise] force: is -0.15; a standard deviatio"),

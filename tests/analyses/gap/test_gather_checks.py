@@ -71,9 +71,9 @@ def test_honest_trials_pass_without_a_word(tmp_path: Path, recwarn: pytest.Warni
 
 
 def test_a_sign_and_a_clock_are_warned_of(tmp_path: Path) -> None:
-    turned, behind = trial(2, times=-60.0, offset=-25.0), trial(3, lag=1.0)
+    turned, behind = trial(2, times=-60.0, offset=-25.0), trial(3, lag=1.0, offset=25.0)
     with pytest.warns(gc.InputWarning) as warned:
-        gc.gather(settings(tmp_path, [trial(1), turned, behind]))
+        gc.gather(settings(tmp_path, [trial(1, offset=25.0), turned, behind]))
     lines = [str(each.message) for each in warned]
     assert any("trial t03: torque moves 1 s later than the inputs; is it the same clock?" in line for line in lines)
     assert len(lines) == 2 and any("torque: " in line and "t02" in line and "opposite" in line for line in lines)

@@ -33,8 +33,9 @@ from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.result import PARTS, REPORT, Part, Result
 from geocontact.analyses.gap.case import CaseWithModel, read_case
 from geocontact.analyses.gap.diagnose.answer import diagnosis_tables, untried_law, verdict_sentences
+from geocontact.analyses.gap.diagnose.curves import gap_figures, map_figure
 from geocontact.analyses.gap.diagnose.options import DiagnoseOptions
-from geocontact.analyses.gap.diagnose.show import gap_figures, gap_page, map_figure
+from geocontact.analyses.gap.diagnose.show import gap_page
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.gap_case import GapCase
 from geocontact.data.version import VERSION

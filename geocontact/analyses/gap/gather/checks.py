@@ -1,4 +1,4 @@
-"""What trials that are brought together cannot all be: copies, shares of 50, forces turned round, outputs a second late.
+"""What trials that are joined cannot be: copies, shares of 50, forces turned round, outputs a second late.
 
 A copy is refused, and so is a share beyond 1. Signs and lags are warned of: they may be real, and only the diagnosis
 knows the model.
@@ -110,7 +110,9 @@ def late(trials: Sequence[Trial], channels: Sequence[str]) -> list[str]:
             some = names(list(dict.fromkeys(name for name, _ in worst)))
             lag = worst[0][1]
             way = "later" if lag > 0.0 else "earlier"
-            found.append(f"trial {trial.name}: {some} moves {abs(lag):.2g} s {way} than the inputs; is it the same clock?")
+            found.append(
+                f"trial {trial.name}: {some} moves {abs(lag):.2g} s {way} than the inputs; is it the same clock?"
+            )
     return found
 
 

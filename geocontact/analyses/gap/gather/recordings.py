@@ -235,7 +235,9 @@ def gathered(recordings: Recordings, o: GatherOptions) -> GapCase:
     parameters = parameters_of(settings, o.settings)
     case = case_of(settings, parameters, o.settings, o.settings.stem, alike(trials), recordings.tables)
     measured = {
-        name: tuple(each for each in table.signals.channels if each not in recordings.trials[name].inputs.signals.channels)
+        name: tuple(
+            each for each in table.signals.channels if each not in recordings.trials[name].inputs.signals.channels
+        )
         for name, table in trials.items()
     }
     check_gathered(case, measured, o.settings)
