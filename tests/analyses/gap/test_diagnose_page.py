@@ -152,8 +152,8 @@ def test_little_ahead_decides_nothing() -> None:
     rows = [Ranked("damping", "damping", 20.0, 9.0, 0.6), Ranked("damping.other", "damping", 19.9, 9.0, None)]
     close = ahead_words([*rows, Ranked("slip", "slip", 19.0, 9.0, 0.4)])
     assert close == (
-        "damping is 1.0 nats ahead of slip: the data are 2.7 times as probable with it. A difference of less than 3 nats "
-        "decides nothing."
+        "damping is 1.0 nats ahead of slip: the data are 2.7 times as probable with it. A difference of less than 3 "
+        "nats decides nothing."
     )
     assert ahead_words([*rows, Ranked("slip", "slip", 10.0, 9.0, 0.4)]).endswith("20000 times as probable with it.")
     assert ahead_words(rows) == ahead_words([]) == ""

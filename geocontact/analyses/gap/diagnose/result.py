@@ -59,11 +59,14 @@ class DiagnoseResult(Result):
         What was diagnosed, SI units.
     findings
         Answer, gap map, held-out curves, ranking, and all that they rest on.
+    injected
+        Which effect was put into the trials, and whether it was found, in sentences; none in trials as they came.
     """
 
     options: DiagnoseOptions
     case: GapCase
     findings: Findings
+    injected: tuple[str, ...] = ()
 
     @property
     def diagnosis(self) -> Diagnosis:
@@ -98,7 +101,7 @@ class DiagnoseResult(Result):
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Verdict, curves of held-out trials, figures and tables."""
-        return {REPORT: gap_page(self.case, self.findings, drawings)}
+        return {REPORT: gap_page(self.case, self.findings, drawings, self.injected)}
 
     def write_files(self, folder: Path) -> None:
         """Also the answer."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -141,7 +141,7 @@ def cells_table(findings: Findings) -> Table:
     return Table(f"Gap map: {len(rows)} of {len(cells)} significant cells", CELLS_HEADER, rows)
 
 
-def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes]) -> Page:
+def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes], injected: Sequence[str] = ()) -> Page:
     """The self-contained page of one diagnosis, before it becomes a file.
 
     Parameters
@@ -150,6 +150,8 @@ def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes]) -
         What was diagnosed, and what was found.
     drawings
         `gap_figures` as SVG; those of surfaces are shown.
+    injected
+        Which effect was put into the trials, and whether it was found, in sentences.
     """
     d = findings.diagnosis
     first, further = _panels(findings)
@@ -157,7 +159,8 @@ def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes]) -
     sentences = verdict_sentences(d, findings.cells)
     sections: list[Section] = [*first, reduction_bars(findings), ranking_bars(findings), map_strips(findings)]
     sections += [*further, readout(findings)]
-    sections += [Words("Verdict", [f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences])]
+    sections += [Words("What was injected", [_sentence(line) for line in injected])] if injected else []
+    sections += [Words("Verdict", [_sentence(line) for line in sentences])]
     sections += [Words("How to read these numbers", reading(d))]
     surfaces = [name for name in drawings if name.startswith(SURFACE)]
     sections += [Picture("Where on the surface", SURFACE_WORDS, drawings[name], wide=True) for name in surfaces]
@@ -171,12 +174,16 @@ def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes]) -
         subtitle=_subtitle(case, d),
         time=OVER.values,
         time_label=OVER.label,
-        headline=headline(sentences, most=1),
+        headline=headline([*injected[1:], *sentences], most=1 + len(injected[1:])),
         facts=facts_of(findings),
         start_frame=round(0.5 * sum(window) * (FRAMES - 1)),
         sections=tuple(sections),
         plays=False,
     )
+
+
+def _sentence(words: str) -> str:
+    return f"{words[0].upper()}{words[1:]}."
 
 
 def reading(d: Diagnosis) -> list[str]:
@@ -219,7 +226,7 @@ def _subtitle(case: GapCase, d: Diagnosis) -> str:
 
 def _confounded(d: Diagnosis) -> Words:
     said = []
-    said += [f"{sentence[0].upper()}{sentence[1:]}." for sentence in (in_question(d) if d.effects else ())]
+    said += [_sentence(line) for line in (in_question(d) if d.effects else ())]
     if len(d.ambiguity) > 1:
         said.append(f"Still possible, most probable first: {names(d.ambiguity)}.")
     if len(d.effects) == 2:
