@@ -36,13 +36,24 @@ def odds_words(nats: float) -> str:
     return f"{lead}10{str(whole).translate(SUPERSCRIPTS)} times"
 
 
-def ahead_words(ranking: Sequence[Ranked]) -> str:
-    """How far the first answer of a ranking is ahead of the next other one, the largest gain first; "" for fewer."""
-    first = ranking[0] if ranking else None
-    second = next((one for one in ranking[1:] if first is not None and one.effects != first.effects), None)
+def ahead_words(ranking: Sequence[Ranked], named: Sequence[str]) -> str:
+    """How far what is named is ahead of the best model without it; "" where nothing is named, or nothing is compared.
+
+    Parameters
+    ----------
+    ranking
+        The largest gain first.
+    named
+        Effects of the answer.
+    """
+    effects = frozenset(named)
+    first = next((one for one in ranking if effects and frozenset(one.effects.split(" + ")) == effects), None)
+    second = next((one for one in ranking if not effects <= frozenset(one.effects.split(" + "))), None)
     if first is None or second is None:
         return ""
     by = first.gain - second.gain
-    said = f"{first.label} is {by:.1f} nats ahead of {second.label}: the data are {odds_words(by)} as probable with it."
-    few = f" A difference of less than {DECIDES:g} nats decides nothing."
-    return said + (few if by < DECIDES else "")
+    if by < 0.0:
+        return f"{first.label} is {-by:.1f} nats behind {second.label}, which a rule keeps from being named."
+    said = f"{first.label} is {by:.1f} nats ahead of {second.label}, the best model without it: the data are "
+    few = f" A difference of less than {DECIDES:g} nats decides nothing." if by < DECIDES else ""
+    return f"{said}{odds_words(by)} as probable with it.{few}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -117,7 +117,9 @@ def gap_figures(findings: Findings) -> dict[str, Figure]:
         "ranking": ranking_figure(findings.ranking),
         "gap_residuals": _sheet([residual_panel(findings, name, trial) for name in channels for trial in trials]),
     }
-    found |= surface_figures(findings)
+    found |= {
+        name: gap_surface_figure(one) for name, one in zip(surface_names(findings), findings.surface, strict=True)
+    }
     for c, name in enumerate(channels):
         panels = [trial_panel(findings, name, trial) for trial in trials]
         found[f"before_after_{_file_name(name, c)}"] = _sheet(panels)
@@ -133,9 +135,9 @@ def map_figure(findings: Findings) -> Figure:
     return gap_map_figure(findings.cells, axis_units(findings))
 
 
-def surface_figures(findings: Findings) -> dict[str, Figure]:
-    """Cells of each mat."""
-    return {f"{SURFACE}{_file_name(one.site, k)}": gap_surface_figure(one) for k, one in enumerate(findings.surface)}
+def surface_names(findings: Findings) -> list[str]:
+    """Of the figures of cells, one for each mat."""
+    return [f"{SURFACE}{_file_name(one.site, k)}" for k, one in enumerate(findings.surface)]
 
 
 def _file_name(channel: str, number: int) -> str:
@@ -164,8 +166,3 @@ def _row(label: str, quantity: Quantity, trials: Sequence[HeldOut], off: Sequenc
     shown = quantity.shown(np.sqrt(mean))
     scale = float(np.nanmax(shown, initial=0.0))
     return Row(label, quantity.unit, [number(value, scale) for value in shown])
-
-
-def window_of(findings: Findings) -> Mapping[str, tuple[float, float]]:
-    """By channel, the stretch that holds 70 % of its gap, fractions of the trial."""
-    return {w.channel: w.phase for w in findings.diagnosis.where}

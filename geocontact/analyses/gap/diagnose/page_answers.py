@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from geocontact.analyses.gap.case import percent
@@ -66,7 +68,7 @@ def _axis(axis: str, unit: str) -> tuple[str, float, str]:
     """Name of an axis in words, what its values are multiplied by, and the unit that they then have."""
     if axis in WIDE:
         return (
-            (f"phase of the trial, parts faster than {FAST:g} Hz" if axis == FAST_PHASE else "phase of the trial"),
+            (f"phase, faster than {FAST:g} Hz" if axis == FAST_PHASE else "phase of the trial"),
             100.0,
             "%",
         )
@@ -86,7 +88,7 @@ def reduction_bars(findings: Findings) -> Intervals:
         if named:
             ends = (100.0 * (1.0 - edge) for edge in reversed(gap.ci95))
             rows.append(_size(quantity, whole, gap.rmse_after, f"with {effect_words(findings)}", *ends))
-        rows.append(_size(quantity, whole, gap.noise_floor, "noise floor"))
+        rows.append(_size(replace(quantity, name=f"{name}, floor"), whole, gap.noise_floor, "noise floor"))
     title, unit = "How far the error shrinks on held-out trials", "% of the base model's error"
     return Intervals(title, unit, rows, bars=True, words=REDUCTIONS)
 
@@ -107,7 +109,7 @@ def ranking_bars(findings: Findings) -> Intervals:
     rest = len(findings.ranking) - len(shown)
     more = f" {rest} further models are in the table." if rest else ""
     meaning = f"Evidence of a model over the base model; p is the probability of an answer. {ODDS}"
-    words = f"{meaning} {ahead_words(shown)}{more}".strip()
+    words = f"{meaning} {ahead_words(findings.ranking, findings.diagnosis.effects)}{more}".strip()
     return Intervals("How sure that is", "nats of evidence over the base model", rows, bars=True, words=words)
 
 

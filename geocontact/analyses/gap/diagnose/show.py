@@ -13,10 +13,10 @@ from geocontact.analyses.gap.diagnose.answer import axis_units, facts_of, in_que
 from geocontact.analyses.gap.diagnose.curves import (
     FRAMES,
     OVER,
-    SURFACE,
     quantity_of,
     readout,
     residual_panel,
+    surface_names,
     trial_panel,
     worst_first,
 )
@@ -162,8 +162,8 @@ def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes], i
     sections += [Words("What was injected", [_sentence(line) for line in injected])] if injected else []
     sections += [Words("Verdict", [_sentence(line) for line in sentences])]
     sections += [Words("How to read these numbers", reading(d))]
-    surfaces = [name for name in drawings if name.startswith(SURFACE)]
-    sections += [Picture("Where on the surface", SURFACE_WORDS, drawings[name], wide=True) for name in surfaces]
+    surfaces = [drawings[name] for name in surface_names(findings)]
+    sections += [Picture("Where on the surface", SURFACE_WORDS, each, wide=True) for each in surfaces]
     sections += [gap_table(findings), ranking_table(findings)]
     sections += [trials_table(findings)] if findings.trials else []
     sections += [parameters_table(d), cells_table(findings)]

@@ -1,7 +1,7 @@
 // Shares and sizes as shades: strips of cells along axes, and a matrix of rows against columns. Colours are the page's.
 import { html, svg } from "./svg.js";
 
-const [ROW, BOTTOM, LETTER] = [26, 36, 6.6];
+const [ROW, HEAD, BOTTOM, LETTER, NARROW] = [26, 18, 36, 6.6, 560]; // HEAD: a name above its row, where room is scarce
 const DARK = 0.55; // share from which a mark on a cell takes the colour of the card
 const STEPS = [0, 0.25, 0.5, 0.75, 1];
 const shade = (share) => (share === null ? "none" : Math.max(0, Math.min(1, share)).toFixed(3));
@@ -21,7 +21,7 @@ function cell(share, x, y, width, height) {
 export function strips(figure, part) {
   scale(figure, part);
   const named = part.rows.length > 1;
-  const room = html("div", "strips");
+  const room = html("div", "blocks");
   figure.append(room);
   for (const block of part.blocks) {
     const frame = svg("svg", { class: "heat", role: "img", "aria-label": `${part.title}, ${block.name}: ${told(part, block)}` });
@@ -37,30 +37,34 @@ export function strips(figure, part) {
 function strip(frame, width, part, block, named) {
   if (!width) return;
   const longest = Math.max(...part.rows.map((name) => name.length));
-  const left = 10 + (named ? Math.min(LETTER * longest + 8, 0.4 * width) : 0);
+  const above = named && width < NARROW && block.edges.length > 12;
+  const left = 10 + (named && !above ? Math.min(LETTER * longest + 8, 0.4 * width) : 0);
   const count = block.edges.length - 1;
-  const [step, bottom] = [(width - left - 14) / count, 4 + ROW * part.rows.length];
+  const high = above ? ROW + HEAD : ROW;
+  const [step, bottom] = [(width - left - 14) / count, 4 + high * part.rows.length];
   frame.setAttribute("viewBox", `0 0 ${width} ${bottom + BOTTOM}`);
   frame.setAttribute("height", bottom + BOTTOM);
   frame.replaceChildren();
   part.rows.forEach((name, r) => {
-    const y = 4 + ROW * r;
-    if (named) frame.append(svg("text", { class: "label", x: left - 8, y: y + 0.5 * ROW + 4, "text-anchor": "end" }, cut(name, (left - 12) / LETTER)));
+    const y = 4 + high * (r + 1) - ROW;
+    if (above) frame.append(svg("text", { class: "label", x: left, y: y - 4 }, cut(name, (width - 20) / LETTER)));
+    else if (named) frame.append(svg("text", { class: "label", x: left - 8, y: y + 0.5 * ROW + 4, "text-anchor": "end" }, cut(name, (left - 12) / LETTER)));
     block.values[r].forEach((share, c) => {
       const drawn = cell(share, left + step * c, y + 1, step, ROW - 2);
       drawn.append(svg("title", {}, `${name}, ${block.edges[c]} … ${block.edges[c + 1]}: ${block.texts[r][c]}`));
       frame.append(drawn);
       const mark = block.marks[r][c];
-      if (mark) frame.append(svg("text", { class: share > DARK ? "sign on" : "sign", x: left + step * (c + 0.5), y: y + 0.5 * ROW + 5, "text-anchor": "middle" }, mark));
+      if (mark) frame.append(svg("text", { class: `sign${share > DARK ? " on" : ""}${step < 14 ? " small" : ""}`, x: left + step * (c + 0.5), y: y + 0.5 * ROW + 5, "text-anchor": "middle" }, mark));
     });
   });
-  frame.append(svg("rect", { class: "rim", x: left, y: 4.5, width: step * count, height: bottom - 5 }));
+  part.rows.forEach((_, r) => frame.append(svg("rect", { class: "rim", x: left, y: 4.5 + high * (r + 1) - ROW, width: step * count, height: ROW - 1 })));
   for (const c of apart(block.edges, step)) {
     const x = left + step * c;
     frame.append(svg("line", { class: "zero", x1: x, x2: x, y1: bottom, y2: bottom + 4 }));
     frame.append(svg("text", { class: "tick", x, y: bottom + 15, "text-anchor": c ? (c === count ? "end" : "middle") : "start" }, block.edges[c]));
   }
-  frame.append(svg("text", { class: "axis", x: left + 0.5 * step * count, y: bottom + 31, "text-anchor": "middle" }, block.name));
+  const middle = 0.5 * LETTER * block.name.length > 0.5 * step * count + 14 ? 0.5 * width : left + 0.5 * step * count;
+  frame.append(svg("text", { class: "axis", x: middle, y: bottom + 31, "text-anchor": "middle" }, block.name));
 }
 
 /** Places of the edges whose numbers fit beside each other: both ends, and every so manieth between them. */
@@ -82,7 +86,7 @@ export function matrix(figure, part) {
   const body = part.rows.map((name, r) => html("tr", "", row(name), ...part.values[r].map((share, c) => number(share, part.texts[r][c], `${name} × ${part.columns[c]}`))));
   const table = html("table", "matrix", html("thead", "", html("tr", "", corner, ...head)), html("tbody", "", ...body));
   for (const cell of head) cell.scope = "col";
-  const wide = html("div", "wide", table);
+  const wide = html("div", "wide whole", table);
   for (const [name, value] of [["tabindex", 0], ["role", "region"], ["aria-label", part.title]]) wide.setAttribute(name, value);
   figure.append(wide);
   return () => {};
