@@ -20,8 +20,11 @@ from geocontact.view.page.content import IntervalRow, Intervals, StripBlock, Str
 MODELS = 12
 """Models that are drawn; the table has all."""
 LEAST_PROBABLE = 0.005
+FULL = 0.5
+"""Share of a channel's gap at which the shades of the map end: cells of a strip with twenty seldom have more."""
+SCALE = ("0 %", "12.5 %", "25 %", "37.5 %", "50 % of the gap or more")
 MAP = (
-    "The darker a cell, the more of the channel's gap lies there (noise taken off; cells of one strip make 100 %). "
+    "The more colour a cell has, the more of the channel's gap lies there (noise taken off; a strip makes 100 %). "
     "+ measured above, − below the prediction, • neither (an energy): at these cells chance alone is unlikely "
     f"(p-value of at most {SIGNIFICANT:g} for the whole map). Inputs, rates and load are cut so that each cell has as "
     "many samples. All trials, base model."
@@ -41,9 +44,7 @@ def map_strips(findings: Findings) -> Strips:
     ordered = [*(axis for axis in WIDE if axis in axes), *(axis for axis in axes if axis not in WIDE)]
     blocks = [_block([c for c in cells if c.axis == axis], axis, channels, units.get(axis, "")) for axis in ordered]
     whose = f" of {channels[0]}" if len(channels) == 1 else ""
-    return Strips(
-        f"Where the gap{whose} is", "", channels, blocks, ("0 %", "25 %", "50 %", "75 %", "100 % of the gap"), MAP
-    )
+    return Strips(f"Where the gap{whose} is", "", channels, blocks, SCALE, MAP)
 
 
 def _block(cells: list[Cell], axis: str, channels: list[str], unit: str) -> StripBlock:
@@ -54,7 +55,7 @@ def _block(cells: list[Cell], axis: str, channels: list[str], unit: str) -> Stri
     marks = [[""] * len(lows) for _ in channels]
     for c in cells:
         at = channels.index(c.channel), lows.index(c.low)
-        values[at] = min(max(c.share, 0.0), 1.0)
+        values[at] = min(max(c.share / FULL, 0.0), 1.0)
         texts[at[0]][at[1]] = f"{percent(c.share)} % of the gap, p-value {c.p_value:.2g}"
         if c.p_value <= SIGNIFICANT:
             marks[at[0]][at[1]] = MARKS[0 if c.axis in ENERGIES else int(np.sign(c.gap))]
@@ -101,10 +102,9 @@ def _size(quantity: Quantity, whole: float, size: float, kind: str, *ends: float
 def ranking_bars(findings: Findings) -> Intervals:
     """Evidence of every model over the base model."""
     shown = findings.ranking[:MODELS]
-    kinds = {"none": "base model alone", "unknown": "anything without a name"}
+    kinds = {"none": "base model", "unknown": "without a name"}
     rows = [
-        IntervalRow(_model(one.label, one.probability), one.gain, kind=kinds.get(one.label, "known effects"))
-        for one in shown
+        IntervalRow(_model(one.label, one.probability), one.gain, kind=kinds.get(one.label, "known")) for one in shown
     ]
     rest = len(findings.ranking) - len(shown)
     more = f" {rest} further models are in the table." if rest else ""

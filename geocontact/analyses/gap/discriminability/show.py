@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 MATRIX = (
     "A row is an effect that is there, a column a model that is fitted instead, base parameters refitted. The number "
-    "is by how many nats the right model is ahead: dark cells are pairs that these trials separate, light ones "
+    "is by how many nats the right model is ahead: coloured cells are pairs that these trials separate, pale ones "
     f"pairs that they do not (less than {APART:g} nats). The column none is the base model alone: what is visible of "
     f"the effect. {ODDS}"
 )
@@ -87,7 +87,7 @@ def confusion_page(title: str, found: Discriminability) -> Page:
         subtitle=f"From which size on, and which of them can be separated; base model {found.ground.system.name}",
         time=np.zeros(1),
         time_label="time [s]",
-        headline=headline(sentences, most=1),
+        headline=headline([sentences[0], *(line for line in sentences if line.startswith("not separable"))], most=2),
         facts=(
             ("Effects that would be seen", f"{len(seen)} of {len(found.detectabilities)}"),
             ("Groups that are not separable", str(len(found.classes))),

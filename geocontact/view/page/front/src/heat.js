@@ -86,6 +86,7 @@ export function matrix(figure, part) {
   const body = part.rows.map((name, r) => html("tr", "", row(name), ...part.values[r].map((share, c) => number(share, part.texts[r][c], `${name} × ${part.columns[c]}`))));
   const table = html("table", "matrix", html("thead", "", html("tr", "", corner, ...head)), html("tbody", "", ...body));
   for (const cell of head) cell.scope = "col";
+  table.style.setProperty("--wide", `${part.columns.length > 16 ? 36 : part.columns.length > 8 ? 52 : 76}px`);
   const wide = html("div", "wide whole", table);
   for (const [name, value] of [["tabindex", 0], ["role", "region"], ["aria-label", part.title]]) wide.setAttribute(name, value);
   figure.append(wide);
