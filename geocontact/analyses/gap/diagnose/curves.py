@@ -87,15 +87,15 @@ def residual_panel(findings: Findings, channel: str, trial: HeldOut) -> Curves:
     return Curves(title, quantity.unit, curves, spans=spans)
 
 
-Part = tuple[str, Float[np.ndarray, "t c"], int]
+Predicted = tuple[str, Float[np.ndarray, "t c"], int]
 
 
-def _models(findings: Findings, trial: HeldOut) -> list[Part]:
+def _models(findings: Findings, trial: HeldOut) -> list[Predicted]:
     named = [] if trial.named is None else [(f"with {effect_words(findings)}", trial.named, NAMED)]
     return [("base model", trial.base, BASE), *named]
 
 
-def _looks(parts: Sequence[Part]) -> list[tuple[tuple[str, int], Float[np.ndarray, "t c"]]]:
+def _looks(parts: Sequence[Predicted]) -> list[tuple[tuple[str, int], Float[np.ndarray, "t c"]]]:
     return [((name, look), values) for name, values, look in parts]
 
 
