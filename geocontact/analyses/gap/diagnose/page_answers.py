@@ -87,16 +87,18 @@ def reduction_bars(findings: Findings) -> Intervals:
         quantity, whole = quantity_of(findings, name), gap.rmse_before or 1.0
         rows.append(_size(quantity, whole, gap.rmse_before, "base model"))
         if named:
-            ends = (100.0 * (1.0 - edge) for edge in reversed(gap.ci95))
-            rows.append(_size(quantity, whole, gap.rmse_after, f"with {effect_words(findings)}", *ends))
+            ends = (100.0 * (1.0 - gap.ci95[1]), 100.0 * (1.0 - gap.ci95[0]))
+            rows.append(_size(quantity, whole, gap.rmse_after, f"with {effect_words(findings)}", ends))
         rows.append(_size(replace(quantity, name=f"{name}, floor"), whole, gap.noise_floor, "noise floor"))
     title, unit = "How far the error shrinks on held-out trials", "% of the base model's error"
     return Intervals(title, unit, rows, bars=True, words=REDUCTIONS)
 
 
-def _size(quantity: Quantity, whole: float, size: float, kind: str, *ends: float) -> IntervalRow:
+def _size(
+    quantity: Quantity, whole: float, size: float, kind: str, ends: tuple[float, float] = (np.nan, np.nan)
+) -> IntervalRow:
     shown = number(float(quantity.shown(np.array(size))))
-    return IntervalRow(f"{quantity.name}: {shown} {quantity.unit}", 100.0 * size / whole, *ends, kind=kind)
+    return IntervalRow(f"{quantity.name}: {shown} {quantity.unit}", 100.0 * size / whole, ends[0], ends[1], kind)
 
 
 def ranking_bars(findings: Findings) -> Intervals:
