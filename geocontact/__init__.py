@@ -4,7 +4,8 @@ One function for every job; each returns a result that says what was found::
 
     import geocontact as gc
     result = gc.area("femoral.stl", "tibial.stl", unit="mm", motion="gait.csv", threshold=gc.mm(4))
-    result                        # two sentences; in a notebook with its figure
+    print(result)                 # two sentences; a notebook shows them with the figure
+    result.area                   # m^2, numpy; help(gc.area) lists the numbers of a result
     result.table(), result.write("out"), result.page("report.html")
 
 SI units inside (m, rad, s, N, Pa): values enter with a unit argument or as `gc.mm(4)`; tables have the unit in each

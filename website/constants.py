@@ -83,7 +83,13 @@ def constants() -> str:
     numbers = sum(not isinstance(value, tuple) for value in judging.values())
     return (
         "\n\n".join(
-            [*head(runs, numbers, len(judging) - numbers), table(moving), *foot(rows, still), *beside(told, aside)]
+            [
+                *head(runs, numbers, len(judging) - numbers),
+                table([row for row in moving if moves(row[2]) > 1]),
+                once([row[0] for row in moving if moves(row[2]) == 1]),
+                *foot(rows, still),
+                *beside(told, aside),
+            ]
         )
         + "\n"
     )
@@ -103,8 +109,7 @@ def head(runs: Sequence[Run], numbers: int, tables: int) -> list[str]:
     how = (
         "An answer is moved if its verdict or first name changes; nats are the mean change of the log probability of "
         "the truth. Constants were tried in groups, and one by one where a group moved an answer: two that cancel each "
-        "other would be missed. A failed diagnosis counts as moved and failed. Logarithms (SLOWEST, BROADEST, "
-        "FLATTEST, STEEPEST) are halved and doubled as such."
+        "other would be missed. Logarithms (SLOWEST, BROADEST, FLATTEST, STEEPEST) are halved and doubled as such."
     )
     before = "Unchanged (made by `python -m website.pages` from these runs):"
     lines = ["| run | commits | false alarms | right effect first | failed |", "|---|---|---|---|---|"]
@@ -130,7 +135,7 @@ def same(value: Value, stored: Value) -> bool:
 
 
 def table(rows: Sequence[tuple[str, Value, list[Effect | None]]]) -> str:
-    """Constants that move an answer: how many, and what becomes of false alarms and right names."""
+    """Constants that move answers: how many, and what becomes of false alarms and right names."""
     lines = ["| constant | value | " + " | ".join(FACTORS.values()) + " |", "|---|---|---|---|"]
     for label, value, effects in rows:
         lines.append(
@@ -139,6 +144,16 @@ def table(rows: Sequence[tuple[str, Value, list[Effect | None]]]) -> str:
             + " |"
         )
     return "\n".join(lines)
+
+
+def moves(effects: Sequence[Effect | None]) -> int:
+    """Answers that are other ones, over all factors."""
+    return sum(one.moved for one in effects if one)
+
+
+def once(labels: Sequence[str]) -> str:
+    """Constants that move a single answer, with one factor."""
+    return f"{len(labels)} move one answer, with one factor: {', '.join(f'`{one}`' for one in labels)}."
 
 
 def foot(
@@ -169,15 +184,15 @@ def beside(told: Run, labels: dict[str, Value]) -> list[str]:
     judged = sum(any(part in VERDICT for part in one["parts"]) for one in trials)
     why = (
         "These work on a finished verdict: where a gap lies, how far it shrinks, what these trials cannot show, what "
-        f"to record next. {told['answers']} cases (`--seed {told['seed']}`, {told['commit']}) were attributed once, "
+        f"to record next. {told['answers']} cases (`--seed {told['seed']}`, {told['commit']}) were diagnosed once, "
         "then each constant was halved and doubled (`python -m benchmarks.gap.later_constants`). A verdict, its "
-        f"effects or probabilities changed in {judged} of {len(trials)} trials. The table says in how many cases "
-        "another part "
-        "changes, which, and its largest change (100 %: other words, or another sign). "
+        f"effects or probabilities changed in {judged} of {len(trials)} trials. In brackets the cases in which another "
+        "part changes, halved and doubled. "
         f"Of {told['inside'][1]} true reductions {told['inside'][0]} lie inside their intervals, "
         f"{' to '.join(sorted({str(one['inside'][0]) for one in trials}))} with a constant changed."
     )
-    lines, still = ["| constant | value | halved | doubled |", "|---|---|---|---|"], 0
+    by_parts: dict[str, list[str]] = {}
+    still = 0
     for label, value in labels.items():
         row = told["constants"].get(label, {})
         known = same(value, row.get("value"))
@@ -185,18 +200,13 @@ def beside(told: Run, labels: dict[str, Value]) -> list[str]:
         if all(one and not one["moved"] for one in tried):
             still += 1
             continue
-        lines.append(f"| `{label}` | {shown(value)} | {' | '.join(_parts(one, told['answers']) for one in tried)} |")
+        parts = dict.fromkeys(PARTS.get(part, part) for one in tried if one for part in one["parts"])
+        counts = ", ".join("not tried" if one is None else str(one["moved"]) for one in tried)
+        by_parts.setdefault(", ".join(parts) or "not known", []).append(f"`{label}` ({counts})")
     if still:
         why += f" {still} others change nothing."
+    lines = [f"- {parts}: {', '.join(those)}" for parts, those in by_parts.items()]
     return [f"## {len(labels)} that can move no verdict", why, "\n".join(lines)] if labels else []
-
-
-def _parts(one: dict[str, Any] | None, of: int) -> str:
-    if one is None:
-        return "not tried"
-    return f"{one['moved']} of {of}" + "".join(
-        f", {PARTS.get(part, part)} by {100.0 * change:.3g} %" for part, change in one["parts"].items()
-    )
 
 
 def effect(runs: Sequence[Run], label: str, value: Value, factor: str) -> Effect | None:

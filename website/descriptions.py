@@ -27,12 +27,14 @@ from geocontact.io.recordings.standing_study import StandingStudy
 from geocontact.study.description import StudyFile
 
 PAGE = "docs/reference/descriptions.md"
+REQUIRED = "required"
+"""In place of a default."""
 INTRODUCTION = """# Keys of descriptions
 
-Files in TOML that commands read; made from the classes that read them by `python -m website.pages`. Paths start from
-the folder of the file. A key that is not listed is refused, and so is a value that is not what its key holds: one line
-that names file and key, exit code 2. `{ value, unit }` is a number with its unit, `{ value = 32, unit = "mm" }`, in any
-unit of the same kind; `source` and `note` may stand beside them."""
+Files in TOML that commands read; made by `python -m website.pages`. Keys in **bold** are required. Paths start from the
+folder of the file. A key that is not listed is refused, and so is a value that its key does not hold. `{ value, unit }`
+is a number with its unit, `{ value = 32, unit = "mm" }`, in any unit of the same kind; `source` and `note` may stand
+beside them."""
 
 
 @dataclass(frozen=True)
@@ -118,13 +120,16 @@ def descriptions() -> str:
         rows = list(rows_of(file.kind))
         for name, kind in file.entries.items():
             rows += rows_of(kind, name)
-        lines, above = ["| table | key | holds | by default | meaning |", "|---|---|---|---|---|"], ""
+        lines: list[str] = []
+        above = ""
         for row, alike in groupby(rows, lambda row: replace(row, key="")):
-            keys = ", ".join(one.key for one in alike)
-            cells = ("" if row.table == above else row.table, keys, row.holds, row.default, row.meaning)
-            lines.append(f"| {' | '.join(cells)} |".replace("  ", " "))
+            keys = ", ".join(f"**{one.key}**" if row.default == REQUIRED else one.key for one in alike)
+            usual = f", by default {row.default}" if row.default not in ("", REQUIRED) else ""
+            if row.table != above:
+                lines += ["", f"{row.table}:", ""]
+            lines.append(f"- {keys}: {row.holds}{usual}." + (f" {row.meaning}" if row.meaning else ""))
             above = row.table
-        parts += [f"## {file.title}", f"{file.commands}.", "\n".join(lines)]
+        parts += [f"## {file.title}", f"{file.commands}.", "\n".join(lines).strip()]
     return "\n\n".join(parts) + "\n"
 
 
@@ -220,9 +225,9 @@ def _bounds(marks: list[Any]) -> list[str]:
 
 
 def _default(field: FieldInfo) -> str:
-    """What counts where the key is left out; "must be there" where it may not be."""
+    """What counts where the key is left out; `REQUIRED` where it may not be."""
     if field.is_required():
-        return "must be there"
+        return REQUIRED
     value = field.default
     if isinstance(value, bool):
         return str(value).lower()

@@ -1,6 +1,7 @@
 """All known limits: docs/reference/limits.md, gathered from the sections of the pages that tell them, and from tests.
 
-A page tells its limits below a heading of `HEADINGS`; the page gathered from them says where each one stands.
+A page tells its limits below a heading of `HEADINGS`; the page gathered from them has the first sentence of each and
+says where it stands.
 """
 
 from __future__ import annotations
@@ -21,12 +22,12 @@ def limits() -> str:
     """The whole page."""
     parts = [
         "# Known limits",
-        "Gathered from the pages, where they stand with what they are limits of; made by `python -m website.pages`.",
+        "The first sentence of each; the link leads to the whole. Made by `python -m website.pages`.",
     ]
     for file in [README, *sorted((ROOT / "docs").rglob("*.md"))]:
         if file != ROOT / PAGE:
             parts += _of_page(file)
-    parts += ["## What tests expect to fail", "Tests that are red for a known reason, each as it says it.", _xfails()]
+    parts += ["## What tests expect to fail", "Each with the reason that the test states.", _xfails()]
     return "\n\n".join(parts) + "\n"
 
 
@@ -37,8 +38,19 @@ def _of_page(file: Path) -> list[str]:
     for heading, body in sections(text):
         link = _relative(file, file.name) + "#" + heading.lower().replace(" ", "-")
         above = f"## All of {title}" if file == README else f"## [{title}]({link})"
-        parts += [above, LINK.sub(lambda one: f"]({_relative(file, one[1])})", body)]
+        parts += [above, LINK.sub(lambda one: f"]({_relative(file, one[1])})", "\n".join(firsts(body)))]
     return parts
+
+
+def firsts(body: str) -> list[str]:
+    """Items with the first sentence of every paragraph and item; a table is left to its page."""
+    found = []
+    for block in re.split(r"\n\s*\n|\n(?=- )", body):
+        text = " ".join(block.split()).removeprefix("- ")
+        if text and not text.startswith("|"):
+            sentence = re.match(r"(.*?\.)(?:\*\*)?(?= [A-Z*\[`]|$)", text)
+            found.append("- " + (sentence[0] if sentence else text))
+    return found
 
 
 def sections(text: str) -> list[tuple[str, str]]:
@@ -61,8 +73,10 @@ def _relative(file: Path, target: str) -> str:
 
 
 def _xfails() -> str:
-    rows = [f"| `{place}` | {reason} |" for place, reason in xfails()]
-    return "\n".join(["| test | reason |", "|---|---|", *rows])
+    by_file: dict[str, list[str]] = {}
+    for place, reason in xfails():
+        by_file.setdefault(place, []).append(reason)
+    return "\n".join(f"- `{place}`: {'; '.join(reasons)}." for place, reasons in by_file.items())
 
 
 def xfails() -> list[tuple[str, str]]:

@@ -54,26 +54,26 @@ def missing(system: dict[str, Any], given: dict[str, Any]) -> list[str]:
 
 
 def _aims(system: dict[str, Any]) -> str:
-    rows = {
+    lines = {
         "Question of interest": system["question"],
         "Context of use": system["context"],
         "Model influence": system["influence"],
         "Decision consequence": system["consequence"],
         "Model risk": system["risk"],
-        "More": " · ".join(f"[{title}]({link})" for title, link in system["more"].items()),
     }
-    return "\n".join(["| | |", "|---|---|", *(f"| {name} | {words} |" for name, words in rows.items())])
+    more = " · ".join(f"[{title}]({link})" for title, link in system["more"].items())
+    return " ".join([*(f"**{name}.** {words}" for name, words in lines.items()), more])
 
 
 def _evidence(evidence: dict[str, list[dict[str, Any]]]) -> str:
     unknown = set(evidence) - set(FACTORS)
     if unknown:
         raise ValueError(f"{WORDS.name}: no credibility factors: {', '.join(sorted(unknown))}")
-    rows = ["| credibility factor | evidence | from |", "|---|---|---|"]
+    items = []
     for factor in FACTORS:
-        told = evidence.get(factor, [])
-        rows += [f"| {factor.lower()} | {_told(one)} | {_source(one)} |" for one in told]
-    return "\n".join(rows)
+        told = [f"{_told(one)} ({_source(one)})." for one in evidence.get(factor, [])]
+        items += [f"- *{factor}*: {' '.join(told)}"] if told else []
+    return "\n".join(items)
 
 
 def _told(one: dict[str, Any]) -> str:

@@ -1,4 +1,4 @@
-"""Tables of docs/reference/opensim_models.md from the JSON of two benchmarks: `python -m
+"""Tables of two benchmarks: the summary of docs/reference/opensim_models.md, and every model and set-up: `python -m
 benchmarks.dynamics.opensim_tables`.
 
 python -m benchmarks.dynamics.opensim_models FOLDER --name opensim_packages
@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 RESULTS = Path(__file__).resolve().parents[1] / "results"
@@ -17,7 +18,37 @@ Row = dict[str, Any]
 
 def main() -> None:
     """Print them."""
-    print("\n\n".join("\n".join(table) for table in (models(), scaling(), kinematics(), dynamics())))
+    print("\n\n".join("\n".join(table) for table in (summary(), models(), scaling(), kinematics(), dynamics())))
+
+
+def summary() -> list[str]:
+    """Median and largest difference of each kind, over all models and set-ups that have it."""
+    models_read = [row for row in _results("opensim_packages")["models"] if "refused" not in row]
+    known = [{**row, **row.get("rewritten", {})} for row in models_read]
+    angles = [row for row in known if "angles_off_deg" in row]
+    scaled, fitted, forces = (_setups(key) for key in ("scaled_off", "sum_over_opensims", "forces_off_share"))
+    rows = [
+        _spread("places of bodies [mm]", known, "bodies_apart_mm"),
+        _spread("generalised forces, of range", known, "forces_off_share"),
+        _spread("scaled masses, inertia, places", known, "scaled_off"),
+        _spread("angles of inverse kinematics [deg]", angles, "angles_off_deg"),
+        _spread("set-ups of scaling: masses, places", scaled, "scaled_off"),
+        _spread("moments of inertia", scaled, "inertia_off"),
+        _spread("places of markers [mm]", scaled, "markers_apart_mm"),
+        _spread("set-ups of inverse kinematics: angle [deg]", fitted, "angles_off_deg", ".1f"),
+        _spread("sum of squares, of OpenSim's", fitted, "sum_over_opensims", ".3f"),
+        _spread("off the truth here [deg]", fitted, "off_truth_rms_deg", ".2f"),
+        _spread("off the truth, OpenSim [deg]", fitted, "opensim_off_truth_rms_deg", ".2f"),
+        _spread("set-ups of inverse dynamics: forces, of range", forces, "forces_off_share"),
+        _spread("CPU s of a set-up here", [*scaled, *fitted, *forces], "cpu_s", ".1f"),
+        _spread("CPU s of a set-up, OpenSim", [*scaled, *fitted, *forces], "opensim_cpu_s", ".1f"),
+    ]
+    return _table(("difference", "files", "median", "largest"), rows)
+
+
+def _spread(title: str, rows: list[Row], key: str, form: str = ".0e") -> list[str]:
+    values = [row[key] for row in rows]
+    return [title, str(len(values)), f"{median(values):{form}}", f"{max(values):{form}}"]
 
 
 def models() -> list[str]:

@@ -27,10 +27,11 @@ from geocontact.below_knee_prosthesis.both_sides.intact_leg import KINETIC, STAT
 from geocontact.below_knee_prosthesis.foot_in_plane import FootInPlane, row_numbers
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.contact.sphere_foot import normal_force
+from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.identify.signals.agreement import agreement
 from geocontact.identify.signals.filters import zero_lag
-from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
+from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.io.mocap.markers import read_markers
 from geocontact.loads.centre_of_pressure import centre_of_pressure
 from geocontact.loads.resultant import pose_rate

@@ -20,7 +20,8 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.knee.paper_004 import geocontact
-from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
+from geocontact.data.multibody.force_plate import ForcePlate
+from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 
 HOME = "opensim_walk"
 LOADED = 20.0  # N, from which the foot is on the plate

@@ -117,7 +117,7 @@ def profiled(e: ElbowFit, c: Covariance, name: str, level: float = 0.95, points:
 
 
 def with_link_held(e: ElbowFit) -> ElbowFit:
-    """The same with l held where it is: k and the lengths are then, in units of l, what no scale changes."""
+    """The same with l held where it is: k and the lengths are then, in units of l, independent of the scale."""
     problem, place = e.problem.held("l", e.named["l"]), e.problem.names.index("l")
     return best_from(problem, [np.delete(values, place) for values in _minima(e, np.inf)])
 

@@ -171,7 +171,7 @@ def _require_fit(seen: MarkerTrajectories, fit: Walked) -> None:
     """InputError where the markers are too far from the standing leg."""
     off = float(np.nanmedian(fit.off))
     if off > FAR:
-        what = f"markers are {1e3 * off:.0f} mm from the standing leg in the median"
+        what = f"markers are {1e3 * off:.0f} mm (median) away from the standing leg"
         raise InputError(seen.source, "", what, "the same person and markers? are left and right exchanged?")
 
 

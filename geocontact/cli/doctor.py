@@ -99,7 +99,7 @@ FEATURES = (
 
 
 def doctor() -> int:
-    """Say what works on this machine, feature by feature, with the exact fix for what does not.
+    """Check which features work on this machine, and show how to fix those that do not.
 
     Exit 1 when something that every analysis needs does not work, or gave no answer.
     """

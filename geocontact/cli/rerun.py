@@ -26,7 +26,7 @@ def rerun(run: Path, *, out: Path | None = None) -> int:
     run
         A run.json, or the folder that it is in.
     out
-        Folder for the new results; they are compared and not kept without it.
+        Folder for the new results; without it they are only compared, not saved.
     """
     earlier = read_run(run)
     command = _command(earlier, run)

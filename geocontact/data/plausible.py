@@ -20,8 +20,9 @@ RAD, PA, M_PER_S = Unit("rad", "rad", 1.0), Unit("Pa", "Pa", 1.0), Unit("m/s", "
 N_PER_M, N_PER_MM = Unit("N/m", "N/m", 1.0), Unit("N/mm", "N/m", 1e3)
 N_S_PER_M, N_S_PER_MM = Unit("N s/m", "N s/m", 1.0), Unit("N s/mm", "N s/m", 1e3)
 J_PER_M2 = Unit("J/m^2", "J/m^2", 1.0)
-KHZ, G = Unit("kHz", "Hz", 1e3), Unit("g", "kg", 1e-3)
-KNOWN = (*UNITS, N, HZ, S, KG, RAD, PA, M_PER_S, N_PER_M, N_PER_MM, N_S_PER_M, N_S_PER_MM, J_PER_M2, KHZ, G, PLAIN)
+KHZ, G, TONNE = Unit("kHz", "Hz", 1e3), Unit("g", "kg", 1e-3), Unit("t", "kg", 1e3)
+OF_SI = (N, HZ, S, KG, RAD, PA, M_PER_S, N_PER_M, N_S_PER_M, J_PER_M2, PLAIN)
+KNOWN: tuple[Unit, ...] = (*UNITS, *OF_SI, N_PER_MM, N_S_PER_MM, KHZ, G, TONNE)
 """Units that a number may have been meant in."""
 
 ROUNDING = 1e-9
@@ -168,7 +169,7 @@ SHIFT = Plausible("how far things are off", mm, (0.0, 500.0), (0.0, 50.0))
 
 YOUNG = Plausible("Young's modulus", MPa, (1e-3, 2e6), (5e-3, 5e5))
 TOUCH = Plausible("the pressure of a touch", kPa, (1e-3, 1e4), (0.05, 100.0))
-CUFF = Plausible("the pressure of a cuff", mmHg, (0.0, 2000.0), (0.0, 300.0))
+CUFF = Plausible("the pressure of a cuff", mmHg, (1.0, 2000.0), (5.0, 300.0), or_zero=True)
 LAYER_RATIO = Plausible("Poisson's ratio of a layer, below 0.5", PLAIN, (0.0, 0.4999))
 POISSON = Plausible("Poisson's ratio", PLAIN, (-0.9999, 0.5), (0.0, 0.5))
 
@@ -190,6 +191,8 @@ CUTOFF = Plausible("a cut-off frequency", HZ, (0.0, 2000.0), (0.5, 100.0), or_ze
 BAND = Plausible("a frequency of movement", HZ, (1e-6, 1000.0), (1e-3, 20.0))
 RATE = Plausible("a sampling rate", HZ, (5.0, 1e4))
 FRAME_RATE = Plausible("a frame rate", HZ, (1e-3, 1e5), (0.5, 5000.0))
+CLOCK = Plausible("a time of a recording", S, (-1e6, 1e10))  # clocks that count from 1970 included
+SEARCH = Plausible("the time of a search", S, (1e-3, 1e7), (1.0, 1e5))
 DELAY = Plausible("a lag of clocks", S, (-3600.0, 3600.0), (-60.0, 60.0))
 GAP = Plausible("a gap in a recording", S, (0.0, 60.0), (0.0, 2.0))
 LENGTH_OF_TRIAL = Plausible("the length of a trial", S, (1.0, 3600.0))

@@ -6,10 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
+from scipy.spatial.transform import Rotation
 
 from geocontact.data.multibody.joint import JointModel
 from geocontact.data.multibody.model import GROUND, Multibody
 
+AXES = "xyz"
 FREE = 6
 """Coordinates of a joint that leaves a body free of the ground."""
 
@@ -84,3 +86,14 @@ def _nearest_axis(direction: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " 3"]
     largest = int(np.argmax(np.abs(direction)))
     found[largest] = np.sign(direction[largest]) or 1.0
     return found
+
+
+def axes_upright(found: Float[np.ndarray, " 3"], up: Float[np.ndarray, " 3"], turned: Rotation | None = None) -> str:
+    """Axes, in the form "x,z,-y", that turn the coordinate axis next to `found` into the one next to `up`.
+
+    The shortest turn, after `turned`, by which the recording was turned already: which way the subject faces is not
+    known from this.
+    """
+    before = np.eye(3) if turned is None else turned.as_matrix()
+    rows = np.rint(shortest_turn(found, up) @ before).astype(int)
+    return ",".join(f"{'-' if row.min() < 0 else ''}{AXES[int(np.argmax(np.abs(row)))]}" for row in rows)

@@ -32,7 +32,7 @@ FIRST = 0.15
 """Share of the room: the longest first step."""
 NEAR = 1e-3
 """Share of the room: a number that near to an end of it is on that end."""
-STOPPED = "interrupted; the last iterate is kept"
+STOPPED = "interrupted; the last iterate is saved"
 MET = 1e-4
 """Share of the limit: so much more is let pass."""
 AT_PEAK = 1e-6

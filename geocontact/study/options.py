@@ -21,7 +21,7 @@ class CohortOptions(Options):
     Parameters
     ----------
     study
-        Description of the study (.toml): the analysis, its options, and what its trials differ in.
+        Description of the study (.toml): the analysis, its options, and the differences between its trials.
 
     Work
     ----

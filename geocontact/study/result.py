@@ -5,7 +5,7 @@ r"""Studies: `geocontact cohort`, `gc.cohort`.
 >>> text = 'analysis = "fit"\noptions = { shape = "sphere", unit = "mm" }\n'
 >>> text += 'sweep = { mesh = ["meshes/sphere_r18.stl", "meshes/sphere_r20.stl"] }\n'
 >>> _ = Path("study.toml").write_text(text)
->>> gc.cohort("study.toml", workers=1)
+>>> print(gc.cohort("study.toml", workers=1))
 2 of 2 trials of fit have results, 2 of them new
 """
 
@@ -24,15 +24,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.catalogue import job_named
 from geocontact.analyses.frame import source_digest
 from geocontact.analyses.frame.collector import add_input, listener, note, reserve, results_place, say
 from geocontact.analyses.frame.folder import Scratch, is_kept
 from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.main_numbers import factor_of
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.data.errors import InputError
+from geocontact.data.trial import mean_and_sd
 from geocontact.io.text.units import split_header
 from geocontact.study.address import Digests, address_of, options_of
 from geocontact.study.curves import STEPS, StudyCurves, curves_of
@@ -144,6 +147,16 @@ class CohortResult(Result):
         """1 where a trial failed, 2 where none did but one had a mistake in its input."""
         states = {one.outcome.state for one in self.trials}
         return 0 if states == {DONE} else WRONG_CODE if states <= {DONE, WRONG} else FAILED_CODE
+
+    @property
+    def means(self) -> dict[tuple[str, str], Float[np.ndarray, " 101"]]:
+        """Mean over subjects at 0, 1, … 100 % of each curve, by quantity and condition [SI unit of the quantity]."""
+        named = ((*split_header(one.column), one.groups) for one in self.ensembles)
+        return {
+            (name, condition): mean_and_sd(values)[0] * factor_of(unit)
+            for name, unit, groups in named
+            for condition, values in groups.items()
+        }
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`trials`, a row for each with what became of it, then `ensemble` and other tables about all of them.

@@ -31,7 +31,7 @@ def test_force_and_centre_are_those_of_the_law(foot: tuple[Path, Path]) -> None:
     np.testing.assert_allclose(result.table("zones")["heel [N]"], K * DEPTHS**N, rtol=1e-11)
     assert result.force is result.centre.wrench.force and result.centre_of_pressure is result.centre.centre
     assert result.free_moment.shape == (3,)
-    assert "a centre of pressure in 3 of 3 frames" in repr(result) and result.warnings == ()
+    assert "a centre of pressure in 3 of 3 frames" in str(result) and result.warnings == ()
     assert "<img src=" in result._repr_html_()
 
 

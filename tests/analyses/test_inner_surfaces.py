@@ -50,7 +50,7 @@ def test_a_job_warns_of_a_cavity(read: Callable[[Path], None], tmp_path: Path) -
     record = opened(Record("job", {}))
     read(bone(tmp_path))
     (line,) = record.warnings
-    assert line == f"{SAID} and count as surface all the same; delete in the file what is none"
+    assert line == f"{SAID} and count as surface all the same; if they are not surface, remove them from the file"
     assert record.inputs[0]["closed_surfaces"] == 2
 
 

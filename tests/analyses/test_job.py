@@ -91,7 +91,7 @@ def file(tmp_path: Path) -> Path:
 
 def test_a_call_returns_a_result_and_writes_nothing(file: Path) -> None:
     result = double(file, more=gc.mm(1))
-    assert result.length == pytest.approx(11e-3) and repr(result) == "twice 0.005 m"
+    assert result.length == pytest.approx(11e-3) and str(result) == "twice 0.005 m"
     assert list(result.table()["length [mm]"]) == pytest.approx([11.0])
     assert [p.name for p in file.parent.iterdir()] == [file.name]
     with pytest.raises(KeyError, match="there are double, none"):
@@ -104,7 +104,7 @@ def test_reservations_become_warnings_once_and_stand_in_the_result(file: Path) -
         result = double(file)
     assert len(caught) == 1
     assert result.warnings == ("more than a metre, see `more`",)
-    assert repr(result).endswith("warning: more than a metre, see `more`")
+    assert str(result).endswith("warning: more than a metre, see `more`")
 
 
 def test_a_result_is_written_as_the_command_writes_it(file: Path, tmp_path: Path) -> None:

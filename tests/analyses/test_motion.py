@@ -25,7 +25,7 @@ def test_the_chain_returns_to_where_it_began(markers: Path, tmp_path: Path) -> N
     found = angles.table("coordinates")
     swing = np.loadtxt(SWING, skiprows=7)
     np.testing.assert_allclose(found.to_numpy(), swing, atol=1e-4)
-    assert angles.rms_mm < 1e-3 and "16 markers" in repr(angles)
+    assert angles.rms_mm < 1e-3 and "16 markers" in str(angles)
     np.testing.assert_allclose(angles.time, swing[:, 0], atol=1e-9)
     np.testing.assert_allclose(angles.coordinates["knee"], np.radians(found["knee [deg]"]), atol=1e-12)
     np.testing.assert_allclose(angles.table("knees")["right_flexion [deg]"], -found["knee [deg]"], atol=1e-4)

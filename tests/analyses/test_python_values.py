@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +13,19 @@ import pandas as pd
 import pytest
 import pyvista as pv
 import trimesh
+from matplotlib.figure import Figure
 from scipy.spatial.transform import RigidTransform
 
 import geocontact as gc
 from geocontact.analyses.frame.in_memory import InMemory
+from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.options import Declared, declared
 from geocontact.analyses.shape.options import ShapeOptions
+from geocontact.data.plausible import KNOWN, ByName, ByPlace, Plausible, Range, numbers_in
+from geocontact.data.units import Unit
+from geocontact.io.mocap.force_plates import read_force_plates
+from geocontact.io.text.tables import read_table
+from geocontact.io.text.units import LENGTH, si_unit
 from tests.analyses.jobs import JOBS
 
 SAMPLES = Path(__file__).parents[2] / "meshes"
@@ -48,6 +56,14 @@ def option(command: str, name: str) -> Declared:
         ("knee settle", "bodies", "femur_r,tibia_r", ("femur_r", "tibia_r")),
         ("gap plant", "value", "damping.b=25", {"damping.b": 25.0}),
         ("modulus", "poisson", "0.25,0.46", (0.25, 0.46)),
+        ("knee settle", "load", "2 kN", 2000.0),
+        ("elbow design", "limit", "5 N", 5.0),
+        ("elbow design", "limit", "5", 5.0),
+        ("area", "rate", "0.1 kHz", 100.0),
+        ("area", "threshold", np.array([1e-3, 4e-3]), (1e-3, 4e-3)),
+        ("area", "threshold", pd.Series([1e-3, 4e-3]), (1e-3, 4e-3)),
+        ("area", "threshold", np.float64(4e-3), (4e-3,)),
+        ("id", "time", np.array([0.4, 1.6]), (0.4, 1.6)),
     ],
 )
 def test_a_text_is_read_as_on_the_command_line(command: str, name: str, text: Any, value: Any) -> None:
@@ -67,7 +83,8 @@ def test_a_text_is_read_as_on_the_command_line(command: str, name: str, text: An
         ("knee settle", "modulus", "463", "`modulus`: '463' is not a pressure; write 500MPa"),
         ("prosthesis simulate", "mass", "77.3 m", "`mass`: 'm' is no unit of mass"),
         ("ik", "follow", None, None),
-        ("elbow design", "limit", "5 N", "`limit`: '5 N' is not a number; give a number"),
+        ("elbow design", "limit", "5 m", "`limit`: '5 m' is no value in N; check the unit"),
+        ("elbow design", "limit", "five", "`limit`: 'five' is not a number; give a number"),
         ("elbow design", "limit", pd.DataFrame(), "`limit`: a DataFrame is not a number; give a number"),
     ],
 )
@@ -88,6 +105,86 @@ def test_a_bare_number_that_cannot_be_meant_names_the_likely_unit() -> None:
         gc.shoulder.simulate(SAMPLES / "overhead_P1T1S100" / "markers.trc", level=100)
 
 
+@pytest.mark.parametrize(
+    ("command", "name", "value", "said"),
+    [
+        ("area", "threshold", 4, "4000 mm cannot be a threshold of contact: that is 0 to 200 mm; is 4 mm meant?"),
+        ("knee settle", "modulus", 463, "0.000463 MPa cannot be Young's modulus: .* is 463 MPa meant?"),
+        ("prosthesis simulate", "mass", 0.08, "0.08 kg cannot be the mass of a walking person: .* is 0.08 t meant?"),
+        ("prosthesis simulate", "mass", 77300, "77300 kg cannot be the mass of a walking person: .* is 77300 g meant?"),
+        ("knee settle", "piece", 2, "2000 mm cannot be the edge of a piece of a surface: .* is 2 mm meant?"),
+        ("elbow simulate", "pressure", (10, 60), "0.450037 mmHg cannot be the pressure of a cuff: .* 60 mmHg meant?"),
+        ("elbow design", "range", (0, 120), "6875.49 deg cannot be an angle of a joint: .* is 120 deg meant?"),
+        ("sit-to-stand predict", "time_limit", 0, "0 s cannot be the time of a search: that is 0.001 to 1e"),
+        ("knee settle", "poisson", 46, "46 cannot be Poisson's ratio of a layer, below 0.5: that is 0 to 0.4999"),
+    ],
+)
+def test_bare_numbers_that_cannot_be_meant_are_refused_with_the_likely_unit(
+    command: str, name: str, value: Any, said: str
+) -> None:
+    one = option(command, name)
+    *_, (_, known, number) = numbers_in(one.range, one.coerced(value))
+    with pytest.raises(gc.InputError, match=said.replace("?", r"\?")):
+        known.require(number, name)
+
+
+def mixed_up() -> Iterator[tuple[str, Plausible, float, Unit]]:
+    """Usual values of every quantity that an option can have, written as the bare number of every other unit."""
+    for (command, name), one in OPTIONS.items():
+        for known in dict.fromkeys(ranges_in(one.range)):
+            low, high = known.usual or known.possible
+            usual = (max(low, 1e-3 * high) * high) ** 0.5 * known.unit.factor
+            for unit in KNOWN:
+                if unit.si == known.unit.si and (unit.factor < 0.01 or unit.factor > 100.0):
+                    yield f"{command} {name}", known, float(f"{usual / unit.factor:.3g}"), unit
+
+
+def ranges_in(known: Range | None) -> Iterator[Plausible]:
+    match known:
+        case ByName():
+            for _, one in known.ranges:
+                yield from ranges_in(one)
+        case ByPlace():
+            for one in known.ranges:
+                yield from ranges_in(one)
+        case Plausible():
+            yield known
+
+
+WIDE = {
+    "Young's modulus": "phantoms of gel have some kPa, bone some GPa",
+    "a damping": "no one order of magnitude: sensors, skin and oil",
+    "the force of a person": "of a finger as of a jump",
+    "the noise of a force": "none is as good as any",
+    "the largest force on a limb": "of a finger as of a leg",
+    "a time of a recording": "clocks count from 1970",
+    "the pressure of a cuff": "GPa are no unit of cuffs",
+}
+"""Quantities that are usual over more orders of magnitude than units are apart, and why."""
+
+
+def test_a_number_in_another_unit_is_refused_or_warned_of() -> None:
+    silent = {known.what for _, known, number, _ in mixed_up() if not known.refusal(number) and not known.doubt(number)}
+    assert silent <= set(WIDE)
+    assert len(list(mixed_up())) > 100
+
+
+SINGLE = [
+    pytest.param(one, one.range, id=f"{command} {name}")
+    for (command, name), one in OPTIONS.items()
+    if isinstance(one.range, Plausible) and one.range.unit.si != "1"
+    if one.kind in (float, tuple[float, ...])
+]
+
+
+@pytest.mark.parametrize(("one", "known"), SINGLE)
+def test_every_number_is_taken_with_its_unit_as_text(one: Declared, known: Plausible) -> None:
+    units = [unit for unit in KNOWN if unit.si == known.unit.si and si_unit(unit.name) is not None]
+    for unit in (known.unit, *units):
+        value = one.coerced(f"{12.5 * known.unit.factor / unit.factor!r} {unit.name}")
+        assert np.ravel(value) == pytest.approx(12.5 * known.unit.factor, rel=1e-12), unit.name
+
+
 POSES = RigidTransform.from_translation([[0.0, 0.0, 0.0], [0.0, 0.01, 0.0]])
 TABLE = pd.read_csv(SAMPLES / "gait.csv").iloc[::25]
 
@@ -106,7 +203,17 @@ def from_files(tmp_path_factory: pytest.TempPathFactory) -> pd.DataFrame:
     return gc.area(FEMUR, INSERT, unit="mm", motion=file, threshold=gc.mm(4)).table()
 
 
-@pytest.mark.parametrize("load", [trimesh.load, pv.read, opened], ids=["trimesh", "pyvista", "open3d"])
+def scene(file: Path) -> trimesh.Scene:
+    return trimesh.Scene(trimesh.load(file))
+
+
+def grid(file: Path) -> pv.UnstructuredGrid:
+    return pv.read(file).cast_to_unstructured_grid()
+
+
+@pytest.mark.parametrize(
+    "load", [trimesh.load, pv.read, opened, scene, grid], ids=["trimesh", "pyvista", "open3d", "scene", "grid"]
+)
 def test_meshes_and_tables_in_memory_give_the_numbers_of_their_files(load, from_files: pd.DataFrame) -> None:
     result = gc.area(load(FEMUR), load(INSERT), unit="mm", motion=TABLE, threshold="4mm")
     pd.testing.assert_frame_equal(result.table(), from_files)
@@ -158,11 +265,20 @@ def test_files_of_values_go_with_the_result() -> None:
     [
         (pv.PolyData(np.zeros((3, 3))), "`moving`: is a PolyData without triangles; give a surface of triangles"),
         (np.array([["a", "b"]]), "`moving`: is an array of <U1; give numbers, or a DataFrame"),
+        (
+            np.zeros((4, 3)),
+            "`moving` (array, 4 x 3): is a table, not a surface of triangles; make triangles of its points first",
+        ),
+        (None, "`moving`: is None; give a value"),
+        (
+            {"vertices": []},
+            "`moving`: is a dict; give a path, a DataFrame, an array of rows or a mesh of trimesh, pyvista or open3d",
+        ),
     ],
 )
 def test_a_value_that_holds_no_surface_is_refused(value: object, said: str) -> None:
     with pytest.raises(gc.InputError) as refused:
-        gc.area(value, INSERT, unit="mm")
+        gc.area(value, INSERT, unit="mm", motion=SAMPLES / "gait.csv")
     assert str(refused.value) == said
 
 
@@ -205,3 +321,94 @@ def test_tab_lists_public_names_only(room) -> None:
 )
 def test_what_a_notebook_shows_is_one_line(value, said: str) -> None:
     assert repr(value()) == said
+
+
+PERSON = SAMPLES / "gait_P1_medium_1"
+SI = {"v": "N", "p": "m", "m": "N m", "t": "N m"}
+
+
+def plates_in_memory(unit: str) -> pd.DataFrame:
+    """The shipped plates as a table with units, places in any."""
+    table = read_table(PERSON / "plates.mot")
+    columns: dict[str, Any] = {"time [s]": table.time}
+    for name in table.channels:
+        si = "N m" if "torque" in name or "moment" in name else SI[name[-2]]
+        factor = LENGTH[unit] if si == "m" else 1.0
+        columns[f"{name} [{unit if si == 'm' else si}]"] = table.column(name) / factor
+    return pd.DataFrame(columns)
+
+
+def test_force_plates_of_a_table_are_those_of_their_file(tmp_path: Path) -> None:
+    plates_in_memory("mm").to_csv(tmp_path / "plates.csv", index=False)
+    found, wanted = read_force_plates(tmp_path / "plates.csv"), read_force_plates(PERSON / "plates.mot")
+    assert [each.name for each in found] == [each.name for each in wanted]
+    for one, other in zip(found, wanted, strict=True):
+        np.testing.assert_allclose(one.wrench.force, other.wrench.force, rtol=1e-12)
+        np.testing.assert_allclose(one.wrench.moment, other.wrench.moment, rtol=1e-12)
+        np.testing.assert_allclose(one.wrench.origin, other.wrench.origin, rtol=1e-12, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        (" [mm]", "", r"column '.*px' has no unit; name it '.*px \[m\]'"),
+        ("vx [N]", "vx [kg]", r"'kg' is no unit in which .*vx can be; name it '.*vx \[N\]'"),
+    ],
+)
+def test_force_plates_of_a_table_have_units(tmp_path: Path, old: str, new: str, said: str) -> None:
+    table = plates_in_memory("mm")
+    table.columns = [name.replace(old, new) for name in table.columns]
+    table.to_csv(tmp_path / "plates.csv", index=False)
+    with pytest.raises(gc.InputError, match=said):
+        read_force_plates(tmp_path / "plates.csv")
+
+
+FILES = [
+    pytest.param(job, one, id=f"{job.command} {one.name}")
+    for job in JOBS
+    for one in declared(job.options)
+    if one.settable and "Path" in str(one.kind)
+]
+
+
+@pytest.mark.parametrize(("job", "one"), FILES)
+def test_a_table_is_taken_wherever_a_file_is(job: Job[Any, Any], one: Declared) -> None:
+    held = InMemory()
+    (file,) = np.atleast_1d(one.coerced(held.replaced({one.name: TABLE}, None)[one.name]))
+    assert isinstance(file, Path) and pd.read_csv(file).equals(TABLE.reset_index(drop=True))
+    assert held.spelled(str(file)) == f"`{one.name}` (DataFrame, 5 x 8)"
+
+
+LEG = SAMPLES / "leg.osim"
+
+
+@pytest.mark.filterwarnings("ignore:residual at the joint to the ground")  # nothing but gravity acts on the leg
+def test_an_hour_with_tables_alone() -> None:
+    """Markers to coordinates to moments: results of one job go into the next without a file."""
+    seen = gc.virtual_markers(SAMPLES / "leg_swing.mot", model=LEG)
+    moved = gc.inverse_kinematics(seen.table(), model=LEG)
+    forces = gc.inverse_dynamics(moved.table("coordinates"), model=LEG)
+    by_file = gc.inverse_dynamics(SAMPLES / "leg_swing.mot", model=LEG)
+    assert moved.rms < 1e-6
+    for name, moment in by_file.moments.items():
+        np.testing.assert_allclose(forces.moments[name], moment, atol=1e-2 * np.abs(moment).max() + 1e-3)
+
+
+def test_results_in_a_loop_and_in_a_plot() -> None:
+    found = [
+        gc.area(FEMUR, INSERT, unit="mm", motion=TABLE, threshold=f"{threshold} mm").area[:, 0].max() * 1e6
+        for threshold in (1, 2, 4)
+    ]
+    assert found == sorted(found) and found[-1] > 2000.0
+    result = gc.area(FEMUR, INSERT, unit="mm", motion=TABLE, threshold=["1 mm", "4 mm"])
+    axes = Figure().subplots()
+    one, four = axes.plot(result.time, 1e6 * result.area, label=[f"{1e3 * t:g} mm" for t in result.thresholds])
+    assert four.get_label() == "4 mm" and one.get_ydata().max() == pytest.approx(found[0])
+
+
+def test_numbers_of_several_motions_are_asked_for_one_by_one() -> None:
+    both = gc.area(FEMUR, INSERT, unit="mm", motion=[TABLE, TABLE.iloc[:2]], threshold="4 mm")
+    with pytest.raises(ValueError, match=r"there are 2 motions \(motion, motion2\): take `motions\[0\].evolution`"):
+        _ = both.area
+    with pytest.raises(ValueError, match=r"there are no loads: call `gc.pressure`, or give `modulus` and `poisson`"):
+        _ = gc.area(FEMUR, INSERT, unit="mm", motion=TABLE.iloc[:1], threshold="4 mm").force

@@ -58,8 +58,8 @@ def test_who_stands_is_not_warned_of(tmp_path: Path) -> None:
 def test_suggested_axes_turn_what_is_up_into_up(found: np.ndarray) -> None:
     from geocontact.analyses.frame.quantities import turned_axes
 
-    np.testing.assert_allclose(turned_axes(axes_upright(found, UP, None), "`axes`").apply(found), UP, atol=1e-12)
-    after = turned_axes(axes_upright(found, UP, "z,x,y"), "`axes`")
+    np.testing.assert_allclose(turned_axes(axes_upright(found, UP), "`axes`").apply(found), UP, atol=1e-12)
+    after = turned_axes(axes_upright(found, UP, turned_axes("z,x,y", "`axes`")), "`axes`")
     np.testing.assert_allclose(after.apply(turned_axes("z,x,y", "`axes`").inv().apply(found)), UP, atol=1e-12)
 
 

@@ -89,7 +89,7 @@ def test_files_that_are_no_table(tmp_path: Path, content: bytes) -> None:
         (("--unit", "mm"), "--unit: has no effect here"),
         (("--plate", "1"), "--plate: has no effect without --compare"),
         (("--plate-pose", "x.txt"), "--plate-pose: has no effect without --compare"),
-        (("--compare", str(MESHES / "gait.csv")), "is not a file of ground reactions"),
+        (("--compare", str(MESHES / "sphere_r20.stl")), "is not a file of ground reactions"),
         (("--order", "XYZ"), "--order: has no effect here"),
         (("--angles", "deg"), "--angles: has no effect here"),
         (("--moving", "parent"), "--moving: has no effect without --osim"),
@@ -173,7 +173,7 @@ def test_reservations_are_said_and_kept(tmp_path: Path) -> None:
     planar = sole(tmp_path, "0,0,0.02,1", head="px [m], py [m], radius [m], side", name="planar.csv")
     result = done(cop(tmp_path, spheres=planar, motion=poses(tmp_path, (0, -1, 0))))
     said = ("no column 'pz'", "no column 'zone'", "column 'side' is not used", "no stiffness given")
-    for words in (*said, "has one frame: the foot is taken to stand still", "centres of spheres are under the ground"):
+    for words in (*said, "one frame: the foot is assumed to stand still", "centres of spheres are under the ground"):
         assert any(words in line for line in result.warnings), words
     assert result.record()["warnings"] == result.warnings
     low = done(cop(tmp_path, *LAW, "--gate", "1e4"))

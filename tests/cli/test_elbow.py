@@ -162,7 +162,7 @@ def test_the_page_and_its_figures(fitted: Call) -> None:
     for words in (
         "What the data identify",
         "known beforehand",
-        "set by what was known beforehand",
+        "comes from prior knowledge",
         "Lilliefors",
         "Joint locked and free",
     ):

@@ -320,7 +320,7 @@ def test_what_two_markers_cannot_tell_is_refused(tmp_path: Path) -> None:
     result = ik(tmp_path, lost(tmp_path, slice(None), slice(2, 16)))
     assert result.code == 2 and "no frame shows more than 2 markers" in result.err
     nothing = ik(tmp_path, lost(tmp_path, slice(None), slice(None)))
-    assert nothing.code == 2 and "no marker is seen in any frame" in nothing.err
+    assert nothing.code == 2 and "no marker is visible in any frame" in nothing.err
 
 
 def test_a_held_coordinate_is_told_without_markers(tmp_path: Path) -> None:
@@ -384,8 +384,9 @@ def test_marker_errors_stand_beside_opensim_s_limits(tmp_path: Path) -> None:
     """In the last line always, in a warning beyond 2 cm of root mean square or 4 cm at most."""
     small, large = off_by(tmp_path, 0.03), off_by(tmp_path, 0.15)
     told = "mm at most, foot_r1 at 0.3 s (OpenSim advises less than 20 and 40 mm)"
-    assert told in small.out and not small.warnings
-    (line,) = large.warnings
+    # a jump within one frame has a warning of its own, at either size
+    assert told in small.out and not any("OpenSim" in line for line in small.warnings)
+    (line,) = [each for each in large.warnings if "OpenSim" in each]
     assert told in line and "check where foot_r1 is on the model" in line
 
 
@@ -608,7 +609,7 @@ def test_plates_of_a_laboratory_whose_z_is_up(tmp_path: Path, monkeypatch: pytes
 def test_opensim_s_own_plates_are_not_turned(tmp_path: Path) -> None:
     motion, _ = standing(tmp_path)
     result = id_(tmp_path, motion, "--plates", tmp_path / "grf.mot", "--plate", "1=foot_r", "--axes", "x,z,-y")
-    assert result.code == 2 and "is in OpenSim's axes" in result.err
+    assert result.code == 0 and any("turns the markers, not these plates" in line for line in result.warnings)
     done(id_(tmp_path, motion, "--plates", tmp_path / "grf.mot", "--plate", "plate_force=foot_r"))
 
 

@@ -202,4 +202,4 @@ def test_recordings_of_one_name_and_times_for_several_are_refused(tmp_path: Path
     same = (recorded(tmp_path), recorded(tmp_path / "b"))
     assert "recording 'walk' cannot have a sub-folder of its own" in loadcells(tmp_path, files=same).err
     two = (recorded(tmp_path), recorded(tmp_path, "run.csv"))
-    assert "times do not say which recording" in loadcells(tmp_path, "--cycles", "1:2", files=two).err
+    assert "it is unclear to which recording the times belong" in loadcells(tmp_path, "--cycles", "1:2", files=two).err

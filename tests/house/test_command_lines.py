@@ -1,6 +1,6 @@
 """Every command line of README and documentation runs, and prints what the page shows below it.
 
-Blocks of the tutorial and of the how-to pages run as they stand, Python as well, from an empty folder beside `meshes`.
+Blocks of the tutorial and of the how-to pages run as they stand, Python as well, from an empty folder next to `meshes`.
 """
 
 from __future__ import annotations

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import csv
 import re
 from pathlib import Path
 
@@ -49,3 +50,13 @@ def test_a_documented_file_exists(path: str) -> None:
     """Modules may be named from the package's folder, or from the one that the page is about."""
     places = (ROOT, ROOT / "geocontact", ROOT / "geocontact" / "gap_benchmark")
     assert any((place / path).exists() for place in places)
+
+
+def test_corrected_numbers_have_their_tests_and_the_page_has_some_of_them() -> None:
+    folder = ROOT / "docs" / "reference"
+    every = list(csv.DictReader((folder / "corrected_numbers.csv").read_text(encoding="utf-8").splitlines()))
+    assert [one["test"] for one in every if not (ROOT / one["test"]).is_file()] == []
+    page = (folder / "corrected_numbers.md").read_text(encoding="utf-8")
+    shown = [[cell.strip() for cell in line.strip("|").split("|")] for line in page.splitlines() if "|" in line][2:]
+    known = [[one["of"].lower(), one["number"], one["was"], one["is"]] for one in every]
+    assert len(shown) >= 10 and all(row in known for row in shown) and f"All {len(every)}, each with its test" in page

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.multibody.force_plate import ForcePlate, lengths_outside
 from geocontact.io.mocap.c3d_markers import markers_of, read_c3d_markers
 from geocontact.io.mocap.c3d_plates import clipped_runs, plate_units, plates_of
-from geocontact.io.mocap.force_plates import ForcePlate, lengths_outside, plate_named, read_force_plates
+from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from tests.io.plate_files import CENTRE, FREE, PEAK, channels, plate_file, stance
 
 OFFSET = np.array([3.0, 2.0, 25.0, 0.5, -0.8, 0.1])

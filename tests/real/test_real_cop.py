@@ -11,8 +11,9 @@ import pandas as pd
 import pytest
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.io.mocap.c3d_markers import read_c3d_markers
-from geocontact.io.mocap.force_plates import ForcePlate, read_force_plates
+from geocontact.io.mocap.force_plates import read_force_plates
 from geocontact.io.motion.motion import read_motion
 from geocontact.io.text.tables import read_table
 from tests.cli.calls import call, done, written

@@ -8,6 +8,8 @@ import re
 import shutil
 import sys
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -15,8 +17,10 @@ import pytest
 from scipy.io import netcdf_file
 
 from geocontact.study.curves import StudyCurves
+from geocontact.study.result import CohortResult
 from geocontact.study.show import study_curves, study_page
 from geocontact.study.store import LOCK, sole_writer
+from geocontact.study.tables import ensemble_table
 from geocontact.view.page.content import Curves
 from tests.cli.calls import Call, call
 from tests.study.quick import compared, study, tables, told
@@ -140,6 +144,17 @@ def test_a_trial_that_takes_more_memory_than_it_may_is_set_aside(tmp_path: Path)
 def test_a_folder_that_takes_no_files_is_refused(tmp_path: Path) -> None:
     refused = call("cohort", study(tmp_path, NUMBERS), "--out", "/proc/none")
     assert refused.code == 2 and len(refused.complaints) == 1 and "cannot be written to" in refused.err
+
+
+def test_means_of_a_study_are_those_of_its_table_in_si() -> None:
+    matrix = np.outer([1.0, 3.0, 10.0], np.arange(101.0))
+    one = StudyCurves("area [mm^2]", ("A", "B", "C"), ("A", "B", "C"), ("slow", "slow", "fast"), matrix)
+    means: Any = CohortResult.means.fget(SimpleNamespace(ensembles=(one,)))
+    assert list(means) == [("area", "slow"), ("area", "fast")]
+    table = ensemble_table([one]).set_index("condition")
+    for condition in ("slow", "fast"):
+        np.testing.assert_allclose(means["area", condition], 1e-6 * table.loc[condition, "mean"])
+    np.testing.assert_allclose(means["area", "slow"], 2e-6 * np.arange(101.0))
 
 
 def test_a_quantity_that_no_trial_has_whole_is_not_drawn() -> None:

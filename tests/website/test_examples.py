@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import chdir, contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,10 @@ from unittest import mock
 
 import pytest
 
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.result import Result
 from geocontact.gap.diagnose import diagnose
+from tests.analyses.main_numbers import WRITTEN, unlike
 from tests.house.first_screens import agrees
 from website.api.entries import JOBS, UNITS, Entry, entries
 from website.api.pages import FOLDER, api_pages
@@ -79,11 +83,38 @@ def marked(entry: Entry) -> object:
 
 @pytest.mark.parametrize("entry", [marked(one) for one in ENTRIES if one.group != UNITS], ids=name)
 def test_an_example_prints_what_it_shows(entry: Entry, tmp_path: Path, diagnosed: Diagnosed) -> None:
-    if entry.name == "diagnose":
-        assert diagnosed()[0] == ""
-        return
-    with known(entry.name, diagnosed):
-        assert differences(entry.name, entry.example, tmp_path, agrees) == ""
+    made = results_of(entry)
+    with known(entry.name, diagnosed), made as kept:
+        told = diagnosed()[0] if entry.name == "diagnose" else differences(entry.name, entry.example, tmp_path, agrees)
+    assert told == ""
+    if kept:
+        assert numbers_unlike_files(entry, kept[-1], tmp_path) == {}
+
+
+@contextmanager
+def results_of(entry: Entry) -> Iterator[list[Result]]:
+    """Results that the example of a job makes of that job, which is called as ever."""
+    call, kept = Job.__call__, list[Result]()
+
+    def called(job: Job[Any, Any], *inputs: Any, **options: Any) -> Result:
+        result = call(job, *inputs, **options)
+        if job is entry.thing:
+            kept.append(result)
+        return result
+
+    with mock.patch.object(Job, "__call__", called):
+        yield kept
+
+
+def numbers_unlike_files(entry: Entry, result: Result, folder: Path) -> dict[str, str]:
+    """Attributes of a result that differ from what is written, each with both values; tables alone are written."""
+    kind = type(result)
+    parts = mock.patch.object(kind, "parts", property(lambda one, all_of=kind.parts: all_of.fget(one) & {"tables"}))
+    with parts, chdir(folder), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        out = folder / result.write("files")
+    found = {name: unlike(getattr(result, name), read(out)) for name, read in WRITTEN[entry.name].items()}
+    return {name: words for name, words in found.items() if words}
 
 
 @pytest.fixture(scope="module")

@@ -166,9 +166,9 @@ def _say_pressures(e: PressureEvolution, name: str) -> None:
     if off > AGREED:
         reserve(f"pieces of half the size change the largest force by {off:.1%}; give a smaller `piece`")
     if not force > 0.0:
-        reserve("the bodies never overlap: an elastic layer is not pressed, and all forces are 0")
+        reserve("the bodies never overlap: the elastic layer is not compressed, and all forces are 0")
     if layer.law == "linear" and strain > STRAINED:
-        reserve(f"the layer is strained by up to {strain:.0%}: `foundation` logarithmic is for that")
+        reserve(f"the strain of the layer is up to {strain:.0%}: use `foundation` logarithmic")
     note(
         f"pressure {name}".strip(),
         {

@@ -102,7 +102,7 @@ class AreaOptions(Options):
     Placement
     ---------
     place_moving
-        Where the mesh sits in its body: a file with a 4x4 matrix, or model.osim:body.
+        Pose of the mesh in its body: a file with a 4x4 matrix, or model.osim:body.
     place_fixed
         The same for FIXED.
     adduction
@@ -123,7 +123,7 @@ class AreaOptions(Options):
     How area is counted
     -------------------
     threshold
-        Largest distance that counts, or several: 0.1,0.5,1,4. 0 counts what is inside the other body.
+        Largest distance that counts as contact, or several: 0.1,0.5,1,4. 0 counts what is inside the other body.
     assume_closed
         Treat a surface as closed although its edges do not show it.
     outer

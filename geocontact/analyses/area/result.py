@@ -3,7 +3,7 @@
 >>> import geocontact as gc
 >>> femoral, insert = "meshes/femoral_component_right_coarse.stl", "meshes/tibial_insert_right_coarse.stl"
 >>> result = gc.area(femoral, insert, unit="mm", motion="meshes/gait.csv", threshold=gc.mm(4), rule="clip")
->>> result
+>>> print(result)
 area of FIXED within 4 mm: 1773.3 … 2484.0 mm^2
 least distance -0.047 mm in frame 55 of 101, 0.54 s (signed: negative is overlap)
 >>> result.table()[["time [s]", "area_fixed [mm^2]"]].head(2).round(2)
@@ -28,6 +28,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.area.bodies import Bodies, Reference, read
 from geocontact.analyses.area.contact import (
@@ -190,6 +191,57 @@ class AreaResult(Result):
     def title(self) -> str:
         """The bodies."""
         return self.bodies.title
+
+    @property
+    def time(self) -> Float[np.ndarray, " t"]:
+        """Time of the frames [s]."""
+        return self._motion.evolution.time
+
+    @property
+    def thresholds(self) -> Float[np.ndarray, " k"]:
+        """Largest distance that counts as contact [m]."""
+        return np.asarray(self._motion.evolution.thresholds)
+
+    @property
+    def area(self) -> Float[np.ndarray, "t k"]:
+        """Contact area of FIXED in every frame within each threshold [m^2]."""
+        return self._motion.evolution.fixed.area
+
+    @property
+    def area_moving(self) -> Float[np.ndarray, "t k"]:
+        """The same of MOVING [m^2]."""
+        return self._motion.evolution.moving.area
+
+    @property
+    def min_distance(self) -> Float[np.ndarray, " t"]:
+        """Smallest distance of the bodies in every frame [m]; negative where they overlap."""
+        return self._motion.evolution.min_distance
+
+    @property
+    def force(self) -> Float[np.ndarray, " t"]:
+        """Force on the layer in every frame, by `pressure` [N]."""
+        return np.array([load.pressing for load in self._loads.loads])
+
+    @property
+    def pressure(self) -> Float[np.ndarray, " t"]:
+        """Largest contact pressure in every frame, by `pressure` [Pa]."""
+        return np.array([load.peak for load in self._loads.loads])
+
+    @property
+    def _motion(self) -> MotionResult:
+        """The one motion; ValueError where there are several, each of which has its own numbers."""
+        if len(self.motions) > 1:
+            names = ", ".join(one.name for one in self.motions)
+            raise ValueError(f"there are {len(self.motions)} motions ({names}): take `motions[0].evolution` and so on")
+        return self.motions[0]
+
+    @property
+    def _loads(self) -> PressureEvolution:
+        """Loads on the layer; ValueError where none were asked for."""
+        loads = self._motion.pressure
+        if loads is None:
+            raise ValueError("there are no loads: call `gc.pressure`, or give `modulus` and `poisson`")
+        return loads
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`area`, `pressure` and `comparison`; of several motions "name/area" and so on.

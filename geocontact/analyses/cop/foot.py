@@ -17,11 +17,12 @@ from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
+from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.plausible import numbers_in
 from geocontact.geometry.surface import Surface
 from geocontact.identify.signals.filters import UNEVEN, zero_lag
 from geocontact.io.mesh.meshes import read_mesh
-from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
+from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.io.motion.poses import read_pose
 from geocontact.io.opensim.osim import bodies_at_rest, read_joint
 from geocontact.io.opensim.osim_contact import read_contact_spheres
@@ -133,7 +134,7 @@ def sole_law(table: SphereTable, o: CopOptions) -> SoleLaw:
         without = sorted({zone for zone in table.zone if "k" not in zones.get(zone, {})})
         some = any("k" in zone for zone in zones.values())
         where = f"zone {', '.join(without)}" if some else "every sphere"
-        reserve(f"no stiffness given for {where}: {assumed['k']:g} N/m^n is taken; forces are only as good as that")
+        reserve(f"no stiffness given for {where}: {assumed['k']:g} N/m^n is taken; forces depend on this value")
     _check_sizes(o, law)
     shown = [f"{key} = {assumed[key]:g}{unit}" for key, unit in UNITS.items() if key in assumed]
     if shown:

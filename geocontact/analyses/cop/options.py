@@ -68,7 +68,7 @@ class CopOptions(Options):
     The centre
     ----------
     point
-        What the normal forces weigh: the points on the ground, or the centres of the spheres.
+        What is averaged, weighted by normal force: points on the ground, or centres of spheres.
     gate
         Normal force [N] below which there is no centre of pressure.
     toe
@@ -105,7 +105,7 @@ class CopOptions(Options):
     Comparison with a force plate
     -----------------------------
     compare
-        Ground reactions of force plates (.mot .sto .c3d) to compare with.
+        Ground reactions of force plates (.mot .sto .c3d .csv) to compare with.
     plate
         Name or number of the plate; needed when there are several.
     c3d_unit

@@ -8,7 +8,7 @@
 >>> turn = {"rx [deg]": 0, "ry [deg]": 0, "rz [deg]": [0.5, 0.0, -0.5]}
 >>> pd.DataFrame(fall | turn).to_csv("foot.csv", index=False)
 >>> result = gc.centre_of_pressure("spheres.csv", motion="foot.csv", order="XYZ", stiffness=8e4, damping=0.0)
->>> result
+>>> print(result)
 normal force up to 258.0 N; a centre of pressure in 3 of 3 frames
 warning: numbers of the force law that were not given are assumed: n = 1.2, mu_s = 0.9, mu_k = 0.7, v_th =
 0.25 m/s
@@ -143,7 +143,7 @@ def _axis(foot: Foot, toe: str, length: float | None) -> FootAxis:
 
 def _loads(foot: Foot, o: CopOptions) -> SphereLoads:
     if len(foot.motion) == 1 and foot.law.needs_velocity:
-        reserve(f"{o.motion} has one frame: the foot is taken to stand still")
+        reserve(f"{o.motion} has one frame: the foot is assumed to stand still")
     rate = pose_rate(foot.motion.time, foot.motion.poses)
     try:
         with listener().preparing():

@@ -179,7 +179,7 @@ def warn_of_inner_surfaces(surface: Surface) -> None:
     """A reservation where a mesh holds closed surfaces that lie inside or across others."""
     found = united(surface)
     if found is not None:
-        reserve(f"{found.reservation}; delete in the file what is none")
+        reserve(f"{found.reservation}; if they are not surface, remove them from the file")
 
 
 def _read_surface(role: str, path: Path, unit: str, placement: str | None, assume_closed: bool) -> Surface:
@@ -265,7 +265,7 @@ def _warn_of_sides(role: str, surface: Surface) -> None:
         reserve(f"{surface.name} is open ({why}): {other} is unsigned")
         return
     if not surface.topology.closed:
-        reserve(f"{surface.name} is taken as closed on your word ({surface.topology.why_open})")
+        reserve(f"{surface.name} is treated as closed, as you requested ({surface.topology.why_open})")
     if surface.inside_out:
         reserve(f"{surface.name}: faces point inwards; taken the other way round")
     if surface.topology.closed and not surface.normals_trusted:

@@ -14,6 +14,12 @@ from typing import Any
 from geocontact.analyses.frame.options import Declared, Options, declared
 
 WIDTH = 112
+IN_PYTHON = (
+    ("(exit 1)", "(`accepted` is False)"),
+    ("Also write ", "`write` also leaves "),
+    (", typed ", ", as text "),
+)
+"""What words about options say of the command, and what that is in Python."""
 
 
 def python_help(options: type[Options], run: Callable[..., Any]) -> str:
@@ -39,6 +45,8 @@ def _parameter_lines(one: Declared) -> list[str]:
     unit = f" [{one.typed.si}]" if one.typed is not None and one.typed.si != "-" else ""
     head = f"{one.name} : {_kind(one.kind)}{unit}{', optional' if not one.required else ''}"
     words = one.words
+    for command, python in IN_PYTHON:
+        words = words.replace(command, python)
     if one.typed is not None:
         words = f"{words.rstrip('.')}. As {one.typed.python}, or a text with its unit"
     return [head, *_indented(words)]

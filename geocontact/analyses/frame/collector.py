@@ -22,9 +22,13 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from os import PathLike
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from geocontact.analyses.frame.record import Listener, Record
 from geocontact.data.errors import InputWarning
+
+if TYPE_CHECKING:
+    from geocontact.identify.goodness_of_fit import GoodnessOfFit
 
 OPEN: ContextVar[Record | None] = ContextVar("record of the run", default=None)
 """The record that is open; None where nobody collects."""
@@ -58,6 +62,11 @@ def reserve(line: str) -> None:
 def say(text: str) -> None:
     """Keep a sentence of the result."""
     current().say(text)
+
+
+def judge(fit: GoodnessOfFit) -> None:
+    """Keep whether the result agrees with its data: first of all sentences, in `run.json`, and in the exit code."""
+    current().judge(fit)
 
 
 def note(key: str, value: object) -> None:

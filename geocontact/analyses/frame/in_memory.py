@@ -106,9 +106,12 @@ def _written(name: str, value: Any, unit: object) -> Written | None:
         return _mesh(name, value.vertices, value.faces, type(value).__name__)
     if ("trimesh", "Trimesh") in kinds:
         return _mesh(name, value.vertices, value.faces, "Trimesh")
-    if ("pyvista", "PolyData") in kinds:
-        cells = value.triangulate()
-        return _mesh(name, cells.points, cells.faces.reshape(-1, 4)[:, 1:], "PolyData")
+    if ("trimesh", "Scene") in kinds:
+        whole = value.to_mesh()
+        return _mesh(name, whole.vertices, whole.faces, "Scene")
+    if ("pyvista", "DataSet") in kinds:
+        cells = (value if ("pyvista", "PolyData") in kinds else value.extract_surface(algorithm=None)).triangulate()
+        return _mesh(name, cells.points, cells.faces.reshape(-1, 4)[:, 1:], type(value).__name__)
     if ("open3d", "TriangleMesh") in kinds:
         return _mesh(name, value.vertices, value.triangles, "TriangleMesh")
     return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -84,10 +85,20 @@ class Job(Generic[I, R]):
             warnings.warn(line, InputWarning, stacklevel=2)
         return result
 
+    @property
+    def place(self) -> str:
+        """Where it is in Python: "gc.shoulder.simulate"; "" where no package of geocontact lists it."""
+        home = self.run.__module__
+        name = next((name for name, each in vars(sys.modules[home]).items() if each is self), "")
+        for package in (home.rsplit(".", count)[0] for count in range(1, home.count(".") + 1)):
+            if name in getattr(sys.modules.get(package), "__all__", ()):
+                return ".".join(("gc", *package.split(".")[2:], name))
+        return ""
+
     def __repr__(self) -> str:
         inputs = [one.name for one in declared(self.options) if one.settable and one.positional]
         count = sum(one.settable and not one.positional for one in declared(self.options))
-        return f"<analysis {self.command}({', '.join(inputs)}, …): {count} options, see help()>"
+        return f"<analysis {self.place or self.command}({', '.join(inputs)}, …): {count} options, see help()>"
 
 
 def _parameter(one: Declared) -> Parameter:

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+from geocontact.data.plausible import CLOCK
+
 
 @dataclass(frozen=True)
 class Typed:
@@ -130,6 +132,6 @@ PartMass = Annotated[float, Typed("kg", "body_mass", "1.5", "kg unless a unit is
 Degrees = Annotated[float, Typed("rad", "degrees", "gc.deg(5)", "[deg]", float)]
 Fraction = Annotated[float, Typed("-", "fraction", "0.02")]
 Pressure = Annotated[float, Typed("Pa", "pressure", "gc.MPa(0.5)")]
-TimeSpan = Annotated[tuple[float, float], Typed("s", "time_span", "(0.4, 1.6)"), Spelled(dashed=True)]
+TimeSpan = Annotated[tuple[float, float], Typed("s", "time_span", "(0.4, 1.6)"), CLOCK, Spelled(dashed=True)]
 Expression = Annotated[str, Spelled(dashed=True)]
 Texts = Annotated[tuple[str, ...], Spelled(dashed=True, each=True)]

@@ -23,6 +23,8 @@ from geocontact.analyses.frame.marks import Excludes, ForFiles, Missing, Needs, 
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import ByName, ByPlace, Plausible, Range, numbers_in
 
+IN_PLACE_OF_FILES = "give a path, a DataFrame, an array of rows or a mesh of trimesh, pyvista or open3d"
+
 
 @dataclass(frozen=True)
 class Declared:
@@ -87,26 +89,47 @@ class Declared:
 
     def coerced(self, value: Any) -> Any:
         """The value as the analysis takes it: in SI, paths for text and text for paths, a tuple for a single value."""
-        if self.typed is not None:
-            value = typed_text.from_python(self.typed, self.name, self.kind, self.spelled.each, value)
+        value = self._from_text(_plain(value))
         if value is None:
+            if self.required and not self.optional:
+                raise InputError("", f"`{self.name}`", "is None", "give a value")
             return None
         if self.several:
             one = get_args(self.kind)[0]
-            return tuple(_as(one, item) for item in ((value,) if self._alone(value) else value))
+            items = (value,) if self._alone(value) else value
+            return tuple(self._path(item) if one is Path else _as(one, item) for item in items)
+        return self._single(value)
+
+    def _single(self, value: Any) -> Any:
+        """One value as the analysis takes it."""
         if self.kind is str and isinstance(value, (tuple, list)):
             remedy = f'write "{",".join(map(str, value))}"'
             raise InputError("", f"`{self.name}`", f"is {len(value)} values where one text is asked for", remedy)
         if self.kind is float:
             return self._number(value)
         if self.kind in (Path, str):
-            return _as(self.kind, value)
+            return self._path(value) if self.kind is Path else _as(str, value)
         if isinstance(value, str) and Path in get_args(self.kind):
             return Path(value)
         if get_origin(self.kind) is tuple and set(get_args(self.kind)) == {float}:
             self._require_numbers(value)
         if self.choices and value not in self.choices:
             raise InputError("", f"`{self.name}`", f"{value!r} is not a choice", f"one of {', '.join(self.choices)}")
+        return value
+
+    def _path(self, value: Any) -> Path:
+        """A path; InputError for what is none."""
+        try:
+            return Path(value)
+        except TypeError:
+            raise InputError("", f"`{self.name}`", f"is a {type(value).__name__}", IN_PLACE_OF_FILES) from None
+
+    def _from_text(self, value: Any) -> Any:
+        """What a text of Python stands for; anything else as it is."""
+        if self.typed is not None:
+            return typed_text.from_python(self.typed, self.name, self.kind, self.spelled.each, value)
+        if isinstance(self.range, Plausible) and self.kind is float and isinstance(value, str):
+            return typed_text.with_unit(self.name, self.range.unit.si, value)
         return value
 
     def _number(self, value: Any) -> float:
@@ -269,6 +292,13 @@ def _refuse(name: str, rule: Requires | Excludes | Needs, other: bool) -> None:
             raise InputError("", f"`{name}`", what, rule.remedy)
         case Needs() if not other:
             raise InputError("", f"`{rule.other}`", f"is missing with `{name}`", rule.remedy or "give it too")
+
+
+def _plain(value: Any) -> Any:
+    """An array or a series of one dimension as a tuple, one of none as its number, anything else as it is."""
+    if getattr(value, "ndim", None) == 1 and hasattr(value, "tolist"):
+        return tuple(value.tolist())
+    return value.item() if getattr(value, "ndim", None) == 0 and hasattr(value, "item") else value
 
 
 def _as(kind: Any, value: Any) -> Any:

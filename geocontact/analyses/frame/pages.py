@@ -131,7 +131,10 @@ def finished(page: Page, record: Record, folder: str, reservations: Sequence[str
     for place, table in places:
         at = next((k for k, section in enumerate(sections) if section is place), len(sections))
         sections[at : at + 1] = [table]
-    return replace(page, sections=tuple(sections), reservations=(*reservations, *page.reservations))
+    first = headline([record.judged]) if record.judged else ()
+    told = tuple(line for line in page.headline if line not in first)
+    reserved = (*reservations, *page.reservations)
+    return replace(page, sections=tuple(sections), reservations=reserved, headline=(*first, *told))
 
 
 def write_finished(page: Page | Thinned, file: Path, record: Record, folder: str, reservations: Sequence[str]) -> None:

@@ -8,16 +8,20 @@ import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.metadata import PackageNotFoundError, version
 from os import PathLike, fspath
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from geocontact.analyses.frame.folder import RUN, digest, written
 from geocontact.analyses.frame.in_memory import InMemory
 from geocontact.analyses.frame.table_forms import AS_ALWAYS, TableForms
 from geocontact.data.errors import InputWarning
 from geocontact.data.version import VERSION
+
+if TYPE_CHECKING:
+    from geocontact.identify.goodness_of_fit import GoodnessOfFit
 
 
 class Listener:
@@ -72,6 +76,8 @@ class Record:
         What the tables refer to, such as point and frame, by the name of their file.
     sentences
         What was found.
+    fit
+        Whether the result agrees with its data; None where nothing was compared.
     listener
         Hears of the work while it goes on.
     spell
@@ -92,6 +98,7 @@ class Record:
     results: dict[str, object] = field(default_factory=dict)
     tables: dict[str, Mapping[str, object]] = field(default_factory=dict)
     sentences: list[str] = field(default_factory=list)
+    fit: GoodnessOfFit | None = None
     started: float = field(default_factory=time.perf_counter)
     listener: Listener = field(default_factory=Listener)
     spell: Callable[[str], str] = as_python
@@ -117,6 +124,18 @@ class Record:
         if line not in self.warnings:
             self.warnings.append(line)
             self.listener.warn(line)
+
+    def judge(self, fit: GoodnessOfFit) -> None:
+        """Keep the outcome of a test of fit; of several the doubts of all, the worst of them first."""
+        known = () if self.fit is None else self.fit.doubts
+        tested = () if self.fit is None else self.fit.tested
+        added = tuple(doubt for doubt in fit.doubts if doubt not in known)
+        self.fit = replace(fit, doubts=(*known, *added), tested=(*tested, *fit.tested))
+
+    @property
+    def judged(self) -> str:
+        """What the test of fit says, in a sentence; empty where the result fits or nothing was tested."""
+        return "" if self.fit is None else self.spell(self.fit.words)
 
     def say(self, text: str) -> None:
         """Keep a sentence of what was found."""
@@ -151,6 +170,7 @@ class Record:
             "options_si": {key: _plain(value) for key, value in self.in_si.items()},
             "inputs": self.inputs,
             "results": plain(self.results),
+            **({} if self.fit is None else _fit_words(self.fit)),
             "tables": {name: _plain(told) for name, told in self.tables.items()},
             "warnings": self.warnings,
             "versions": self.versions(),
@@ -162,6 +182,11 @@ class Record:
             told = {**content, "files": sorted((*files, RUN)), "sha256": files}
             text = json.dumps(told, indent=2, ensure_ascii=False)
             (folder / RUN).write_text(text + "\n", encoding="utf-8")
+
+
+def _fit_words(fit: GoodnessOfFit) -> dict[str, object]:
+    doubts = [{"what": doubt.what, "contradicts": doubt.contradicts} for doubt in fit.doubts]
+    return {"fit": {"outcome": fit.outcome, "doubts": doubts, "tested": list(fit.tested)}}
 
 
 def _plain(value: object) -> object:

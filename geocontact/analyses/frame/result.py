@@ -9,23 +9,28 @@ from dataclasses import dataclass, field
 from html import escape
 from os import PathLike
 from pathlib import Path
+from textwrap import shorten
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from geocontact.analyses.frame.collector import collecting, current
 from geocontact.analyses.frame.folder import written_whole
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.table_forms import TableForms
+from geocontact.analyses.frame.words import counted
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
     from geocontact.analyses.frame.pages import Thinned
+    from geocontact.identify.goodness_of_fit import Outcome
     from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 REPORT = "report.html"
 """Page of a folder of results."""
+WIDEST = 200
+"""Characters of the line that stands for a result in a list or at the prompt."""
 
 Part = Literal["tables", "figures", "pages"]
 PARTS: frozenset[Part] = frozenset(("tables", "figures", "pages"))
@@ -62,13 +67,19 @@ class Result(ABC):
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        """What was found, in words."""
-        return tuple(self.record.sentences)
+        """What was found, in words; what contradicts the data, or makes the fit doubtful, comes first."""
+        judged = self.record.judged
+        return (*((judged,) if judged else ()), *self.record.sentences)
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """Reservations, each one line."""
         return tuple(self.record.warnings)
+
+    @property
+    def fit_outcome(self) -> Outcome | None:
+        """Whether the result agrees with its data: fits, doubtful, contradicts; None where nothing was compared."""
+        return None if self.record.fit is None else self.record.fit.outcome
 
     @property
     def accepted(self) -> bool:
@@ -78,7 +89,7 @@ class Result(ABC):
     @property
     def exit_code(self) -> int:
         """What the command ends with."""
-        return 0 if self.accepted else 1
+        return 0 if self.accepted and self.fit_outcome != "contradicts" else 1
 
     @property
     def folders(self) -> tuple[str, ...]:
@@ -233,8 +244,16 @@ class Result(ABC):
             self.write_page(path)
         return path
 
-    def __repr__(self) -> str:
+    def __str__(self) -> str:
+        """Sentences and reservations, as the command prints them."""
         return "\n".join((*self.sentences, *(f"warning: {line}" for line in self.warnings)))
+
+    def __repr__(self) -> str:
+        """The first sentence and how many reservations there are, in one line of `WIDEST` characters at most."""
+        name, count = type(self).__name__, len(self.warnings)
+        end = f"; {counted(count, 'warning')}>" if count else ">"
+        words = " ".join((self.sentences or ("",))[0].split())
+        return f"<{name}: {shorten(words, WIDEST - len(name) - len(end) - 3, placeholder=' …')}{end}"
 
     def _repr_html_(self) -> str:
         """Sentences, reservations and figure, as a notebook shows them."""

@@ -9,9 +9,10 @@ from typing import Any, Literal, Union, get_args, get_origin
 
 from geocontact.analyses.frame.marks import Typed
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import PLAIN
 from geocontact.io.text.units import si_unit
 
-NUMBER_AND_UNIT = re.compile(r"(?P<number>[-+0-9.eE]+?)\s*(?P<unit>[a-zA-Z%][a-zA-Z/^0-9]*)")
+NUMBER_AND_UNIT = re.compile(r"(?P<number>[-+0-9.eE]+?)\s*(?P<unit>[a-zA-Z%][a-zA-Z/^0-9 ]*)")
 
 
 def read(typed: Typed, name: str, value: Any) -> Any:
@@ -84,6 +85,17 @@ def _quantity(name: str, typed: Typed, text: str) -> float:
         raise _without_unit(name, typed, text)
     if found is None or known is None or known[0] != typed.si:
         raise InputError("", f"`{name}`", f"{text!r} is no value in {typed.si}", f"write {typed.python}")
+    return float(found["number"]) * known[1]
+
+
+def with_unit(name: str, si: str, text: str) -> float | str:
+    """ "2 kN" in SI, for a number whose SI unit both doors take as it is; a text without a unit is left as it is."""
+    found = NUMBER_AND_UNIT.fullmatch(text.strip())
+    if found is None or si == PLAIN.si or _plain(text):
+        return text
+    known = (si, 1.0) if found["unit"] == si else si_unit(found["unit"])
+    if known is None or known[0] != si:
+        raise InputError("", f"`{name}`", f"{text!r} is no value in {si}", "check the unit")
     return float(found["number"]) * known[1]
 
 

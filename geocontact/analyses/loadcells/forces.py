@@ -62,7 +62,7 @@ def _named_cycles(o: LoadcellOptions) -> list[GivenCycle] | None:
         add_input("`cycles`", file)
         return _from_table(file, o.recordings)
     if len(o.recordings) > 1:
-        raise InputError("", "`cycles`", "times do not say which recording they are of", "give a table of cycles")
+        raise InputError("", "`cycles`", "it is unclear to which recording the times belong", "give a table of cycles")
     (path,) = o.recordings
     return [(path.stem, path, span) for span in _typed(asked)]
 
@@ -154,9 +154,9 @@ def cuts_asked_for(
     missing = {path.stem: gaps(f.time) for path, f in forces.items()}
     whole = [cut for cut in cuts if not _across(cut.span, missing[cut.recording])]
     if not whole:
-        raise InputError("", "`cycles`", "lie across gaps of the recordings, all of them", "name others: 1.7:2.8")
+        raise InputError("", "`cycles`", "all contain gaps of the recordings", "name others: 1.7:2.8")
     if len(whole) < len(cuts):
-        reserve(f"{len(cuts) - len(whole)} of {len(cuts)} cycles lie across gaps of a recording and are left out")
+        reserve(f"{len(cuts) - len(whole)} of {len(cuts)} cycles contain gaps of a recording and are left out")
     return whole
 
 
@@ -272,7 +272,7 @@ def _describe(regression: CellRegression) -> None:
     odd = {cell: share for cell, share in regression.shares.items() if abs(share - 1.0) > WHOLE}
     if odd:
         told = ", ".join(f"{cell} {share:g}" for cell, share in odd.items())
-        reserve(f"medial and lateral together do not count each cell's force once: {told}")
+        reserve(f"medial and lateral weights of a cell do not sum to 1: {told}")
     note(
         "regression",
         {
@@ -299,7 +299,7 @@ def _summarise(r: RecordedCells, regression: CellRegression) -> None:
     if missing := gaps(f.time):
         times = ", ".join(f"{seconds(each.start)} to {seconds(each.end)} s" for each in missing[:SHOWN])
         more = f" and {len(missing) - SHOWN} more" if len(missing) > SHOWN else ""
-        reserve(f"{r.file}: no samples from {times}{more}: nothing is known of the forces there")
+        reserve(f"{r.file}: no samples from {times}{more}: the forces there are unknown")
     at = float(f.time[int(np.argmax(f.total))])
     note(
         r.folder or "recording",

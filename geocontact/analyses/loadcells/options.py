@@ -39,9 +39,9 @@ class LoadcellOptions(Options):
         stride (onset of load to onset), stance (onset to end of load), 1.7:2.8,2.8:3.9 in seconds, or a table
         style, recording, start [s], end [s].
     part
-        Take this first part of each cycle for the whole: 60% is the stance of a gait cycle.
+        Use only this first part of each cycle: 60% is the stance of a gait cycle.
     level
-        Total force [N] at which load sets in, for stride and stance; a quarter of the largest by default.
+        Total force [N] at which the load begins, for stride and stance; a quarter of the largest by default.
     body_mass
         Mass of the subject [kg]: the page then offers forces in per cent of body weight as well.
     """

@@ -5,7 +5,7 @@
 >>> cells = {name: 300.0 * np.sin(np.pi * time) for name in ("PM [N]", "AM [N]", "AL [N]", "PL [N]")}
 >>> pd.DataFrame({"time [s]": time} | cells).to_csv("cells.csv", index=False)
 >>> result = gc.load_cells("cells.csv")
->>> result
+>>> print(result)
 largest forces: medial 604.6 N, lateral 595.4 N, total 1200.0 N (total at 0.5 s)
 """
 

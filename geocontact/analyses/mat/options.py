@@ -21,10 +21,10 @@ from geocontact.analyses.frame.marks import (
 )
 from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import BORDER, CUTOFF, DISPLACEMENT, FORCE, SHARE, TOUCH
+from geocontact.data.plausible import BORDER, CLOCK, CUTOFF, DISPLACEMENT, FORCE, SHARE, TOUCH
 
 TimeWindows = Annotated[
-    tuple[tuple[float, float], ...], Typed("s", "windows", "((0.0, 0.5), (9.0, 9.5))"), Spelled(dashed=True)
+    tuple[tuple[float, float], ...], Typed("s", "windows", "((0.0, 0.5), (9.0, 9.5))"), CLOCK, Spelled(dashed=True)
 ]
 Displacement = Annotated[tuple[float, float], Typed("m, rad", "registration", "(gc.mm(1), gc.deg(2))"), DISPLACEMENT]
 FromMotion = Requires("motion")
@@ -50,7 +50,7 @@ class MatOptions(Options):
         Places of the mat and the points of the scan that they lie on: id, row, column, x [mm], y [mm], z [mm], in the
         scan's frame; row and column count cells from the corner of the first one.
     scan_with_mat
-        Instead of landmarks: a second scan of the same body with the mat on, in the same unit; the mat is found there.
+        Instead of landmarks: a second scan of the same body with the mat on, in the same unit; this locates the mat.
     first_corner
         Place x,y,z of `surface` near the mat's corner at its first cell, in the scan's unit; needed by `scan_with_mat`.
     mat_edge
@@ -77,7 +77,7 @@ class MatOptions(Options):
     Motion of the segment
     ---------------------
     motion
-        Pose of the segment over time (.csv .mot .sto); forces, moments and centres are in the frame it leads to then.
+        Pose of the segment over time (.csv .mot .sto); forces, moments and centres are then in its reference frame.
     osim
         OpenSim model whose joint turns the motion's coordinates into poses: the segment is the joint's child body.
     joint
@@ -115,7 +115,7 @@ class MatOptions(Options):
     Comparison with a body model
     ----------------------------
     body_landmarks
-        Points seen on the scan and on a body model: id, x [mm], y [mm], z [mm], body_x [mm], body_y [mm], body_z [mm].
+        Points known on the scan and a body model: id, x [mm], y [mm], z [mm], body_x [mm], body_y [mm], body_z [mm].
         All results are in the body's frame then.
     body
         Surface of that body, for `icp`.
@@ -132,11 +132,11 @@ class MatOptions(Options):
     Uncertainty
     -----------
     accuracy
-        How far each cell is off by itself: 10% by default.
+        Independent relative error of each cell: 10% by default.
     gain
-        How far all cells are off together.
+        Relative error common to all cells.
     registration
-        How far the mat may lie elsewhere, along and about each axis: 1mm,2deg; by default, what the residuals show of
+        Position error of the mat, along and about each axis: 1mm,2deg; by default, what the residuals show of
         `landmarks`, and of `body_landmarks` or `icp`.
 
     Comparison with a model

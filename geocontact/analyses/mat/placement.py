@@ -115,7 +115,7 @@ def registered(
             engine, found = _by_shape(scan, model.surface, found, o)
             _report_fit("shape", found, engine=engine)
             if not found.converged:
-                reserve("the registration by shape did not settle; look at registration.csv")
+                reserve("the registration by shape did not converge; look at registration.csv")
     except InputError:
         raise
     except ValueError as error:
@@ -225,7 +225,7 @@ def _report_raised(found: Registration, raised: ScanDifference, outline: Rectang
         f"within {outline.rms * 1e3:.2f} mm of a rectangle"
     )
     if not found.converged:
-        reserve("the registration of the second scan did not settle")
+        reserve("the registration of the second scan did not converge")
 
 
 def _candidates(outline: Rectangle, mat: Mat, o: MatOptions) -> list[int]:

@@ -140,7 +140,7 @@ def _report_cells(
 def _warn(read: PressureFrames, found: Bool[np.ndarray, "r c"], result: Treated, way: Way) -> None:
     alone = (found | result.declared) & ~result.guessed
     if way == "fill" and alone.any():
-        reserve(f"{int(alone.sum())} dead cells have no working cell beside them and are left out")
+        reserve(f"{int(alone.sum())} dead cells have no working neighbour and are left out")
     if not found.any():
         return
     cells = [f"row {r} column {c} ({read.pressure[0, r, c] * 1e-3:g} kPa)" for r, c in np.argwhere(found)]
@@ -274,7 +274,7 @@ def _reserve_oddities(seen: PreparedFrames, o: MatOptions) -> None:
     force = frames.force
     if o.unloaded is None and force.max(initial=0.0) > 0.0 and force.min() > RESTING * force.max():
         what = f"the mat never reads less than {force.min():.0f} N"
-        reserve(f"{what}: if it was unloaded at some time, say when with `unloaded`")
+        reserve(f"{what}: if it was unloaded at some time, give this time as `unloaded`")
 
 
 def _reserve_negative(frames: PressureFrames) -> None:

@@ -4,7 +4,7 @@
 >>> mat = "meshes/mat_thigh_16x8/"
 >>> given = {"layout": mat + "layout.toml", "landmarks": mat + "landmarks.csv", "cutoff": 0.0}
 >>> result = gc.mat(mat + "frames.csv", surface="meshes/thigh.stl", unit="mm", **given)
->>> result
+>>> print(result)
 force up to 79.6 N at 1.1 s, pressure up to 29.1 kPa, area up to 76 cm²
 """
 

@@ -61,7 +61,7 @@ def _table(file: Path, span: tuple[float, float]) -> AxisDrift:
         ends, asked = (
             " to ".join(f"{math.degrees(a):.4g}" for a in two) for two in ((told.angle[0], told.angle[-1]), span)
         )
-        reserve(f"{file}: angles from {ends} deg, asked for {asked}: beyond its ends the axis is taken to stay")
+        reserve(f"{file}: angles from {ends} deg, asked for {asked}: beyond its ends the axis is assumed fixed")
     try:
         if told.tells == "instant centre":
             return from_instant_centre(told.angle, told.x, told.y)

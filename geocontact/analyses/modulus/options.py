@@ -76,7 +76,7 @@ class ModulusOptions(Options):
     The law
     -------
     reading
-        What the area is taken for: one circle, two, a strip, a rigid cap, a rigid cap within the threshold.
+        Shape assumed for the area: one circle, two, a strip, a rigid cap, a rigid cap within the threshold.
     length
         Length of the strip, for the reading of that name.
     adhesion

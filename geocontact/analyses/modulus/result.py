@@ -6,7 +6,7 @@
 >>> pd.DataFrame(areas).to_csv("area.csv", index=False)
 >>> force = 4 / 3 * gc.MPa(2) * (area * 1e-6 / np.pi) ** 1.5 / gc.mm(34)
 >>> pd.DataFrame({"time [s]": time, "total [N]": force}).to_csv("forces.csv", index=False)
->>> gc.modulus("area.csv", "forces.csv", radius=gc.mm(34))
+>>> print(gc.modulus("area.csv", "forces.csv", radius=gc.mm(34)))
 total: E* 2 MPa (95 % 2 … 2), RMSE 0 N, R² 1.00
 E and ν are one number here: area and force identify E* = E/(1 - ν²), and E only for a stated ν
 """
@@ -186,7 +186,7 @@ def _calibrated(inputs: ModulusInputs, path: Path | None) -> Calibration | None:
     except ValueError as error:
         raise InputError(path, "", str(error), "give areas at forces of the trial") from error
     if found.on_end:
-        reserve(f"{path.name}: the best threshold is an end of those evaluated, {found.threshold * 1e3:g} mm")
+        reserve(f"{path.name}: the best threshold is at an end of the evaluated range, {found.threshold * 1e3:g} mm")
     if found.rms > STRAYED:
         reserve(f"{path.name}: areas differ by {found.rms:.0%} (rms) even at the best threshold")
     return found
@@ -196,7 +196,7 @@ def _reserve(side: str, each: Identification) -> None:
     """What has to be said about one side."""
     _, r2 = agreement(each.measured, each.predicted)
     if constant(each):
-        reserve(f"{side}: the area is the same in every frame: nothing shows whether the law holds")
+        reserve(f"{side}: the area is the same in every frame: the law cannot be checked")
     if r2 < 0.0:
         reserve(f"{side}: R² is {r2:.2f}, a constant force would do better than the law")
     for name in each.on_bound:
@@ -206,7 +206,7 @@ def _reserve(side: str, each: Identification) -> None:
         reserve(f"{side}: {drawn.blocks} blocks of {drawn.block:.2g} s are few for a bootstrap")
     if drawn is not None and drawn.block < each.memory.typical:
         what = f"the residual remembers for about {each.memory.typical:.2g} s of {len(each.measured)} frames"
-        reserve(f"{side}: {what}, longer than a block: the law misses something, and intervals are rough")
+        reserve(f"{side}: {what}, longer than a block: the law is incomplete, and intervals are approximate")
     free = each.told_apart.get("free")
     if free is not None and free.verdict != "separable":
         reserve(f"{side}: {', '.join(free.names)} are {free.verdict} (condition {free.condition:.3g})")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
+from scipy.spatial.transform import Rotation
 
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.marks import LengthUnit
@@ -15,7 +16,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.exchanged_markers import Exchanged
-from geocontact.dynamics.tilt import root_tilt, shortest_turn
+from geocontact.dynamics.tilt import axes_upright, root_tilt
 from geocontact.io.mocap.markers import marker_map_typed, read_marker_map, read_markers
 from geocontact.io.opensim.osim_multibody import read_marker_set
 
@@ -43,22 +44,17 @@ def warn_of_tilt(model: Multibody, values: Float[np.ndarray, "t n"], axes: str |
     reserve(
         f"{tilt.body} is {np.degrees(tilt.angle):.0f} degrees from upright in half of the frames: gravity of "
         f"{model.name} does not point down in the recording; unless the subject lies, try `axes` "
-        f"{axes_upright(tilt.up, model.up, axes)}"
+        f"{axes_upright(tilt.up, model.up, turn_of(axes))}"
     )
-
-
-def axes_upright(found: Float[np.ndarray, " 3"], up: Float[np.ndarray, " 3"], axes: str | None) -> str:
-    """Axes, as the option takes them, that turn the coordinate axis next to `found` into the one next to `up`.
-
-    The shortest turn, after the one that was asked for: which way the subject faces is not known from this.
-    """
-    given = np.eye(3) if axes is None else turned_axes(axes, "`axes`").as_matrix()
-    rows = np.rint(shortest_turn(found, up) @ given).astype(int)
-    return ",".join(f"{'-' if row.min() < 0 else ''}{'xyz'[int(np.argmax(np.abs(row)))]}" for row in rows)
 
 
 LARGEST, SMALLEST, FEW = 20.0, 0.05, 5
 """Span of the markers in a frame [m] beyond which the unit is another, from so many markers on below."""
+
+
+def turn_of(axes: str | None) -> Rotation | None:
+    """Rotation by which `axes` turns what a file holds; None where the file is in the model's axes."""
+    return None if axes is None else turned_axes(axes, "`axes`")
 
 
 def markers_given(
@@ -67,8 +63,9 @@ def markers_given(
     """Markers of a file in the model's axes, between two times [s]; `c3d_unit` is that of a .c3d that has none."""
     seen = read_markers(file, c3d_unit)
     _refuse_absurd(seen)
-    if axes is not None:
-        seen = seen.turned(turned_axes(axes, "`axes`"))
+    turn = turn_of(axes)
+    if turn is not None:
+        seen = seen.turned(turn)
     if time is None:
         return seen
     first, last = time
@@ -88,7 +85,7 @@ def _refuse_absurd(seen: MarkerTrajectories) -> None:
     """A body spans decimetres to metres; more or less is another unit than the file says."""
     places = seen.positions[np.isfinite(seen.positions).all(axis=2)]
     if not len(places):
-        raise InputError(seen.source, "", "no marker is seen in any frame", "is it the right file?")
+        raise InputError(seen.source, "", "no marker is visible in any frame", "is it the right file?")
     first = next(frame for frame in seen.positions if np.isfinite(frame).all(axis=1).any())
     there = first[np.isfinite(first).all(axis=1)]
     size = float(np.linalg.norm(np.ptp(there, axis=0)))

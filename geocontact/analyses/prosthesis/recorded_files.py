@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from os import fspath
 from pathlib import Path
 
@@ -10,7 +11,8 @@ import numpy as np
 
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.folder import digest
-from geocontact.analyses.motion.markers import markers_given, renamed_as_told
+from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
+from geocontact.analyses.motion.markers import markers_given, renamed_as_told, turn_of
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
@@ -19,54 +21,94 @@ from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.plate_checks import require_weight
 from geocontact.below_knee_prosthesis.simulate import GATE
 from geocontact.data.errors import InputError
+from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.markers import MarkerTrajectories
-from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
+from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.io.recordings.spheres import read_law
 from geocontact.loads.sole_law import changed_law
+from geocontact.trial_checks.recorded import FootPlate, RecordedTrial
+
+OTHER: Mapping[Side, Side] = {"right": "left", "left": "right"}
+"""The other side of the body."""
 
 
-def right_markers(
-    role: str,
-    file: Path,
-    side: Side,
-    axes: str | None,
-    markers_map: str | None,
-    c3d_unit: str | None,
-    time: tuple[float, float] | None = None,
-) -> MarkerTrajectories:
-    """Markers of a file by the names used here, mirrored where the prosthesis is on the left."""
-    seen = renamed_as_told(markers_given(file, axes, time, c3d_unit), markers_map)
-    add_input(role, file, frames=len(seen), markers=len(seen.names))
-    return as_right(seen, side)
-
-
-def right_plate(
-    plates: tuple[ForcePlate, ...], name: str | None, file: Path, side: Side, option: str = "plate"
-) -> PlateStance:
-    """One plate of a file, mirrored where the prosthesis is on the left; `option` is that by which it is named."""
-    plate = plate_named(plates, name, file, f"`{option}`")
-    force = of_side(np.nan_to_num(plate.wrench.force), side)
-    return PlateStance(plate.time, force, of_side(plate.centre_of_pressure(GATE), side), plate.name, fspath(file))
-
-
-def plate_under_foot(
-    file: Path, name: str | None, side: Side, mass: float, c3d_unit: str | None, option: str = "plate"
-) -> PlateStance:
-    """Force and centre of pressure of one plate of a file; InputError where nobody of that mass stands on it.
+@dataclass(frozen=True)
+class Laboratory:
+    """How the files of a trial are read, all of them alike, and what of them is checked against each other.
 
     Parameters
     ----------
-    mass
-        Of the person [kg].
+    side
+        The prosthesis is on.
+    axes
+        Which axes of the files, markers and plates, are ours; None where they are ours already.
+    markers_map
+        Our names by those of the recording.
     c3d_unit
         Of a .c3d file whose own is empty.
-    option
-        By which the plate is named.
     """
-    plate = right_plate(read_force_plates(file, c3d_unit), name, file, side, option)
-    add_input(f"`{option}s`", file, plate=plate.name)
-    require_weight(plate, mass * GRAVITY, f"`{option}`")
-    return plate
+
+    side: Side
+    axes: str | None = None
+    markers_map: str | None = None
+    c3d_unit: str | None = None
+
+    def markers(self, role: str, file: Path, time: tuple[float, float] | None = None) -> MarkerTrajectories:
+        """Markers of a file by the names used here, on the side that they are on."""
+        seen = renamed_as_told(markers_given(file, self.axes, time, self.c3d_unit), self.markers_map)
+        add_input(role, file, frames=len(seen), markers=len(seen.names))
+        return seen
+
+    def plates(self, file: Path) -> tuple[ForcePlate, ...]:
+        """All plates of a file in the axes of the markers."""
+        return turned_plates(read_force_plates(file, self.c3d_unit), turn_of(self.axes), file)
+
+    def plate_under_foot(self, file: Path, name: str | None, mass: float, option: str = "plate") -> ForcePlate:
+        """One plate of a file; InputError where nobody of that mass [kg] stands on it.
+
+        `option` is that by which the plate is named.
+        """
+        plate = plate_named(self.plates(file), name, file, f"`{option}`")
+        add_input(f"`{option}s`", file, plate=plate.name)
+        require_weight(self.stance(plate, file), mass * GRAVITY, f"`{option}`")
+        return plate
+
+    def right(self, seen: MarkerTrajectories) -> MarkerTrajectories:
+        """Markers as of a right prosthesis."""
+        return as_right(seen, self.side)
+
+    def stance(self, plate: ForcePlate, file: Path) -> PlateStance:
+        """Force and centre of pressure of one plate, as of a right prosthesis."""
+        force = of_side(np.nan_to_num(plate.wrench.force), self.side)
+        centre = of_side(plate.centre_of_pressure(GATE), self.side)
+        return PlateStance(plate.time, force, centre, plate.name, fspath(file))
+
+    def check(
+        self,
+        standing: MarkerTrajectories | None,
+        seen: MarkerTrajectories | None,
+        mass: float,
+        file: Path | None = None,
+        own: ForcePlate | None = None,
+        other: ForcePlate | None = None,
+        floor: float | None = 0.0,
+    ) -> None:
+        """Warn of whatever two of these say differently; InputError where that leaves no result.
+
+        Parameters
+        ----------
+        standing, seen
+            Markers while standing, and of the trial; as they were recorded.
+        mass
+            Of the person [kg].
+        file, own, other
+            Plates, and of these the one under the prosthesis and the one under the other foot.
+        floor
+            Height that the floor is taken to have [m]; None where it is not level.
+        """
+        feet = ((own, self.side), (other, OTHER[self.side]))
+        plates = tuple(FootPlate(plate, fspath(file), side) for plate, side in feet if plate is not None and file)
+        check_trial(RecordedTrial(seen, standing, plates, mass, floor=floor, turn=turn_of(self.axes)))
 
 
 def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableStiffnessFoot:

@@ -149,7 +149,7 @@ def numbers_table(numbers: Mapping[str, Number]) -> pd.DataFrame:
 
 def offset_words(offset: FootOffset) -> str:
     """The foot beside its standing trial, as the law has it, in a sentence."""
-    return f"the foot is {offset.words} off its standing trial, as the law's file says"
+    return f"the foot is {offset.words} offset from its standing trial, according to the law's file"
 
 
 def counted_twice(limb: LimbInSocket) -> str:

@@ -57,7 +57,7 @@ class ShapeOptions(Options):
     other
         Mesh that the distance is to.
     place
-        Where the mesh sits in its body: a file with a 4x4 matrix, or model.osim:body.
+        Pose of the mesh in its body: a file with a 4x4 matrix, or model.osim:body.
     place_other
         The same for the other mesh, in the frame of the first.
 
@@ -66,7 +66,7 @@ class ShapeOptions(Options):
     points
         What the shape is fitted to: vertices of the faces that count, or their centroids.
     robust
-        Whether points far off do not count; else it is plain least squares.
+        Ignore outliers; otherwise ordinary least squares.
 
     Sides and profile
     -----------------

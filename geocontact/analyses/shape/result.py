@@ -2,7 +2,7 @@
 
 >>> import geocontact as gc
 >>> result = gc.fit_shape("meshes/sphere_r20.stl", shape="sphere", unit="mm")
->>> result
+>>> print(result)
 sphere_r20.stl: sphere, radius 20.000 mm (95 % 20.000 … 20.000), rms 0.000 mm over 1442 points, 1442 of them
 inliers
 >>> round(result.fit.radius, 6)
@@ -81,6 +81,26 @@ class ShapeResult(Result):
         o = self.options
         region = "" if o.region is None else ", region " + Path(o.region).name
         return f"{o.shape.capitalize()} fitted to {self.fitting.patch.surface.name}{region}"
+
+    @property
+    def radius(self) -> float | None:
+        """Radius of the cylinder or sphere [m]; None for a plane."""
+        return self.fit.radius
+
+    @property
+    def point(self) -> Float[np.ndarray, " 3"]:
+        """Centre of the sphere, or a point on the axis or the plane [m]."""
+        return self.fit.point
+
+    @property
+    def axis(self) -> Float[np.ndarray, " 3"] | None:
+        """Unit vector along the axis, or normal of the plane [-]; None for a sphere."""
+        return self.fit.axis
+
+    @property
+    def rms(self) -> float:
+        """Root mean square distance of all points from the shape [m]."""
+        return self.fit.rms
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`fit`, and `profile` where it is asked for."""
@@ -162,7 +182,7 @@ def _interval(fit: ShapeFit) -> str:
 
 def _warn_of_doubts(name: str, fit: ShapeFit) -> None:
     if not fit.quality.converged:
-        reserve(f"{name}: the search did not end by itself; the fit may not be the best")
+        reserve(f"{name}: the search did not converge; the fit may not be the best")
     if fit.shape == "cylinder" and fit.arc < FLATTEST:
         reserve(
             f"{name}: the points cover {np.degrees(fit.arc):.0f} degrees about the axis; "

@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar
 from geocontact.analyses.frame.marks import C3dUnit
 from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import PLAIN, Plausible
+from geocontact.data.plausible import PLAIN, SEARCH, Plausible
 
 NODES = Plausible("how many nodes a second has", PLAIN, (3.0, 1000.0), (10.0, 300.0))
 DEGREES = (2, 9)
@@ -23,9 +23,9 @@ class StandingSearchOptions(Options):
     The search
     ----------
     nodes
-        Intervals in a second to begin with; those that leave too much of the balance are halved.
+        Initial intervals per second; those with too large an error of the balance are halved.
     degree
-        Collocation points in an interval (Radau).
+        Collocation points per interval (Radau).
     iterations
         Largest number of iterations.
     time_limit
@@ -40,15 +40,13 @@ class StandingSearchOptions(Options):
     nodes: Annotated[float, NODES] = 45.0
     degree: int = 4
     iterations: int = 300
-    time_limit: float = 300.0
+    time_limit: Annotated[float, SEARCH] = 300.0
     c3d_unit: C3dUnit = None
 
     def refuse_impossible(self) -> None:
         """Numbers without a search."""
         within("degree", self.degree, *DEGREES, 4)
         within("iterations", self.iterations, 1, 100_000, 300)
-        if not self.time_limit > 0.0:
-            raise InputError("", "`time_limit`", f"{self.time_limit:g} s is no time", "give for example 300")
 
 
 def within(name: str, value: int | float, low: int | float, high: int | float, example: int | float) -> None:

@@ -10,11 +10,13 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.data.errors import InputError
+from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.model import Multibody
 from geocontact.data.wrench import Wrench
 from geocontact.identify.signals.filters import UNEVEN
-from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
+from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.io.opensim.coordinates import columns_of, motion_of
 from geocontact.io.recordings.standing_study import StandingTrialFiles, read_standing_study
 from geocontact.io.text.tables import read_table
@@ -24,6 +26,7 @@ from geocontact.standing_up.phases import TRACKS, TRACKS_B
 from geocontact.standing_up.strap_sites import strap_sites
 from geocontact.standing_up.trial_forces import chair_load, seat_off, under_the_feet
 from geocontact.standing_up.trials import StandingNoise, StandingTrial, StandingUpTrials, with_chairs
+from geocontact.trial_checks.recorded import FootPlate, RecordedTrial
 
 FEWEST = 20
 """Samples of a trial."""
@@ -31,6 +34,8 @@ NORMAL, FORWARDS = "normal", "fx"
 """Columns of a strap's force: in a file of its own, and in the wrench.csv of a mat, whose scan has x forwards."""
 SCANS = {"thigh": "thigh", "shank": "shank", "pelvis": "torso"}
 """What a scan of a site is of."""
+JOINTS, UPRIGHT = slice(3, 6), np.radians(25.0)
+"""Ankle, knee and hip; angles of somebody who stands."""
 CELL = "r0c0"
 """First cell in a mat's own recording."""
 Times = Float[np.ndarray, " t"]
@@ -111,6 +116,9 @@ def channels_of(
     if feet is not None and files.plates is not None:
         with _named(files.plates, feet):
             force, centre = under_the_feet(_wrench(feet, time), time, q[:, 0])
+        if np.abs(q[-1, JOINTS]).max() < UPRIGHT:
+            on, key = (FootPlate(feet, str(files.plates)),), f"mass in {study}"
+            check_trial(RecordedTrial(plates=on, mass=chain.mass, mass_option=key, stands_at=float(time[-1])))
     torque, strap, elsewhere = None, None, {}
     if "torque" in tracks and files.torques is not None:
         names = [c.name for c in chain.coordinates[3:]]

@@ -12,6 +12,7 @@ from jaxtyping import Float
 from geocontact.dynamics.collocation.certificate import Certificate
 from geocontact.dynamics.collocation.motion import CollocatedMotion
 from geocontact.dynamics.collocation.solve import MOST_HALVINGS
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_residual
 from geocontact.standing_up.chain import COORDINATES
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from geocontact.standing_up.numbers_that_ran import Ran
@@ -102,6 +103,21 @@ def errors_table(trials: Sequence[TrialResult], noise: StandingNoise, tracks: Se
         if each.channel in tracks and np.isfinite(each.recorded).all()
     ]
     return pd.DataFrame(rows, columns=["trial", "quantity", "unit", "rmsd", "noise"])
+
+
+def goodness_of_trials(trials: Sequence[TrialResult], noise: StandingNoise, tracks: Sequence[str]) -> GoodnessOfFit:
+    """Every channel that is tracked, against the noise that was stated for it."""
+    doubts: list[Doubt] = []
+    tested = []
+    for trial in trials:
+        for each in channels(trial.recorded, trial.model, noise):
+            if each.channel not in tracks or not np.isfinite(each.recorded).all():
+                continue
+            name = f"{trial.recorded.name} {each.name}"
+            residual = each.factor * (each.recorded - each.model)
+            doubts += of_residual(name, each.unit, residual, each.factor * each.noise)
+            tested.append(name)
+    return GoodnessOfFit(tuple(doubts), tuple(tested))
 
 
 def certificate_rows(phase: str, names: Sequence[str], motions: Sequence[JudgedMotion]) -> list[dict[str, object]]:

@@ -105,7 +105,7 @@ ENDINGS = {
     "Maximum_Iterations_Exceeded": "out of iterations",
     "Maximum_CpuTime_Exceeded": "out of time",
     "Maximum_WallTime_Exceeded": "out of time",
-    "User_Requested_Stop": "interrupted; the last iterate is kept",
+    "User_Requested_Stop": "interrupted; the last iterate is saved",
     "Restoration_Failed": "the search found no way back to the constraints",
     "Search_Direction_Becomes_Too_Small": "the search came to a stop before the tolerance",
     "Invalid_Number_Detected": "a function or derivative is not a number",

@@ -1,1 +1,1 @@
-"""What the trials can and cannot tell apart, and from which size on."""
+"""What the trials can and cannot tell apart, and from which size."""

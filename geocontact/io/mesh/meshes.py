@@ -29,6 +29,7 @@ from geocontact.io.text.file_preflight import read_bytes
 _Reader = Callable[[bytes, str], tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]]
 READERS: dict[str, _Reader] = {".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".vtp": read_vtp}
 """Reader of each file name extension; no other file is opened."""
+TABLES = (".csv", ".txt", ".xyz")
 
 
 def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, float] = SIZES) -> Mesh:
@@ -65,7 +66,10 @@ def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, f
     reader = READERS.get(Path(name).suffix.lower())
     if reader is None:
         what = f"is not one of the formats that are read ({', '.join(READERS)})"
-        raise InputError(fspath(path), "", what, "convert it, or correct the file name's ending")
+        remedy = "convert it, or correct the file name's ending"
+        if Path(name).suffix.lower() in TABLES:
+            what, remedy = "is a table, not a surface of triangles", "make triangles of its points first"
+        raise InputError(fspath(path), "", what, remedy)
     try:
         data = read_bytes(path)
         space = space_of_stl(data) if reader is read_stl else ""

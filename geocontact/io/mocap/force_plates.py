@@ -1,10 +1,9 @@
-"""Ground reactions measured by force plates: OpenSim's .mot and .sto, and .c3d."""
+"""Ground reactions measured by force plates: OpenSim's .mot and .sto, tables with units, and .c3d."""
 
 from __future__ import annotations
 
 import re
 import warnings
-from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
 
@@ -12,10 +11,12 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.multibody.force_plate import LOADED, ForcePlate
 from geocontact.data.wrench import Wrench
 from geocontact.io.mocap.c3d_plates import MOMENTS_LAST, Arrays, PlateUnits, plate_units, read_c3d_plates
 from geocontact.io.mocap.plate_zero import zero_samples
-from geocontact.io.text.tables import TextTable, listed, read_table
+from geocontact.io.text.tables import CELLS, TextTable, listed, read_table
+from geocontact.io.text.units import si_unit
 
 OUTSIDE = 0.2
 """Share of a plate's length, beyond its edge: farther off, the median centre of pressure is warned of."""
@@ -23,42 +24,8 @@ OUTSIDE = 0.2
 FAR = 1.0
 """Share of a plate's length, beyond its edge: farther off, the plate cannot be used."""
 
-HEAVY = 0.2
-"""Share of the largest force from which samples count: below it the centre of pressure is not sharp."""
-
-
-def lengths_outside(
-    centre: Float[np.ndarray, "t 3"], load: Float[np.ndarray, " t"], corners: Float[np.ndarray, "4 3"], gate: float
-) -> float:
-    """Median distance of the loaded centre of pressure beyond the plate's edge, in its lengths; below 0 inside.
-
-    Parameters
-    ----------
-    centre
-        Centre of pressure [m], NaN where there is none.
-    load
-        Normal force [N].
-    corners
-        Of the surface [m], one after another around it.
-    gate
-        Normal force [N] from which a sample counts, at least.
-
-    NaN for a plate that is never loaded.
-    """
-    heavy = (load >= max(gate, HEAVY * float(load.max()))) & np.isfinite(centre).all(axis=1)
-    if not heavy.any():
-        return float("nan")
-    a, b, c, d = corners
-    edges = np.stack([(a - b + d - c) / 2.0, (a - d + b - c) / 2.0])
-    along = (centre[heavy] - corners.mean(axis=0)) @ edges.T / np.sum(edges**2, axis=1)
-    return float(np.median(np.abs(along).max(axis=1)) - 0.5)
-
-
 OPENSIM_FRAME = "ground of the .mot (OpenSim, y up)"
 LABORATORY_FRAME = "laboratory of the .c3d"
-LOADED = 20.0
-"""Load [N] from which a sample tells in which direction a plate is loaded."""
-
 WORN = 0.4
 """Share of the body's weight that a force may press down with as a device that is worn: of a plate the wrong way round
 half of it and more, by one of two feet that stand."""
@@ -70,70 +37,18 @@ _WITH_CENTRE = 1  # type of plate whose channels hold the centre of pressure: no
 _FORCE = re.compile(r"(?P<head>.*)force(?P<tail>.*)vx", re.IGNORECASE)
 
 
-@dataclass(frozen=True)
-class ForcePlate:
-    """Reaction of one plate on the foot.
-
-    Parameters
-    ----------
-    name
-        Name to choose it by.
-    time
-        [s].
-    wrench
-        Force on the foot [N] with its moment [N m], in the file's frame; NaN where the file has nothing.
-    point, normal
-        A point of the plate's surface [m] and its unit normal, out of the floor.
-    corners
-        Of its surface [m], one after another around it; None where the file does not have them.
-    """
-
-    name: str
-    time: Float[np.ndarray, " t"]
-    wrench: Wrench
-    point: Float[np.ndarray, " 3"]
-    normal: Float[np.ndarray, " 3"]
-    corners: Float[np.ndarray, "4 3"] | None = None
-
-    def centre_of_pressure(self, gate: float = LOADED) -> Float[np.ndarray, "t 3"]:
-        """Centre of pressure on the plate's surface [m]; NaN where the normal force is below `gate` [N]."""
-        return self.wrench.centre_of_pressure(self.point, self.normal, gate)
-
-    def at(self, time: Float[np.ndarray, " f"]) -> Wrench:
-        """Reaction at other times [s], linear between samples, moment about the frame's origin; NaN outside its own."""
-        about = self.wrench.moved_to(np.zeros(3))
-        force, moment = (
-            np.column_stack([np.interp(time, self.time, column, np.nan, np.nan) for column in values.T])
-            for values in (about.force, about.moment)
-        )
-        return Wrench(force, moment, np.zeros_like(force), about.frame)
-
-    def free_moment(self, gate: float = LOADED) -> Float[np.ndarray, " t"]:
-        """Moment about the plate's normal through the centre of pressure [N m]; NaN below the gate."""
-        return self.wrench.free_moment(self.centre_of_pressure(gate), self.normal)
-
-    def outside(self) -> float:
-        """How far the centre of pressure lies beyond the plate's edge under load, in the median, in its lengths.
-
-        Below 0 on the plate; NaN where nobody stands on it or its corners are not known.
-        """
-        if self.corners is None:
-            return float("nan")
-        load = self.wrench.force @ self.normal
-        return lengths_outside(self.centre_of_pressure(), load, self.corners, LOADED)
-
-
 def read_force_plates(path: str | PathLike[str], c3d_unit: str | None = None) -> tuple[ForcePlate, ...]:
-    """All force plates of a .mot, .sto or .c3d file, in its order; forces are those on the foot.
+    """All force plates of a .mot, .sto, .c3d, .csv or .xlsx file, in its order; forces are those on the foot.
 
+    Columns of a .csv have the names of OpenSim's and their units: `ground_force_vx [N]`, `ground_force_px [mm]`.
     `c3d_unit` is the unit of places in a .c3d file whose own is empty.
     """
     suffix = Path(fspath(path)).suffix.lower()
     if suffix == ".c3d":
         return _from_c3d(path, c3d_unit)
-    if suffix in (".mot", ".sto"):
+    if suffix in (".mot", ".sto", *CELLS):
         return _from_table(read_table(path))
-    raise InputError(path, "", f"'{suffix}' is not a file of ground reactions", "give a .mot, .sto or .c3d file")
+    raise InputError(path, "", f"'{suffix}' is not a file of ground reactions", "give a .mot, .sto, .c3d or .csv file")
 
 
 def plate_named(
@@ -213,14 +128,14 @@ def _from_table(table: TextTable) -> tuple[ForcePlate, ...]:
 
 def _plate(table: TextTable, head: str, tail: str) -> ForcePlate:
     name = f"{head}force{tail}".strip("_")
-    force = _three(table, f"{head}force{tail}v")
-    point = _three(table, f"{head}force{tail}p")
+    force = _three(table, f"{head}force{tail}v", "N")
+    point = _three(table, f"{head}force{tail}p", "m")
     kinds = [f"{head}{word}{tail}{letter}" for word in ("torque", "moment") for letter in ("", "m")]
     torque = next((kind for kind in kinds if f"{kind}x" in table.channels), None)
     if torque is None:
         warnings.warn(InputWarning(f"{table.file}: no torque for {name}; its free moment is not known"), stacklevel=4)
-    moment = np.full_like(force, np.nan) if torque is None else _three(table, torque)
-    on = np.abs(force[:, 1]) >= LOADED
+    moment = np.full_like(force, np.nan) if torque is None else _three(table, torque, "N m")
+    on = np.linalg.norm(force, axis=1) >= LOADED
     if not on.any():
         warnings.warn(InputWarning(f"{table.file}: {name} never carries {LOADED:g} N"), stacklevel=4)
     surface = np.array([0.0, float(np.median(point[on, 1])) if on.any() else 0.0, 0.0])
@@ -230,20 +145,32 @@ def _plate(table: TextTable, head: str, tail: str) -> ForcePlate:
     return ForcePlate(name, table.time, wrench, surface, np.array([0.0, 1.0, 0.0]))
 
 
-def _three(table: TextTable, stem: str) -> Float[np.ndarray, "t 3"]:
+def _three(table: TextTable, stem: str, si: str) -> Float[np.ndarray, "t 3"]:
     names = tuple(f"{stem}{axis}" for axis in "xyz")
     for name in names:
         if table.channels.count(name) != 1:
             count = table.channels.count(name)
             what = f"column '{name}' occurs {count} times" if count else f"no column '{name}'"
             raise InputError(table.file, "", what, f"columns are: {listed(table.channels)}")
-    values = np.column_stack([table.column(name) for name in names])
+    values = np.column_stack([table.column(name) * _factor(table, name, si) for name in names])
     endless = np.argwhere(np.isinf(values))
     if len(endless):
         row, column = endless[0]
         what = f"'{names[column]}' is {values[row, column]}"
         raise InputError(table.file, f"line {table.lines[row]}", what, "write NaN where nothing was measured")
     return values
+
+
+def _factor(table: TextTable, name: str, si: str) -> float:
+    """How many SI units one unit of a column is; OpenSim's files are in SI and name none."""
+    if Path(table.file).suffix.lower() not in CELLS:
+        return 1.0
+    written = table.units[table.channels.index(name)]
+    known = si_unit(written)
+    if known is None or known[0] != si:
+        what = f"column '{name}' has no unit" if not written else f"'{written}' is no unit in which {name} can be"
+        raise InputError(table.file, "", what, f"name it '{name} [{si}]'")
+    return known[1]
 
 
 def _from_c3d(path: str | PathLike[str], c3d_unit: str | None) -> tuple[ForcePlate, ...]:

@@ -101,7 +101,7 @@ def test_sentences_tell_the_range_of_the_area(split: AreaResult) -> None:
     frame = int(least.argmin()) // 3 + 1
     told.append(f"least distance {least.min():.3f}".rstrip("0") + f" mm in frame {frame} of ")
     assert list(split.sentences[1:-1]) == told[:-1] and split.sentences[-1].startswith(told[-1])
-    assert split.sentences[-1].endswith("(signed: negative is overlap)") and repr(split) == "\n".join(split.sentences)
+    assert split.sentences[-1].endswith("(signed: negative is overlap)") and str(split) == "\n".join(split.sentences)
     assert split.accepted and split.warnings == ()
 
 

@@ -23,7 +23,7 @@ def test_a_ball_on_a_ball_has_twice_its_curvature(tmp_path: Path) -> None:
         np.testing.assert_allclose(table[name][:4], 0.1, rtol=0.02)
         assert table[name][4:].isna().all()
     np.testing.assert_allclose(table["congruence_share [-]"][:4], 1.0)
-    assert "index of congruence within 1 mm: 0.1" in repr(result) and "fitted within 4 mm" in repr(result)
+    assert "index of congruence within 1 mm: 0.1" in str(result) and "fitted within 4 mm" in str(result)
     assert result.record.results["congruence"]["radius_mm"] == pytest.approx(4.0)
     plain = area(SPHERE, SPHERE, motion, threshold=(1e-3, 2e-3))
     assert not any("congruence" in name or "curvature" in name for name in plain.table())

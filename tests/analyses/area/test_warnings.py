@@ -135,7 +135,7 @@ def test_doubtful_input_is_used_with_a_warning(
 ) -> None:
     result = called(made(tmp_path))
     assert any(all(part in line for part in said) for line in result.warnings), result.warnings
-    assert all(f"warning: {line}" in repr(result) for line in result.warnings)
+    assert all(f"warning: {line}" in str(result) for line in result.warnings)
     assert len(set(result.warnings)) == len(result.warnings) and result.motions[0].reservations == result.warnings
     assert list(result.table()["signed"]) == [signed]
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import geocontact as gc
@@ -98,6 +99,8 @@ def test_what_was_done_is_scored_when_somebody_interrupts(monkeypatch: pytest.Mo
     assert result.outcome.kinds == {"none": 1}
     out = result.write(tmp_path / "out")
     assert json.loads((out / "benchmark.json").read_text("utf-8"))["cases"] == {"elbow": {"none": 1}}
+    written = pd.read_csv(out / "cases.csv").set_index("case")["cpu [s]"]
+    assert result.seconds == written.to_dict() == {"elbow_1": 1.0}
 
 
 def test_an_interruption_before_the_first_case_ends_it(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -136,7 +139,7 @@ def test_a_case_whose_process_is_lost_counts_as_wrong(monkeypatch: pytest.Monkey
         result = benchmark(system="elbow", cases=2, kinds="none", seed=SEED)
     assert result.outcome.kinds == {"none": 2} and result.table()["verdict"].tolist() == ["failed"] * 2
     assert result.record.options["seed"] == SEED and "<img src=" in result._repr_html_()
-    assert repr(result).startswith(f"# Gap benchmark\n\nSeed {SEED}, ")
+    assert str(result).startswith(f"# Gap benchmark\n\nSeed {SEED}, ")
 
 
 def counted(worked_on: list[Lot]) -> Callable[..., Iterator[tuple[Task, Worked]]]:

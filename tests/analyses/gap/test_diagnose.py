@@ -48,7 +48,7 @@ def test_the_verdict_is_said_in_one_sentence(found: DiagnoseResult) -> None:
     interval = ", ".join(f"{100.0 * edge:.0f}" for edge in gap.ci95).replace("-", "−")
     assert f"adding it removes {100.0 * gap.reduction:.0f} % [{interval}] of the error on trials not used; " in said
     assert said.endswith("% stays unexplained")
-    assert repr(found).splitlines() == [*found.sentences, *(f"warning: {line}" for line in found.warnings)]
+    assert str(found).splitlines() == [*found.sentences, *(f"warning: {line}" for line in found.warnings)]
     assert "<img src=" in found._repr_html_()
 
 

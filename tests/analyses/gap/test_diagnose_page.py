@@ -460,7 +460,7 @@ def test_a_mistake_in_the_data_is_not_called_missing() -> None:
 def test_invisible_effects_faults_and_oddities_are_said() -> None:
     fault = DataErrorFound("unit_error", "force", 1e-3, ("t01", "t03"))
     found = said(absorbed=("preload", "slip"), faults=(fault,), remarks=("a line at 8 Hz in force",))
-    assert found[1] == "base parameters would imitate preload or slip: not to be seen here, whether there or not"
+    assert found[1] == "base parameters would imitate preload or slip: these trials cannot show it either way"
     assert found[2] == (
         "mistake in the data: unit_error of force (reads 0.001 times what it should) in t01 and t03, taken as undone "
         "in all that follows"

@@ -52,7 +52,7 @@ def test_what_is_known_of_the_elbow_is_said(confused: DiscriminabilityResult, to
     assert told["detectability"]["sensor_gain.force"]["smallest"] is None
     amplitude = told["detectability"]["damping"]["smallest"]
     assert amplitude < 25.0  # which was planted and found
-    words = repr(confused)
+    words = str(confused)
     assert "mistakes in the data that would leave a gap, made in all trials: sign_flip" in words
     assert "not to be seen at any plausible size: sensor_gain.force" in words
     assert f"damping from damping.b = {amplitude:.3g} N s/m on" in words

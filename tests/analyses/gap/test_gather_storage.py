@@ -67,7 +67,7 @@ def plan(tmp_path: Path) -> Callable[..., Path]:
 
 def test_angles_come_in_radians_and_moments_at_their_times(plan: Callable[..., Path], tmp_path: Path) -> None:
     result = gc.gather(plan())
-    assert repr(result) == "2 trials" and list(result.tables()) == ["trials/t01", "trials/t02"]
+    assert str(result) == "2 trials" and list(result.tables()) == ["trials/t01", "trials/t02"]
     assert list(result.table().columns) == ["time [s]", "angle [rad]", "torque [N m]"]
     case = read_gap_case(result.write(tmp_path / "case"))
     for trial in (*case.calibration, *case.evaluation):

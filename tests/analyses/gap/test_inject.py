@@ -33,7 +33,7 @@ def test_a_planted_effect_is_found(tmp_path: Path) -> None:
     planted = row["planted"]
     assert row["unit"] == "N s/m"
     assert row["found"] == pytest.approx(planted, rel=0.1) and row["low"] < planted < row["high"]
-    words = repr(result)
+    words = str(result)
     assert f"injected damping (damping.b = {planted:.4g} N s/m" in words and "found: damping; damping.b = " in words
     page = result.page(tmp_path / "page.html").read_text(encoding="utf-8")
     assert "<bdi>What was injected</bdi>" in page and '<p class="answer"><bdi>Found: damping; damping.b = ' in page
@@ -51,7 +51,7 @@ def test_what_base_parameters_imitate_is_said_not_to_be_found(tmp_path: Path) ->
     case = damped_elbow(tmp_path / "elbow", damping=0.0)
     with unchecked(), pytest.warns(gc.InputWarning, match="the amplitude is as large as its bounds admit"):
         result = gc.inject(case, effect="sensor_gain.force", bare=True)
-    assert "not found, base parameters imitate it" in repr(result)
+    assert "not found, base parameters imitate it" in str(result)
     assert result.record.results["planted"]["absorbed"] is True
 
 
@@ -107,8 +107,8 @@ def test_what_the_case_lacked_before_is_not_found_for_having_been_injected(tmp_p
     with unchecked():
         result = gc.inject(case, effect="damping", value={"damping.b": 1e-6}, bare=True)
     assert result.judgement.status == "too_small" and result.judgement.before
-    assert "not found: all trials together hold" in repr(result)
-    assert "damping is missing from the base model without it, too" in repr(result)
+    assert "not found: all trials together hold" in str(result)
+    assert "damping is missing from the base model without it, too" in str(result)
 
 
 @pytest.mark.slow

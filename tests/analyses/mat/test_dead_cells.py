@@ -92,7 +92,7 @@ def test_the_uncertainty_contains_what_filling_guesses(tmp_path: Path) -> None:
 def test_a_hole_without_a_working_neighbour_is_left_out_and_told(tmp_path: Path) -> None:
     layout = LAYOUT + "dead = [[0, 0]]\nmasked = [[0, 1], [1, 0]]\n"
     result = flat(tmp_path, uniform(), layout, dead="fill")
-    assert any("1 dead cells have no working cell beside them" in line for line in result.warnings)
+    assert any("1 dead cells have no working neighbour" in line for line in result.warnings)
     assert result.table()["normal [N]"].iloc[0] == pytest.approx(9.0)
 
 

@@ -36,7 +36,7 @@ def test_a_law_is_compared_trial_by_trial_and_channel_by_channel(tmp_path: Path,
     np.testing.assert_allclose(force["rmse"], 0.2, rtol=0.2)  # the noise alone
     assert (force["mae"] < force["rmse"]).all() and (slide["r2 [-]"] > 0.9999).all() and (slide["rmse"] < 0.1).all()
     first = result.pairs[0].agreement
-    assert repr(result).startswith(f"free_1, force: MAE {first.mae:.3g}, RMSE {first.rmsd:.3g} N, R² {first.r2:.3f}")
+    assert str(result).startswith(f"free_1, force: MAE {first.mae:.3g}, RMSE {first.rmsd:.3g} N, R² {first.r2:.3f}")
     with pytest.raises(KeyError, match="there are force, displacement"):
         result.figure("pressure")
 

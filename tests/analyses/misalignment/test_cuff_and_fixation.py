@@ -67,7 +67,7 @@ def test_a_column_of_torque_is_passed_on_to_the_joint(tmp_path: Path) -> None:
     np.testing.assert_allclose(table["joint_torque [N m]"], across * reach + moment)
     held = torque - table["joint_torque [N m]"] * L * np.cos(gamma) / reach
     np.testing.assert_allclose(table["constraint_torque [N m]"], held, atol=1e-12)
-    assert f"torque of the joint {table['joint_torque [N m]'].min():.2f}" in repr(rigid)
+    assert f"torque of the joint {table['joint_torque [N m]'].min():.2f}" in str(rigid)
     soft, pushed = (gc.misalignment.simulate((file,), **along, numbers=SOFT, torque=t).table() for t in (None, 2.5))
     assert (soft["force [N]"] - force).abs().max() > 1.0 and (soft["gamma [deg]"] - np.degrees(gamma)).abs().max() > 1.0
     assert (pushed["torque [N m]"] == 2.5).all() and (pushed["force [N]"] - soft["force [N]"]).abs().max() > 0.5

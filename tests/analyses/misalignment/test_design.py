@@ -47,7 +47,7 @@ def test_the_exoskeleton_of_the_source() -> None:
     stroke = m["needed_stroke"]
     assert stroke["lower_end_to_be_decreased_by_mm"] == pytest.approx(-stroke["lower_end_at_most_mm"])
     assert stroke["upper_end_at_least_mm"] == pytest.approx(stroke["free_of_force_mm"][1] - 5e3 / 222.43)
-    assert "the lower end must be decreased by 27.48 mm" in repr(result)
+    assert "the lower end must be decreased by 27.48 mm" in str(result)
 
 
 def test_the_map_is_that_of_the_model() -> None:
@@ -81,7 +81,7 @@ def test_the_verdict_on_the_limit_cannot_be_misread(tmp_path: Path, limit: float
     """The source's offsets need 8.64 N: over 5 N "passed" reads as if the limit were kept."""
     result = design(stroke=gc.mm(0, 60), limit=limit, map=gc.mm(20))
     assert result.summary["offset"]["limit"] == verdict
-    assert f"|F| up to 8.64 N {verb} the limit of {limit:g} N" in repr(result)
+    assert f"|F| up to 8.64 N {verb} the limit of {limit:g} N" in str(result)
     page = result.page(tmp_path / "page.html").read_text(encoding="utf-8")
     assert f"limit of {limit:g} N" in page and f">{verdict}<" in page and "passed" not in page
 

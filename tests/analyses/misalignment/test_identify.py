@@ -49,9 +49,9 @@ def test_with_the_link_known_the_numbers_are_found(told: Any) -> None:
 
 
 def test_the_result_says_what_was_found(told: Any, unscaled: Any) -> None:
-    assert repr(told).startswith(f"k {told.fit.intervals[0].shown}\nx ")
-    assert "k by the free joint's displacement: " in repr(told)
-    assert "k l " in repr(unscaled) and "\nk 3" not in repr(unscaled) and "warning: k and the lengths" in repr(unscaled)
+    assert str(told).startswith(f"k {told.fit.intervals[0].shown}\nx ")
+    assert "k by the free joint's displacement: " in str(told)
+    assert "k l " in str(unscaled) and "\nk 3" not in str(unscaled) and "warning: k and the lengths" in str(unscaled)
 
 
 def test_bins_differ_by_visits_and_not_by_samples(told: Any) -> None:

@@ -53,7 +53,7 @@ def test_a_half_normal_force(tmp_path: Path) -> None:
     np.testing.assert_allclose(rows["probability [-]"], true.sf(rows["force [N]"]), atol=0.01)
     assert (rows["lower [-]"] <= rows["probability [-]"]).all() and (rows["probability [-]"] <= rows["upper [-]"]).all()
     assert result.summary["synthetic"] is True
-    assert repr(result).startswith("largest |F| of 40000 synthetic people: median ")
+    assert str(result).startswith("largest |F| of 40000 synthetic people: median ")
 
 
 def test_the_same_seed_gives_the_same_numbers(tmp_path: Path) -> None:

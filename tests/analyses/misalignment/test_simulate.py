@@ -30,7 +30,7 @@ def test_trials_are_as_asked_and_the_truth_is_told() -> None:
     )
     assert result.numbers == pytest.approx({**PAPER, "l": 0.169, "z": 0.127, "b": 0.0, "s": 0.0, "c": 0.0})
     low, high = result.trials[0].force.min(), result.trials[0].force.max()
-    assert repr(result).startswith(f"locked_1, synthetic: {low:.1f} … {high:.1f} N over 8 … 92°, 20 s")
+    assert str(result).startswith(f"locked_1, synthetic: {low:.1f} … {high:.1f} N over 8 … 92°, 20 s")
 
 
 def test_the_same_seed_gives_the_same_recordings() -> None:

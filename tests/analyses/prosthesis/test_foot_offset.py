@@ -130,5 +130,5 @@ def test_a_planted_pitch_is_found_written_and_taken_over(tmp_path: Path) -> None
     assert walks[1].table("numbers").set_index("number")["value"]["leg foot_pitch"] == 0.0
     errors = [each.table("errors").set_index("quantity")["rmse"]["resultant"] for each in walks]
     assert errors[0] < 0.75 * errors[1]
-    assert any("degrees" in each and "as the law's file says" in each for each in walks[0].sentences)
-    assert not any("as the law's file says" in each for each in walks[1].sentences)
+    assert any("degrees" in each and "according to the law's file" in each for each in walks[0].sentences)
+    assert not any("according to the law's file" in each for each in walks[1].sentences)

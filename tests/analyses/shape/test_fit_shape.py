@@ -59,8 +59,8 @@ def test_a_rod() -> None:
 def test_says_what_was_found() -> None:
     result = fit(CYLINDER, "cylinder", region=wall())
     count = len(result.fit.quality.residual)
-    assert repr(result).startswith("cylinder_r15_l40.stl: cylinder, radius 15.000 mm (95 % 15.000 … 15.000), rms 0.000")
-    assert repr(result).endswith(f"over {count} points, {count} of them inliers")
+    assert str(result).startswith("cylinder_r15_l40.stl: cylinder, radius 15.000 mm (95 % 15.000 … 15.000), rms 0.000")
+    assert str(result).endswith(f"over {count} points, {count} of them inliers")
     assert result.record.results["fit"]["radius_mm"] == result.fit.radius * 1e3
 
 
@@ -174,7 +174,7 @@ def test_doubts_are_said_and_kept() -> None:
     with pytest.warns(InputWarning, match="degrees about the axis") as said:
         flat = fit(SPHERE, "cylinder", region="abs(z)<4 and y>18")
     assert [str(each.message) for each in said] == list(flat.warnings)
-    assert f"warning: {flat.warnings[0]}" in repr(flat)
+    assert f"warning: {flat.warnings[0]}" in str(flat)
 
 
 @pytest.mark.parametrize(
@@ -256,5 +256,5 @@ def test_a_part_that_is_exact_is_told(tmp_path: Path) -> None:
     with pytest.warns(InputWarning) as heard:
         result = gc.fit_shape(stem_file(tmp_path), unit="mm", shape="cylinder")
     assert any("of the points lie on the cylinder exactly" in str(w.message) for w in heard)
-    assert "radius 7.000 mm, rms" in repr(result) and "95 %" not in repr(result)
+    assert "radius 7.000 mm, rms" in str(result) and "95 %" not in str(result)
     assert "95 % interval" not in json.dumps(json.loads((result.write(tmp_path / "out") / "fit.json").read_text()))

@@ -108,7 +108,7 @@ def test_plan_and_simulation_agree(small: ShoulderOptimiseResult) -> None:
     assert exact["one factor"] == pytest.approx(told["taken away by one factor"], abs=1e-6)
     assert exact["one factor"] < exact["all persons"] - 0.05
     share = 100.0 * told["with sensors"]
-    assert any(f"simulated with noisy, late sensors: {share:.1f}% taken away" in line for line in small.sentences)
+    assert any(f"simulated with noisy, late sensors: {share:.1f}% removed" in line for line in small.sentences)
     assert told["with sensors"] == pytest.approx(told["taken away"], abs=0.01)
 
 
@@ -218,10 +218,10 @@ def test_best_and_one_factor_are_told_by_the_same_measure(aim: str, share: float
         by_mean[profile] = persons.mean()
         by_aim[profile] = persons.min() if aim == "worst" else own["taken away [-]"].nsmallest(len(own) // 2).mean()
     first, second = found.sentences[:2]
-    assert first.startswith(f"{by_aim['all persons']:.1%} of the shoulders' torque is taken away ")
+    assert first.startswith(f"{by_aim['all persons']:.1%} of the shoulders' torque is removed ")
     assert first.endswith(f"one factor for all tasks, hands and phases takes {by_aim['one factor']:.1%}")
     assert second == (
-        f"in the mean over persons it is {by_mean['all persons']:.1%}, and {by_mean['one factor']:.1%} with one factor"
+        f"the mean over persons is {by_mean['all persons']:.1%}, and {by_mean['one factor']:.1%} with one factor"
     )
 
 
@@ -328,7 +328,7 @@ def test_a_study_that_cannot_be_read_is_refused(tmp_path: Path, old: str, new: s
 def test_one_person_is_not_held_out(tmp_path: Path) -> None:
     found = gc.shoulder.optimise(study(tmp_path, 1, 1), reserve=0.3, draws=DRAWS)
     assert found.table("held_out").empty and len(found.profiles) == 4, "all persons, one factor, the paper's, by arm"
-    assert any("one person only" in line for line in found.warnings)
+    assert any("only one person" in line for line in found.warnings)
     found.write(tmp_path / "out")
     assert not (tmp_path / "out" / "held_out.csv").exists()
 
@@ -363,7 +363,7 @@ def test_gaps_are_filled_up_to_a_limit(tmp_path: Path) -> None:
         ({"certainty": 1.5}, "150 % is not 0 to 100 %; is 1.5 % meant?"),
         ({"dominant_share": 1.5}, "150 % is not 0 to 100 %"),
         ({"draws": 3}, "3 draws are too few for an interval; give 20 or more"),
-        ({"cutoff": 0.0}, "0 leaves noise in accelerations"),
+        ({"cutoff": 0.0}, "0 leaves the noise in the accelerations"),
         ({"device": "nothing"}, "neither a file nor a built-in device"),
     ],
 )

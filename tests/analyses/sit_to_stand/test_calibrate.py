@@ -152,7 +152,7 @@ def test_ctrl_c_keeps_the_last_iterate_and_says_so(tmp_path: Path) -> None:
     opened(Record("sit-to-stand calibrate", {}, listener=Interrupting(4)))
     found = run(read(asked), asked)
     assert not found.accepted and found.exit_code == 1
-    assert any("interrupted; the last iterate is kept" in line for line in found.warnings)
+    assert any("interrupted; the last iterate is saved" in line for line in found.warnings)
     numbers = found.phases[0].numbers.numbers
     assert {n.verdict for n in numbers} == {"not settled", "held"} and len(numbers) == len(FOOT_PARAMETERS)
     found.write(tmp_path / "cal")
@@ -194,12 +194,12 @@ def doubts(**other: object) -> tuple[list[str], list[str]]:
     ("other", "words"),
     [
         ({"shares": {"force": 0.995, "rates": 0.005}}, "99.5 % of the cost are force"),
-        ({"ends": (WORSE, BEST)}, "ends in a minimum that another start beats"),
-        ({"ends": (Ended(2.0, False, False), BEST)}, "ends in a minimum that another start beats"),
-        ({"ends": (Ended(1.0005, True, False), BEST)}, "ends in a minimum that another start beats"),
+        ({"ends": (WORSE, BEST)}, "ends in a minimum worse than that of another start"),
+        ({"ends": (Ended(2.0, False, False), BEST)}, "ends in a minimum worse than that of another start"),
+        ({"ends": (Ended(1.0005, True, False), BEST)}, "ends in a minimum worse than that of another start"),
         ({"misfit": 1.74}, "phase A leaves 1.7 times the squares that the noise makes"),
         ({"verdict": "not separable"}, "not separable, with intervals that cover both: heel"),
-        ({"verdict": "on its bound"}, "on its bound, so that the value says where the bound is: heel"),
+        ({"verdict": "on its bound"}, "at a bound, so the value only reflects the bound: heel"),
         ({"verdict": "prior-dominated"}, "add little to the prior of heel"),
         ({"doubt": "it is singular"}, "phase A has no intervals: it is singular"),
     ],
@@ -210,4 +210,4 @@ def test_what_changes_how_numbers_are_read_is_warned_of(other: dict[str, object]
 
 def test_nothing_to_doubt_is_not_warned_of() -> None:
     said, warned = doubts(ends=(BEST, SAME, WORSE))
-    assert not warned and said == ["phase A: 2 of 3 starts end in the best minimum, 3 in one"]
+    assert not warned and said == ["phase A: 2 of 3 starts end in the best minimum, 3 converge"]

@@ -139,7 +139,7 @@ def test_ctrl_c_keeps_the_last_iterate_and_says_so(tmp_path: Path, at: int, name
     found = run(read(asked), asked)
     assert [one.name for one in found.designs] == names and not found.front
     assert not found.accepted and found.exit_code == 1
-    assert any("interrupted after share alone: the last iterate is kept" in line for line in found.warnings)
+    assert any("interrupted after share alone: the last iterate is saved" in line for line in found.warnings)
     assert found.best.design is not None and found.best.design.stopped
     found.write(tmp_path / "design")
     assert (tmp_path / "design" / "report.html").is_file()

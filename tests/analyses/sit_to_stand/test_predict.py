@@ -109,7 +109,7 @@ def test_ctrl_c_keeps_what_there_is_and_a_trial_is_written_when_it_is_done(
     assert [one.trial.recorded.name for one in result.predictions] == ["P1", "P2"]
     assert not result.accepted and not result.predictions[1].solved
     assert "interrupted: 1 of 3 trials have every predictor; the last search was P2 all given" in record.warnings
-    assert any(line.startswith("P2 all given ended without an answer: interrupted") for line in record.warnings)
+    assert any(line.startswith("P2 all given did not converge: interrupted") for line in record.warnings)
     assert set(result.table("errors")["trial"]) == {"P1", "P2"}
 
 

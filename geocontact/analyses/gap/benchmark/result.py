@@ -61,6 +61,11 @@ class BenchmarkResult(Result):
         """No page: benchmark.md is read instead."""
         return frozenset(("tables", "figures"))
 
+    @property
+    def seconds(self) -> dict[str, float]:
+        """CPU time of the diagnosis of each case [s]."""
+        return {one.name: one.cpu for one in self.outcome.cases if one.label is not None}
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`cases`: a row per case, the truth, what was said of it, and what that scores."""
         return {"cases": cases_table(self.outcome)}

@@ -174,7 +174,7 @@ def _unresolved(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
 def _absorbed(d: Diagnosis) -> list[str]:
     if not d.absorbed:
         return []
-    return [f"base parameters would imitate {names(d.absorbed, 'or')}: not to be seen here, whether there or not"]
+    return [f"base parameters would imitate {names(d.absorbed, 'or')}: these trials cannot show it either way"]
 
 
 def _faults(d: Diagnosis) -> list[str]:

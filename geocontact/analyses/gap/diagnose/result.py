@@ -83,6 +83,21 @@ class DiagnoseResult(Result):
         """Tables alone where no more is wanted."""
         return frozenset(("tables",)) if self.options.bare else PARTS
 
+    @property
+    def probabilities(self) -> dict[str, float]:
+        """Probability of each answer [-]: effects, "none", "unknown"."""
+        return dict(self.diagnosis.probabilities)
+
+    @property
+    def rmse(self) -> dict[str, tuple[float, float]]:
+        """Root mean square error of each channel before and after [SI unit of the channel]."""
+        return {name: (each.rmse_before, each.rmse_after) for name, each in self.diagnosis.gap.items()}
+
+    @property
+    def reduction(self) -> dict[str, float]:
+        """By which share of it the error of each channel in trials held out shrinks [-]."""
+        return {name: each.reduction for name, each in self.diagnosis.gap.items()}
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`gap_map`, `ranking`, `held_out`; `trials` where something is named, `surface` where a mat has cells."""
         return diagnosis_tables(self.findings)

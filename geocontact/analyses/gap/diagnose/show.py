@@ -58,7 +58,7 @@ SURFACE_WORDS = (
 )
 CHOSEN = (
     "Probabilities weigh the effects that the vocabulary has for this system, none, and anything unknown; an effect is "
-    "named because it predicts these trials best, not because it was seen."
+    "named because it predicts these trials best, not because it was observed."
 )
 HELD_OUT = (
     "Errors and reduction are those of predictions from measured inputs on trials that no parameter was fitted to; the "

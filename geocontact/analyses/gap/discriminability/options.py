@@ -23,7 +23,7 @@ class DiscriminabilityOptions(Options):
         Effects asked about, by name ("damping,time_shift") or candidate ("end_stop.upper"); all by default. Mistakes
         in the data have no size: for them, only whether base parameters hide them is reported.
     nats
-        How visible each effect is taken to be when it is held against the others.
+        Size of each effect in the comparison: the evidence that it would leave in the trials [nats].
     bare
         Write tables, confuse.json and run.json only: no page, no figures.
     run_simulator

@@ -21,6 +21,7 @@ r"""What trials can tell: `geocontact gap discriminability`, `gc.discriminabilit
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -84,6 +85,17 @@ class DiscriminabilityResult(Result):
     def units(self, table: str) -> Mapping[str, str]:
         """SI, as in the case."""
         return CASES
+
+    @property
+    def smallest(self) -> dict[str, float]:
+        """Smallest amplitude of each effect that is seen [SI unit of its parameter]; NaN where none is."""
+        found = self.found.detectabilities
+        return {one.candidate.label: math.nan if one.smallest is None else one.smallest for one in found}
+
+    @property
+    def separation(self) -> dict[tuple[str, str], float]:
+        """By how much trials separate an effect from the one that imitates it [nats]."""
+        return {(one.true, one.confounder): one.nats for one in self.found.separations}
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`separability`: a row per pair of effects; `detectability`: the smallest amplitude of each."""

@@ -16,11 +16,12 @@ from geocontact.analyses.gap.gather.options import GatherOptions
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cells import CellChannels, CellTrial
+from geocontact.data.multibody.force_plate import LOADED, ForcePlate
 from geocontact.io.cases.case_settings import parameters_of
 from geocontact.io.cases.gap_case import case_of
 from geocontact.io.cases.gathering import Gathering, Source, is_storage, read_gathering, read_storage_trial
 from geocontact.io.cases.trial_table import TrialTable, alike, read_trial
-from geocontact.io.mocap.force_plates import LOADED, ForcePlate, plate_named, read_force_plates
+from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.io.recordings.area_table import AreaTable, ForceCurves, read_area_table, read_force_curves
 from geocontact.io.recordings.mat_results import CELLS, FRAMES, MatFolder, read_mat_result
 from geocontact.io.text.csv_text import Column

@@ -25,7 +25,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import say
 from geocontact.analyses.frame.folder import Scratch
@@ -35,6 +37,7 @@ from geocontact.analyses.gap.gather.options import GatherOptions
 from geocontact.analyses.gap.gather.recordings import Recordings, gathered, read
 from geocontact.analyses.gap.gather.show import gather_page
 from geocontact.data.gap_case import GapCase
+from geocontact.data.trial import Trial
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.gap_case_writer import trial_table, write_gap_case
 
@@ -67,6 +70,21 @@ class GatherResult(Result):
     def parts(self) -> frozenset[Part]:
         """The page; tables are among the files of the case."""
         return frozenset(("pages",))
+
+    @property
+    def time(self) -> dict[str, Float[np.ndarray, " t"]]:
+        """Time of the rows of each trial [s]."""
+        return {one.name: one.time for one in self._trials}
+
+    @property
+    def channels(self) -> dict[str, dict[str, Float[np.ndarray, " t"]]]:
+        """Columns of each trial over time [SI units of their names]."""
+        return {one.name: {name: one.column(name) for name in one.signals.channels} for one in self._trials}
+
+    @property
+    def _trials(self) -> tuple[Trial, ...]:
+        """Those that may be fitted to first."""
+        return (*self.case.calibration, *self.case.evaluation)
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`trials/<id>`: every trial, those that may be fitted to first."""

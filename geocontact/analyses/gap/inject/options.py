@@ -44,7 +44,7 @@ class InjectOptions(Options):
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
     Writes case/ (the case with the effect in it), diagnosis/ (as `gap diagnose` does), planted.json and run.json into
-    OUT. What the trials miss already stays in them.
+    OUT. Effects that the model already lacks stay in the trials.
     """
 
     case: CaseFolder

@@ -95,6 +95,26 @@ class InjectResult(Result):
         """None: the diagnosis writes its own, planted.json has the effect's parameters."""
         return frozenset()
 
+    @property
+    def amplitudes(self) -> dict[str, float]:
+        """Parameters of the effect as they were injected [SI unit of each]."""
+        return dict(self.planted.values)
+
+    @property
+    def size(self) -> float:
+        """Gap that the effect makes, in multiples of the noise floor [-]."""
+        return self.planted.size
+
+    @property
+    def evidence(self) -> float:
+        """Most evidence for it that all trials can hold [nats]."""
+        return self.planted.nats
+
+    @property
+    def probabilities(self) -> dict[str, float]:
+        """Probability of each answer of the diagnosis [-]."""
+        return dict(self.diagnosis.probabilities)
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`planted`: parameters of the effect as they were put in and found; `diagnosis/ranking` and so on."""
         rows = parameter_rows(self.effect, self.planted, self.diagnosis)

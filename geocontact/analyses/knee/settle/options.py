@@ -17,7 +17,7 @@ MAY_SETTLE = ("adduction", "anterior", "mediolateral", "rotation")
 """Coordinates besides the axial one, which always settles, and flexion, which never does."""
 
 READS_NO_FILE = Excludes("sweep", "has no effect with `sweep`, which has no recorded times and poses")
-LOAD = Plausible("the axial load", N, (1e-3, 1e5), (1.0, 10_000.0))
+LOAD = Plausible("the axial load", N, (1e-3, 1e5), (20.0, 10_000.0))
 Free = Annotated[
     tuple[str, ...],
     Typed("-", "knee.settle.equilibrium:names", '("adduction", "rotation")'),
@@ -31,7 +31,7 @@ Springs = Annotated[
 
 @dataclass(frozen=True)
 class SettleOptions(Options):
-    """Contact equilibrium of a knee implant: flexion and load given, the rest settles on an elastic foundation.
+    """Contact equilibrium of a knee implant: flexion and load given, other coordinates settle on an elastic foundation.
 
     FIXED is the tibial insert in a frame with x anterior, y proximal, z to the subject's right; MOVING the femoral
     component.
@@ -50,7 +50,7 @@ class SettleOptions(Options):
     Motion
     ------
     motion
-        Poses of MOVING in FIXED (.csv) or coordinates (.mot .sto): flexion and whatever does not settle.
+        Poses of MOVING in FIXED (.csv) or coordinates (.mot .sto): flexion and all coordinates that do not settle.
     sweep
         Instead of `motion`, typed flexion=0:90:10 in degrees: MOVING starts where it lies lowest on FIXED at each
         flexion, turns at 0 where its axes are FIXED's.
@@ -70,7 +70,7 @@ class SettleOptions(Options):
     Placement
     ---------
     place_moving
-        Where the mesh sits in its body: a file with a 4x4 matrix, or model.osim:body.
+        Pose of the mesh in its body: a file with a 4x4 matrix, or model.osim:body.
     place_fixed
         The same for FIXED.
     assume_closed
@@ -83,7 +83,7 @@ class SettleOptions(Options):
     forces
         Instead of `load`: forces.csv of `loadcells` or another table with `total [N]` over time.
     free
-        What settles besides the axial translation, none or of adduction, anterior, mediolateral, rotation.
+        What settles with the axial translation: none, or adduction, anterior, mediolateral, rotation.
     springs
         Springs at rest where the motion is, for what is free: anterior=30,rotation=0.36 (N/mm, N m/deg; in Python in
         N/m and N m/rad).

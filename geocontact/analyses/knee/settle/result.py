@@ -228,7 +228,7 @@ def _summarise(i: SettleInputs, s: Settled, balance: EnergyBalance | None) -> No
     )
     strain = s.largest_strain
     if i.bed.layer.law == "linear" and strain > STRAINED:
-        reserve(f"the layer is strained by up to {strain:.0%}: `foundation` logarithmic is for that")
+        reserve(f"the strain of the layer is up to {strain:.0%}: use `foundation` logarithmic")
     found: dict[str, object] = {
         "frames": len(s.frames),
         "frames_at_rest": int(s.converged.sum()),

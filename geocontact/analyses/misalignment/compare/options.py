@@ -23,7 +23,7 @@ class CompareOptions(ColumnOptions):
     Parameters
     ----------
     recordings
-        Tables of angle and force (.csv .mot .sto .c3d), and the free joint's displacement where it is to be compared.
+        Tables of angle and force (.csv .mot .sto .c3d), and the free joint's displacement if it is to be compared.
     fit
         elbow.json of an identification: its law is simulated along each recording's angle.
     simulated

@@ -5,7 +5,7 @@
 >>> first, second = sorted(trials.glob("locked_*.csv"))
 >>> known = {"l": gc.mm(169), "z": gc.mm(127)}
 >>> fit = gc.misalignment.identify([first], known=known, bootstrap=0).write("fit") / "elbow.json"
->>> gc.misalignment.compare([second], fit=fit)
+>>> print(gc.misalignment.compare([second], fit=fit))
 locked_2, force: MAE 0.644, RMSE 0.809 N, R² 0.947
 """
 
@@ -57,6 +57,16 @@ class CompareResult(Result):
     def channels(self) -> tuple[str, ...]:
         """Channels that were compared."""
         return tuple(channel for channel in QUANTITIES if any(p.channel == channel for p in self.pairs))
+
+    @property
+    def rmse(self) -> dict[tuple[str, str], float]:
+        """Root mean square error of the model by trial and channel: force [N], displacement [m]."""
+        return {(pair.trial, pair.channel): pair.agreement.rmsd for pair in self.pairs}
+
+    @property
+    def r2(self) -> dict[tuple[str, str], float]:
+        """Coefficient of determination by trial and channel [-]."""
+        return {(pair.trial, pair.channel): pair.agreement.r2 for pair in self.pairs}
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`comparison`: one row per trial and channel; lengths in mm."""

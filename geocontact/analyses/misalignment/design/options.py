@@ -56,7 +56,7 @@ class DesignOptions(Options):
     step
         Step of the map.
     drift
-        How the joint's axis wanders with the angle: x=0:-8:2,y=0:5 (mm, mm/rad, mm/rad², …, over the exoskeleton's
+        How the joint's axis moves with the angle: x=0:-8:2,y=0:5 (mm, mm/rad, mm/rad², …, over the exoskeleton's
         angle), or a .csv with the columns beta or alpha [deg], x [mm], y [mm], or alpha [deg], instant_centre_x [mm],
         instant_centre_y [mm]; alpha is the joint's own angle.
     """

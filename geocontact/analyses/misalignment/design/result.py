@@ -4,7 +4,7 @@
 >>> link = {"k": 222.43, "l": gc.mm(169), "z": gc.mm(127)}
 >>> asked = {"range": gc.deg(0, 120), "limit": 5.0, "stroke": gc.mm(0, 60), "step": gc.mm(4)}
 >>> result = gc.misalignment.design(**link, offset=gc.mm(48, 59), **asked)
->>> result
+>>> print(result)
 stroke 0 … 60 mm, x = 48 mm, y = 59 mm: |F| up to 8.64 N exceeds the limit of 5 N
 offsets within 0 mm: a stroke from -16.35 mm or less to 61.81 mm or more keeps the limit: the lower end must
 be decreased by 16.35 mm and the upper end must be increased by 1.81 mm
@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
@@ -62,6 +63,26 @@ class DesignResult(Result):
     options: DesignOptions
     design: Designed
     summary: dict[str, Any]
+
+    @property
+    def angle(self) -> Float[np.ndarray, " m"]:
+        """Angle of the exoskeleton's hinge [rad]."""
+        return self.design.beta
+
+    @property
+    def force(self) -> Float[np.ndarray, " m"]:
+        """Constraint force over the angle at the offsets [N]."""
+        return self.design.force
+
+    @property
+    def peak(self) -> float:
+        """Largest size of the constraint force over the angle at the offsets [N]."""
+        return self.design.peak
+
+    @property
+    def needed_stroke(self) -> tuple[float, float]:
+        """Ends of the stroke that keeps the force under the limit within the uncertainty [m]."""
+        return self.design.stroke.lower, self.design.stroke.upper
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`force` over the angle, `map` of the offsets, `boundary`, `sensitivity`."""
@@ -107,7 +128,7 @@ def _reserve(d: Designed) -> None:
             x, y = d.map.offsets[int(np.argmax(d.map.fate == fate))] * MM
             reserve(f"{count} of {len(d.map.fate)} offsets of the map (x = {x:g} mm, y = {y:g} mm …): {words}")
     if d.boundary.least >= d.boundary.most:
-        reserve("the limit is exceeded nowhere within the map: how far offsets may go is computed up to its edge only")
+        reserve("the limit is not exceeded anywhere in the map: how far offsets may go is computed up to its edge only")
     if np.isnan(d.sensitivities[0].peak_slope):
         reserve("no sensitivities where there is no force: give another `offset` than what is aimed at")
 

@@ -80,7 +80,7 @@ def _require_noise(path: Path, data: Binned) -> None:
     noise, force = float(data.noise.sd[0]), data.cells.means[:, FORCE]
     if not noise > ROUNDING * float(np.ptp(force)):
         what = f"{data.cells.count.sum():.0f} samples in {len(np.unique(data.cells.place))} bins show no noise"
-        raise InputError(path, "", what, "give longer recordings or wider bins (`bin`): intervals come from it")
+        raise InputError(path, "", what, "give longer recordings or wider bins (`bin`): noise sets the intervals")
 
 
 def _refuse_mirrored(paths: Sequence[Path], data: Binned) -> None:

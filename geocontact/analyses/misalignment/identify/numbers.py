@@ -67,7 +67,7 @@ def unknowns(known: Values, prior: Pairs, bounds: Pairs, start: Values, free: Se
             low, high = bounds.get(name, WIDEST[name])
             made.append(_free(name, low, high, start, prior))
     if all(p.fixed for p in made):
-        raise InputError("", "`known`", "leaves nothing to be found", "leave a number out, or compare instead")
+        raise InputError("", "`known`", "leaves nothing to identify", "leave a number out, or compare instead")
     return tuple(made)
 
 

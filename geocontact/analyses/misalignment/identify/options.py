@@ -79,7 +79,7 @@ class IdentifyOptions(ColumnOptions):
     box
         Width of the bins of the box plots.
     bootstrap
-        Replicates of the wild bootstrap, 0 for none. Each is searched from every minimum that fits nearly as well.
+        Replicates of the wild bootstrap, 0 for none. Each is refitted from every minimum that fits nearly as well.
     """
 
     writes: ClassVar[str] = """

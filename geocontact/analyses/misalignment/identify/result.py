@@ -218,7 +218,10 @@ class IdentifyResult(Result):
 
     @property
     def numbers(self) -> dict[str, float]:
-        """k, x, y, l, z, b and s in SI; where nothing sets the scale, one point of the line that fits alike."""
+        """Numbers of the law: k [N/m], x, y, l, z [m], b [N s/m], s [1/Pa], c [m/N].
+
+        Where nothing sets the scale they are one point of the line that fits alike, `scale_line`.
+        """
         return self.fit.estimate.named
 
     def figures(self) -> dict[str, Figure]:

@@ -36,9 +36,9 @@ def reserve_doubts(found: Fitted, free: Free | None) -> None:
         _doubt_displacement(found, free)
     e, excess = found.estimate, found.residuals.excess
     if found.stretches < FEW_STRETCHES:
-        reserve(f"{found.stretches} stretches of {found.data.stretch:.2g} s are few: intervals are rough")
+        reserve(f"{found.stretches} stretches of {found.data.stretch:.2g} s are few: intervals are approximate")
     if not e.converged:
-        reserve("the search did not end by itself; see `start` and `bounds`")
+        reserve("the search did not converge; see `start` and `bounds`")
     if excess.p < RARE and excess.ratio > MORE:
         reserve(
             f"the fit leaves {excess.ratio:.2g} times what noise within the trials would: offsets that change "
@@ -122,7 +122,7 @@ def described(found: Fitted, free: Free | None) -> dict[str, Any]:
 
 
 def ratios(numbers: dict[str, float]) -> dict[str, float]:
-    """What no scale changes: the force k l, and lengths over the link."""
+    """Independent of the scale: the force k l, and lengths over the link."""
     lengths = {f"{name}_over_l": numbers[name] / numbers["l"] for name in LENGTHS if name != "l"}
     return {"k_times_l_N": numbers["k"] * numbers["l"], **lengths}
 
@@ -258,13 +258,13 @@ def _scale(found: Fitted) -> str:
     if problem.scale_free:
         r = ratios(found.estimate.named)
         shares = ", ".join(f"{key.replace('_over_', '/')} {value:.3f}" for key, value in r.items() if "over" in key)
-        return f"{SCALE_FREE}. What no scale changes: k l = {r['k_times_l_N']:.4g} N, {shares}."
+        return f"{SCALE_FREE}. Independent of the scale: k l = {r['k_times_l_N']:.4g} N, {shares}."
     if problem.scale is not None:
         return (
             "The scale of k and the lengths is set by the free joint's displacement, over which d_tot rises one for "
             f"one (SE {problem.scale.error:.2%})."
         )
-    return "The scale of k and the lengths is set by what was known beforehand, not by these recordings."
+    return "The scale of k and the lengths comes from prior knowledge, not from these recordings."
 
 
 def fixation_words(found: Fitted) -> str:

@@ -35,11 +35,11 @@ class PopulationOptions(Options):
     range
         Angles of the exoskeleton, with their unit: 0:120deg.
     limit
-        |F| [N] whose exceeding is asked for.
+        |F| [N] whose probability of exceedance is computed.
     stroke
         Ends between which a compensation joint slides freely: -20:35. Locked by default.
     drift
-        How the joint's axis wanders with the angle, as for a design; the same for everybody.
+        How the joint's axis moves with the angle, as for a design; the same for everybody.
     samples
         People that are drawn.
     seed

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
@@ -62,6 +63,21 @@ class PopulationResult(Result):
     options: PopulationOptions
     drawn: Drawn
     summary: dict[str, Any]
+
+    @property
+    def peak(self) -> Float[np.ndarray, " n"]:
+        """Largest size of the constraint force of each person [N]."""
+        return self.drawn.peak
+
+    @property
+    def quantiles(self) -> dict[float, float]:
+        """Quantiles of the largest force by share [N]."""
+        return {share: one.value for share, one in self.drawn.quantiles.items()}
+
+    @property
+    def exceeding(self) -> float:
+        """Share of the people whose force is above the limit [-]."""
+        return self.drawn.beyond.value
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`quantiles`, `exceedance`, `influence`, and `samples` with `keep`."""

@@ -73,7 +73,7 @@ class SimulateOptions(Options):
     range
         Angles from end to end [deg]; 8:92 by default.
     stroke
-        Stroke of the compensation joint, such as -10:40: free trials are made besides, with its displacement. None
+        Stroke of the compensation joint, such as -10:40: free trials are made as well, with its displacement. None
         by default.
     case
         Also write the locked trials as a gap case (folder case) that `geocontact gap diagnose` reads.

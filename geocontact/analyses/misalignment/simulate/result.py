@@ -2,7 +2,7 @@
 
 >>> import geocontact as gc
 >>> result = gc.misalignment.simulate(seconds=5.0, trials=1, seed=3)
->>> result
+>>> print(result)
 locked_1, synthetic: -10.0 … 8.1 N over 8 … 92°, 5 s
 """
 
@@ -84,6 +84,16 @@ class SimulateResult(Result):
         told: dict[str, Any] = {"synthetic": True, "numbers": with_units(self.numbers)}
         stroke = self.options.stroke
         return told if stroke is None else {**told, "stroke_mm": [end * 1e3 for end in stroke]}
+
+    @property
+    def angle(self) -> dict[str, Float[np.ndarray, " t"]]:
+        """Angle of the exoskeleton's hinge over time by trial [rad]."""
+        return {each.name: each.beta for each in self.trials}
+
+    @property
+    def force(self) -> dict[str, Float[np.ndarray, " t"]]:
+        """Force on the attachment along the limb over time by trial [N]."""
+        return {each.name: each.force for each in self.trials}
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """One table per trial, by its name, `surfaces`, and `numbers` with all that ran."""

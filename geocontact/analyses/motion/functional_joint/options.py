@@ -28,12 +28,12 @@ class JointOptions(Options):
         Markers while the subject stands still (.trc, .c3d, .csv): the joint is written as a marker of it, or as two on
         an axis; without it, as a marker of the trial.
     name
-        What that marker is called; on an axis NAME_1 and NAME_2, 5 cm on either side.
+        Name of that marker; on an axis NAME_1 and NAME_2, 5 cm on either side.
     near
-        Markers whose middle is moved onto the axis to give its place: the epicondyles. All markers of both segments
+        Markers whose midpoint, projected onto the axis, gives its place: the epicondyles. All markers of both segments
         by default.
     axes
-        Which of the markers' axes are x, y and z of what is written: x,z,-y where the laboratory's z is up.
+        Which of the markers' axes are x, y and z of the output: x,z,-y where the laboratory's z is up.
     c3d_unit
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     time

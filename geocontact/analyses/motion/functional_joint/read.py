@@ -9,12 +9,14 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.functional_joint.options import JointOptions
-from geocontact.analyses.motion.markers import markers_given
+from geocontact.analyses.motion.markers import markers_given, turn_of
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.functional_joint import FEWEST, seen_together, segment_poses
 from geocontact.io.text.tables import listed
+from geocontact.trial_checks.recorded import RecordedTrial
 
 SIGHT = "name markers that one frame shows all of, or give `static`"
 
@@ -75,6 +77,7 @@ def read(o: JointOptions) -> MovedPair:
     still = None if o.static is None else markers_given(o.static, o.axes, None, o.c3d_unit)
     if o.static is not None and still is not None:
         add_input("`static`", o.static, frames=len(still), markers=len(still.names))
+    check_trial(RecordedTrial(markers=seen, standing=still, turn=turn_of(o.axes)))
     first, second = marker_list(o.first), marker_list(o.second)
     both = [name for name in first if name in second]
     if both:
@@ -89,7 +92,7 @@ def read(o: JointOptions) -> MovedPair:
             raise InputError(seen.source, option, str(error), "name other markers of that segment") from error
     one, other, together = seen_together(tracks[0][:2], tracks[1][:2])
     if not together.any():
-        raise InputError(seen.source, "", "no frame shows both segments", "name markers that were seen together")
+        raise InputError(seen.source, "", "no frame shows both segments", "name markers that are visible together")
     off = tuple(float(np.sqrt(np.nanmean(track[2] ** 2))) for track in tracks)
     return MovedPair(still or seen, seen.time[together], *segments, one, other, (off[0], off[1]))
 
@@ -123,7 +126,7 @@ def means_of(trial: MarkerTrajectories, names: tuple[str, ...], option: str) -> 
     tracks = trial.of(names)
     unseen = [name for k, name in enumerate(names) if not np.isfinite(tracks[:, k]).all(axis=1).any()]
     if unseen:
-        raise InputError(trial.source, option, f"{unseen[0]} is seen in no frame", "leave it out")
+        raise InputError(trial.source, option, f"{unseen[0]} is visible in no frame", "leave it out")
     return np.asarray(np.nanmean(tracks, axis=0))
 
 

@@ -11,11 +11,14 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.collector import add_input, reserve
-from geocontact.analyses.frame.quantities import turned_axes
+from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.gait_cycles import ONSET, strikes_typed
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
+from geocontact.analyses.motion.markers import turn_of
 from geocontact.data.errors import InputError
+from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.model import Multibody, PassiveForces
+from geocontact.data.sides import stem_and_side
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.inverse_dynamics import SMOOTH
 from geocontact.dynamics.loads_on_bodies import (
@@ -29,12 +32,14 @@ from geocontact.dynamics.loads_on_bodies import (
 )
 from geocontact.identify.signals.filters import UNEVEN, as_opensim
 from geocontact.identify.signals.gait_cycles import Strikes, strikes_on_plates
-from geocontact.io.mocap.force_plates import OPENSIM_FRAME, ForcePlate, plate_named, read_force_plates
+from geocontact.io.mocap.force_plates import OPENSIM_FRAME, plate_named, read_force_plates
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.external_loads import ExternalLoad, read_external_loads
 from geocontact.io.opensim.osim_forces import read_passive_forces
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import TextTable, listed, read_table
+from geocontact.trial_checks.landmarks import body_points
+from geocontact.trial_checks.recorded import FootPlate, RecordedTrial
 
 UP = 0.9  # smallest cosine between a plate's normal and the way up
 REACH = 1.0  # m from the body's origin to the point that a plate's force acts at
@@ -53,8 +58,10 @@ def loads_on_bodies(
     file, loads = _external_loads(o)
     if file is None:
         return {}
-    plates = read_force_plates(file, o.c3d_unit)
+    recorded = read_force_plates(file, o.c3d_unit)
+    plates = turned_plates(recorded, turn_of(o.axes), file)
     add_input("plates", file, plates=len(plates))
+    plates_used: list[FootPlate] = []
     if o.axes is not None and all(load.moves for load in loads):
         raise InputError(file, "`axes`", "has no effect: all loads are expressed in bodies", "leave it out")
     found: dict[str, Wrench] = {}
@@ -64,16 +71,28 @@ def loads_on_bodies(
             if body and body not in names:
                 raise InputError(o.loads or "", load.plate, f"no body '{body}'", f"bodies are: {listed(names)}")
         named = "`plate`" if o.loads is None else f"{o.loads} <force_identifier>"
-        plate = plate_named(plates, load.plate, file, named, model.weight, not load.force_frame)
+        there = recorded if load.moves else plates
+        plate = plate_named(there, load.plate, file, named, model.weight, not load.force_frame)
         poses = model.poses(values)
         if load.moves:
             wrench = _carried(file, plate, load, o.threshold, time, poses)
         else:
-            turned = _turned(plate, o, file, model)
-            acting = turned.wrench if load.torque else without_torque(turned.wrench)
-            wrench = _during(file, replace(turned, wrench=without_unloaded(acting, o.threshold)), time)
+            _require_level(plate, file, model)
+            plates_used.append(FootPlate(plate, str(file), stem_and_side(load.body)[1]))
+            acting = plate.wrench if load.torque else without_torque(plate.wrench)
+            wrench = _during(file, replace(plate, wrench=without_unloaded(acting, o.threshold)), time)
         _warn_of_far_points(file, load, wrench, poses[load.body].translation)
         found[load.body] = added(wrench, found[load.body]) if load.body in found else wrench
+    check_trial(
+        RecordedTrial(
+            body_points(model, time, values, str(o.coordinates)),
+            plates=tuple(plates_used),
+            mass=model.mass or None,
+            mass_option=f"the model's mass (scale it: {o.model})",
+            up=model.up,
+            turn=turn_of(o.axes),
+        )
+    )
     return found
 
 
@@ -92,23 +111,13 @@ def _external_loads(o: IdOptions) -> tuple[Path | None, tuple[ExternalLoad, ...]
     return o.plates, tuple(chosen)
 
 
-def _turned(plate: ForcePlate, o: IdOptions, file: Path, model: Multibody) -> ForcePlate:
-    """The plate in the model's axes; refused where its floor is not level there."""
-    if o.axes is not None and plate.wrench.frame == OPENSIM_FRAME:
-        raise InputError(file, "`axes`", "has no effect: the file is in OpenSim's axes, y up", "leave it out")
-    if o.axes is not None:
-        turn = turned_axes(o.axes, "`axes`")
-        wrench = plate.wrench
-        wrench = Wrench(turn.apply(wrench.force), turn.apply(wrench.moment), turn.apply(wrench.origin), wrench.frame)
-        corners = None if plate.corners is None else turn.apply(plate.corners)
-        point, up = turn.apply(plate.point), turn.apply(plate.normal)
-        plate = replace(plate, wrench=wrench, point=point, normal=up, corners=corners)
+def _require_level(plate: ForcePlate, file: Path, model: Multibody) -> None:
+    """InputError for a plate whose floor is not level in the model's axes."""
     down = model.gravity / max(float(np.linalg.norm(model.gravity)), 1e-12)
     if -plate.normal @ down < UP and np.linalg.norm(model.gravity) > 0.0:
         normal = " ".join(f"{x:.2g}" for x in plate.normal)
         what = f"its floor's normal is {normal}, the model's gravity pulls along {' '.join(f'{x:.2g}' for x in down)}"
         raise InputError(file, plate.name, what, "say which axes are the model's: `axes` x,z,-y where z is up")
-    return plate
 
 
 def _during(file: Path, plate: ForcePlate, time: Float[np.ndarray, " t"]) -> Wrench:

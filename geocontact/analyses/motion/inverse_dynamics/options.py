@@ -27,7 +27,7 @@ class IdOptions(Options):
     loads
         OpenSim's external loads (.xml): which force plate acts on which body. Without it nothing but gravity acts.
     plates
-        File of force plates (.mot, .sto, .c3d) in place of `loads`, with `plate`.
+        File of force plates (.mot, .sto, .c3d, .csv) in place of `loads`, with `plate`.
     plate
         Which plate acts on which body, by name or number: 1=calcn_r. May be given again.
     axes

@@ -25,7 +25,7 @@ class IkOptions(Options):
         OpenSim's setup of inverse kinematics or its task set (.xml): weights of markers and coordinates. Without it all
         markers of the model count alike.
     follow
-        Coordinates over time (.mot, .sto, .csv) that tasks of OpenSim's kind from_file keep near.
+        Coordinates over time (.mot, .sto, .csv) that tasks of OpenSim's kind from_file track.
     marker_set
         Markers of the model from a file of their own (.xml with a MarkerSet) in place of the model's.
     markers_map

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.gait_cycles import strikes_marked, strikes_typed
 from geocontact.analyses.motion.inverse_kinematics.knees import Knee, knees_of
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.marker_tasks import marker_tasks, renamed
-from geocontact.analyses.motion.markers import markers_given, with_marker_set
+from geocontact.analyses.motion.markers import markers_given, turn_of, with_marker_set
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
@@ -17,13 +18,15 @@ from geocontact.identify.signals.gait_cycles import Strikes
 from geocontact.io.mocap.c3d_analogs import read_c3d_analogs
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import TextTable
+from geocontact.trial_checks.recorded import RecordedTrial
 
 
 @dataclass(frozen=True)
 class KinematicsInputs:
     """A model, its markers as seen, what each counts, knees whose clinical angles are wanted, heel strikes.
 
-    `analog` are the channels of a .c3d that belong to no force plate, where they are asked for.
+    `analog` are the channels of a .c3d that belong to no force plate, where they are asked for; `doubts` the checks of
+    the recording that warned.
     """
 
     model: Multibody
@@ -32,6 +35,7 @@ class KinematicsInputs:
     knees: list[Knee]
     strikes: Strikes
     analog: TextTable | None = None
+    doubts: frozenset[str] = frozenset()
 
 
 def read(o: IkOptions) -> KinematicsInputs:
@@ -42,9 +46,10 @@ def read(o: IkOptions) -> KinematicsInputs:
     knees = knees_of(o.knee, model)
     seen = renamed(markers_given(o.markers, o.axes, o.time, o.c3d_unit), model, o.markers_map)
     add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
+    doubts = check_trial(RecordedTrial(markers=seen, turn=turn_of(o.axes)))
     strikes = strikes_typed(o.events) or strikes_marked(o.markers)
     tasks = marker_tasks(model, seen, o.tasks, o.follow, o.weight, o.hold)
-    return KinematicsInputs(model, seen, tasks, knees, strikes, _analog(o))
+    return KinematicsInputs(model, seen, tasks, knees, strikes, _analog(o), doubts)
 
 
 def _analog(o: IkOptions) -> TextTable | None:

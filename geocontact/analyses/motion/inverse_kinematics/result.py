@@ -3,7 +3,7 @@
 >>> import geocontact as gc
 >>> markers = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim").write("virtual") / "markers.trc"
 >>> result = gc.inverse_kinematics(markers, model="meshes/leg.osim")
->>> result
+>>> print(result)
 101 frames, 16 markers: 0.0 mm from the model, root mean square, and 0.0 mm at most, foot_r2 at 0.57 s
 (OpenSim advises less than 20 and 40 mm)
 >>> list(result.table("coordinates"))[:3]
@@ -97,6 +97,16 @@ class IkResult(Result):
         """Root mean square and largest distance of each marker that was seen [mm]."""
         return dict(self.summary["markers"])
 
+    @property
+    def rms(self) -> float:
+        """Distance of the markers from the model, root mean square over markers and frames [m]."""
+        return 1e-3 * self.rms_mm
+
+    @property
+    def distances(self) -> dict[str, Float[np.ndarray, " t"]]:
+        """Distance of each marker from the model over time [m]; NaN where it was not seen."""
+        return dict(zip(self.poses.markers, np.asarray(self.poses.distances).T, strict=True))
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`coordinates` [deg, m], `markers` with the distance of each; `knees` and `cycles` where there are some."""
         p = self.poses
@@ -167,7 +177,7 @@ def run(seen: KinematicsInputs, o: IkOptions) -> IkResult:
     errors = MarkerErrors.of(found)
     exchanged = exchanged_markers(tree, seen.markers, seen.tasks, found, MOVING.rms, MOVING.largest)
     errors.warn(MOVING, "" if exchanged is None else exchange_question(exchanged))
-    if exchanged is None:
+    if exchanged is None and "upright" not in seen.doubts:
         warn_of_tilt(seen.model, found.values, o.axes)
     _warn(found)
     told = "" if (free := _never(found)) <= UNTOLD * len(found.names) else f"{free} of {len(found.names)} coordinates "
@@ -212,7 +222,7 @@ def _summary(found: Poses, seconds: float) -> dict[str, object]:
 def _warn(found: Poses) -> None:
     if not found.settled.all():
         count = int((~found.settled).sum())
-        reserve(f"{count} frames did not settle: markers and model may not belong together")
+        reserve(f"{count} frames did not converge: markers and model may not match")
     never = np.asarray(~found.determined.any(axis=0))
     if never.any():
         names = tuple(name for name, each in zip(found.names, never, strict=True) if each)

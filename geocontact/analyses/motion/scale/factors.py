@@ -10,8 +10,9 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, reserve
+from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.marker_tasks import marker_tasks, names_told, renamed
-from geocontact.analyses.motion.markers import markers_given, with_marker_set
+from geocontact.analyses.motion.markers import markers_given, turn_of, with_marker_set
 from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
@@ -19,6 +20,7 @@ from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.scaling import Factors, measured_factor
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import listed
+from geocontact.trial_checks.recorded import RecordedTrial
 
 MOVED = 0.02
 """m that a marker may move in a static trial without a word."""
@@ -41,6 +43,7 @@ def read(o: ScaleOptions) -> Standing:
     add_input("`model`", o.model, bodies=len(model.bodies), markers=len(model.markers))
     model = with_marker_set(model, o.model, o.marker_set)
     whole = renamed(markers_given(o.static, o.axes, o.time, o.c3d_unit), model, o.markers_map)
+    check_trial(RecordedTrial(standing=whole, turn=turn_of(o.axes)))
     seen = _standing(whole)
     add_input("static", o.static, frames=len(whole), markers=len(seen.names))
     factors = factors_told(model, _measured(o, model, whole), o.scale)

@@ -32,7 +32,7 @@ class ScaleOptions(Options):
     mass
         Mass of the subject [kg], shared among the bodies as in the model.
     mass_by_volume
-        Bodies become heavier as their volume grows, before the subject's mass is shared; otherwise sizes leave masses
+        Masses of bodies scale with their volume before the subject's mass is distributed; otherwise sizes leave masses
         as they are.
     sizes
         Trial in which distances of markers are measured (.trc, .c3d, .csv), in place of the static trial.

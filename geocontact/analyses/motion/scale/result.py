@@ -3,7 +3,7 @@
 >>> import geocontact as gc
 >>> static = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim").write("virtual") / "markers.trc"
 >>> result = gc.scale(static, model="meshes/leg.osim", mass=70.0)
->>> result
+>>> print(result)
 scaled: no body; markers 25.8 mm from the model, root mean square, and 50.3 mm at most, foot_r2 at 0 s
 (OpenSim advises less than 10 and 20 mm)
 warning: virtual/markers.trc: foot_r2 moves 491 mm away from its mean: is this standing still?
@@ -77,6 +77,21 @@ class ScaleResult(Result):
     modelled: Float[np.ndarray, "m 3"]
     summary: dict[str, Any]
 
+    @property
+    def rms(self) -> float:
+        """Distance of the markers from the model in the static pose, root mean square [m]."""
+        return 1e-3 * float(self.summary["static_rms_mm"])
+
+    @property
+    def distances(self) -> dict[str, float]:
+        """Distance of each marker from the model in the static pose [m]."""
+        return dict(zip(self.pose.markers, self.pose.distances[0].tolist(), strict=True))
+
+    @property
+    def scale_factors(self) -> dict[str, float]:
+        """Factor of each body that was scaled [-]; by body and axis where they differ."""
+        return labelled(self.factors)
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`markers`, how far each is from the scaled model; `factors` by body, or by body and axis."""
         off = {"marker": list(self.pose.markers), "distance [mm]": 1e3 * self.pose.distances[0]}
@@ -129,7 +144,7 @@ def run(given: Standing, o: ScaleOptions) -> ScaleResult:
     except ValueError as error:
         raise InputError(o.static, "", str(error), "is it the right file?") from error
     if not pose.settled.all():
-        reserve("the static pose did not settle: markers and model may not belong together")
+        reserve("the static pose did not converge: markers and model may not match")
     moved = made if o.keep_markers else _placed(made, given.markers, pose)
     summary = _summary(given, pose, moved)
     results().update(plain(summary))

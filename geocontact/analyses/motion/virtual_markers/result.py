@@ -2,7 +2,7 @@
 
 >>> import geocontact as gc
 >>> result = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim")
->>> result
+>>> print(result)
 16 markers in 101 frames
 """
 
@@ -50,6 +50,17 @@ class MarkersResult(Result):
     markers: MarkerTrajectories
     model: Multibody
     values: Float[np.ndarray, "t n"]
+
+    @property
+    def time(self) -> Float[np.ndarray, " t"]:
+        """Time of the frames [s]."""
+        return self.markers.time
+
+    @property
+    def positions(self) -> dict[str, Float[np.ndarray, "t 3"]]:
+        """Place of each marker in the ground's frame over time [m]."""
+        places = np.asarray(self.markers.positions)
+        return {name: places[:, k] for k, name in enumerate(self.markers.names)}
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`markers` [m]."""

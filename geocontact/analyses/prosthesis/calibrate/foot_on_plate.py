@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from geocontact.analyses.frame.collector import listener, reserve
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.ranges import TURNS
-from geocontact.analyses.prosthesis.recorded_files import foot_with_law, plate_under_foot, right_markers, right_plate
+from geocontact.analyses.prosthesis.recorded_files import Laboratory, foot_with_law
 from geocontact.analyses.prosthesis.stance_files import counted_twice
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import (
@@ -29,7 +29,7 @@ from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, ful
 from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
-from geocontact.io.mocap.force_plates import read_force_plates
+from geocontact.io.mocap.force_plates import plate_named
 
 ANGLES_CUTOFF = 6.0
 """Hz; of the markers that tell the leg's angles, as `prosthesis simulate` has it."""
@@ -51,20 +51,22 @@ def read(o: ProsthesisCalibrateOptions) -> FootOnPlate:
     with listener().preparing():
         foot = foot_with_law(vsf_foot(), o.law)
     fulcrum = fulcrum_of(o.setting) if o.fulcrum is None else o.fulcrum
-    standing = right_markers("`static`", o.static, o.side, o.axes, o.markers_map, o.c3d_unit)
+    lab = Laboratory(o.side, o.axes, o.markers_map, o.c3d_unit)
+    still, walking = lab.markers("`static`", o.static), lab.markers("markers", o.markers)
+    own = lab.plate_under_foot(o.plates, o.plate, o.mass)
+    there = plate_named(lab.plates(o.plates), o.other_plate, o.plates, "`other_plate`") if o.full else None
+    lab.check(still, walking, o.mass, o.plates, own, there)
+    standing, seen, plate = lab.right(still), lab.right(walking), lab.stance(own, o.plates)
     leg = standing_leg(standing, Person(o.mass), foot.keel, sole_numbers()["below"].value)
-    seen = right_markers("markers", o.markers, o.side, o.axes, o.markers_map, o.c3d_unit)
-    plate = plate_under_foot(o.plates, o.plate, o.side, o.mass, o.c3d_unit)
     errors = Errors(force=o.force_noise, height=o.height_error, pitch=o.pitch_error, speed=o.speed_error)
     cutoff = None if o.cutoff == 0.0 else o.cutoff
     given = seen, leg, plate, foot, fulcrum
     stance = stance_on_plate(*given, cutoff=cutoff, gap_limit=o.gap_limit, errors=errors)
-    if not o.full:
+    if there is None:
         return FootOnPlate(foot, stance, seen, None, None)
     fit = walked(seen, leg, cutoff=ANGLES_CUTOFF, gap_limit=o.gap_limit)
-    other = right_plate(read_force_plates(o.plates, o.c3d_unit), o.other_plate, o.plates, o.side, "other_plate")
-    on_model = walked_stance(stance, fit, other, seen.source)
-    reserve("the hip's centre is that of a regression")
+    on_model = walked_stance(stance, fit, lab.stance(there, o.plates), seen.source)
+    reserve("the hip's centre comes from a regression")
     return FootOnPlate(foot, stance, seen, fit, on_model)
 
 

@@ -50,13 +50,13 @@ class ProsthesisCalibrateOptions(Options):
     fulcrum
         Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
     law
-        Usual numbers of the sole (.toml), about which those of the person are sought; built in by default. How the
+        Usual numbers of the sole (.toml), around which the person's numbers are estimated; built in by default. The
         offset of the foot from its standing trial is identified anew.
 
     Force plates
     ------------
     plates
-        Ground reactions in the markers' axes (.mot, .sto, .c3d).
+        Ground reactions in the markers' axes (.mot, .sto, .c3d, .csv).
     plate
         Name or number of the plate under the prosthetic foot.
     other_plate
@@ -65,9 +65,8 @@ class ProsthesisCalibrateOptions(Options):
     The search
     ----------
     full
-        Go on with the whole model of the stance from what was found along the recorded poses, height and pitch of the
-        foot with it: with the leg's inertia, the socket and the free pelvis. The trial needs the markers of pelvis and
-        thigh too.
+        Refine the fit along the recorded poses, height and pitch of the foot included, with the whole model of the
+        stance: the leg's inertia, the socket and the free pelvis. The trial needs the markers of pelvis and thigh too.
     starts
         Starts spread over the bounds, in addition to the usual numbers.
     seed
@@ -75,7 +74,7 @@ class ProsthesisCalibrateOptions(Options):
     level
         Probability of the intervals.
     machine_code
-        Compile the equations of `full` first: the first run takes a minute longer, every one after it is faster.
+        Compile the equations of `full` first: the first run takes a minute longer, later runs are faster.
 
     What was recorded with which error
     ----------------------------------
@@ -86,7 +85,7 @@ class ProsthesisCalibrateOptions(Options):
     pitch_error
         Standard deviation of the foot's pitch, constant over the stance.
     speed_error
-        Standard deviation of the foot's speed [m/s]: what markers and their filter leave of it.
+        Standard deviation of the foot's speed [m/s]: its error after filtering the markers.
 
     The motion
     ----------

@@ -24,6 +24,7 @@ from numpy import ndarray
 
 from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.prosthesis.calibrate.foot_on_plate import FootOnPlate, along_poses, on_whole_model, read
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
@@ -131,6 +132,26 @@ class ProsthesisCalibrateResult(Result):
         """The last calibration."""
         return self.calibration if self.whole is None else self.whole
 
+    @property
+    def time(self) -> Float[np.ndarray, " t"]:
+        """Time of the frames of the stance [s]."""
+        return self.stance.time
+
+    @property
+    def force(self) -> Float[np.ndarray, "t 3"]:
+        """Force of the ground on the foot over time by the calibrated model [N]."""
+        return self.predicted[:, :3]
+
+    @property
+    def plate_force(self) -> Float[np.ndarray, "t 3"]:
+        """The same on the plate [N]."""
+        return self.stance.force
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """Value of each number that was calibrated, by its name [N/m^n, N s/m, m, rad, -]."""
+        return by_name(self.table("numbers"), ("number",), "value")
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`numbers`, `stance`."""
         s = self.stance
@@ -213,9 +234,9 @@ def _summarise(r: ProsthesisCalibrateResult) -> None:
     verdicts = Counter(number.verdict for number in found.knowledge.numbers)
     unknown = [number.name for number in found.knowledge.numbers if number.verdict == "unknown"]
     if unknown:
-        reserve(f"never loaded, so that their usual values say nothing: {', '.join(unknown)}")
+        reserve(f"never loaded, so the data do not inform their values: {', '.join(unknown)}")
     if not found.converged:
-        reserve("the search stopped before it settled; give more `starts`")
+        reserve("the search stopped before convergence; give more `starts`")
     apart = found.knowledge.told_apart
     along = f"is met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s relative to the recorded speed"
     if r.whole is not None:

@@ -27,7 +27,7 @@ class ProsthesisCompareOptions(Options):
     cutoff
         Zero-lag low-pass of the recorded coordinates [Hz]; 0 leaves them as they are.
     socket_turns
-        Most fits after the first, each with the socket's simulated motion taken out of its markers. With 0 that motion
+        Most fits after the first, each with the socket's simulated motion removed from its markers. With 0 that motion
         is counted twice: in the leg's angles and again in the bushing.
     gap_limit
         Longest time for which a coordinate may be unknown [s].
@@ -44,13 +44,13 @@ class ProsthesisCompareOptions(Options):
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
     machine_code
-        Compile the equations first: the first run takes ten seconds longer, every one after it is faster.
+        Compile the equations first: the first run takes ten seconds longer, later runs are faster.
     workers
         Processes; as many as there are cores by default. Results do not depend on it.
     """
 
     writes: ClassVar[str] = """
-    Writes summary.csv (means by setting), trials.csv (length, peaks, outliers and what is seen in them), errors.csv,
+    Writes summary.csv (means by setting), trials.csv (length, peaks, outliers and their likely causes), errors.csv,
     ensembles.csv, coordinates, external loads, spheres and numbers of each stance, a figure, report.html and run.json
     into OUT.
     """

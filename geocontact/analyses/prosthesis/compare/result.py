@@ -28,6 +28,7 @@ import pandas as pd
 from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.workers import each
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
@@ -82,6 +83,17 @@ class ProsthesisCompareResult(Result):
     stances: tuple[JudgedStance, ...]
     sides: Mapping[str, Side]
     odd: Mapping[str, Oddness]
+
+    @property
+    def rmse(self) -> dict[tuple[str, str], float]:
+        """Root mean square error by trial and quantity [BW, share of the foot, N m/kg]."""
+        return by_name(self.table("errors"), ("trial", "quantity"), "rmse")
+
+    @property
+    def r2(self) -> dict[tuple[str, str], float]:
+        """Coefficient of determination by trial and quantity [-]."""
+        table = self.table("errors")
+        return dict(zip(zip(table["trial"], table["quantity"], strict=True), table["r2 [-]"], strict=True))
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`summary` by setting, `trials`, `errors` of each, `ensembles`."""
@@ -177,12 +189,12 @@ def _summarise(r: ProsthesisCompareResult) -> None:
     for one in stances:
         if np.isnan(one.errors.stance[0]):
             what = f"is simulated over {one.errors.simulated:.0%} of its stance, and ends before toe-off"
-            reserve(f"{one.name} {what}: no stance time of it, errors over that part")
+            reserve(f"{one.name} {what}: no stance time, errors are for that part only")
         if (oddness_of := r.odd.get(one.name)) is not None and oddness_of.outlier:
             seen = "; ".join(reasons(one)) or "no checked cause explains it"
-            reserve(f"{one.name} stands out with {one.errors.table['resultant'][1]:.1%} BW: {seen}")
+            reserve(f"{one.name} is an outlier with {one.errors.table['resultant'][1]:.1%} BW: {seen}")
     if transfer < FEWEST:
-        reserve(f"with {transfer} stances none can stand out: {FEWEST} are needed")
+        reserve(f"with {transfer} stances outliers cannot be detected: {FEWEST} are needed")
     note("compare", plain({one.name: _numbers(one) for one in stances}))
 
 

@@ -60,7 +60,7 @@ class ProsthesisDesignOptions(Options):
     Force plates
     ------------
     plates
-        Ground reactions in the markers' axes (.mot, .sto, .c3d).
+        Ground reactions in the markers' axes (.mot, .sto, .c3d, .csv).
     plate
         Name or number of the plate under the prosthetic foot.
 
@@ -70,7 +70,7 @@ class ProsthesisDesignOptions(Options):
         Angle by which the ground rises forwards on which the foot is evaluated, negative downhill; the trial is on a
         floor.
     edge
-        Place of a step on which the foot is evaluated, from the keel's posterior end; the part behind has no ground.
+        Place of a step on which the foot is evaluated, from the keel's posterior end; there is no ground behind it.
 
     Objective
     ---------
@@ -80,7 +80,7 @@ class ProsthesisDesignOptions(Options):
         Peak ankle moment, peak moment at the socket or rate of loading: the least; energy that the keel returns: the
         most; radius of the roll-over shape: 0.3 of the leg's length.
     target
-        Value of the aim that is wanted instead [N m, J, m or N/s].
+        Desired value of the aim instead [N m, J, m or N/s].
     intact
         Walking trial with a step of the intact foot; as near as can be to what it has is wanted then, of peak ankle
         moment, radius and rate of loading. The standing trial shows the intact leg as well.
@@ -126,8 +126,8 @@ class ProsthesisDesignOptions(Options):
 
     writes: ClassVar[str] = """
     Writes answers.csv (best value and interval for every aim), sweep.csv (outcomes with bands, angles or torques kept),
-    ranges.csv (between which ends each outcome lies), shapes.csv (roll-over shapes, ankle moment, energy), with
-    `intact` intact.csv (what a step of the intact foot has), numbers.csv (leg and foot as the trial is read with them),
+    ranges.csv (the limits between which each outcome lies), shapes.csv (roll-over shapes, ankle moment, energy), with
+    `intact` intact.csv (values of an intact foot's step), numbers.csv (leg and foot as estimated from the trial),
     a figure, report.html and run.json into OUT.
     """
 

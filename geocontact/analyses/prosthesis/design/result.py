@@ -93,6 +93,16 @@ class ProsthesisDesignResult(Result):
     numbers: Mapping[str, Number]
     intact: Mapping[Aim, float] | None = None
 
+    @property
+    def best(self) -> dict[str, float]:
+        """Best value of what is varied, by aim: fulcrum [m], alignment [rad], stiffness [-]."""
+        return {each.aim: each.choice.best for each in self.answers}
+
+    @property
+    def interval(self) -> dict[str, tuple[float, float]]:
+        """Interval of the same at `level` [m, rad, -]."""
+        return {each.aim: (each.choice.lower, each.choice.upper) for each in self.answers}
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`answers`, `ranges`, `sensitivities`, `sweep`, `shapes`, `numbers`; `intact`; `pairs` and `together`."""
         vary = self.sweep.knob.vary
@@ -176,12 +186,12 @@ def _reserve(r: ProsthesisDesignResult, lost: int) -> None:
     reserve(_words_of_torques(r))
     if r.intact is not None:
         reserve(OF_ONE_STEP)
-    reserve("bands are of one trial: how a person differs from step to step is not in them")
+    reserve("bands are for one trial: they do not include the variation from step to step")
     if knob.vary != "alignment":
-        reserve(f"the best {knob.vary} is sought with the recorded load; how the load changes is in the bands only")
+        reserve(f"the best {knob.vary} is computed with the recorded load; only the bands include how the load changes")
     if knob.terrain != LEVEL:
         where = words(knob.terrain)
-        reserve(f"evaluated {where}: the stance was recorded on a floor, its load and its turns are used unchanged")
+        reserve(f"evaluated {where}: the stance was recorded on a floor, its load and its rotations are used unchanged")
 
 
 def _summarise(r: ProsthesisDesignResult) -> None:
@@ -205,7 +215,7 @@ def _summarise(r: ProsthesisDesignResult) -> None:
         say(_beside_present(choice, measure.unit, shown(knob.present)))
         other = choice.sides["joint torques kept"]
         own = f"{shown(other.best)} ({shown(other.lower)} to {shown(other.upper)})"
-        say(f"with the torques of hip and knee kept: {own if other.verdict == 'identified' else other.verdict}")
+        say(f"with the torques of hip and knee unchanged: {own if other.verdict == 'identified' else other.verdict}")
     if r.intact is not None:
         say(intact_words(r.intact))
         note("intact", plain(dict(r.intact)))

@@ -75,16 +75,16 @@ LIMITS = [
     (
         "What a person does on another foot is not known. With angles kept the socket turns as recorded; with torque "
         "kept the foot turns until the ankle has the moment of the recorded foot; in both the load over time is the "
-        "recorded one, and nothing has inertia. With joint torques kept, hip and knee have the torques of the recorded "
-        "foot, and leg and load follow by forward dynamics. What people do is taken to lie between."
+        "recorded one; inertia is neglected. With joint torques kept, hip and knee have those of the recorded "
+        "foot, and leg and load follow by forward dynamics. Real behaviour is assumed to lie between these."
     ),
     (
         "Joint torques alone do not hold a leg on another foot: a spring of 2 N m/rad per kg of body mass and a damper "
         "at hip and knee, invented numbers, hold it near the recorded angles."
     ),
     (
-        "Bands hold what is not known of the sole, rounding of the keel's compressions, the count of spheres in the "
-        "model, errors of markers and plate. How a person differs from step to step is not in them."
+        "Bands include the uncertainty of the sole, rounding of the keel's compressions, the count of spheres in the "
+        "model, errors of markers and plate. They omit the variation from step to step."
     ),
     "A value is identified where its interval is narrower than 60 % of the range in every response that it matters in.",
     (

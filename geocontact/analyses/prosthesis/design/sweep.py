@@ -194,7 +194,7 @@ def intact_words(values: Mapping[Aim, float]) -> str:
     """Outcomes that the intact foot has, and those that it does not have, in a sentence."""
     has = "; ".join(f"{MEASURES[aim].words} {value:.3g} {MEASURES[aim].unit}" for aim, value in values.items())
     lacks = " and no ".join(MEASURES[aim].words.partition(",")[0] for aim in AIMS if aim not in values)
-    return f"aimed at, of one step of the intact foot: {has}; without socket and keel it has no {lacks}"
+    return f"aimed at, of one step of the intact foot: {has}; without socket and keel there is no {lacks}"
 
 
 def intact_table(values: Mapping[Aim, float]) -> pd.DataFrame:

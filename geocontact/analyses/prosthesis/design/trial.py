@@ -11,12 +11,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, listener, reserve
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
-from geocontact.analyses.prosthesis.recorded_files import (
-    foot_with_law,
-    offset_of_law,
-    plate_under_foot,
-    right_markers,
-)
+from geocontact.analyses.prosthesis.recorded_files import Laboratory, foot_with_law, offset_of_law
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_intact_leg
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import stance_on_plate
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
@@ -50,10 +45,14 @@ def read(o: ProsthesisDesignOptions) -> FootAndTrial:
     """Everything the options name."""
     with listener().preparing():
         foot = foot_with_law(vsf_foot(), o.law)
-    plate = plate_under_foot(o.plates, o.plate, o.side, o.mass, o.c3d_unit)
+    lab = Laboratory(o.side, o.axes, o.markers_map, o.c3d_unit)
+    own = lab.plate_under_foot(o.plates, o.plate, o.mass)
+    plate = lab.stance(own, o.plates)
+    standing, walking = lab.markers("`static`", o.static), lab.markers("markers", o.markers)
+    lab.check(standing, walking, o.mass, o.plates, own)
     trial = RecordedTrial(
-        standing=right_markers("`static`", o.static, o.side, o.axes, o.markers_map, o.c3d_unit),
-        walking=right_markers("markers", o.markers, o.side, o.axes, o.markers_map, o.c3d_unit),
+        standing=lab.right(standing),
+        walking=lab.right(walking),
         plate=plate,
         person=Person(o.mass),
         keel=foot.keel,
@@ -68,7 +67,7 @@ def read(o: ProsthesisDesignOptions) -> FootAndTrial:
     intact = intact_side(o, trial)
     zones = ZoneParameters(foot.sole, foot.law)
     if o.numbers is None:
-        reserve("nothing is known of this sole but the prior of any: give the `numbers` of a calibration")
+        reserve("for this sole only the general prior is known: give the `numbers` of a calibration")
         return FootAndTrial(foot, trial, zones.sd, intact)
     return FootAndTrial(foot, trial, _known(o.numbers, zones), intact)
 
@@ -106,9 +105,12 @@ def intact_side(o: ProsthesisDesignOptions, trial: RecordedTrial) -> IntactStep 
         what = f"`intact` states already which {MEASURES[o.aim].words} is wanted"
         raise InputError("", "`target`", what, "give one of them")
     leg = standing_intact_leg(trial.standing, trial.person)
-    seen = right_markers("`intact`", o.intact, o.side, o.axes, o.markers_map, o.c3d_unit)
+    lab = Laboratory(o.side, o.axes, o.markers_map, o.c3d_unit)
+    recorded = lab.markers("`intact`", o.intact)
     plates = o.plates if o.intact_plates is None else o.intact_plates
-    plate = plate_under_foot(plates, o.intact_plate, o.side, o.mass, o.c3d_unit, "intact_plate")
+    under = lab.plate_under_foot(plates, o.intact_plate, o.mass, "intact_plate")
+    lab.check(None, recorded, o.mass, plates, other=under)
+    seen, plate = lab.right(recorded), lab.stance(under, plates)
     step = intact_step(seen, leg, plate, cutoff=trial.cutoff, gap_limit=trial.gap_limit)
     require_intact(step, seen, leg, plate, trial.plate, cutoff=trial.cutoff, gap_limit=trial.gap_limit)
     return step

@@ -4,7 +4,7 @@
 >>> stood = "meshes/amputee_P1/"
 >>> person = {"mass": 77.3, "height": 1.81}
 >>> result = gc.prosthesis.scale(stood + "standing.trc", functional=stood + "functional.trc", **person)
->>> result
+>>> print(result)
 both legs of 77.3 kg in 17 bodies with 36 coordinates, pelvis with all above it 46.9 kg, residual limb 1.78
 kg
 5 of 5 joint centres from the functional trial
@@ -22,6 +22,7 @@ from typing import cast
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
@@ -31,7 +32,7 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
 from geocontact.analyses.motion.skeleton import MARKER, scene_of, skeleton
-from geocontact.analyses.prosthesis.recorded_files import right_markers
+from geocontact.analyses.prosthesis.recorded_files import Laboratory
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
 from geocontact.analyses.prosthesis.stance_files import numbers_table
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
@@ -138,14 +139,15 @@ class Stood:
 
 def read(o: ProsthesisScaleOptions) -> Stood:
     """Everything the options name."""
-    seen = right_markers("static", o.static, o.side, o.axes, o.markers_map, o.c3d_unit)
+    lab = Laboratory(o.side, o.axes, o.markers_map, o.c3d_unit)
+    standing = lab.markers("static", o.static)
+    moved = None if o.functional is None else lab.markers("`functional`", o.functional)
+    lab.check(standing, moved, cast(float, o.mass))
+    seen, moving = lab.right(standing), None if moved is None else lab.right(moved)
     name, far = largest_motion(seen)
     if far > MOVED:
         what = f"{name} moves {1e3 * far:.0f} mm away from its median: is this standing still?"
         reserve(f"{seen.source}: {what}")
-    moving = None
-    if o.functional is not None:
-        moving = right_markers("`functional`", o.functional, o.side, o.axes, o.markers_map, o.c3d_unit)
     joints = NO_JOINTS if moving is None else standing_joints(seen, moving)
     foot = vsf_foot()
     keel = foot.keel.posterior_mass + foot.keel.joints * foot.keel.segment_mass
@@ -195,6 +197,16 @@ class ProsthesisScaleResult(Result):
     moved: Poses | None
     joints: tuple[JointFound, ...]
     numbers: Mapping[str, Number]
+
+    @property
+    def masses(self) -> dict[str, float]:
+        """Mass of each segment [kg]."""
+        return {body.name: body.mass for body in self.model.bodies}
+
+    @property
+    def joint_centres(self) -> dict[str, Float[np.ndarray, " 3"]]:
+        """Centre of each joint in the laboratory while standing [m]."""
+        return {each.name: each.place for each in self.joints}
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`segments`, `joints`, `numbers`, and `markers` of the functional trial where there is one."""

@@ -58,7 +58,7 @@ class ProsthesisSimulateOptions(Options):
     Force plates
     ------------
     plates
-        Ground reactions in the markers' axes (.mot, .sto, .c3d).
+        Ground reactions in the markers' axes (.mot, .sto, .c3d, .csv).
     other_plate
         Name or number of the plate under the other foot: its force stands for the other leg.
     plate
@@ -69,12 +69,12 @@ class ProsthesisSimulateOptions(Options):
     cutoff
         Zero-lag low-pass of the recorded coordinates [Hz]; 0 leaves them as they are.
     socket_turns
-        Most fits after the first, each with the socket's simulated motion taken out of its markers. With 0 that motion
+        Most fits after the first, each with the socket's simulated motion removed from its markers. With 0 that motion
         is counted twice: in the leg's angles and again in the bushing.
     gap_limit
         Longest time for which a coordinate may be unknown [s].
     machine_code
-        Compile the equations first: the first run takes ten seconds longer, every one after it is faster.
+        Compile the equations first: the first run takes ten seconds longer, later runs are faster.
     markers_map
         Names of recorded markers as they are called here: R_HIP=RASI, or a file with a pair in each line.
     axes

@@ -4,11 +4,11 @@
 >>> trial = "meshes/gait_P1_medium_1/"
 >>> plates = {"plates": trial + "plates.mot", "plate": "own_force", "other_plate": "other_force"}
 >>> result = gc.prosthesis.simulate(trial + "walking.trc", static=trial + "standing.trc", mass=77.3, **plates)
->>> result
+>>> print(result)
 stance of 0.73 s at the fulcrum of 117 mm: vertical force up to 1.30 BW, ankle moment up to 100 N m, keel
 stores 11.0 J
 against the plate: R² 0.92, 7.8% BW; centre of pressure R² 1.00, 1.1% of the foot; stance -6 ms
-warning: the hip's centre is that of a regression; a `functional` trial determines it better
+warning: the hip's centre comes from a regression; a `functional` trial determines it better
 warning: 79 of 142 numbers of leg and foot are invented, see numbers.csv
 """
 
@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
@@ -121,6 +122,31 @@ class ProsthesisSimulateResult(Result):
     stance: Stance
     errors: StanceErrors | None
     numbers: Mapping[str, Number]
+
+    @property
+    def time(self) -> Float[np.ndarray, " t"]:
+        """Time of the frames of the stance [s]."""
+        return self.stance.time
+
+    @property
+    def force(self) -> Float[np.ndarray, "t 3"]:
+        """Force of the ground on the foot over time, in the frame of the laboratory [N]."""
+        return np.asarray(of_side(self.stance.force, self.options.side))
+
+    @property
+    def centre_of_pressure(self) -> Float[np.ndarray, "t 3"]:
+        """Centre of pressure over time, in the frame of the laboratory [m]; NaN where little presses."""
+        return np.asarray(of_side(self.stance.centre("ground"), self.options.side))
+
+    @property
+    def ankle_moment(self) -> Float[np.ndarray, " t"]:
+        """Moment at the ankle over time [N m]."""
+        return self.stance.ankle_moment
+
+    @property
+    def stored_energy(self) -> Float[np.ndarray, " t"]:
+        """Energy stored in the keel over time [J]."""
+        return self.stance.stored
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`stance` over time, `numbers`, and `errors` and `curves` where a plate was named."""

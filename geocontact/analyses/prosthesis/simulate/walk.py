@@ -11,7 +11,7 @@ import numpy as np
 from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_tasks import MOVING
-from geocontact.analyses.prosthesis.recorded_files import foot_with_law, offset_of_law, right_markers, right_plate
+from geocontact.analyses.prosthesis.recorded_files import Laboratory, foot_with_law, offset_of_law
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import of_side
@@ -23,7 +23,7 @@ from geocontact.contact.bushing import PRINTED, SOCKET, Bushing
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.geometry.shapes import HalfSpace
-from geocontact.io.mocap.force_plates import read_force_plates
+from geocontact.io.mocap.force_plates import plate_named
 from geocontact.loads.ground import Stairs
 
 
@@ -55,23 +55,27 @@ class RecordedWalk:
 
 def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
     """Everything the options name."""
-    given = o.side, o.axes, o.markers_map, o.c3d_unit
+    lab = Laboratory(o.side, o.axes, o.markers_map, o.c3d_unit)
     ground = _ground(o)
     foot = foot_with_law(vsf_foot(), o.law)
-    standing = right_markers("`static`", cast(Path, o.static), *given)
+    standing = lab.markers("`static`", cast(Path, o.static))
     moving = None
     if o.functional is None:
-        reserve("the hip's centre is that of a regression; a `functional` trial determines it better")
+        reserve("the hip's centre comes from a regression; a `functional` trial determines it better")
     else:
-        moving = right_markers("`functional`", o.functional, *given)
+        moving = lab.right(lab.markers("`functional`", o.functional))
     offset = offset_of_law(o.law, cast(Path, o.static))
-    seen = right_markers("markers", o.markers, *given, o.time)
+    seen = lab.markers("markers", o.markers, o.time)
     file = cast(Path, o.plates)
-    plates = read_force_plates(file, o.c3d_unit)
+    plates = lab.plates(file)
     add_input("`plates`", file, plates=len(plates))
-    other = right_plate(plates, o.other_plate, file, o.side, "other_plate")
-    plate = None if o.plate is None else right_plate(plates, o.plate, file, o.side)
-    return RecordedWalk(standing, moving, seen, other, plate, ground, foot, offset)
+    other = plate_named(plates, o.other_plate, file, "`other_plate`")
+    own = None if o.plate is None else plate_named(plates, o.plate, file, "`plate`")
+    lab.check(standing, seen, cast(float, o.mass), file, own, other, 0.0 if o.ground is None else None)
+    plate = None if own is None else lab.stance(own, file)
+    return RecordedWalk(
+        lab.right(standing), moving, lab.right(seen), lab.stance(other, file), plate, ground, foot, offset
+    )
 
 
 def _ground(o: ProsthesisSimulateOptions) -> HalfSpace | Stairs:
@@ -103,9 +107,9 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
         gap_limit=o.gap_limit,
     )
     if walk.hip is not None:
-        say(f"hip centre from the functional trial, {1e3 * walk.hip.rms:.1f} mm off itself")
+        say(f"hip centre from the functional trial: residual {1e3 * walk.hip.rms:.1f} mm (root mean square)")
     if walk.off > MOVING.rms:
-        reserve(f"{walk.seen.source}: markers are {1e3 * walk.off:.0f} mm from the standing leg in the median")
+        reserve(f"{walk.seen.source}: markers are {1e3 * walk.off:.0f} mm (median) away from the standing leg")
     return walk
 
 

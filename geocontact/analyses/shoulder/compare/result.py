@@ -6,7 +6,7 @@
 >>> recorded = full[["time [s]", "elevation [deg]", "supporting [N]"]]
 >>> recorded.rename(columns={"supporting [N]": "force [N]"}).to_csv("recorded.csv", index=False)
 >>> half = gc.shoulder.simulate(trial, level=0.5, side="right").write("half") / "right.csv"
->>> gc.shoulder.compare(half, "recorded.csv")
+>>> print(gc.shoulder.compare(half, "recorded.csv"))
 elevation, all: MAE 4.02, RMSD 4.51 deg
 elevation, work: MAE 4.93, RMSD 5.12 deg
 force, all: MAE 13.4, RMSD 14.7 N
@@ -174,6 +174,11 @@ class ShoulderCompareResult(Result):
 
     options: ShoulderCompareOptions
     channels: tuple[ComparedChannel, ...]
+
+    @property
+    def rmsd(self) -> dict[tuple[str, str], float]:
+        """Root mean square difference by channel and phase: force [N], angles [rad]."""
+        return {(one.channel, phase): a.rmsd for one in self.channels for phase, a in one.errors.items()}
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`comparison`: one row per channel and phase."""

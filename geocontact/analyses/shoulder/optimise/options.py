@@ -30,7 +30,7 @@ class ShoulderOptimiseOptions(Options):
     Objective
     ---------
     aim
-        Share of the shoulder's torque that support takes away: its mean over persons, that of the worst person, or the
+        Share of the shoulder's torque that support takes away: its mean over persons, its worst person, or the
         mean over the worst cases (conditional value at risk).
     worst_share
         Share of all cases that are the worst; 25% by default.
@@ -39,13 +39,13 @@ class ShoulderOptimiseOptions(Options):
     rate_limit
         Largest rate of the support torque [N m/s]; none by default.
     reserve
-        Share of the torque that is left to the shoulder at every moment, such as 10%: room for persons not seen.
+        Share of the torque that is left to the shoulder at every moment, such as 10%: a margin for other persons.
     certainty
         Share of the draws of the model's errors (weight of the arm, push, elevation, sensors) in which no arm may be
         pushed up; 95% where no reserve is given, 0% leaves them out.
     scale
-        arm: each person's factors in proportion to the weight of the person's arm, besides those that are the same for
-        all; persons held out get the factors of the others by it. none: the same for everybody.
+        arm: each person's factors in proportion to the weight of the person's arm, and factors that are the same for
+        all; held-out persons get the others' factors, scaled. none: the same for everybody.
     dominant_share
         Part of the push on the tool that the dominant hand exerts, where the study does not say: 100% by default.
 
@@ -112,4 +112,4 @@ class ShoulderOptimiseOptions(Options):
             what = f"{self.draws} draws are too few for an interval"
             raise InputError("", "`draws`", what, f"give {FEWEST_DRAWS} or more")
         if self.cutoff == 0.0:
-            raise InputError("", "`cutoff`", "0 leaves noise in accelerations", "give for example 6")
+            raise InputError("", "`cutoff`", "0 leaves the noise in the accelerations", "give for example 6")

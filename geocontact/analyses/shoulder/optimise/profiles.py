@@ -9,7 +9,8 @@ from typing import TypeVar
 import numpy as np
 
 from geocontact.analyses.frame.collector import add_input, reserve
-from geocontact.analyses.motion.markers import markers_given, renamed_as_told
+from geocontact.analyses.motion.checked_trial import check_trial
+from geocontact.analyses.motion.markers import markers_given, renamed_as_told, turn_of
 from geocontact.analyses.shoulder.devices import device_named, wearer_of_lengths
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.recordings import tool_current
@@ -34,6 +35,7 @@ from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport, hel
 from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds
 from geocontact.shoulder_exoskeleton.support.profile_limits import Limits
 from geocontact.shoulder_exoskeleton.synthetic import all_arms
+from geocontact.trial_checks.recorded import RecordedTrial
 
 T = TypeVar("T")
 WORST = 0.25
@@ -71,7 +73,7 @@ def read(o: ShoulderOptimiseOptions) -> WorkersAndDevice:
     add_input("`study`", o.study, persons=len(study.persons), trials=len(study.trials))
     bare = [trial for trial in study.trials if trial.level is None]
     if not bare:
-        reserve("every trial was recorded in the device: the shoulder's torque is that of arms that it supported")
+        reserve("every trial was recorded in the device: the shoulder's torque is for arms that it supported")
     lengths = {name: wearer_of_lengths(o.study, each.lengths) for name, each in study.persons.items()}
     arms = [arm for trial in bare or study.trials for arm in _arms(o, study, trial, lengths[trial.person])]
     unseen = {
@@ -85,6 +87,7 @@ def read(o: ShoulderOptimiseOptions) -> WorkersAndDevice:
 def _arms(o: ShoulderOptimiseOptions, study: OverheadStudy, trial: StudyTrial, lengths: Wearer) -> list[ArmTrial]:
     person, task = study.persons[trial.person], study.tasks[trial.task]
     recorded = renamed_as_told(markers_given(trial.markers, o.axes, None, o.c3d_unit), o.markers_map)
+    check_trial(RecordedTrial(markers=recorded, turn=turn_of(o.axes)))
     seen = filled_markers(recorded, o.gap_limit)
     add_input(f"{trial.person} {trial.task}", trial.markers, frames=len(seen))
     current = tool_current(trial.tool, seen.time)
@@ -120,7 +123,7 @@ def sound(o: ShoulderOptimiseOptions, what: Callable[[], T]) -> T:
 def judged_held_out(given: WorkersAndDevice, loop: ClosedLoop, o: ShoulderOptimiseOptions) -> dict[str, HeldOutSupport]:
     """How profiles of the others fare, by person; empty where there is one only."""
     if len({trial.person for trial in given.trials}) == 1:
-        reserve("one person only: no person can be held out, the profile is for this person")
+        reserve("only one person: cross-validation is impossible, the profile is for this person")
         return {}
     by_arm = o.scale == "arm"
     try:

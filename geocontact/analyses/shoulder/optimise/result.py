@@ -3,7 +3,7 @@
 >>> import geocontact as gc
 >>> result = gc.shoulder.optimise()
 >>> result.sentences[0]
-"36.1% of the shoulders' torque is taken away in the simulation (36.1% planned) without ever pushing an arm up,
+"36.1% of the shoulders' torque is removed in the simulation (36.1% planned) without ever pushing an arm up,
 nor in 95% of the draws of the model's errors that it was chosen with; one factor for all tasks, hands and phases
 takes 19.2%"
 """
@@ -99,6 +99,21 @@ class ShoulderOptimiseResult(Result):
     noisy: Mapping[str, Mapping[str, SupportOutcome]]
     held_out: Mapping[str, HeldOutSupport]
     front: tuple[FrontPoint, ...]
+
+    @property
+    def factors(self) -> dict[tuple[str, str, str, str], float]:
+        """Factor of the support by profile, task, hand and phase [-]."""
+        return {(p.name, k.task, k.hand, k.phase): value for p in self.profiles for k, value in p.factors.items()}
+
+    @property
+    def reduction(self) -> dict[tuple[str, str], float]:
+        """Share of the shoulder's torque that the support takes away, by profile and case [-]."""
+        return {(name, case): one.reduction for name, found in self.outcomes.items() for case, one in found.items()}
+
+    @property
+    def force(self) -> dict[tuple[str, str], float]:
+        """Largest force at the interface by profile and case [N]."""
+        return {(name, case): one.force for name, found in self.outcomes.items() for case, one in found.items()}
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`factors`, `scales`, `outcomes`, `simulated`, `held_out`, `front`."""

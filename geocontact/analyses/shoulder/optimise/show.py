@@ -125,13 +125,13 @@ def say_profiles(made: MadeProfiles, loop: ClosedLoop, trials: Sequence[ArmTrial
         "cvar": f" in the mean of the worst {loop.worst_share:.0%} of the cases",
     }[loop.aim]
     say(
-        f"{made.group.value:.1%} of the shoulders' torque is taken away{whose} in the simulation "
+        f"{made.group.value:.1%} of the shoulders' torque is removed{whose} in the simulation "
         f"({made.group.profile.value:.1%} planned){_kept(loop.limits)}; one factor for all tasks, hands and phases "
         f"takes {made.one.value:.1%}{_out(made.group, made.one)}"
     )
     best, one = (_by(trials, each, "mean") for each in (made.group, made.one))
     if loop.aim != "mean":
-        say(f"in the mean over persons it is {best:.1%}, and {one:.1%} with one factor{_out(made.group, made.one)}")
+        say(f"the mean over persons is {best:.1%}, and {one:.1%} with one factor{_out(made.group, made.one)}")
     taken = {
         "taken away": best,
         "taken away by one factor": one,
@@ -142,8 +142,8 @@ def say_profiles(made: MadeProfiles, loop: ClosedLoop, trials: Sequence[ArmTrial
     if made.by_arm is not None and len(set(made.scales.values())) > 1:
         taken["taken away by arm weight, by the aim"] = made.by_arm.value
         say(
-            f"with factors in proportion to the weight of each person's arm {made.by_arm.value:.1%} is taken "
-            f"away{whose}{_out(made.by_arm)}"
+            f"with factors in proportion to the weight of each person's arm {made.by_arm.value:.1%} is "
+            f"removed{whose}{_out(made.by_arm)}"
         )
     for name, found in (("of all persons", made.group), ("of one factor", made.one), ("by arm weight", made.by_arm)):
         if found is not None and found.passed > SLACK:
@@ -203,7 +203,7 @@ def say_simulated(noisy: Mapping[str, Mapping[str, SupportOutcome]], limits: Lim
         share = float(np.mean([each.reduction for each in ones]))
         up, excess = max(each.pushed_up for each in ones), max(each.excess for each in ones)
         force, rate = max(each.force for each in ones), max(each.rate for each in ones)
-        said = f"{share:.1%} taken away, pushed up {up:.1%} of the time, by {excess:.1f} N m at most, {force:.0f} N"
+        said = f"{share:.1%} removed, pushed up {up:.1%} of the time, by {excess:.1f} N m at most, {force:.0f} N"
         if name == GROUP:
             out = out_of_cuff_words(*(each.out_of_cuff for each in ones))
             say(f"simulated with noisy, late sensors: {said} in the cuff{out}")

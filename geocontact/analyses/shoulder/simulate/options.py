@@ -46,7 +46,7 @@ class ShoulderSimulateOptions(Options):
         How the cuff holds the arm: point, a sphere in a tube as in the paper, or surface, a padded cuff around the arm
         (its first run compiles for half a minute).
     sensitivity
-        Also write what each number of the device changes.
+        Also write the sensitivity to each number of the device.
 
     The motion
     ----------

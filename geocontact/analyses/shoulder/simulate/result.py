@@ -2,7 +2,7 @@
 
 >>> import geocontact as gc
 >>> result = gc.shoulder.simulate("meshes/overhead_P1T1S100/markers.trc", level=1.0, side="right")
->>> result
+>>> print(result)
 right arm: elevation up to 113.9 deg (shoulder 120.9), supporting force 6.7 … 56.5 N, slip 179 mm
 warning: no `person`: the device is adjusted to an upper arm of 300 mm and shoulders 400 mm wide (invented)
 warning: T10 is taken to lie straight below Lucy_MC: no span of upright stance was named
@@ -71,6 +71,26 @@ class ShoulderSimulateResult(Result):
     device: Device
     wearer: Wearer
     influences: Mapping[Side, tuple[Influence, ...]]
+
+    @property
+    def time(self) -> dict[str, Float[np.ndarray, " t"]]:
+        """Time of the frames by side [s]."""
+        return {each.side: each.simulation.motion.time for each in self.arms}
+
+    @property
+    def elevation(self) -> dict[str, Float[np.ndarray, " t"]]:
+        """Elevation of the upper arm over time by side [rad]."""
+        return {each.side: each.simulation.motion.elevation for each in self.arms}
+
+    @property
+    def force(self) -> dict[str, Float[np.ndarray, "t 3"]]:
+        """Force of the cuff on the arm over time by side, in the frame of the device [N]."""
+        return {each.side: each.simulation.told["force"] for each in self.arms}
+
+    @property
+    def support_torque(self) -> dict[str, Float[np.ndarray, " t"]]:
+        """Support torque over time by side [N m]."""
+        return {each.side: each.simulation.told["support"][:, 0] for each in self.arms}
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`right` and `left` over time, `numbers` of the device, `sensitivity` where it was asked for."""

@@ -13,14 +13,14 @@ from geocontact.data.plausible import CUTOFF, GAP
 
 @dataclass(frozen=True)
 class StudyOptions(Options):
-    """Simulate the arms of a study along the motion in the device and along that without it, compared with logger and
+    """Simulate the arms of a study along the motions with and without the device, compared with logger and
     mat.
 
     Parameters
     ----------
     study
         Tasks, persons and trials (.toml). Trials with a level were recorded in the device: their arms are simulated,
-        beside `recorded` of the dominant one and `recorded_other`, and along the motion that `without` names.
+        against `recorded` of the dominant one and `recorded_other`, and along the motion that `without` names.
     device
         lucy, lucy_new_cylinder (32 mm, with its mass), lucy_new_cylinder_massless, or a file (.toml) with numbers.
 

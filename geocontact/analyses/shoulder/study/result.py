@@ -24,6 +24,7 @@ from jaxtyping import Float
 from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
@@ -90,6 +91,11 @@ class StudyResult(Result):
     options: StudyOptions
     cases: tuple[StudyCase, ...]
     device: Device
+
+    @property
+    def rmsd(self) -> dict[tuple[str, str], float]:
+        """Mean root mean square difference by channel and part of the trial: force [N], angles [rad]."""
+        return by_name(self.table("summary"), ("channel", "part"), "rmsd")
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`summary` over all arms and trials, `errors` of each, `differences` of both groups, `passive` joints."""

@@ -9,6 +9,7 @@ from typing import Annotated, ClassVar
 from geocontact.analyses.frame.marks import Fraction, Spelled
 from geocontact.analyses.sit_to_stand.search_options import NODES, StandingSearchOptions, within
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import SEARCH
 
 MOST_STARTS, MOST_POINTS = 1000, 20
 
@@ -27,27 +28,27 @@ class StandingCalibrateOptions(StandingSearchOptions):
     starts
         Further starts, drawn from the prior of the parameters.
     resamples
-        Calibrations of trials that the answer itself makes, whose mean error is taken off; fewer than two for none.
+        Calibrations of trials simulated from the result; their mean error is subtracted; fewer than two for none.
     seed
         Seed of starts and resamples.
     level
         Probability of the intervals.
     profiles
-        Points to either side of each parameter, up to three standard deviations off, at which all else is sought again.
+        Points to either side of each parameter, up to three standard deviations away, where all else is refitted.
     """
 
     writes: ClassVar[str] = """
-    Writes parameters.csv (value, interval, and whether the trials identify it), errors.csv (how near each channel is),
+    Writes parameters.csv (value, interval, and whether the trials identify it), errors.csv (error of each channel),
     certificate.csv (of the motion), correlation.csv, numbers.csv and mesh.csv (all that ran), model.osim, a table over
     time and a trajectory for OpenSim's Moco for each trial, a figure, report.html and run.json into OUT.
 
-    Ctrl-C ends the search and keeps its last iterate.
+    Ctrl-C stops the optimisation and saves its last iterate.
     """
 
     study: Path
     _: KW_ONLY
     nodes: Annotated[float, NODES] = 30.0
-    time_limit: float = 600.0
+    time_limit: Annotated[float, SEARCH] = 600.0
     starts: int = 0
     resamples: int = 6
     seed: int = 0

@@ -19,6 +19,8 @@ from geocontact.standing_up.phase import MOST_OF_IT
 from geocontact.standing_up.trials import StandingUpTrials
 
 TOLERANCE = 1e-7
+CONTRADICTED = "contradicts the data"
+"""Verdict of numbers of a model whose residuals are far from noise."""
 
 
 def phases_sought(
@@ -38,7 +40,7 @@ def doubt_phase(one: CalibratedPhase) -> None:
     """Everything that changes how the numbers of a phase are to be read."""
     phase = f"phase {one.name}"
     if not one.found.solved:
-        reserve(f"{phase} ended without an answer: {one.found.ending}; values are those of its last iterate")
+        reserve(f"{phase} did not converge: {one.found.ending}; values are from its last iterate")
     if one.doubt:
         reserve(f"{phase} has no intervals: {one.doubt}")
     for motion, seen in zip(one.found.motions, one.motions, strict=True):
@@ -49,7 +51,7 @@ def doubt_phase(one: CalibratedPhase) -> None:
         for verdict in ("on its bound", "prior-dominated", "not separable")
     )
     if at_bound:
-        reserve(f"on its bound, so that the value says where the bound is: {at_bound}")
+        reserve(f"at a bound, so the value only reflects the bound: {at_bound}")
     if apart:
         words = f"{phase} has another minimum that costs little more and has other values"
         reserve(f"{words}: not separable, with intervals that cover both: {apart}")
@@ -60,7 +62,7 @@ def doubt_phase(one: CalibratedPhase) -> None:
         )
     if believed:
         words = f"these trials add little to the prior of {believed}"
-        reserve(f"{words}: their values are mostly the belief's")
+        reserve(f"{words}: their values come mostly from the prior")
     most = max(one.shares, key=lambda name: one.shares[name])
     if one.shares[most] > MOST_OF_IT:
         reserve(f"{100.0 * one.shares[most]:.1f} % of the cost are {most}: check the noise of the others")
@@ -72,25 +74,28 @@ def _compare_starts(one: CalibratedPhase) -> None:
     if len(one.ends) < 2 or not solved:
         return
     same = sum(end.same for end in one.ends)
-    say(f"phase {one.name}: {same} of {len(one.ends)} starts end in the best minimum, {solved} in one")
+    say(f"phase {one.name}: {same} of {len(one.ends)} starts end in the best minimum, {solved} converge")
     if not one.ends[0].same:
-        reserve(f"phase {one.name} from where it starts by itself ends in a minimum that another start beats")
+        reserve(f"phase {one.name} from its default start ends in a minimum worse than that of another start")
 
 
-def parameters_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
-    """Value and interval in SI, and standard deviations of what is searched: lengths in m, others as logarithms."""
+def parameters_table(phases: Sequence[CalibratedPhase], *, fits: bool = True) -> pd.DataFrame:
+    """Value and interval in SI, and standard deviations of what is searched: lengths in m, others as logarithms.
+
+    Where the model does not fit its data there are no intervals, and no number is known.
+    """
     rows = [
         {
             "phase": phase.name,
             "parameter": n.name,
             "unit": n.unit,
             "value": n.value,
-            "lower": n.lower,
-            "upper": n.upper,
+            "lower": n.lower if fits else np.nan,
+            "upper": n.upper if fits else np.nan,
             "sd prior": n.before,
-            "sd with the trials": n.after if np.isfinite(n.after) else np.nan,
+            "sd with the trials": n.after if fits and np.isfinite(n.after) else np.nan,
             "sd of what is assumed": n.assumed,
-            "verdict": n.verdict,
+            "verdict": n.verdict if fits or n.verdict == "held" else CONTRADICTED,
         }
         for phase in phases
         for n in _own(phase)

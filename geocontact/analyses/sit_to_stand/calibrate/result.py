@@ -9,14 +9,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.frame.collector import listener, note, say
+from geocontact.analyses.frame.collector import judge, listener, note, say
 from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
@@ -34,11 +35,13 @@ from geocontact.analyses.sit_to_stand.show import PARTS, standing_curves
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.analyses.sit_to_stand.trial_tables import (
     errors_table,
+    goodness_of_trials,
     mesh_table,
     ran_table,
     trial_table,
 )
 from geocontact.dynamics.collocation.solve import CollocationResult
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit
 from geocontact.standing_up.calibrated_phase import CalibratedPhase
 from geocontact.standing_up.calibration import calibrated_trials, calibration_numbers
 from geocontact.standing_up.trial_result import TrialResult
@@ -87,12 +90,22 @@ class StandingCalibrateResult(Result):
         """Root mean square difference of each channel of each trial."""
         return errors_table(self.trials, self.given.noise, self.given.tracks)
 
+    @property
+    def parameters(self) -> dict[tuple[str, str], float]:
+        """Value of each parameter of the contacts, by phase and name [SI unit of each]."""
+        return by_name(self.table("parameters"), ("phase", "parameter"), "value")
+
+    @property
+    def rmsd(self) -> dict[tuple[str, str], float]:
+        """Root mean square difference by trial and quantity: angles [rad], lengths [m], forces [N]."""
+        return by_name(self.errors, ("trial", "quantity"), "rmsd")
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`parameters`, `errors`, `certificate`, `correlation`, `numbers`, `mesh`, `trial_NAME`; `profiles` too."""
         noise, tracks = self.given.noise, self.given.tracks
         own = {f"trial_{trial.recorded.name}": trial_table(trial, noise, tracks) for trial in self.trials}
         return {
-            "parameters": parameters_table(self.phases),
+            "parameters": parameters_table(self.phases, fits=self.fit_outcome != "contradicts"),
             "errors": self.errors,
             "certificate": certificate_table(self.phases),
             "correlation": correlation_table(self.phases),
@@ -133,8 +146,17 @@ def run(given: StandingUpTrials, o: StandingCalibrateOptions) -> StandingCalibra
     return result
 
 
+def goodness_of_calibration(r: StandingCalibrateResult) -> GoodnessOfFit:
+    """Channels against their noise, and parameters that are on a bound."""
+    fit = goodness_of_trials(r.trials, r.given.noise, r.given.tracks)
+    bound = [n.name for phase in r.phases for n in phase.numbers.numbers if n.verdict == "on its bound"]
+    doubts = [Doubt(f"{name} is on the bound of its search", False) for name in dict.fromkeys(bound)]
+    return replace(fit, doubts=(*fit.doubts, *doubts))
+
+
 def _report(r: StandingCalibrateResult) -> None:
-    errors = r.errors
+    errors, fit = r.errors, goodness_of_calibration(r)
+    judge(fit)
     numbers = [number for phase in r.phases for number in phase.numbers.numbers if number.verdict != "held"]
     known = [number.name for number in numbers if number.verdict == "known"]
     worst = {}
@@ -148,7 +170,7 @@ def _report(r: StandingCalibrateResult) -> None:
         f"{counted(len(r.trials), 'trial')}: ground reaction within {worst['force']:.1f} N, centre of pressure within "
         f"{worst['centre']:.1f} mm, angles within {angle:.2f}°{also} (largest RMSD of a trial)"
     )
-    if r.found.solved:
+    if r.found.solved and fit.outcome != "contradicts":
         seen = [each for phase in r.phases for each in phase.motions]
         passed = sum(each.certificate is not None and each.certificate.converged for each in seen)
         left = max(float(each.force.max()) for each in seen), max(float(each.moment.max()) for each in seen)
@@ -156,7 +178,8 @@ def _report(r: StandingCalibrateResult) -> None:
             f"{passed} of {counted(len(seen), 'motion')} certified: at most {left[0]:.2g} N and {left[1]:.2g} N m are "
             "left of the balance between the points"
         )
-    say(f"{len(known)} of {counted(len(numbers), 'parameter')} known: {', '.join(known) or 'none'}")
+    if fit.outcome != "contradicts":
+        say(f"{len(known)} of {counted(len(numbers), 'parameter')} known: {', '.join(known) or 'none'}")
     for phase in r.phases:
         found = phase.found
         note(

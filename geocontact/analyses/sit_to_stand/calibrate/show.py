@@ -13,9 +13,9 @@ from geocontact.view.page.content import Page, Section
 from geocontact.view.page.tables import frame_table
 
 MODEL = [
-    "Both legs are one planar chain: masses, torques and the ground's force are those of both, a strap is that of one.",
+    "Both legs are one planar chain: masses, torques and the ground's force are for both, a strap's force for one.",
     "Each deviation from the recording counts in parts of its noise.",
-    "The motion is sought together with the parameters under exact equations of motion; it is not the recorded one.",
+    "The motion is computed together with the parameters under exact equations of motion; it is not the recorded one.",
     "Identified: the trials at least halve the standard deviation of the prior. Prior-dominated: they do not.",
     "Not separable: another minimum that costs little more has another value; the interval covers both.",
     "The priors are invented, as are the usual values.",

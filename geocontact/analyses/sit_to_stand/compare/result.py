@@ -18,6 +18,7 @@ import pandas as pd
 from geocontact.analyses.frame.collector import note, results_place, say
 from geocontact.analyses.frame.folder import written_whole
 from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.compare.options import StandingCompareOptions
@@ -70,6 +71,11 @@ class StandingCompareResult(Result):
     def accepted(self) -> bool:
         """Whether every trial is predicted, and every motion certified."""
         return complete(self.predictions, len(self.given.trials.trials))
+
+    @property
+    def rmsd(self) -> dict[tuple[str, str, str], float]:
+        """Root mean square difference by trial, predictor and quantity: angles [rad], forces [N]."""
+        return by_name(self.errors, ("trial", "predictor", "quantity"), "rmsd")
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`comparison`, `certificate`, `numbers` and `mesh`."""
@@ -162,7 +168,7 @@ def _report(r: StandingCompareResult) -> None:
     others = errors[errors["predictor"].isin([MEAN, NEAREST])].groupby(["trial", "quantity"])["rmsd"].min()
     free = errors[(errors["predictor"] == ALL) & (errors["given"] == "no")].set_index(["trial", "quantity"]).index
     better = int((best[free] < others[free]).sum())
-    say(f"of {len(free)} channels that are not given, {better} are nearer than by either trivial predictor")
+    say(f"of {len(free)} predicted channels, {better} have a smaller error than with either trivial predictor")
     note("better than both", [better, len(free)])
 
 

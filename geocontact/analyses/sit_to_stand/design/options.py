@@ -16,7 +16,7 @@ MOST_DRAWS, MOST_POINTS = 200, 50
 
 @dataclass(frozen=True)
 class StandingDesignOptions(StandingSearchOptions):
-    """Strap, place and help of an exoskeleton for which the strap presses least while the knee is relieved.
+    """Strap, place and help of an exoskeleton that minimise the strap's force while they relieve the knee.
 
     Parameters
     ----------
@@ -31,9 +31,9 @@ class StandingDesignOptions(StandingSearchOptions):
         What is chosen, separated by commas: share (of the person's knee torque), timing, place (of the strap), normal,
         tangential and turning (its stiffnesses).
     aim
-        The least of it: smooth peak of the strap's force, or mean energy of its springs.
+        What is minimised: smooth peak of the strap's force, or mean energy of its springs.
     knee
-        True peak of the torque of the person's knee at most, as part of that without help.
+        Upper limit of the true peak torque of the person's knee, as part of the peak without help.
 
     Validation
     ----------
@@ -48,8 +48,8 @@ class StandingDesignOptions(StandingSearchOptions):
     """
 
     writes: ClassVar[str] = """
-    Writes designs.csv (without help, share alone, chosen), chosen.csv, sensitivity.csv (how the least force changes
-    with what is held), certificate.csv, numbers.csv and mesh.csv (all that ran), front.csv and draws.csv where asked
+    Writes designs.csv (without help, share alone, chosen), chosen.csv, sensitivity.csv (how the minimum force changes
+    with fixed numbers), certificate.csv, numbers.csv and mesh.csv (all that ran), front.csv and draws.csv where asked
     for, a trajectory for OpenSim's Moco for each trial, a figure, report.html and run.json into OUT.
     """
 
@@ -78,7 +78,7 @@ class StandingDesignOptions(StandingSearchOptions):
         if odd:
             raise InputError("", "`vary`", f"{odd[0]!r} cannot be chosen", f"names are {', '.join(ROOM)}")
         if "share" not in self.varied:
-            raise InputError("", "`vary`", "share is not among them", "add it: without help nothing takes load off")
+            raise InputError("", "`vary`", "share is not among them", "add it: without it nothing relieves the knee")
         if not 0.0 < self.knee <= 1.0:
             raise InputError("", "`knee`", f"{self.knee:g} is not above 0 and at most 1", "give for example 0.8")
         within("front", self.front, 0, MOST_POINTS, 4)

@@ -20,6 +20,7 @@ import pandas as pd
 
 from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.design.designs import (
@@ -98,13 +99,13 @@ class StandingDesignResult(Result):
 
     @property
     def gain(self) -> float:
-        """Part of the reference's aim that is saved."""
+        """Part of the reference's aim that is saved [-]."""
         k = MEASURES.index(self.options.aim)
         return 1.0 - float(self.best.movement.asked.sizes[k] / self.reference.movement.asked.sizes[k])
 
     @property
     def true_gain(self) -> float:
-        """The same of true peaks, or of the largest energy."""
+        """The same of true peaks, or of the largest energy [-]."""
         k = MEASURES.index(self.options.aim)
         return 1.0 - float(self.best.movement.asked.largest[k] / self.reference.movement.asked.largest[k])
 
@@ -114,6 +115,11 @@ class StandingDesignResult(Result):
         each, o = (*self.designs, *self.front), self.options
         wanted = (2 if o.varied == ("share",) else 3) + int(o.robust) + o.front
         return len(each) == wanted and all(one.certified and (one.design is None or one.design.met) for one in each)
+
+    @property
+    def chosen(self) -> dict[str, float]:
+        """Value of each thing that was varied, at the best design [SI unit of each]."""
+        return by_name(self.table("chosen"), ("name",), "value")
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`designs`, `chosen`, `sensitivity`, `certificate`, `numbers`, `mesh`; `front` and `draws` if asked for."""
@@ -184,9 +190,9 @@ def _in_terms_of(o: StandingDesignOptions) -> Iterator[None]:
     except NoMovementError as error:
         if error.design == WORN:
             remedy = "check that they are of this person"
-            raise InputError(o.parameters, "", f"no standing up with these: {error}", remedy) from error
+            raise InputError(o.parameters, "", f"standing up fails with these: {error}", remedy) from error
         remedy = "vary less, or give more `nodes`"
-        raise InputError("", f"`vary`, {error.design}", f"a movement is not found: {error}", remedy) from error
+        raise InputError("", f"`vary`, {error.design}", f"no movement was computed: {error}", remedy) from error
 
 
 def doubt(r: StandingDesignResult, *, stopped: bool) -> None:
@@ -195,10 +201,10 @@ def doubt(r: StandingDesignResult, *, stopped: bool) -> None:
     `stopped` by Ctrl-C: what was not begun is missing.
     """
     if stopped:
-        reserve(f"interrupted after {r.best.name}: the last iterate is kept, and what would come next is missing")
+        reserve(f"interrupted after {r.best.name}: the last iterate is saved, and later results are missing")
     for one in (*r.designs, *r.front):
         if one.design is not None and not one.design.met and not one.design.stopped:
-            reserve(f"{one.name}: {one.design.ending}; the knee's limit may be out of reach of what varies")
+            reserve(f"{one.name}: {one.design.ending}; the varied quantities may not reach the knee's limit")
         for trial in one.trials:
             seen = trial.judged.certificate
             if seen is not None and not seen.converged:
@@ -206,9 +212,9 @@ def doubt(r: StandingDesignResult, *, stopped: bool) -> None:
     best = r.best.design
     if best is not None and best.on_end.any():
         names = ", ".join(name for name, end in zip(best.task.vary, best.on_end, strict=True) if end)
-        reserve(f"at the end of what can be built, so that the value says where that is: {names}")
+        reserve(f"at the limit of what can be built, so the value only reflects that limit: {names}")
     if len(r.draws) < r.options.draws and not stopped:
-        reserve(f"{r.options.draws - len(r.draws)} of {r.options.draws} draws have no movement and are left out")
+        reserve(f"{r.options.draws - len(r.draws)} of {r.options.draws} draws gave no movement and are left out")
 
 
 def _report(r: StandingDesignResult, solved: int, seconds: float) -> None:
@@ -225,7 +231,7 @@ def _report(r: StandingDesignResult, solved: int, seconds: float) -> None:
     gain, (low, high) = r.gain, gain_interval(r.draws)
     also = f", {low:.0%} to {high:.0%} over {counted(len(r.draws), 'draw')}" if np.isfinite(low) else ""
     both = f"{gain:.0%} ({sought}{also}), {r.true_gain:.0%} ({beside})"
-    say(f"gain over {r.reference.name}: {both}; shear of the strap is predicted, no mat sees it")
+    say(f"gain over {r.reference.name}: {both}; shear of the strap is predicted, a mat cannot measure it")
     seen = [trial for one in (*r.designs, *r.front) for trial in one.trials]
     passed = sum(t.judged.certificate is not None and t.judged.certificate.converged for t in seen)
     say(f"{passed} of {counted(len(seen), 'motion')} certified; {counted(solved, 'movement')} in {seconds:.0f} s")

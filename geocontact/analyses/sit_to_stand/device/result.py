@@ -2,7 +2,7 @@
 
 >>> import geocontact as gc
 >>> unloaded = "meshes/standing_up_exoskeleton/unloaded_"
->>> gc.sit_to_stand.device(unloaded + "coordinates.sto", motors=unloaded + "motors.sto")
+>>> print(gc.sit_to_stand.device(unloaded + "coordinates.sto", motors=unloaded + "motors.sto"))
 15 combinations of 18 parameters identified, 11 parameters by themselves; 0.22 N m are left of the motors' torques (root
 mean square)
 """
@@ -179,6 +179,11 @@ class StandingDeviceResult(Result):
         """Torque of the person in the trial [N m]; None without moments of both."""
         both = self.given.together
         return None if both is None else human_torque(both, self.trial_torque)
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """Masses, first moments, inertias and friction of the device [kg, kg m, kg m^2, N m s/rad, N m]."""
+        return dict(zip(self.dynamics.names, np.asarray(self.dynamics.values).tolist(), strict=True))
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`parameters`, `unloaded`, `numbers`, and `torque` where there is a trial."""

@@ -127,7 +127,7 @@ def _doubt(predictions: Sequence[PredictedTrial], trials: int) -> None:
     for one in predictions:
         place = f"{one.trial.recorded.name} {one.name}"
         if not one.solved:
-            reserve(f"{place} ended without an answer: {one.ending}; it is its last iterate")
+            reserve(f"{place} did not converge: {one.ending}; this is its last iterate")
         elif one.trial.judged.certificate is not None and not one.trial.judged.certificate.converged:
             reserve(not_certified(place, one.trial.judged.certificate))
     if len(predictions) < trials * len(GIVEN):

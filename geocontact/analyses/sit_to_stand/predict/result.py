@@ -19,6 +19,7 @@ import pandas as pd
 from geocontact.analyses.frame.collector import note, results_place, say
 from geocontact.analyses.frame.folder import written_whole
 from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.exports import write_motion
@@ -56,7 +57,7 @@ MODEL = [
     "Coordinates between them and the strap's force are predicted; parameters are held.",
     "Without ground reaction, without torques: the same with less given.",
     "Mean of the calibration: coordinates and strap of its trials over parts of the movement.",
-    "Both legs are one planar chain: torques and the ground's force are those of both, a strap is that of one.",
+    "Both legs are one planar chain: torques and the ground's force are for both, a strap's force for one.",
 ]
 COMPARED = ("coordinates", "force", "centre", "torque", "strap")
 
@@ -165,6 +166,11 @@ class StandingPredictResult(Result):
             for name, unit, factor, off, size in columns
             if np.isfinite(off).all()
         ]
+
+    @property
+    def rmsd(self) -> dict[tuple[str, str, str], float]:
+        """Root mean square difference by trial, predictor and quantity: angles [rad], forces [N]."""
+        return by_name(self.errors, ("trial", "predictor", "quantity"), "rmsd")
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`errors`, `certificate`, `numbers`, `mesh`, and `trial_NAME` by the predictor that is given everything."""

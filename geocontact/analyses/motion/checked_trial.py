@@ -1,0 +1,65 @@
+"""The way in of a recorded trial: it is checked against itself before anything is computed from it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from geocontact.analyses.frame.collector import reserve
+from geocontact.data.errors import InputError
+from geocontact.data.multibody.force_plate import LOADED, ForcePlate
+from geocontact.io.mocap.force_plates import OPENSIM_FRAME
+from geocontact.trial_checks.recorded import UP, RecordedTrial
+from geocontact.trial_checks.table import contradictions
+
+
+def check_trial(trial: RecordedTrial) -> frozenset[str]:
+    """Every check of `trial_checks.table`: a warning for each contradiction; InputError for one that leaves no result.
+
+    Returns
+    -------
+    frozenset of str
+        Names of the checks that found something.
+    """
+    found = contradictions(trial)
+    for _, one in found:
+        if one.refuse:
+            raise InputError(one.source, one.place, one.what, one.remedy)
+        reserve(str(one))
+    return frozenset(check.name for check, _ in found)
+
+
+def turned_plates(plates: tuple[ForcePlate, ...], turn: Rotation | None, file: Path) -> tuple[ForcePlate, ...]:
+    """Plates in the axes that `axes` turns the markers into.
+
+    Where the force under load is upwards before that turn and would not be after it, the file is in the model's axes
+    already, y up as OpenSim has it: it is left as it is, with a warning.
+    """
+    if turn is None:
+        return plates
+    after = tuple(_turned(plate, turn) for plate in plates)
+    if _along_up(plates) and not _along_up(after):
+        reserve(f"{file}: its forces are along y under load, which is up: `axes` turns the markers, not these plates")
+        return plates
+    return after
+
+
+def _turned(plate: ForcePlate, turn: Rotation) -> ForcePlate:
+    """A plate in other axes; the floor of a table, which says nothing of it, is level where its loads act."""
+    turned = plate.turned(turn)
+    if plate.wrench.frame != OPENSIM_FRAME:
+        return turned
+    loaded = np.linalg.norm(turned.wrench.force, axis=1) >= LOADED
+    height = float(np.median(turned.wrench.origin[loaded] @ UP)) if loaded.any() else 0.0
+    return replace(turned, point=height * UP, normal=UP.copy())
+
+
+def _along_up(plates: tuple[ForcePlate, ...]) -> bool:
+    """Whether forces under load are upwards, in the median of all plates that carry anything."""
+    forces = np.concatenate([np.nan_to_num(plate.wrench.force) for plate in plates])
+    size = np.linalg.norm(forces, axis=1)
+    loaded = size >= LOADED
+    return bool(loaded.any() and np.median(np.abs(forces[loaded] @ UP) / size[loaded]) > 0.7)

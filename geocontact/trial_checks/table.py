@@ -1,0 +1,20 @@
+"""The one table of checks, and all that they find in a trial."""
+
+from __future__ import annotations
+
+import warnings
+
+from geocontact.trial_checks.marker_checks import MARKER_CHECKS
+from geocontact.trial_checks.plate_checks import PLATE_CHECKS
+from geocontact.trial_checks.recorded import Check, Contradiction, RecordedTrial
+
+CHECKS: tuple[Check, ...] = (*MARKER_CHECKS, *PLATE_CHECKS)
+"""Every check of a recorded trial."""
+
+
+def contradictions(trial: RecordedTrial) -> list[tuple[Check, Contradiction]]:
+    """Whatever any check finds, those that refuse a trial first."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # medians of frames in which nothing was seen
+        found = [(check, one) for check in CHECKS for one in check.find(trial)]
+    return sorted(found, key=lambda pair: not pair[1].refuse)
