@@ -66,8 +66,8 @@ docs: $(VENV)/full.stamp
 	@$(BIN)/python -m website --execute
 	@echo "open build/docs/html/index.html"
 
-# The same without outputs, for .ci/run, where tests/notebooks runs half of the notebooks (`make long` the others); a warning
-# is an error
+# The same without outputs, for .ci/run, where tests/notebooks runs one notebook and looks at the calls of all (`make long`
+# runs the others); a warning is an error
 site: $(VENV)/full.stamp
 	@$(BIN)/python -m website
 

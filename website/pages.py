@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from website import constants, descriptions, limits, validation
+from website import constants, descriptions, limits, trial_checks, validation
 from website.stage import ROOT
 
 MADE: dict[str, Callable[[], str]] = {
@@ -12,6 +12,7 @@ MADE: dict[str, Callable[[], str]] = {
     limits.PAGE: limits.limits,
     constants.PAGE: constants.constants,
     descriptions.PAGE: descriptions.descriptions,
+    trial_checks.PAGE: trial_checks.trial_checks,
 }
 """Place of each and what makes its text."""
 

@@ -3,9 +3,12 @@
     python -m benchmarks.same_outputs record BEFORE --checkout ../old
     python -m benchmarks.same_outputs record AFTER
     python -m benchmarks.same_outputs compare BEFORE AFTER
+    python -m benchmarks.same_outputs numbers BEFORE AFTER
 
 `record` starts the commands of `runs.txt` in child processes of a checkout, on samples that lie at the same paths in
 every recording. `compare` fails when a table, a JSON file or an array differs; texts, pages and figures are reported.
+`numbers` leaves words and names out: where columns were renamed, or numbers were changed on purpose (`meant.toml`), it
+fails for numbers alone that differ without a reason, and says by how much every file differs.
 """
 
 from __future__ import annotations
@@ -15,6 +18,7 @@ import sys
 from pathlib import Path
 
 from benchmarks.same_outputs.comparing import compared
+from benchmarks.same_outputs.numbers import Meant, numbers_compared
 from benchmarks.same_outputs.recording import ROOT, record
 
 
@@ -31,9 +35,16 @@ def main() -> int:
     two.add_argument("before", type=Path)
     two.add_argument("after", type=Path)
     two.add_argument("--strip", nargs="+", default=[], metavar="KEY", help="further JSON keys that are left out")
+    three = verbs.add_parser("numbers", help="compare the numbers of two recordings, apart from words and names")
+    three.add_argument("before", type=Path)
+    three.add_argument("after", type=Path)
+    three.add_argument("--results", default="", metavar="NAME", help="also write benchmarks/results/NAME.json")
+    three.add_argument("--note", default="", help="with --results: what is to be known of the recordings")
     given = parser.parse_args()
     if given.verb == "record":
         return record(given.folder, given.checkout, given.only, given.jobs)
+    if given.verb == "numbers":
+        return numbers_compared(given.before, given.after, Meant.of(), given.results, given.note)
     return compared(given.before, given.after, given.strip)
 
 

@@ -57,11 +57,11 @@ def _command(earlier: EarlierRun, run: Path) -> Command:
     group = app
     for word in earlier.command.split():
         if word not in commands(group):
-            raise InputError(run, "", f"'{earlier.command}' is no command here", "is it of a newer version?")
+            raise InputError(run, "", f"'{earlier.command}' is not a command here", "is it of a newer version?")
         group = group[word]
     found = group.default_command
     if not isinstance(found, Command):
-        raise InputError(run, "", f"'{earlier.command}' is no analysis", "name the run.json of one")
+        raise InputError(run, "", f"'{earlier.command}' is not an analysis", "name the run.json of one")
     return found
 
 

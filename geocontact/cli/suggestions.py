@@ -27,13 +27,13 @@ def mistyped(error: CycloptsError, app: App) -> str:
             names = commands(group)
             if token.startswith("-"):
                 before = f"name the command before its options, {help_of(chain)}"
-                return f"{token} is no option of {' '.join((NAME, *chain))}; {_nearest(token, group) or before}"
+                return f"{token} is not an option of {' '.join((NAME, *chain))}; {_nearest(token, group) or before}"
             there = f"there are {', '.join(names)}"
-            return f"{token} is no command{_of(chain)}; {_nearest(token, names) or there}"
+            return f"{token} is not a command{_of(chain)}; {_nearest(token, names) or there}"
         case UnknownOptionError():
             given = (error.token.keyword or error.token.value).partition("=")[0]
             names = [name for each in error.argument_collection if each.parse for name in each.names]
-            return f"{given} is no option{_of(chain)}; {_nearest(given, names) or help_of(chain)}"
+            return f"{given} is not an option{_of(chain)}; {_nearest(given, names) or help_of(chain)}"
     return _with_hint(" ".join(str(error).split()), help_of(chain))
 
 

@@ -34,7 +34,7 @@ LEAST_NUMBER = 0.1
 
 LARGEST_MEANT = 1e20
 """Beyond what is written anywhere, 64-bit clocks that count nanoseconds from 1970 (2e18) included."""
-TOO_LARGE = "is larger than any number that is meant"
+TOO_LARGE = "is implausibly large"
 
 
 @dataclass(frozen=True)

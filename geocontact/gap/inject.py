@@ -126,7 +126,7 @@ def chosen(offered: Sequence[Candidate], label: str) -> Candidate:
     if named:
         raise ValueError(f"{label} has variants; choose one of {', '.join(one.label for one in named)}")
     names = dict.fromkeys(one.name for one in offered)
-    raise ValueError(f"{label!r} is no effect of this system; there are {', '.join(names)}")
+    raise ValueError(f"{label!r} is not an effect of this system; there are {', '.join(names)}")
 
 
 def _amplitude(problem: Problem, changed: System, one: Candidate, values: Mapping[str, float], size: float) -> float:

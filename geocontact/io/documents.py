@@ -95,7 +95,7 @@ class Document(BaseModel):
         keys = cls.by_key()
         every = ", ".join(keys)
         if not isinstance(content, dict):
-            raise refusal("is no table", f"write {every}")
+            raise refusal("is not a table", f"write {every}")
         odd = next((key for key in content if key not in keys), None)
         if odd is not None and cls.model_config["extra"] == "forbid":
             near = ", ".join(near_names([odd[:LONGEST]], list(keys)).values())
@@ -255,7 +255,7 @@ def _input_error(path: Path, first: ErrorDetails) -> InputError:
             remedy = f"write {key} = {context['example']}" if context["example"] else context["remedy"]
             return InputError(path, place, context["what"], remedy)
         case "dict_type" | "mapping_type":
-            return InputError(path, place, "is no table", "write names with values")
+            return InputError(path, place, "is not a table", "write names with values")
         case "float_type" | "finite_number":
             return InputError(path, place, f"{_shown(first['input'])} is not a finite number", f"write {key} = 1.5")
         case "bool_type":
@@ -266,7 +266,7 @@ def _input_error(path: Path, first: ErrorDetails) -> InputError:
         case "greater_than" | "greater_than_equal" | "less_than" | "less_than_equal" as kind:
             return InputError(path, place, f"is not {BOUNDS[kind]} {next(iter(first['ctx'].values())):g}", CHECK)
         case "string_type":
-            return InputError(path, place, f"{_shown(first['input'])} is no text", "write it in quotes")
+            return InputError(path, place, f"{_shown(first['input'])} is not a text", "write it in quotes")
         case _:
             wanted = first["msg"].removeprefix("Input ")
             return InputError(path, place, f"{_shown(first['input'])} cannot be", f"it {wanted}")
@@ -306,7 +306,7 @@ def _file_name(name: str) -> str:
 def _beside(named: object, info: Any) -> Path:
     """`info` is pydantic's ValidationInfo, whose context is the path of the description."""
     if not isinstance(named, str) or not named.strip():
-        raise refusal(f"{_shown(named)} is no path", "write it in quotes, from the folder of this file")
+        raise refusal(f"{_shown(named)} is not a path", "write it in quotes, from the folder of this file")
     return Path(info.context).parent / named
 
 
@@ -323,19 +323,19 @@ def _files(named: object, info: Any) -> tuple[Path, ...]:
 
 def _names(value: object) -> tuple[str, ...]:
     if not isinstance(value, list) or not all(isinstance(each, str) for each in value):
-        raise refusal("is no list of names", example='["…", "…"]')
+        raise refusal("is not a list of names", example='["…", "…"]')
     return tuple(value)
 
 
 def _value(value: object) -> Value:
     if not isinstance(value, Value) or (isinstance(value, float) and not math.isfinite(value)):
-        raise refusal(f"{_shown(value)} is no value", "write a text in quotes, a number, true or false")
+        raise refusal(f"{_shown(value)} is not a value", "write a text in quotes, a number, true or false")
     return value
 
 
 def _values(given: object) -> tuple[Value, ...]:
     if not isinstance(given, list) or not given or not all(isinstance(each, Value) for each in given):
-        raise refusal("is no list of values", example='["one", "other"]')
+        raise refusal("is not a list of values", example='["one", "other"]')
     if len(set(map(str, given))) < len(given):
         raise refusal("has a value twice", "give each once")
     return tuple(given)
@@ -349,7 +349,7 @@ def _text(text: str) -> str:
 
 def _rows(given: object) -> tuple[Any, ...]:
     if not isinstance(given, list) or not all(isinstance(each, dict) and each for each in given):
-        raise refusal("is no list of tables", "write it in double brackets, [[…]], with names and values below")
+        raise refusal("is not a list of tables", "write it in double brackets, [[…]], with names and values below")
     return tuple(given)
 
 

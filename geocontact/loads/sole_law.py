@@ -133,7 +133,7 @@ def _refuse_unknown(
     for numbers in (*zones.values(), columns):
         unknown |= set(numbers) - set(OF_SPHERES)
     if unknown:
-        raise ValueError(f"{min(unknown)} is no number of the law, or none that single spheres can have")
+        raise ValueError(f"{min(unknown)} is not a number of the law, or none that single spheres can have")
     twice = [key for key in columns if key in given or any(key in numbers for numbers in zones.values())]
     if twice:
         raise ValueError(f"{twice[0]} has no effect together with the column {twice[0]} of the spheres")

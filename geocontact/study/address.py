@@ -53,7 +53,7 @@ def options_of(options: type[Options], typed: Mapping[str, Any]) -> Options:
         one = known.get(name)
         if one is None or not one.settable:
             names = ", ".join(key(each) for each in known.values() if each.settable)
-            raise InputError("", f"`{name}`", "is no option of this analysis", f"there are {names}")
+            raise InputError("", f"`{name}`", "is not an option of this analysis", f"there are {names}")
         given[one.name] = one.read(as_typed(one, value))
     if ONE_THREAD in known and ONE_THREAD not in given:
         given[ONE_THREAD] = 1

@@ -61,7 +61,7 @@ def _length_unit(unit: str) -> str:
 def _places(given: object) -> tuple[float, ...]:
     numbers = isinstance(given, list) and all(isinstance(x, int | float) and not isinstance(x, bool) for x in given)
     if not isinstance(given, list) or not numbers or not given or not all(0.0 <= x <= 100.0 for x in given):
-        raise refusal(f"{given!r:.60} are no places from 0 to 100 %", example="[0, 50, 100]")
+        raise refusal(f"{given!r:.60} are not places from 0 to 100 %", example="[0, 50, 100]")
     if len(set(given)) < len(given):
         raise refusal(f"{given!r:.60} has a place twice", example="[0, 50, 100]")
     return tuple(float(x) for x in given)

@@ -53,12 +53,14 @@ class CohortOptions(Options):
     def refuse_impossible(self) -> None:
         """No process, an address that is none, and what an existing cluster decides itself."""
         if not self.local and "://" not in self.scheduler:
-            raise InputError("", "`scheduler`", f"{self.scheduler!r} is no address", "write tcp://host:8786, or local")
+            raise InputError(
+                "", "`scheduler`", f"{self.scheduler!r} is not an address", "write tcp://host:8786, or local"
+            )
         for name in ("workers", "memory"):
             if not self.local and getattr(self, name) is not None:
                 what = "has no effect with `scheduler`: its workers were started with theirs"
                 raise InputError("", f"`{name}`", what, "leave it out")
         if self.memory is not None and not SIZE.fullmatch(self.memory):
-            raise InputError("", "`memory`", f"{self.memory!r} is no size of memory", "write for example 4GB")
+            raise InputError("", "`memory`", f"{self.memory!r} is not a size of memory", "write for example 4GB")
         if self.workers is not None and self.workers < 1:
             raise InputError("", "`workers`", f"{self.workers} is less than one process", "give 1 or more")

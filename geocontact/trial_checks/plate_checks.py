@@ -10,7 +10,7 @@ from jaxtyping import Bool, Float
 
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.trial_checks.landmarks import FOOT, middle, points
-from geocontact.trial_checks.recorded import Check, Contradiction, FootPlate, RecordedTrial
+from geocontact.trial_checks.recorded import Check, Contradiction, FootPlate, TrialInputs
 
 GRAVITY = 9.80665
 STANCE, STILL = 0.45, 1.5
@@ -27,7 +27,7 @@ LEAST = 0.3
 HEAVY = 0.3
 """Share of the largest normal force from which samples are compared."""
 SHEAR, TWIST = 0.5, 0.12
-"""Of the normal force: its share along the floor, and the free moment [m], in the median under load. People who walk
+"""Force along the floor and free moment [m] in parts of the normal force, in the median under load. People who walk
 have 0.1 and 0.02 m."""
 SPEED, IMPULSE = 0.5, 0.02
 """m/s, from which somebody walks; share of the body's weight that braking or propulsion has in the mean of half a
@@ -74,7 +74,7 @@ class Step:
         return np.asarray(self.normal >= HEAVY * self.normal.max())
 
 
-def steps(trial: RecordedTrial) -> Iterator[Step]:
+def steps(trial: TrialInputs) -> Iterator[Step]:
     """All whole steps on all plates."""
     for on in trial.plates:
         centre = on.plate.centre_of_pressure()
@@ -83,7 +83,7 @@ def steps(trial: RecordedTrial) -> Iterator[Step]:
             yield Step(on, on.plate.time[part], force, on.normal[part], centre[part])
 
 
-def mass(trial: RecordedTrial) -> Iterator[Contradiction]:
+def mass(trial: TrialInputs) -> Iterator[Contradiction]:
     """The weight by the plates against the mass."""
     if trial.mass is None:
         return
@@ -110,7 +110,7 @@ def mass(trial: RecordedTrial) -> Iterator[Contradiction]:
     yield Contradiction(worst.on.source, worst.on.plate.name, what, remedy)
 
 
-def standing_weight(trial: RecordedTrial) -> Iterator[Contradiction]:
+def standing_weight(trial: TrialInputs) -> Iterator[Contradiction]:
     """The weight by the plates while the person stands on them against the mass."""
     if trial.mass is None or trial.stands_at is None or not trial.plates:
         return
@@ -129,7 +129,7 @@ def standing_weight(trial: RecordedTrial) -> Iterator[Contradiction]:
         yield Contradiction(trial.plates[0].source, names, what, remedy, refuse=abs(share - 1.0) > OTHER_WEIGHT)
 
 
-def sizes(trial: RecordedTrial) -> Iterator[Contradiction]:
+def sizes(trial: TrialInputs) -> Iterator[Contradiction]:
     """Force along the floor and free moment against the force out of it."""
     for on in trial.plates:
         plate, normal = on.plate, on.normal
@@ -170,7 +170,7 @@ def _of_the_floor(seen: MarkerTrajectories, step: Step) -> Float[np.ndarray, " 3
     return min(steady, key=lambda one: one[0])[1] if steady else np.zeros(3)
 
 
-def braking(trial: RecordedTrial) -> Iterator[Contradiction]:
+def braking(trial: TrialInputs) -> Iterator[Contradiction]:
     """The force along the walk: against it in the first half of a step, with it in the second."""
     body = None if trial.markers is None else _velocity(trial.markers)
     if body is None or trial.markers is None:
@@ -201,7 +201,7 @@ def _halves(values: Float[np.ndarray, " t"]) -> Float[np.ndarray, " 2"]:
     return np.array([values[:half].mean(), values[half:].mean()])
 
 
-def under_a_foot(trial: RecordedTrial) -> Iterator[Contradiction]:
+def under_a_foot(trial: TrialInputs) -> Iterator[Contradiction]:
     """The centre of pressure against the landmarks of the feet, and against those of the foot that was named."""
     seen = trial.markers
     if seen is None:
@@ -228,7 +228,7 @@ def under_a_foot(trial: RecordedTrial) -> Iterator[Contradiction]:
             yield Contradiction(on.source, on.plate.name, what, "are the plates of the two feet exchanged?")
 
 
-def one_foot_each(trial: RecordedTrial) -> Iterator[Contradiction]:
+def one_foot_each(trial: TrialInputs) -> Iterator[Contradiction]:
     """The loads of two plates against each other."""
     for k, one in enumerate(trial.plates):
         for other in trial.plates[k + 1 :]:
@@ -257,7 +257,7 @@ def _distance(
     return float(np.median(np.nanmin(apart, axis=1))) if len(apart) else float("nan")
 
 
-def clocks(trial: RecordedTrial) -> Iterator[Contradiction]:
+def clocks(trial: TrialInputs) -> Iterator[Contradiction]:
     """When a foot stands still against when the plate under it is loaded."""
     seen = trial.markers
     if seen is None or len(seen) < 10:
@@ -303,7 +303,7 @@ def _late(seen: MarkerTrajectories, side: str, step: Step) -> float:
     return 0.5 * (touch + leave) - 0.25 * sum(LEAVE) if later or earlier else 0.0
 
 
-def floor(trial: RecordedTrial) -> Iterator[Contradiction]:
+def floor(trial: TrialInputs) -> Iterator[Contradiction]:
     """The height of the lowest landmark of a foot above the plate that it stands on."""
     seen = trial.markers
     if seen is None:

@@ -55,7 +55,7 @@ class FootPlate:
 
 
 @dataclass(frozen=True, eq=False)
-class RecordedTrial:
+class TrialInputs:
     """Whatever an analysis was given of a trial, in one set of axes and on one clock.
 
     Parameters
@@ -140,4 +140,4 @@ class Check:
     name: str
     compares: str
     limit: str
-    find: Callable[[RecordedTrial], Iterator[Contradiction]]
+    find: Callable[[TrialInputs], Iterator[Contradiction]]

@@ -6,13 +6,13 @@ import warnings
 
 from geocontact.trial_checks.marker_checks import MARKER_CHECKS
 from geocontact.trial_checks.plate_checks import PLATE_CHECKS
-from geocontact.trial_checks.recorded import Check, Contradiction, RecordedTrial
+from geocontact.trial_checks.recorded import Check, Contradiction, TrialInputs
 
 CHECKS: tuple[Check, ...] = (*MARKER_CHECKS, *PLATE_CHECKS)
 """Every check of a recorded trial."""
 
 
-def contradictions(trial: RecordedTrial) -> list[tuple[Check, Contradiction]]:
+def contradictions(trial: TrialInputs) -> list[tuple[Check, Contradiction]]:
     """Whatever any check finds, those that refuse a trial first."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # medians of frames in which nothing was seen

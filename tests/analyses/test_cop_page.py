@@ -54,7 +54,7 @@ def test_the_butterfly_holds_each_force_at_its_centre(tmp_path: Path) -> None:
 def test_the_page_answers_first(tmp_path: Path) -> None:
     page = cop_page(walked(tmp_path, (0, 19, 0), (40, 18, 0), (80, 30, 0)))
     assert page.headline[0] == (
-        "The ground presses on the foot with up to 2000 N, at 1 s; its centre of pressure goes 40 mm along x."
+        "The ground presses on the foot with up to 2000 N, at 1 s; its centre of pressure moves 40 mm along x."
     )
     assert page.headline[1].startswith("There is a centre of pressure in 2 of 3 frames")
     assert page.leads == range(1) and isinstance(page.sections[0], Plan) and len(page.facts) <= 5

@@ -74,7 +74,7 @@ def test_a_knee_becomes_two_markers_of_the_standing_trial(
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (("--first", PELVIS, "--second", "femur_r0,femur_r1"), "2 markers fix no pose"),
+        (("--first", PELVIS, "--second", "femur_r0,femur_r1"), "2 markers do not determine a pose"),
         (("--first", PELVIS, "--second", "femur_r0,femur_r1,nowhere"), "no marker nowhere"),
         (("--first", PELVIS, "--second", f"{FEMUR},pelvis1"), "pelvis1 is of both segments"),
         (("--first", PELVIS, "--second", FEMUR, "--name", "pelvis0"), "there is a marker pelvis0 already"),

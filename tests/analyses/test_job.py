@@ -68,7 +68,7 @@ def read_length(o: DoubleOptions) -> float:
     try:
         value = float(o.file.read_text()) * 1e-3
     except ValueError as error:
-        raise InputError(o.file, "", "is no number", "or give `more`") from error
+        raise InputError(o.file, "", "is not a number", "or give `more`") from error
     if value > 1.0:
         reserve("more than a metre, see `more`")
     return value
@@ -137,7 +137,7 @@ def test_the_command_says_what_was_found_and_spells_options(
     told = json.loads((tmp_path / "out/run.json").read_text())
     assert told["warnings"] == ["more than a metre, see --more"] and told["inputs"][0]["role"] == "FILE"
     file.write_text("five")
-    with pytest.raises(InputError, match="is no number; or give --more"):
+    with pytest.raises(InputError, match="is not a number; or give --more"):
         from_command(file, out=tmp_path / "out")
     assert from_command.__doc__ == "Twice a length.\n\nWrites double.csv, see --more.", "what the options say"
 

@@ -79,11 +79,11 @@ def test_a_text_is_read_as_on_the_command_line(command: str, name: str, text: An
         ("area", "threshold", "1,4", "`threshold`: '1,4' has no unit"),
         ("area", "thickness", "8", "`thickness`: '8' has no unit; write the unit, or gc.mm(8)"),
         ("elbow design", "l", "160", "`l`: '160' has no unit; write the unit, or gc.mm(30)"),
-        ("elbow design", "l", "16 kg", "`l`: '16 kg' is no value in m; write gc.mm(30)"),
+        ("elbow design", "l", "16 kg", "`l`: '16 kg' is not a value in m; write gc.mm(30)"),
         ("knee settle", "modulus", "463", "`modulus`: '463' is not a pressure; write 500MPa"),
-        ("prosthesis simulate", "mass", "77.3 m", "`mass`: 'm' is no unit of mass"),
+        ("prosthesis simulate", "mass", "77.3 m", "`mass`: 'm' is not a unit of mass"),
         ("ik", "follow", None, None),
-        ("elbow design", "limit", "5 m", "`limit`: '5 m' is no value in N; check the unit"),
+        ("elbow design", "limit", "5 m", "`limit`: '5 m' is not a value in N; check the unit"),
         ("elbow design", "limit", "five", "`limit`: 'five' is not a number; give a number"),
         ("elbow design", "limit", pd.DataFrame(), "`limit`: a DataFrame is not a number; give a number"),
     ],
@@ -352,7 +352,7 @@ def test_force_plates_of_a_table_are_those_of_their_file(tmp_path: Path) -> None
     ("old", "new", "said"),
     [
         (" [mm]", "", r"column '.*px' has no unit; name it '.*px \[m\]'"),
-        ("vx [N]", "vx [kg]", r"'kg' is no unit in which .*vx can be; name it '.*vx \[N\]'"),
+        ("vx [N]", "vx [kg]", r"'kg' is not a unit in which .*vx can be; name it '.*vx \[N\]'"),
     ],
 )
 def test_force_plates_of_a_table_have_units(tmp_path: Path, old: str, new: str, said: str) -> None:

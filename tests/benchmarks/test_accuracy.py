@@ -22,7 +22,7 @@ def levels(case: Case, rule: str, cells: Sequence[int]) -> tuple[np.ndarray, np.
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("rule", [REFINED, CLIP])
+@pytest.mark.parametrize("rule", [CLIP, pytest.param(REFINED, marks=pytest.mark.long)])  # see tests/geometry/test_area
 @pytest.mark.parametrize("name", SPHERES)
 def test_areas_of_sphere_pairs_converge_at_second_order(name: str, rule: str) -> None:
     observed = [order(faces, error) for faces, error in zip(*levels(SPHERES[name], rule, (8, 12, 16)), strict=True)]

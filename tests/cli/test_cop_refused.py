@@ -185,7 +185,8 @@ def test_an_open_mesh_is_a_sheet(tmp_path: Path) -> None:
     text = "v -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nf 1 2 3\nf 1 3 4\n"
     sheet = done(cop(tmp_path, *LAW, "--ground", written(tmp_path / "floor.obj", text), "--unit", "m"))
     assert any(
-        "taken as a sheet, above is where its faces look, on the whole (0.00, 1.00, 0.00)" in w for w in sheet.warnings
+        "taken as a sheet; its upper side is the one to which its faces point on average (0.00, 1.00, 0.00)" in w
+        for w in sheet.warnings
     )
     level = done(cop(tmp_path, *LAW))
     assert sheet.bytes("cop.csv") == level.bytes("cop.csv")

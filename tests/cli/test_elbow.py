@@ -164,7 +164,7 @@ def test_the_page_and_its_figures(fitted: Call) -> None:
         "known beforehand",
         "comes from prior knowledge",
         "Lilliefors",
-        "Joint locked and free",
+        "Mean force, joint locked and free",
     ):
         assert words in page
     assert fitted.out.startswith("k ") and "k by the free joint's displacement" in fitted.out
@@ -175,7 +175,7 @@ def test_the_page_and_its_figures(fitted: Call) -> None:
 @pytest.mark.slow
 def test_without_anything_known_the_options_that_would_help_are_named(tmp_path: Path, made: Path) -> None:
     result = done(elbow("fit", tmp_path, *locked(made), "--bootstrap", 0))
-    words = "know l, z or k (--known), give a prior (--prior), or record the free joint's displacement (--unlocked)"
+    words = "state l, z or k (--known), give a prior (--prior), or record the free joint's displacement (--unlocked)"
     assert any(words in line for line in result.warnings) and words in page_of(result).replace("&#39;", "'").replace(
         "&#x27;", "'"
     )

@@ -65,7 +65,7 @@ def test_python_draws_as_the_command_does(tmp_path: Path) -> None:
         ({}, {"y": 'unit = "mm"\nuniform = { lower = 2, upper = 1 }'}, "[y.uniform] upper: is not above lower"),
         ({}, {"k": 'unit = "N/m"\nuniform = { lower = -1, upper = 200 }'}, "samples of k are not above 0"),
         ({}, {"correlation": "x_y = 0.4"}, "[correlation] x_y: x is described by value"),
-        ({}, {"correlation": "y_y = 0.4"}, "[correlation] y_y: is no pair"),
+        ({}, {"correlation": "y_y = 0.4"}, "[correlation] y_y: is not a pair"),
         ({}, {"y": 'table = "nowhere.csv"'}, "nowhere.csv"),
         ({"--samples": 10}, {}, "--samples: 10 is not 100 to 20000000"),
         ({"--seed": -1}, {}, "--seed: -1 is not 0 or more"),

@@ -37,10 +37,13 @@ def test_the_case_its_diagnosis_and_the_answer_are_written(tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (("--effect", "rust"), "--effect: 'rust' is no effect of this system; there are time_shift, filter_lag"),
+        (("--effect", "rust"), "--effect: 'rust' is not an effect of this system; there are time_shift, filter_lag"),
         (("--effect", "unit_error"), "--effect: unit_error has variants; choose one of unit_error.force"),
-        (("--effect", "damping", "--value", "b=1"), "--value: 'b' is no parameter of damping; parameters: damping.b"),
-        (("--effect", "damping", "--value", "damping.b=x"), "--value: 'x' is no number; write damping.b=1.5"),
+        (
+            ("--effect", "damping", "--value", "b=1"),
+            "--value: 'b' is not a parameter of damping; parameters: damping.b",
+        ),
+        (("--effect", "damping", "--value", "damping.b=x"), "--value: 'x' is not a number; write damping.b=1.5"),
         (("--effect", "damping", "--value", "damping.b=-1"), "--value: damping.b = -1 N s/m is outside of 0 …"),
         (("--effect", "damping", "--trial", "t01"), "--trial: damping is in every trial or in none; leave it out"),
         (("--effect", "sign_flip.beta", "--trial", "t9"), "--trial: there is no trial 't9'; trials are t0"),

@@ -31,7 +31,7 @@ def refused(case: Path, out: Path, *options: object) -> str:
 K = '[parameters.k]\nstart = 280.0\nlower = 50.0\nupper = 1000.0\nunit = "N/m"\n'
 WRONG = {
     # system, file, what is replaced by what, words of the line
-    "unknown system": ("elbow", "case.toml", '"elbow"', '"ankle"', "case.toml system: 'ankle' is unknown; known are e"),
+    "unknown system": ("elbow", "case.toml", '"elbow"', '"ankle"', "case.toml system: 'ankle' is unknown; write one"),
     "no table": ("elbow", "case.toml", '"elbow"', '"shoulder"', "shoulder: the table of support torques is missing"),
     "own module": ("elbow", "case.toml", '"elbow"', '"no_such:MODEL"', "module no_such cannot be imported"),
     "constant missing": ("elbow", "case.toml", "\nl = ", "\nl_in = ", "elbow: l is missing; give it as a parameter"),
@@ -97,7 +97,7 @@ def rewritten(case: Path, trial: str, change: str) -> None:
 @pytest.mark.parametrize(
     ("trials", "change", "words"),
     [
-        (["t02"], "all", "t02.csv: every channel is empty in every row; strike the trial from case.toml"),
+        (["t02"], "all", "t02.csv: every channel is empty in every row; delete the trial from case.toml"),
         (["t02"], "beta", "fails on trial t02: ValueError: input beta has no value in this trial"),
         (["t02"], "most", "case.toml trial t02: input beta has fewer than 20 measured values"),
         (["t01", "t02"], "force", "case.toml calibration: force has 0 measured values in the calibration trials"),

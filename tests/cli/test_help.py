@@ -86,17 +86,17 @@ def test_many_options_are_never_one_heap(job: Job) -> None:
 @pytest.mark.parametrize(
     ("typed", "line"),
     [
-        ("aera", "aera is no command; did you mean area?"),
-        ("gap dignose x", "dignose is no command of gap; did you mean diagnose?"),
-        ("area --unti mm", "--unti is no option of area; did you mean --unit?"),
-        ("elbow fit a.csv --bootstrp=7 --out x", "--bootstrp is no option of elbow fit; did you mean --bootstrap?"),
-        ("area --zzzz mm", "--zzzz is no option of area; see geocontact area --help"),
-        ("--verison", "--verison is no option of geocontact; did you mean --version?"),
+        ("aera", "aera is not a command; did you mean area?"),
+        ("gap dignose x", "dignose is not a command of gap; did you mean diagnose?"),
+        ("area --unti mm", "--unti is not an option of area; did you mean --unit?"),
+        ("elbow fit a.csv --bootstrp=7 --out x", "--bootstrp is not an option of elbow fit; did you mean --bootstrap?"),
+        ("area --zzzz mm", "--zzzz is not an option of area; see geocontact area --help"),
+        ("--verison", "--verison is not an option of geocontact; did you mean --version?"),
         (
             "gap --sze 2",
-            "--sze is no option of geocontact gap; name the command before its options, see geocontact gap --help",
+            "--sze is not an option of geocontact gap; name the command before its options, see geocontact gap --help",
         ),
-        ("elbow zzzz", "zzzz is no command of elbow; there are simulate, fit, compare, design, population"),
+        ("elbow zzzz", "zzzz is not a command of elbow; there are simulate, fit, compare, design, population"),
         (
             "cop a.csv --out x",
             (

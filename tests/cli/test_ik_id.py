@@ -423,7 +423,7 @@ def test_a_map_that_fits_in_part_is_used_with_a_warning(tmp_path: Path) -> None:
     swapped = ik(tmp_path, trc(tmp_path), "--markers-map", "foot_r1=foot_r2")
     assert swapped.code == 2 and "two markers would be called foot_r2" in swapped.err
     nothing = ik(tmp_path, trc(tmp_path), "--markers-map", "RHEE=R.Heel")
-    assert nothing.code == 2 and "names no recorded marker and one of the model" in nothing.err
+    assert nothing.code == 2 and "does not pair a recorded marker with one of the model" in nothing.err
 
 
 def test_a_static_trial_has_the_limits_of_scaling(tmp_path: Path) -> None:
@@ -711,7 +711,7 @@ def test_a_body_grows_along_its_own_axes_by_pairs_and_by_numbers(tmp_path: Path)
 
 SCALE_REFUSED = {
     "an axis twice": (("--scale", "femur_r=1.1", "--scale", "femur_r:x=1.2"), "body 'femur_r' is named twice"),
-    "no such axis": (("--scale", "femur_r:w=1.1"), "'w' is not some of the axes x, y and z"),
+    "no such axis": (("--scale", "femur_r:w=1.1"), "'w' is not one or more of the axes x, y and z"),
     "no pair": (("--scale", "femur_r=femur_r0"), "not bodies and pairs"),
     "no such body": (("--scale", "arm=femur_r0/femur_r2"), "no body 'arm'"),
     "a body twice": ((*PAIRS, *PAIRS), "body 'femur_r' is named twice"),

@@ -58,6 +58,7 @@ def test_every_file_of_a_run_may_be_removed_by_the_next(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long  # with every change: the other files below, and tests/view/surfaces
 def test_stills_and_the_paraview_series_come_and_go(tmp_path: Path) -> None:
     """Files of other people stay, in the folder of the series as well."""
     pytest.importorskip("pyvista")

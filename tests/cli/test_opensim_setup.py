@@ -181,7 +181,7 @@ def test_a_recording_to_follow_is_needed_and_has_an_effect(tmp_path: Path) -> No
     text = (tmp_path / "tasks.xml").read_text()
     (tmp_path / "tasks.xml").write_text(text.replace("</objects>", f"{near}</objects>"))
     alone = call("ik", tmp_path / "walk.trc", *leg)
-    assert alone.code == 2 and "knee is to be near a recording; name its file with --follow" in alone.err
+    assert alone.code == 2 and "knee follows a recording; name its file with --follow" in alone.err
     done(call("ik", tmp_path / "walk.trc", *leg, "--follow", tmp_path / "walk.mot"))
 
 

@@ -208,12 +208,12 @@ def test_unknown_commands_and_bare_ones_are_refused(tmp_path: Path, tokens: list
 
 AREA = ["area", "a.stl", "b.stl", "--unit", "mm", "--out", "x"]
 SLIPS = {
-    "unknown option": ([*AREA, "--zzz"], "--zzz is no option of area; see geocontact area --help"),
+    "unknown option": ([*AREA, "--zzz"], "--zzz is not an option of area; see geocontact area --help"),
     "misspelt option": (
         [*AREA, "--treshold", "4"],
-        "--treshold is no option of area; did you mean --threshold?",
+        "--treshold is not an option of area; did you mean --threshold?",
     ),
-    "unknown command": (["zzz"], "zzz is no command; there are area, cohort, cop, "),
+    "unknown command": (["zzz"], "zzz is not a command; there are area, cohort, cop, "),
     "choice": ([*AREA, "--medial", "left"], 'Invalid value "left" for --medial. Choose from: "-", "+"; see'),
     "type": ([*AREA, "--workers", "all"], 'Invalid value for --workers: unable to convert "all" into int; see'),
     "twice": ([*AREA, "--unit", "m"], "Parameter --unit specified multiple times; see geocontact area --help"),

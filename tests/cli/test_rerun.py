@@ -71,8 +71,8 @@ REFUSED = {
     "no file": ("", "cannot be read"),
     "no JSON": ("area", "is not JSON; name the run.json that a command or `Result.write` left"),
     "other JSON": ('{"a": 1}', "is not a run.json of geocontact"),
-    "unknown command": ('{"command": "aera", "options": {}, "inputs": []}', "'aera' is no command here"),
-    "no analysis": ('{"command": "doctor", "options": {}, "inputs": []}', "'doctor' is no analysis"),
+    "unknown command": ('{"command": "aera", "options": {}, "inputs": []}', "'aera' is not a command here"),
+    "no analysis": ('{"command": "doctor", "options": {}, "inputs": []}', "'doctor' is not an analysis"),
     "input gone": ('{"command": "area", "options": {}, "inputs": [{"file": "gone.stl"}]}', "gone.stl: is not there"),
 }
 

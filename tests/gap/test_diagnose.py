@@ -105,6 +105,8 @@ def test_where_too_many_remain_reductions_are_those_of_the_likeliest(damped: Dia
     assert found.parameters["damping.b"] == damped.parameters["damping.b"]
 
 
+@pytest.mark.slow
+@pytest.mark.long  # with every change: tests/cli/test_gap_diagnose.py, of names, order and units
 def test_name_and_order_of_trials_do_not_matter(damped: Diagnosis, elsewhere: Elsewhere) -> None:
     names = dict(zip(ALL, ("zz", "a", "m", "b", "q"), strict=True))
     again = elsewhere(diagnosis_of_renamed, names, "damping", DAMPING, seed=1)
@@ -114,6 +116,7 @@ def test_name_and_order_of_trials_do_not_matter(damped: Diagnosis, elsewhere: El
 
 
 @pytest.mark.slow
+@pytest.mark.long  # with every change: two effects in test_model_comparison.py
 def test_two_effects_are_both_named(elsewhere: Elsewhere) -> None:
     found = elsewhere(diagnosis, "dry_friction.rate", FRICTION, seed=2, change=Late(0.15))
     check(found)
@@ -121,7 +124,7 @@ def test_two_effects_are_both_named(elsewhere: Elsewhere) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("where", [ALL, ("t05",)])
+@pytest.mark.parametrize("where", [("t05",), pytest.param(ALL, marks=pytest.mark.long)])
 def test_a_wrong_unit_is_found_in_all_trials_or_some(where: tuple[str, ...], elsewhere: Elsewhere) -> None:
     found = elsewhere(diagnosis, seed=4, recorded=Times(1000.0, where))
     assert found.effects == ("unit_error",)
@@ -134,6 +137,7 @@ def test_a_wrong_unit_is_found_in_all_trials_or_some(where: tuple[str, ...], els
 
 
 @pytest.mark.slow
+@pytest.mark.long  # with every change: reversed rotations in test_non_identifiable.py
 def test_a_reversed_angle_that_the_offsets_nearly_hide(elsewhere: Elsewhere) -> None:
     where = ("t02", "t05")
     found = elsewhere(diagnosis_of_reversed, where, seed=7)

@@ -166,7 +166,9 @@ def test_the_share_is_that_of_an_error_without_what_base_parameters_differ_by(ru
     assert replace(rules, base=varied, before=both)._of_share(one) == ""
     rules.fitted[one.label] = [b - s for b, s in zip(both, stiffness, strict=True)]
     assert taken_away(both, rules.fitted[one.label]) > 0.5, "of the error as it is"
-    assert replace(rules, base=varied, before=both)._of_share(one) == TOO_LITTLE, "a trial's own stiffness is no effect"
+    assert replace(rules, base=varied, before=both)._of_share(one) == TOO_LITTLE, (
+        "a trial's own stiffness is not an effect"
+    )
 
 
 @pytest.mark.slow

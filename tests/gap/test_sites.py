@@ -75,6 +75,7 @@ def test_a_pad_that_opens_is_found_at_its_site(elsewhere: Elsewhere) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long  # with every change: the two above
 def test_what_all_sites_lack_is_found_at_all(elsewhere: Elsewhere) -> None:
     said, at = elsewhere(found, "damping", {"damping.b": 400.0, "damping.exponent": 1.0})
     assert said.effects == ("damping",)

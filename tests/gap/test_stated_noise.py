@@ -128,7 +128,8 @@ def answered(torque: Torque) -> tuple[str, tuple[str, ...], list[tuple[float, fl
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("torque", [late, pytest.param(play, marks=pytest.mark.long)])
+@pytest.mark.long  # with every change: the ratio below; an unknown tremor in test_diagnose.py
+@pytest.mark.parametrize("torque", [late, play])
 def test_what_no_effect_explains_is_unknown(elsewhere: Elsewhere, torque: Torque) -> None:
     """A clock that slips half-way was "nothing is missing", play was damping with filter lag."""
     verdict, remarks, where = elsewhere(answered, torque)

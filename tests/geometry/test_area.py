@@ -384,7 +384,7 @@ def test_nothing_changes_when_everything_moves(scene, refinement, seed):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("scene", SCENES)
-@pytest.mark.parametrize("scale", [25.4, 25.4e-3])
+@pytest.mark.parametrize("scale", [25.4e-3, pytest.param(25.4, marks=pytest.mark.long)])
 def test_nothing_changes_with_the_unit(scene, scale):
     """Thresholds and all in inches taken for millimetres, and for metres: areas go with the square."""
     moving, fixed, pose = SCENES[scene]()

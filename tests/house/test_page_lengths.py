@@ -11,7 +11,7 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 45_700, "how-to": 25_200, "everything": 80_900}
+ALL_WORDS = {"theory, reference": 45_700, "how-to": 25_200, "everything": 81_700}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them."""
 LIMITS = {
@@ -97,7 +97,7 @@ LONGEST_LINE = 120
 RELEASES = {"Unreleased": 60, "0.1.0": 60}
 THEORY = sorted(path for folder in ("theory", "reference") for path in (ROOT / "docs" / folder).glob("*.md"))
 PAGES = sorted([*THEORY, *(ROOT / "docs" / "how-to").glob("*.md")])
-MADE = ("limits.md", "validation.md", "gap_constants.md", "descriptions.md")
+MADE = ("limits.md", "validation.md", "gap_constants.md", "descriptions.md", "trial_checks.md")
 """Pages made by `python -m website.pages`: a paragraph is one line there, and they grow with what they are made of."""
 
 

@@ -302,6 +302,6 @@ def test_offsets_that_are_not_whole_are_named_and_markers_are_read(tmp_path: Pat
 
 def test_plates_at_fault_leave_the_markers(tmp_path: Path) -> None:
     file = plate_file(tmp_path / "a.c3d", channels(stance()), TYPE=[99])
-    with pytest.raises(InputError, match=r"its force plates cannot be worked out \(.*\); the rest of the file is read"):
+    with pytest.raises(InputError, match=r"its force plates cannot be computed \(.*\); the rest of the file is read"):
         read_force_plates(file)
     np.testing.assert_allclose(read_c3d_markers(file).positions[0, 0], [0.3, 0.2, 0.1], atol=1e-6)

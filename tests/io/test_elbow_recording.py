@@ -92,7 +92,7 @@ BAD = {
     "constant angle": ("time [s],beta [deg],force [N]", np.full(200, 40.0), FORCE, "it hardly changes"),
     "small range": ("time [s],beta [deg],force [N]", 0.1 * DEGREES, FORCE, "it hardly changes"),
     "constant force": ("time [s],beta [deg],force [N]", DEGREES, np.full(200, 3.0), "3 N throughout"),
-    "force in mN": ("time [s],beta [deg],force [N]", DEGREES, 1e3 * FORCE, "more than any cuff bears"),
+    "force in mN": ("time [s],beta [deg],force [N]", DEGREES, 1e3 * FORCE, "more than any cuff carries"),
     "no unit of the force": ("time [s],beta [deg],force", DEGREES, FORCE, "`unit`: is missing"),
     "another channel": ("time [s],beta [deg],load [N]", DEGREES, FORCE, "`map` force=NAME"),
     "a gap": ("time [s],beta [deg],force [N]", np.where(TIME[9] == TIME, np.nan, DEGREES), FORCE, "line 11"),

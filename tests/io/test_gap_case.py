@@ -199,7 +199,7 @@ def cells_in(folder: Path, layout: str = LAYOUT, cells: str = CELLS, site: str =
 
 
 def test_cells_come_in_si_units_in_the_order_of_the_layout(tmp_path: Path) -> None:
-    with pytest.warns(InputWarning, match=r"no t02_cuff_cells\.csv: cells of cuff are not looked at there"):
+    with pytest.warns(InputWarning, match=r"no t02_cuff_cells\.csv: cells of cuff are not used there"):
         cells = read_gap_case(cells_in(tmp_path)).cells["cuff"]
     assert (cells.channel, cells.ids) == ("force", ("0", "1")) and list(cells.trials) == ["t01", "t03"]
     np.testing.assert_allclose(cells.place, [[0.01, 0.02, 0.03], [0.011, 0.021, 0.031]], rtol=1e-15)
@@ -267,7 +267,7 @@ def test_known_systems_are_the_callers(tmp_path: Path) -> None:
     home = case_in(tmp_path, case=CASE["case.toml"].replace('"elbow"', '"wrist"'))
     assert read_gap_case(home, ("wrist", "elbow")).system == "wrist"
     with pytest.raises(
-        InputError, match=r"system: 'wrist' is unknown; known are hip, knee, and \"package\.module:OBJECT"
+        InputError, match=r"system: 'wrist' is unknown; write one of hip, knee, and \"package\.module:OBJECT"
     ):
         read_gap_case(home, ("hip", "knee"))
 

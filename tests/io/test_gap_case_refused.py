@@ -48,7 +48,7 @@ BAD_SETTINGS = {
     "unknown system": (
         '"elbow"',
         '"elbwo"',
-        "case.toml system: 'elbwo' is unknown; known are elbow, foot, shoulder, knee, sit_to_stand, and \"p",
+        "case.toml system: 'elbwo' is unknown; write one of elbow, foot, shoulder, knee, sit_to_stand, and \"p",
     ),
     "own system without object": ('"elbow"', '"lab.models:"', "case.toml system: 'lab.models:' is unknown"),
     "own system as a path": ('"elbow"', '"../lab:Wrist"', "case.toml system: '../lab:Wrist' is unknown"),
@@ -62,7 +62,7 @@ BAD_SETTINGS = {
     "no evaluation": ('evaluation = ["t03"]', "", "case.toml: no key 'evaluation'"),
     "empty calibration": ('["t01", "t02"]', "[]", "case.toml calibration: is []; tuple should have at least 1 item"),
     "empty evaluation": ('["t03"]', "[]", "case.toml evaluation: is []; tuple should have at least 1 item"),
-    "calibration is no list": (
+    "calibration is not a list": (
         '["t01", "t02"]',
         '"t01"',
         "case.toml calibration: is 't01'; input should be a valid tuple",
@@ -94,7 +94,11 @@ BAD_SETTINGS = {
     ),
     "table on a drive": ('"spheres.csv"', "'C:\\spheres.csv'", "case.toml spheres: 'C:\\\\spheres.csv' cannot be used"),
     "table is missing": ('"spheres.csv"', '"sphere.csv"', "sphere.csv: there is no such file; check the path"),
-    "layout is no table": ("spheres =", 'layout = "p.csv"\nspheres =', "case.toml layout: is 'p.csv'; input should be"),
+    "layout is not a table": (
+        "spheres =",
+        'layout = "p.csv"\nspheres =',
+        "case.toml layout: is 'p.csv'; input should be",
+    ),
     "layout leads up": (
         "spheres =",
         LAYOUT.replace('"p', '"../p'),
@@ -322,7 +326,7 @@ def test_labels_in_utf_8_are_fine(tmp_path: Path) -> None:
 def test_a_channel_empty_in_all_trials_is_refused(tmp_path: Path) -> None:
     text = TRIAL.replace("0.010", "").replace("0.030", "")
     line = refusal(case_in(tmp_path, t01=text, t02=text, t03=text))
-    assert line.startswith("trials: column 'cop' is empty in all trials; strike the column from all trials")
+    assert line.startswith("trials: column 'cop' is empty in all trials; delete the column from all trials")
 
 
 def test_noise_in_two_units_is_refused(tmp_path: Path) -> None:

@@ -69,7 +69,7 @@ def test_cells_survive(tmp_path: Path) -> None:
     rng = np.random.default_rng(1)
     there = {t.name: CellTrial(t.time[::3], rng.uniform(0.0, 9e3, (len(t.time[::3]), 2))) for t in case.evaluation}
     mat = CellChannels("force", ("c0", "c7"), rng.uniform(size=(2, 3)), np.array([1e-4, 2e-4]), there)
-    with pytest.warns(InputWarning, match="cells of cuff are not looked at there"):
+    with pytest.warns(InputWarning, match="cells of cuff are not used there"):
         found = again(replace(case, cells={"cuff": mat}), tmp_path).cells["cuff"]
     assert (found.channel, found.ids, set(found.trials)) == (mat.channel, mat.ids, set(there))
     np.testing.assert_array_equal([*found.place.T, found.area], [*mat.place.T, mat.area])

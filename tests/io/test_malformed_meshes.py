@@ -191,7 +191,7 @@ MALFORMED = {
     "two corners.obj": (b"v 0 0 0\nv 50 0 0\nf 1 2\n", "line 3: a face of 2 corners"),
     "no faces.obj": (b"v 0 0 0\nv 50 0 0\nv 0 50 0\n", "no faces"),
     "no vertices.obj": (b"f 1 2 3\n", "no vertices"),
-    "keyword.obj": (b"v 0 0 0\nw 50 0 0\nv 0 50 0\nf 1 2 3\n", "line 2: 'w' is no OBJ keyword"),
+    "keyword.obj": (b"v 0 0 0\nw 50 0 0\nv 0 50 0\nf 1 2 3\n", "line 2: 'w' is not an OBJ keyword"),
     "two numbers.obj": (b"v 0 0 0\nv 50 0\nv 0 50 0\nf 1 2 3\n", "line 2: a vertex of 2 numbers"),
     "word.obj": (b"v 0 0 0\nv 5O 0 0\nv 0 50 0\nf 1 2 3\n", "line 2"),
     "nan.obj": (b"v 0 0 0\nv nan 0 0\nv 0 50 0\nf 1 2 3\n", "face 0 (vertex 1)"),

@@ -64,14 +64,14 @@ def test_a_file_without_any_of_the_columns_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"angle": "knee_angle_r"}, "is no channel with a unit that is known"),
-        ({"angle [furlong]": "knee_angle_r"}, "is no channel with a unit that is known"),
-        ({"an angle [deg]": "knee_angle_r"}, "is no channel with a unit that is known"),
+        ({"angle": "knee_angle_r"}, "is not a channel with a known unit"),
+        ({"angle [furlong]": "knee_angle_r"}, "is not a channel with a known unit"),
+        ({"an angle [deg]": "knee_angle_r"}, "is not a channel with a known unit"),
         ({"angle [deg]": 3}, "is 3; write the name of a column in quotes"),
         ({"height [mm]": "pelvis_ty"}, "is in 'mm'; OpenSim's tables are in m; write "),
         ({"torque [N]": "knee_angle_r_moment"}, "column 'knee_angle_r_moment' is in N m by its name"),
         ({"push [N m]": "pelvis_ty_force"}, "column 'pelvis_ty_force' is in N by its name"),
-        ("knee", "is no table"),
+        ("knee", "is not a table"),
     ],
 )
 def test_what_columns_are_is_told_or_refused(given: object, message: str) -> None:

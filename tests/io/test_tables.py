@@ -99,7 +99,7 @@ REFUSED = {
     "no endheader": (GOOD.replace("endheader\n", ""), "no line 'endheader' found"),
     "nothing after the header": (GOOD.split("time")[0], "line 7: no column labels found"),
     "no rows": (GOOD.split("0.0\t")[0], "line 8: no rows below the column labels"),
-    "count is no number": (GOOD.replace("nRows=3", "nRows=three"), "line 3: 'nRows=three' is not a count"),
+    "count is not a number": (GOOD.replace("nRows=3", "nRows=three"), "line 3: 'nRows=three' is not a count"),
     "short row": (GOOD.replace("0.5\t20\t0.2", "0.5\t20"), "line 9: 2 cells where 3 columns are named"),
     "long row": (GOOD.replace("0.5\t20\t0.2", "0.5\t20\t0.2\t7"), "line 9: more cells where 3 columns are named"),
     "word in a cell": (GOOD.replace("20\t", "twenty\t"), "line 9: 'twenty' in column 'knee' is not a number"),

@@ -54,9 +54,9 @@ def test_mistakes() -> None:
     for given, zones in (({"k": 1e4}, {}), ({}, {"toe": {"k": 1e4}})):
         with pytest.raises(ValueError, match="k has no effect together with the column k"):
             law_of_sole(ZONE, given, zones, column)
-    with pytest.raises(ValueError, match="n is no number of the law, or none that single spheres can have"):
+    with pytest.raises(ValueError, match="n is not a number of the law, or none that single spheres can have"):
         law_of_sole(ZONE, {}, {"toe": {"n": 1.0}})
-    with pytest.raises(ValueError, match="mu is no number"):
+    with pytest.raises(ValueError, match="mu is not a number"):
         law_of_sole(ZONE, {"mu": 1.0})
     with pytest.raises(ValueError, match="must be positive"):
         law_of_sole(ZONE, {"n": 0.0})
@@ -72,7 +72,7 @@ def test_a_changed_law_keeps_the_rest() -> None:
     assert (new.exponent, new.full_depth, new.threshold_speed) == (1.1, 1e-3, 0.1)
     with pytest.raises(InputError, match=r"zone.arch: no sphere is in that zone; zones are: heel, toe"):
         changed_law(law, ZONE, {}, {"arch": {"k": 1.0}})
-    with pytest.raises(ValueError, match="v_th is no number"):
+    with pytest.raises(ValueError, match="v_th is not a number"):
         changed_law(law, ZONE, {}, {"toe": {"v_th": 1.0}})
     with pytest.raises(ValueError, match="must be positive"):
         changed_law(law, ZONE, {"k": -1.0})

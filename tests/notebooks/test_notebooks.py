@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import inspect
 import json
 import os
 import re
@@ -89,6 +90,7 @@ def test_a_figure_is_a_picture_where_pyplot_was_never_imported():
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.filterwarnings("default")  # of the notebook machinery itself
 def test_contact_area_writes_what_the_command_writes(run, tmp_path):
     said = run(ROOT / "notebooks" / "contact_area.ipynb", GEOCONTACT_DATA=str(tmp_path / "none"))
@@ -103,6 +105,7 @@ def test_contact_area_writes_what_the_command_writes(run, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.filterwarnings("default")  # of the notebook machinery itself
 def test_mat_writes_what_the_command_writes(run, tmp_path):
     said = run(ROOT / "notebooks" / "mat.ipynb")
@@ -319,15 +322,41 @@ def test_sit_to_stand_says_what_the_command_says(run, tmp_path):
         assert (tmp_path / "standing-result" / "predicted" / name).read_bytes() == (out / name).read_bytes(), name
 
 
+def code_of(notebook: Path) -> str:
+    """Its cells of code, with modules that a cell writes."""
+    book = json.loads(notebook.read_text(encoding="utf-8"))
+    cells = ["".join(cell["source"]) for cell in book["cells"] if cell["cell_type"] == "code"]
+    return "\n".join(cell.split("\n", 1)[1] if cell.startswith("%%writefile ") else cell for cell in cells)
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
+def test_calls_of_the_package_are_there_with_their_arguments(notebook):
+    """Of every notebook, those that `make long` runs too: a name or an option that is gone is seen at once."""
+    calls = [node for node in ast.walk(ast.parse(code_of(notebook))) if isinstance(node, ast.Call)]
+    seen = 0
+    for node in calls:
+        words = ast.unparse(node.func).split(".")  # of a method of a result the rest is not a name
+        named = re.fullmatch(r"gc(\.\w+)+", ast.unparse(node.func))
+        if named is None or any(isinstance(each, ast.Starred) for each in node.args):
+            continue
+        called, known = gc, {each.arg: None for each in node.keywords if each.arg is not None}
+        for word in words[1:]:
+            called = getattr(called, word)
+        signature = inspect.signature(called)
+        whole = len(known) == len(node.keywords)  # without ** of a dictionary
+        (signature.bind if whole else signature.bind_partial)(*[None] * len(node.args), **known)
+        assert not known or not any(each.kind is each.VAR_KEYWORD for each in signature.parameters.values()), words
+        seen += 1
+    assert seen > 0
+
+
 ONLY = {"geocontact", "pandas", "matplotlib", "matplotlib.pyplot", "pathlib"}
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
 def test_only_public_names_are_used(notebook):
     """`import geocontact as gc`, pandas and matplotlib; nothing deeper, in a module that a cell writes as well."""
-    book = json.loads(notebook.read_text(encoding="utf-8"))
-    cells = ["".join(cell["source"]) for cell in book["cells"] if cell["cell_type"] == "code"]
-    source = "\n".join(cell.split("\n", 1)[1] if cell.startswith("%%writefile ") else cell for cell in cells)
+    source = code_of(notebook)
     code = ast.parse(source)
     imports = [node for node in ast.walk(code) if isinstance(node, (ast.Import, ast.ImportFrom))]
     named = {alias.name for node in imports if isinstance(node, ast.Import) for alias in node.names}

@@ -120,6 +120,7 @@ def test_a_number_with_a_rival_outside_its_interval_is_not_separable() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long  # with every change: the parts above; calibrations in tests/analyses/sit_to_stand
 def test_trials_of_another_model_do_not_end_on_the_bound_of_the_modulus() -> None:
     """The search's own start ends with 60 MPa for 15 and 79.7 mm for 85: 40 standard deviations, once called known.
 

@@ -55,6 +55,7 @@ def test_one_trial_gives_its_parameters_back() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long  # with every change: the one above, and test_chair.py
 def test_what_is_sought_holds_what_was_planted_where_nothing_is_noisy() -> None:
     """Both chains rise, seen exactly: all within two standard deviations; with the dissipation held elsewhere not."""
     subject, noise, planted = Subject(), StandingNoise(), np.r_[EVERY_PLANTED, STRAP_PLANTED]

@@ -195,9 +195,9 @@ def test_conditions_are_compared_and_the_page_leads_to_every_trial(tmp_path: Pat
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (("--memory", "lots"), "--memory: 'lots' is no size of memory; write for example 4GB"),
+        (("--memory", "lots"), "--memory: 'lots' is not a size of memory; write for example 4GB"),
         (("--workers", "0"), "--workers: 0 is less than one process"),
-        (("--scheduler", "here"), "--scheduler: 'here' is no address; write tcp://host:8786, or local"),
+        (("--scheduler", "here"), "--scheduler: 'here' is not an address; write tcp://host:8786, or local"),
         (("--scheduler", "tcp://h:1", "--workers", "2"), "--workers: has no effect with --scheduler"),
     ],
 )

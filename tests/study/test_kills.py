@@ -19,6 +19,7 @@ from tests.study.quick import study
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 @pytest.mark.slow
+@pytest.mark.long  # with every change: workers that are killed, in test_cohort.py, and those below
 def test_tables_after_one_kill_are_those_of_an_undisturbed_run(tmp_path: Path) -> None:
     """The study itself, by SIGKILL, after 86 % of the time that it takes: about when its trials are run."""
     found = disturb(prepare(tmp_path, 3), tmp_path, 1, seed=537)

@@ -36,7 +36,7 @@ def values(distance: np.ndarray, conditions: tuple[str, ...], at: tuple[float, .
 def test_particles_are_read_in_their_order(tmp_path: Path) -> None:
     read = read_particles(written(tmp_path / "a.particles", PARTICLES), "mm")
     np.testing.assert_allclose(read, PARTICLES / 1e3, rtol=1e-15)
-    for text, said in (("1 2 3\n1 2\n", "line 2: '1 2' is no point"), ("1 nan 3", "line 1"), ("x y z\n", "line 1")):
+    for text, said in (("1 2 3\n1 2\n", "line 2: '1 2' is not a point"), ("1 nan 3", "line 1"), ("x y z\n", "line 1")):
         (tmp_path / "b.particles").write_text(text, encoding="utf-8")
         with pytest.raises(InputError, match=said):
             read_particles(tmp_path / "b.particles", "mm")
@@ -144,7 +144,7 @@ def test_a_study_reads_distances_at_the_particles_of_each_subject(tmp_path: Path
         ("{subject}/plate.particles", "{who}/plate.particles", "no trial has {who}"),
         ("save_map = true", "save_map = false", "[surface]: needs the distances of every vertex"),
         ('unit = "mm"\nat', 'unit = "furlong"\nat', "[surface] unit: 'furlong' is none of length"),
-        ("at = [0, 50, 100]", "at = [120]", "[surface] at: [120] are no places"),
+        ("at = [0, 50, 100]", "at = [120]", "[surface] at: [120] are not places"),
     ):
         (tmp_path / "study.toml").write_text(text.replace(odd, new), encoding="utf-8")
         refused = call("cohort", tmp_path / "study.toml", "--scheduler", scheduler, "--out", tmp_path / "out")

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.chain.system import tangents
+from geocontact.chain.system import System, tangents
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import CaseMesh, GapCase
 from geocontact.effects.catalogue import candidates
@@ -26,7 +27,12 @@ SIDES = knee_chain.SIDE_NAMES
 TIME, POSES = poses(20)
 TRIAL = trial("t", TIME, POSES)
 MODULUS = 2.5e6
-CELLS = chain()
+
+
+@cache
+def whole() -> System:
+    """From pose to cells: made by the first test that asks, not where the file is read."""
+    return chain()
 
 
 def test_sides_press_by_the_areas_of_the_area_command() -> None:
@@ -43,19 +49,19 @@ def test_sides_press_by_the_areas_of_the_area_command() -> None:
 
 
 def test_cells_add_up_to_the_sides_and_turn_with_the_patch() -> None:
-    cells = CELLS.simulate(TRIAL, {"E_star": MODULUS})
+    cells = whole().simulate(TRIAL, {"E_star": MODULUS})
     force = chain(SIDES).simulate(trial("t", TIME, POSES, SIDES), {"E_star": MODULUS})
     back = compartment_forces(TIME, cells)
     np.testing.assert_allclose(np.column_stack([back.medial, back.lateral]), force, rtol=1e-10)
     forward = POSES + np.array([0.0, 0.0, 0.0, 1.5e-3, 0.0, 0.0])[:, None]
-    moved = CELLS.simulate(trial("t", TIME, forward), {"E_star": MODULUS})
+    moved = whole().simulate(trial("t", TIME, forward), {"E_star": MODULUS})
     front, ahead = ((c[:, 1] + c[:, 2]) / c.sum(axis=1) for c in (cells, moved))
     assert (ahead > front).all(), "a component that stands further forward loads the front cells more"
 
 
 def test_derivatives_are_those_of_the_cells() -> None:
-    axis = next(one for one in candidates(CELLS) if one.name == "axis_migration")
-    system = axis.apply(CELLS)
+    axis = next(one for one in candidates(whole()) if one.name == "axis_migration")
+    system = axis.apply(whole())
     values = {"E_star": MODULUS} | {p.name: 0.3 * p.upper for p in axis.parameters}
     steps = {name: 1e-7 * abs(value) for name, value in values.items()}
     found = tangents(system, TRIAL, values, steps)
@@ -69,26 +75,26 @@ def test_derivatives_are_those_of_the_cells() -> None:
 def test_a_left_knee_is_the_mirror_image_of_a_right_one() -> None:
     mirrored = POSES * np.array([1.0, 1.0, 1.0, 1.0, 1.0, -1.0])[:, None]
     left = chain(side=-1.0).simulate(trial("t", TIME, mirrored), {"E_star": MODULUS})
-    np.testing.assert_allclose(left, CELLS.simulate(TRIAL, {"E_star": MODULUS}), rtol=2e-4)
+    np.testing.assert_allclose(left, whole().simulate(TRIAL, {"E_star": MODULUS}), rtol=2e-4)
 
 
 def test_effects_are_those_of_the_knee_on_every_coordinate_of_the_pose() -> None:
-    offered = candidates(CELLS)
+    offered = candidates(whole())
     assert {one.name for one in offered} == set(VOCABULARY["knee"].split())
-    assert {one.variant for one in offered if one.name == "motion_offset"} == set(CELLS.inputs)
+    assert {one.variant for one in offered if one.name == "motion_offset"} == set(whole().inputs)
     assert len([one for one in offered if one.name == "crosstalk"]) == 12
-    reach = CELLS.geometry.areas.reach[:, 0]  # type: ignore[attr-defined]
+    reach = whole().geometry.areas.reach[:, 0]  # type: ignore[attr-defined]
     bounds = [one.parameters[0].upper for one in offered if one.name == "motion_offset"]
     assert (np.array(bounds) < reach).all(), "a search stays on the grid"
 
 
 def test_an_offset_that_is_tried_is_an_offset_of_the_pose() -> None:
-    offset = next(one for one in candidates(CELLS) if one.label == "motion_offset.tz").apply(CELLS)
-    CELLS.simulate(TRIAL, {"E_star": MODULUS})
+    offset = next(one for one in candidates(whole()) if one.label == "motion_offset.tz").apply(whole())
+    whole().simulate(TRIAL, {"E_star": MODULUS})
     got = offset.simulate(TRIAL, {"E_star": MODULUS, "motion_offset.tz.offset": 8e-4})
     shifted = POSES + np.array([0.0, 0.0, 0.0, 0.0, 0.0, 8e-4])[:, None]
     want = chain().simulate(trial("t", TIME, shifted), {"E_star": MODULUS})
-    away = np.abs(want - CELLS.simulate(TRIAL, {"E_star": MODULUS})).max()
+    away = np.abs(want - whole().simulate(TRIAL, {"E_star": MODULUS})).max()
     assert np.abs(got - want).max() < 0.25 * away
 
 
@@ -97,7 +103,7 @@ def test_only_the_front_of_the_insert_counts_if_the_case_says_so() -> None:
     front = knee_chain.build((E_STAR,), CONSTANTS, {}, meshes)
     assert (
         front.simulate(TRIAL, {"E_star": MODULUS}).sum(axis=1)
-        < 0.9 * CELLS.simulate(TRIAL, {"E_star": MODULUS}).sum(axis=1)
+        < 0.9 * whole().simulate(TRIAL, {"E_star": MODULUS}).sum(axis=1)
     ).all()
 
 

@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.wrench import Wrench
-from geocontact.trial_checks.recorded import FootPlate, RecordedTrial
+from geocontact.trial_checks.recorded import FootPlate, TrialInputs
 from geocontact.trial_checks.table import CHECKS, contradictions
 
 RATE, SPEED, STRIDE, DUTY = 100.0, 1.2, 1.2, 0.62
@@ -73,31 +73,31 @@ TIME = np.arange(0.0, 3.6, 1.0 / RATE)
 PLATES = np.arange(0.0, 3.6, 1e-3)
 
 
-def walk() -> RecordedTrial:
+def walk() -> TrialInputs:
     """One step on each of two plates."""
     right, left = plate_of(PLATES, "right", 0.6, 1.0), plate_of(PLATES, "left", 1.2, -1.0)
     plates = FootPlate(right, "plates.mot", "right"), FootPlate(left, "plates.mot", "left")
-    return RecordedTrial(marked(TIME), replace(marked(STANDING_STILL, walks=False), source="still.trc"), plates, MASS)
+    return TrialInputs(marked(TIME), replace(marked(STANDING_STILL, walks=False), source="still.trc"), plates, MASS)
 
 
-def spoke(trial: RecordedTrial) -> set[str]:
+def spoke(trial: TrialInputs) -> set[str]:
     """Names of the checks that found something."""
     return {check.name for check, _ in contradictions(trial)}
 
 
-def moved(trial: RecordedTrial, change: Callable[[np.ndarray], np.ndarray]) -> RecordedTrial:
+def moved(trial: TrialInputs, change: Callable[[np.ndarray], np.ndarray]) -> TrialInputs:
     """With other places of markers (t, m, 3)."""
     seen = trial.markers
     assert seen is not None
     return replace(trial, markers=replace(seen, positions=change(seen.positions.copy())))
 
 
-def plated(trial: RecordedTrial, change: Callable[[ForcePlate], ForcePlate]) -> RecordedTrial:
+def plated(trial: TrialInputs, change: Callable[[ForcePlate], ForcePlate]) -> TrialInputs:
     """With other plates."""
     return replace(trial, plates=tuple(replace(on, plate=change(on.plate)) for on in trial.plates))
 
 
-def standing_moved(trial: RecordedTrial, marker: int | None, by: float) -> RecordedTrial:
+def standing_moved(trial: TrialInputs, marker: int | None, by: float) -> TrialInputs:
     """With one marker of the standing trial, or all of them, higher up [m]."""
     still = trial.standing
     assert still is not None
@@ -146,22 +146,22 @@ def millimetres(plate: ForcePlate) -> ForcePlate:
     return replace(plate, wrench=replace(plate.wrench, origin=1e3 * plate.wrench.origin))
 
 
-def exchanged(trial: RecordedTrial) -> RecordedTrial:
+def exchanged(trial: TrialInputs) -> TrialInputs:
     """The two plates under each other's foot."""
     right, left = trial.plates
     return replace(trial, plates=(replace(right, side="left"), replace(left, side="right")))
 
 
-def stood(kilograms: float) -> Callable[[RecordedTrial], RecordedTrial]:
+def stood(kilograms: float) -> Callable[[TrialInputs], TrialInputs]:
     """Somebody of 75 kg who stands on a plate, whose mass is said to be another."""
     time = np.arange(0.0, 1.0, 1e-3)
     force = np.column_stack([0.0 * time, np.full_like(time, MASS * GRAVITY), 0.0 * time])
     wrench = Wrench(force, 0.0 * force, 0.0 * force, "ground")
     plate = ForcePlate("feet", time, wrench, np.zeros(3), np.array([0.0, 1.0, 0.0]))
-    return lambda _: RecordedTrial(plates=(FootPlate(plate, "plates.mot"),), mass=kilograms, stands_at=0.9)
+    return lambda _: TrialInputs(plates=(FootPlate(plate, "plates.mot"),), mass=kilograms, stands_at=0.9)
 
 
-def renamed(trial: RecordedTrial) -> RecordedTrial:
+def renamed(trial: TrialInputs) -> TrialInputs:
     """Right called left."""
     assert trial.markers is not None
     names = tuple({"R": "L", "L": "R"}[name[0]] + name[1:] for name in trial.markers.names)
@@ -182,7 +182,7 @@ def aside(by: float) -> Callable[[np.ndarray], np.ndarray]:
     return change
 
 
-DAMAGED: dict[str, tuple[str, Callable[[RecordedTrial], RecordedTrial]]] = {
+DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
     "a jump of 150 mm": ("jump", lambda t: moved(t, spiked(0.15))),
     "labels exchanged half-way": ("jump", lambda t: moved(t, swapped)),
     "z is up": ("upright", lambda t: replace(t, markers=t.markers.turned(Z_UP), plates=())),
@@ -214,7 +214,7 @@ DAMAGED: dict[str, tuple[str, Callable[[RecordedTrial], RecordedTrial]]] = {
     "a plate 0.1 s late": ("clock", lambda t: plated(t, later(0.1))),
     "a plate 0.1 s early": ("clock", lambda t: plated(t, later(-0.1))),
 }
-NEARLY: dict[str, Callable[[RecordedTrial], RecordedTrial]] = {
+NEARLY: dict[str, Callable[[TrialInputs], TrialInputs]] = {
     "as it is": lambda t: t,
     "a jump of 15 mm": lambda t: moved(t, spiked(0.015)),
     "a marker 15 mm elsewhere": lambda t: moved(t, aside(0.015)),
@@ -241,7 +241,7 @@ def test_a_wrong_input_is_named(damage: str) -> None:
 
 
 @pytest.mark.parametrize("change", NEARLY.values(), ids=NEARLY)
-def test_what_nearly_trips_is_silent(change: Callable[[RecordedTrial], RecordedTrial]) -> None:
+def test_what_nearly_trips_is_silent(change: Callable[[TrialInputs], TrialInputs]) -> None:
     assert spoke(change(walk())) == set()
 
 
@@ -279,5 +279,5 @@ def test_lateness_is_estimated() -> None:
 def test_axes_that_would_mend_it_are_named() -> None:
     trial = walk()
     assert trial.markers is not None
-    found = contradictions(RecordedTrial(trial.markers.turned(Z_UP)))
+    found = contradictions(TrialInputs(trial.markers.turned(Z_UP)))
     assert "`axes` x,z,-y" in found[0][1].remedy

@@ -38,6 +38,7 @@ LONG = {  # more than three CPU seconds
     "prosthesis.compare",
     "prosthesis.design",
     "prosthesis.scale",
+    "prosthesis.simulate",
     "shoulder.optimise",
     "sit_to_stand.calibrate",
     "sit_to_stand.compare",
@@ -48,11 +49,14 @@ LONGEST = {
     "prosthesis.calibrate",
     "prosthesis.compare",
     "prosthesis.design",
+    "prosthesis.simulate",
     "shoulder.optimise",
+    "sit_to_stand.calibrate",
     "sit_to_stand.compare",
+    "sit_to_stand.design",
     "sit_to_stand.predict",
 }
-"""More than ten CPU seconds; tests/analyses makes the same calls and looks at what they say."""
+"""More than four CPU seconds; tests/analyses makes the same calls and looks at what they say."""
 DIAGNOSES = "geocontact.analyses.gap.diagnose.result.findings_of"
 OF_THE_SAME_CASE = {
     "discriminability": ("geocontact.gap.identifiability.discriminability.attribute", "attribution"),

@@ -226,7 +226,7 @@ def pose_sd(text: str, option: str) -> tuple[float, ...]:
         name, _, value = (piece.strip() for piece in part.partition("="))
         meant = [each for each in names if each == name or each[0] == name]
         if not meant or not value or any(each in found for each in meant):
-            raise InputError("", option, f"{part.strip()!r} is no standard deviation", f"write {option} t=0.5,r=1")
+            raise InputError("", option, f"{part.strip()!r} is not a standard deviation", f"write {option} t=0.5,r=1")
         size = quantities.number(value, option, "t=0.5,r=1")
         found |= {each: size * (LENGTH["mm"] if each[0] == "t" else ANGLE["deg"]) for each in meant}
     if min(found.values()) < 0.0:

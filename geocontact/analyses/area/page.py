@@ -99,8 +99,8 @@ def _context(e: AreaEvolution, pressed: bool) -> str:
     )
     return (
         f"Geometric contact of two rigid triangulated surfaces in given poses: {forces}"
-        "An area within a threshold is a measure of congruence; it is the area that carries load only as far as the "
-        f"threshold stands for the deformation. {signs[e.signed]}"
+        "An area within a threshold measures congruence. It is the area that carries load only if the threshold "
+        f"equals the deformation. {signs[e.signed]}"
     )
 
 

@@ -170,24 +170,24 @@ def pressure_words(p: Pressures) -> Words:
     other = "rigid" if np.isinf(p.other_modulus) else f"another one of {p.other_modulus * MPA:.4g} MPa"
     layer = (
         f"FIXED is an elastic layer on a rigid base ({p.law} law, confined modulus {p.modulus * MPA:.4g} MPa, "
-        f"thickness {thin:.3g} … {thick:.3g} mm where it is pressed) and MOVING is {other}. Each place of "
-        "the layer carries the pressure of its own depth: what a patch does to the surface beside it, friction and "
-        "creep are left out."
+        f"thickness {thin:.3g} … {thick:.3g} mm where it is pressed) and MOVING is {other}. The pressure at each "
+        "point depends on the depth at that point only: effects on the surface beside it, friction and creep are "
+        "neglected."
     )
     more = p.modulus * DEEPER / p.thickness[0] * MPA
     pose = (
-        f"The pose decides: {DEEPER * MM:g} mm deeper is up to {more:.3g} MPa more. Recorded poses rarely know where "
-        "surfaces are to that; maps from them show where, not how much."
+        f"The pose decides: {DEEPER * MM:g} mm deeper is up to {more:.3g} MPa more. Recorded poses are rarely that "
+        "accurate; maps from them show where the pressure is, not how large."
     )
     off = abs(largest - p.finer) / p.finer if p.finer > 0.0 else 0.0
     error = (
-        f"Pieces of half the size change the largest force by {off:.2%}. How the triangles resemble the surfaces is "
-        "not in that number: repeat with a finer mesh."
+        f"Pieces of half the size change the largest force by {off:.2%}. The error of the triangles is not included: "
+        "repeat with a finer mesh."
     )
     shown, peak = max(float(each.max()) for each in p.maps.values()) * MPA, float(p.peak.max()) * MPA
     colours = (
         f"The colours are means over faces, up to {shown:.3g} MPa; the largest pressure of a piece is {peak:.3g} MPa. "
-        "The two are alike where faces are small against the patch."
+        "They agree where faces are small compared with the patch."
     )
     return Words("Pressures", [layer, pose, error, colours])
 

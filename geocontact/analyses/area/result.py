@@ -367,8 +367,8 @@ def _uncertain(
         )
         say(
             f"largest standard deviation of the area {known[0, worst]:.3g} mm^2, in frame {worst + 1} of "
-            f"{len(motion)}: {len(bodies.error.draws)} draws know it to "
-            f"{known[1, worst]:.3g} … {known[2, worst]:.3g} mm^2 (95 %)"
+            f"{len(motion)}: {len(bodies.error.draws)} draws give {known[1, worst]:.3g} … {known[2, worst]:.3g} mm^2 "
+            "(95 %)"
         )
         if odd:
             reserve(

@@ -105,8 +105,8 @@ def _mesh(path: Path, unit: str) -> Ground:
     if isinstance(ground, Sheet):
         x, y, z = ground.up
         reserve(
-            f"{surface.name} is open ({surface.topology.why_open}): taken as a sheet, above is where its faces look, "
-            f"on the whole ({x:.2f}, {y:.2f}, {z:.2f})"
+            f"{surface.name} is open ({surface.topology.why_open}): taken as a sheet; its upper side is the one to "
+            f"which its faces point on average ({x:.2f}, {y:.2f}, {z:.2f})"
         )
     return ground
 

@@ -170,9 +170,9 @@ def headline(r: FootLoads) -> list[str]:
     k = int(np.argmax(c.pressing))
     said = f"The ground presses on the foot with up to {rounded(c.pressing[k], 3)} N, at {_at(time[k])}"
     if not found.any():
-        return [f"{said}: too little for a centre of pressure, which asks for {r.options.gate:g} N."]
+        return [f"{said}: too little for a centre of pressure, which needs {r.options.gate:g} N."]
     way, along = travel(r)
-    lines = [f"{said}; its centre of pressure goes {way * MM:.0f} mm along {along}."]
+    lines = [f"{said}; its centre of pressure moves {way * MM:.0f} mm along {along}."]
     if not found.all():
         lines.append(
             f"There is a centre of pressure in {found.sum()} of {counted(len(found), 'frame')}; "
@@ -237,8 +237,8 @@ def foot_curves(r: FootLoads) -> list[Curves]:
 SPHERES, PLATE = "spheres", "force plate"
 LAW = (
     "Forces follow from how deep spheres of given stiffness stand in the ground. A millimetre of error in the motion "
-    "is a large part of that depth: sizes of forces are as good as motion and stiffness, the place of the centre "
-    "depends on them less."
+    "is a large part of that depth: sizes of forces are only as accurate as motion and stiffness; the centre of "
+    "pressure depends on them less."
 )
 
 

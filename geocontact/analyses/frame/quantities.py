@@ -77,7 +77,7 @@ def named_numbers(texts: Iterable[str], option: str) -> dict[str, float]:
         try:
             found[name] = float(value)
         except ValueError:
-            raise InputError("", option, f"{value!r} is no number", f"write {name}=1.5") from None
+            raise InputError("", option, f"{value!r} is not a number", f"write {name}=1.5") from None
     return found
 
 
@@ -120,7 +120,7 @@ def body_mass(text: str, option: str) -> float:
         return number(text, option, example)
     known = si_unit(found["unit"])
     if known is None or known[0] != "kg":
-        raise InputError("", option, f"{found['unit']!r} is no unit of mass", f"write for example {example}")
+        raise InputError("", option, f"{found['unit']!r} is not a unit of mass", f"write for example {example}")
     return number(found["number"], option, example) * known[1]
 
 
@@ -178,7 +178,7 @@ def turn(text: str, option: str) -> tuple[str, float]:
         raise InputError("", option, f"{text!r} is not an axis and an angle", f"write {option} x=2 (degrees)")
     value = number(angle, option, "x=2")
     if abs(value) > 45.0:
-        raise InputError("", option, f"{text!r} is no small offset", "write at most 45 degrees")
+        raise InputError("", option, f"{text!r} is not a small offset", "write at most 45 degrees")
     return axis.strip(), value * ANGLE["deg"]
 
 

@@ -84,7 +84,7 @@ def _quantity(name: str, typed: Typed, text: str) -> float:
     if plain:
         raise _without_unit(name, typed, text)
     if found is None or known is None or known[0] != typed.si:
-        raise InputError("", f"`{name}`", f"{text!r} is no value in {typed.si}", f"write {typed.python}")
+        raise InputError("", f"`{name}`", f"{text!r} is not a value in {typed.si}", f"write {typed.python}")
     return float(found["number"]) * known[1]
 
 
@@ -95,7 +95,7 @@ def with_unit(name: str, si: str, text: str) -> float | str:
         return text
     known = (si, 1.0) if found["unit"] == si else si_unit(found["unit"])
     if known is None or known[0] != si:
-        raise InputError("", f"`{name}`", f"{text!r} is no value in {si}", "check the unit")
+        raise InputError("", f"`{name}`", f"{text!r} is not a value in {si}", "check the unit")
     return float(found["number"]) * known[1]
 
 

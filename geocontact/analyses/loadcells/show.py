@@ -175,7 +175,7 @@ def _centre(forces: dict[str, Float[np.ndarray, " t"]], least: float) -> Float[n
 
 CELLS = (
     "Each cell measures the force along its own axis. The sum is the axial force on the tray; how it is shared between "
-    "the compartments is a regression, not a measurement, and shear and friction are in neither."
+    "the compartments is a regression, not a measurement. Shear and friction are not included."
 )
 CYCLES, STYLES = "Cycles", "Difference to the first style (root mean square of the means)"
 SHIFTS = "Swing and time of each style compared with the first, intervals of 95 % over cycles"

@@ -220,14 +220,14 @@ def _reservations(r: MatFindings) -> list[str]:
     still = "" if frame == r.home else f" The picture stands still in the frame {r.home}, with which the segment moves."
     return [
         f"Forces, moments and centres of pressure are in the frame {frame}.{still}",
-        "A mat measures what is perpendicular to its cells. Friction along the skin is in none of these forces.",
+        "A mat measures forces perpendicular to its cells. Friction along the skin is not included.",
         f"Cells are up to {known.max():.1%} larger or smaller on the scan than flat; each keeps its own sensing area.",
         f"Landmarks are missed by up to {miss}.",
         f"The errors that were stated make the largest force uncertain by {sd:.1f} N (standard deviation).",
         spelled(
             "What was neither stated (`gain`, `registration`) nor estimated by registration is not in that number."
         ),
-        "The scan is one shape: where soft tissue gives way under the load, pressures sit where it was before.",
+        "The scan does not deform: where soft tissue yields under load, pressures are shown on its unloaded shape.",
     ]
 
 

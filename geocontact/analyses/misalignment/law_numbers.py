@@ -60,7 +60,7 @@ def require_names(names: Mapping[str, object] | None, option: str) -> None:
     """Refuse numbers that the law does not have."""
     for name in names or {}:
         if name not in PER_SI:
-            raise InputError("", option, f"{name!r} is no number of the law", f"these are {', '.join(PER_SI)}")
+            raise InputError("", option, f"{name!r} is not a number of the law", f"these are {', '.join(PER_SI)}")
 
 
 def numbers(text: str, option: str) -> dict[str, float]:

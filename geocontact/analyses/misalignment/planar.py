@@ -71,8 +71,16 @@ def _table(file: Path, span: tuple[float, float]) -> AxisDrift:
 
 
 def page_table(title: str, rows: pd.DataFrame) -> Table:
-    """The table with four digits, for the page."""
-    texts = rows.map(lambda value: f"{value:.4g}" if isinstance(value, float) else str(value))
+    """The table with four digits, for the page: what is not known is empty, what is infinite is ∞."""
+
+    def text(value: object) -> str:
+        if not isinstance(value, float):
+            return str(value)
+        if math.isnan(value):
+            return ""
+        return f"{value:.4g}" if math.isfinite(value) else f"{'−' if value < 0.0 else ''}∞"
+
+    texts = rows.map(text)
     return Table(title, tuple(map(str, rows.columns)), texts.to_numpy().tolist())
 
 

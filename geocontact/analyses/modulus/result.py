@@ -200,12 +200,12 @@ def _reserve(side: str, each: Identification) -> None:
     if r2 < 0.0:
         reserve(f"{side}: R² is {r2:.2f}, a constant force would do better than the law")
     for name in each.on_bound:
-        reserve(f"{side}: the data set no limit to {name} within its bounds on one side or both")
+        reserve(f"{side}: the data do not limit {name} within its bounds, on one side or both")
     drawn = each.replicates
     if drawn is not None and drawn.blocks < FEW_BLOCKS:
         reserve(f"{side}: {drawn.blocks} blocks of {drawn.block:.2g} s are few for a bootstrap")
     if drawn is not None and drawn.block < each.memory.typical:
-        what = f"the residual remembers for about {each.memory.typical:.2g} s of {len(each.measured)} frames"
+        what = f"the residual is correlated over about {each.memory.typical:.2g} s of {len(each.measured)} frames"
         reserve(f"{side}: {what}, longer than a block: the law is incomplete, and intervals are approximate")
     free = each.told_apart.get("free")
     if free is not None and free.verdict != "separable":

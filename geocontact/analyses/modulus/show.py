@@ -42,7 +42,7 @@ def modulus_curves(found: Identified) -> CurveSheet:
     ]
     reach = np.concatenate([line.time for line in lines])
     profile = Curves(
-        "Rise of the sum of squares beside the best E*",
+        "Rise of the sum of squares away from the best E*",
         "cuts at 95 %",
         [],
         points=lines,
@@ -128,7 +128,7 @@ def facts(found: Identified) -> list[tuple[str, str]]:
     return lines[:5]
 
 
-WORDS = "95 % intervals. They hold what the force's noise leaves open, not what the law leaves out."
+WORDS = "95 % intervals. They include the noise of the force, not errors of the law."
 
 
 def modulus_intervals(found: Identified) -> Intervals:
@@ -193,9 +193,9 @@ def _span(low: float, high: float) -> str:
 
 PROFILE = "How far the sum of squares rises when E* is held away from its best value: an interval of 95 % ends at 1."
 LAW = (
-    "The law turns one area into one force. It has no friction, no damping, no liner that creeps, and it takes the "
-    "area of rigid surfaces within a threshold for that of an elastic contact: what E* says of a material is only as "
-    "good as that reading. Read it with the table of thresholds and readings."
+    "The law computes one force from one area. It has no friction, no damping and no creep. It uses the area of "
+    "rigid surfaces within a threshold as the area of an elastic contact: E* describes a material only as far as "
+    "this holds. Compare the table of thresholds and readings."
 )
 
 

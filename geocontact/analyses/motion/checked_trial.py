@@ -12,11 +12,11 @@ from geocontact.analyses.frame.collector import reserve
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import LOADED, ForcePlate
 from geocontact.io.mocap.force_plates import OPENSIM_FRAME
-from geocontact.trial_checks.recorded import UP, RecordedTrial
+from geocontact.trial_checks.recorded import UP, TrialInputs
 from geocontact.trial_checks.table import contradictions
 
 
-def check_trial(trial: RecordedTrial) -> frozenset[str]:
+def check_trial(trial: TrialInputs) -> frozenset[str]:
     """Every check of `trial_checks.table`: a warning for each contradiction; InputError for one that leaves no result.
 
     Returns

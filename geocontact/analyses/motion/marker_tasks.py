@@ -38,7 +38,7 @@ def renamed(seen: MarkerTrajectories, model: Multibody, given: str | None) -> Ma
     own = {m.name for m in model.markers}
     usable = {lab: name for lab, name in names.items() if lab in seen.names and name in own}
     if not usable:
-        what = f"names no recorded marker and one of the model together ({_pairs(names)})"
+        what = f"does not pair a recorded marker with one of the model ({_pairs(names)})"
         raise InputError(file or "", "`markers_map`", what, names_told(seen, model))
     lost, foreign = [lab for lab in names if lab not in seen.names], [n for n in names.values() if n not in own]
     for what, which, there in (("was not recorded", lost, seen.names), ("is not in the model", foreign, tuple(own))):
@@ -185,7 +185,7 @@ def _followed(
     if not near:
         raise InputError(tasks or "", "`follow`", "has no effect: no task is of the kind from_file", "leave it out")
     if follow is None:
-        what = f"{listed(tuple(near))} is to be near a recording"
+        what = f"{listed(tuple(near))} follows a recording"
         raise InputError(tasks or "", "", what, "name its file with `follow` in ik; scale takes manual_value")
     table = read_table(follow)
     add_input("`follow`", follow, frames=len(table.time))
@@ -235,7 +235,7 @@ def _named(texts: tuple[str, ...], option: str, names: set[str], example: str) -
     for text in texts:
         name, equals, value = text.rpartition("=")
         if not equals or name not in names:
-            what = f"'{text}' names nothing of the model"
+            what = f"'{text}' is not in the model"
             raise InputError("", option, what, f"write for example {example}; there are {listed(tuple(sorted(names)))}")
         found[name] = number(value, option, example)
     return found

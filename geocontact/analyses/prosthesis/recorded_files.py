@@ -26,14 +26,14 @@ from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.io.recordings.spheres import read_law
 from geocontact.loads.sole_law import changed_law
-from geocontact.trial_checks.recorded import FootPlate, RecordedTrial
+from geocontact.trial_checks.recorded import FootPlate, TrialInputs
 
 OTHER: Mapping[Side, Side] = {"right": "left", "left": "right"}
 """The other side of the body."""
 
 
 @dataclass(frozen=True)
-class Laboratory:
+class LaboratoryFiles:
     """How the files of a trial are read, all of them alike, and what of them is checked against each other.
 
     Parameters
@@ -108,7 +108,7 @@ class Laboratory:
         """
         feet = ((own, self.side), (other, OTHER[self.side]))
         plates = tuple(FootPlate(plate, fspath(file), side) for plate, side in feet if plate is not None and file)
-        check_trial(RecordedTrial(seen, standing, plates, mass, floor=floor, turn=turn_of(self.axes)))
+        check_trial(TrialInputs(seen, standing, plates, mass, floor=floor, turn=turn_of(self.axes)))
 
 
 def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableStiffnessFoot:

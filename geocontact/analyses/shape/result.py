@@ -185,8 +185,8 @@ def _warn_of_doubts(name: str, fit: ShapeFit) -> None:
         reserve(f"{name}: the search did not converge; the fit may not be the best")
     if fit.shape == "cylinder" and fit.arc < FLATTEST:
         reserve(
-            f"{name}: the points cover {np.degrees(fit.arc):.0f} degrees about the axis; "
-            "below 60 radius and axis are hardly determined"
+            f"{name}: the points cover {np.degrees(fit.arc):.0f} degrees about the axis; below 60 degrees radius and "
+            "axis are poorly determined"
         )
     if fit.radius is not None and fit.rms > POOR * fit.radius:
         reserve(
@@ -197,7 +197,8 @@ def _warn_of_doubts(name: str, fit: ShapeFit) -> None:
     if fit.radius is not None and fit.exact_in_part:
         reserve(
             f"{name}: {share:.0%} of the points lie on the {fit.shape} exactly, the others {fit.rms * 1e3:.2f} mm off, "
-            "root mean square over all: no interval of the radius, which is that of a part; choose it with `region`"
+            "root mean square over all: no interval of the radius, because it fits a part only; choose that part with "
+            "`region`"
         )
     if share < 0.7:
         reserve(f"{name}: {1.0 - share:.0%} of the points are outliers; is it a {fit.shape}, and the right patch?")

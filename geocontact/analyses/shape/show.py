@@ -189,12 +189,12 @@ WAYS = {  # by axis: which way a mesh's axes point in the body is not known here
     for sign, turn in (("+", 1.0), ("−", -1.0))
 }
 DISTANCES = (
-    "Distances are geometric. Points far off do not count (biweight, its scale from the median distance), unless plain "
-    "least squares was asked for."
+    "Distances are geometric. Outliers are ignored (biweight, its scale from the median distance), unless ordinary "
+    "least squares was requested."
 )
 INTERVAL = (
-    "The interval of the radius comes from leaving out one part of the patch after the other, so that it does not "
-    "shrink as the mesh gets finer. It says nothing of another patch: which faces count decides the radius."
+    "The interval of the radius comes from leaving out one part of the patch after the other, so it does not shrink "
+    "as the mesh gets finer. It holds for this patch only: other faces give another radius."
 )
 
 

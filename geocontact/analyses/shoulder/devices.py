@@ -71,7 +71,7 @@ def wearer_of_lengths(file: Path, lengths: Mapping[str, float]) -> Wearer:
         reserve(f"{file.name}: no lengths of the person; the device is adjusted to the usual ones (invented)")
     for name, value in lengths.items():
         if not SHORTEST <= value <= LONGEST:
-            what = f"{1e3 * value:g} mm is no length of a person"
+            what = f"{1e3 * value:g} mm is not a length of a person"
             raise InputError(file, f"`{name}`", what, f"that is {1e3 * SHORTEST:g} to {1e3 * LONGEST:g} mm")
     return Wearer(**lengths)
 

@@ -39,7 +39,7 @@ def recorded_channels(
     delay
         How much the recording's clock is late [s].
     """
-    table = read_table(path)
+    table = read_table(path, leave_words=True)
     if table.time_unit != "s":
         raise InputError(path, "", "time is in per cent of a cycle", "give a recording in seconds")
     mapping = {} if named is None else parse_map(named, (ELEVATION, FORCE))
@@ -58,6 +58,10 @@ def recorded_channels(
 
 def _column(table: TextTable, channel: str, mapping: Mapping[str, tuple[float, str]]) -> tuple[float, str] | None:
     sign, name = mapping.get(channel, (1.0, channel))
+    if name in table.words:
+        raise InputError(
+            table.file, "", f"column '{name}' holds words, no {channel}", f"name another: `map` {channel}=NAME"
+        )
     found = resolve(table, name)
     if found is None and channel in mapping:
         what = f"no column '{name}' for {channel}; columns are: {listed(table.channels)}"
@@ -106,7 +110,7 @@ def current_at(file: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "
 
 def _current(file: Path) -> tuple[TextTable, Float[np.ndarray, " s"], bool]:
     """The table, its current [A], and whether that stands for events of 0 and 1."""
-    table = read_table(file)
+    table = read_table(file, leave_words=True)
     named = {split_header(name)[0]: name for name in table.channels}
     if EVENT in named:
         values = table.column(named[EVENT])

@@ -21,7 +21,7 @@ def out_of_cuff_words(*shares: float) -> str:
     if not out:
         return ""
     where = "" if len(shares) == 1 else f"in {len(out)} of {len(shares)} simulations, "
-    return f"; the sphere is out of the cuff {where}for {'up to ' if where else ''}{_share(max(out))} of the time"
+    return f"; the sphere is out of the cuff {where}for {'up to ' if where else ''}{share_words(max(out))} of the time"
 
 
 def out_of_cuff_clause(*found: ArmSimulation) -> str:
@@ -29,19 +29,19 @@ def out_of_cuff_clause(*found: ArmSimulation) -> str:
     return out_of_cuff_words(*(float(each.out_of_cuff.mean()) for each in found))
 
 
-def _share(value: float) -> str:
+def share_words(value: float) -> str:
     """In per cent, never 0."""
     return f"{value:.0%}" if value >= 5e-3 else f"{value:.2%}"
 
 
-def warn_of(found: ArmSimulation, trial: str = "") -> None:
+def warn_of(found: ArmSimulation) -> None:
     """Warn where the sphere is out of the cuff, or a joint is at a stop."""
-    which, time = f"{trial}{': ' if trial else ''}{found.motion.side} arm", found.motion.time
+    which, time = f"{found.motion.side} arm", found.motion.time
     out = found.out_of_cuff
     if out.any():
         far = np.abs(found.told["place"][:, 0])
         reserve(
-            f"{which}: the sphere is out of the cuff for {_share(float(out.mean()))} of the time, first at "
+            f"{which}: the sphere is out of the cuff for {share_words(float(out.mean()))} of the time, first at "
             f"{time[out][0]:.2f} s, up to {1e3 * far.max():.0f} mm from its middle"
         )
     for joint, at in zip(JOINTS, found.at_stop.T, strict=True):

@@ -38,7 +38,7 @@ Vectors = Float[np.ndarray, "t 3"]
 Straps = list[tuple[StrapSite, StrapForce]]
 MODEL_NOTE = "Both legs are one planar chain: masses, torques, contacts and bushings are those of both."
 GATHER = """# One strap at the thigh: displacements of both chains as recorded, with what the mat measures.
-# Trials of the calibration are no held-out ones: put trials that it did not use in their place.
+# Trials of the calibration are not held-out ones: put trials that it did not use in their place.
 format = 1
 system = "sit_to_stand"
 calibration = {calibration}

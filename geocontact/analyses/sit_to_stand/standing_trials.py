@@ -26,7 +26,7 @@ from geocontact.standing_up.phases import TRACKS, TRACKS_B
 from geocontact.standing_up.strap_sites import strap_sites
 from geocontact.standing_up.trial_forces import chair_load, seat_off, under_the_feet
 from geocontact.standing_up.trials import StandingNoise, StandingTrial, StandingUpTrials, with_chairs
-from geocontact.trial_checks.recorded import FootPlate, RecordedTrial
+from geocontact.trial_checks.recorded import FootPlate, TrialInputs
 
 FEWEST = 20
 """Samples of a trial."""
@@ -118,7 +118,7 @@ def channels_of(
             force, centre = under_the_feet(_wrench(feet, time), time, q[:, 0])
         if np.abs(q[-1, JOINTS]).max() < UPRIGHT:
             on, key = (FootPlate(feet, str(files.plates)),), f"mass in {study}"
-            check_trial(RecordedTrial(plates=on, mass=chain.mass, mass_option=key, stands_at=float(time[-1])))
+            check_trial(TrialInputs(plates=on, mass=chain.mass, mass_option=key, stands_at=float(time[-1])))
     torque, strap, elsewhere = None, None, {}
     if "torque" in tracks and files.torques is not None:
         names = [c.name for c in chain.coordinates[3:]]

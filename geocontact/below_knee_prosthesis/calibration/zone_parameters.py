@@ -112,6 +112,6 @@ class ZoneParameters:
             if name in intervals:
                 lower, upper = intervals[name]
                 if not 0.0 < lower <= upper < np.inf:
-                    raise ValueError(f"{name}: {lower:g} to {upper:g} is no interval")
+                    raise ValueError(f"{name}: {lower:g} to {upper:g} is not an interval")
                 found[k] = min(float(np.log(upper / lower) / wide), float(found[k]))
         return found

@@ -142,7 +142,9 @@ def checked(problem: ControlProblem) -> None:
     for trial in problem.trials:
         low, high = trial.duration
         if not 0.0 < low <= high < np.inf:
-            raise InputError(trial.name, "duration", f"{low:g} to {high:g} s is no time", "give 0 < least <= greatest")
+            raise InputError(
+                trial.name, "duration", f"{low:g} to {high:g} s is not a time", "give 0 < least <= greatest"
+            )
         time = trial.begin + np.linspace(0.0, trial.guessed_duration, 50)
         for names, bounds, course in ((x, trial.x, trial.guess_x), (u, trial.u, trial.guess_u)):
             for at in course(time):

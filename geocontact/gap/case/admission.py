@@ -100,7 +100,7 @@ def _require_movement(case: GapCase, system: System) -> None:
     for name in system.outputs:
         if not _moves(case, name):
             what = f"{name} never changes in the calibration trials"
-            raise _refusal(case, "calibration", what, "was the sensor on? strike the column or choose other trials")
+            raise _refusal(case, "calibration", what, "was the sensor on? delete the column or choose other trials")
 
 
 def _moves(case: GapCase, name: str) -> bool:

@@ -82,7 +82,7 @@ def poses_at(time: Float[np.ndarray, " t"], poses: RigidTransform, at: Float[np.
     straight: exact at the recorded times, the error of second order in the time step between them.
     """
     if len(time) < 2:
-        raise ValueError("one pose is no motion")
+        raise ValueError("one pose is not a motion")
     if len(at) and (at.min() < time[0] or at.max() > time[-1]):
         raise ValueError(f"poses are known from {time[0]:g} to {time[-1]:g} s only")
     origin = np.column_stack([np.interp(at, time, poses.translation[:, k]) for k in range(3)])

@@ -77,7 +77,7 @@ def check_trial_files(home: Path, settings: CaseSettings) -> None:
     for place, ids in (("calibration", settings.calibration), ("evaluation", settings.evaluation)):
         for name in ids:
             if name not in present:
-                remedy = f"strike it or add the file; there are {listed(tuple(present))}"
+                remedy = f"delete it or add the file; there are {listed(tuple(present))}"
                 raise InputError(home / SETTINGS, place, f"no file {TRIALS}/{name}.csv", remedy)
     if size > MOST_BYTES:
         what = f"the trials have {size / 1e6:.0f} MB, more than the {MOST_BYTES / 1e6:.0f} MB that are read"
@@ -263,7 +263,7 @@ def _parameter(name: str, given: ParameterSettings, file: str) -> Parameter:
 def _check_system(system: str, known: tuple[str, ...], file: str) -> None:
     if system not in (*known, COMMAND) and not _OBJECT.fullmatch(system):
         own = '"package.module:OBJECT" for a system of your own, "command" for a program'
-        remedy = f"known are {', '.join(known)}, and {own}"
+        remedy = f"write one of {', '.join(known)}, and {own}"
         raise InputError(file, "system", f"{system[:80]!r} is unknown", remedy)
 
 

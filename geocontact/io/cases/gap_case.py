@@ -252,7 +252,7 @@ def _simulator(settings: CaseSettings, file: Path, trial: TrialTable, allowed: b
     if not settings.simulate:
         return None
     if not allowed:
-        what = f"would run {settings.simulate[:80]!r}, which a case does not do unasked"
+        what = f"would run {settings.simulate[:80]!r}; a case runs a program only on request"
         raise InputError(file, "simulate", what, "pass `run_simulator` if you trust it")
     units = dict(zip(trial.signals.channels, trial.signals.units, strict=True))
     channels = (*settings.inputs, *settings.outputs)

@@ -56,7 +56,7 @@ def is_storage(path: Path) -> bool:
 
 def _columns(given: object) -> tuple[StorageColumn, ...]:
     if not isinstance(given, dict):
-        raise refusal("is no table", f"write [columns] and {EXAMPLE}")
+        raise refusal("is not a table", f"write [columns] and {EXAMPLE}")
     return tuple(_column(header, label) for header, label in given.items())
 
 
@@ -67,7 +67,7 @@ def _column(header: str, label: object) -> StorageColumn:
     name, unit = split_header(header)
     known = si_unit(unit)
     if not name.isidentifier() or known is None:
-        raise refusal("is no channel with a unit that is known", f"write for example {EXAMPLE}", at=(header,))
+        raise refusal("is not a channel with a known unit", f"write for example {EXAMPLE}", at=(header,))
     si, factor = known
     expected = next((each for ending, each in ENDINGS.items() if label.endswith(ending)), None)
     if expected is not None and unit != expected:
@@ -110,7 +110,7 @@ def _values(table: TextTable, channel: Column, label: str) -> Float[np.ndarray, 
 
 
 GOES_WITH = {"plate": "plates", "belt": "plates", "areas": "forces", "threshold": "areas", "force_unit": "forces"}
-"""A key that says nothing without another."""
+"""A key that has no meaning without another."""
 
 
 def _outputs(file: Path) -> Path:
@@ -172,10 +172,10 @@ class Source(Document):
     def _require_measured(self) -> Source:
         for site in self.mats:
             if not site.isidentifier():
-                raise refusal("is no name of a site", "letters, digits and _", at=(site,))
+                raise refusal("is not a name of a site", "letters, digits and _", at=(site,))
         for key, other in GOES_WITH.items():
             if key in self.model_fields_set and getattr(self, other) is None:
-                raise refusal(f"says nothing without {other}", f"name the file of {other}", at=(key,))
+                raise refusal(f"has no meaning without {other}", f"name the file of {other}", at=(key,))
         if not self.mats and self.outputs is None and self.plates is None and self.forces is None:
             what = "names no mat, plates, forces or outputs beside its inputs"
             raise refusal(what, 'add outputs = "t01_measured.csv" or SITE = "results/t01_site"', at=("",))
@@ -217,7 +217,7 @@ def read_gathering(path: Path) -> Gathering:
     own = {key: given.pop(key) for key in Sources.by_key() if key in given}
     described: Sources = checked(path, Sources, own)
     if "layout" in given:
-        raise InputError(path, "layout", "is what gathering writes", "leave it out")
+        raise InputError(path, "layout", "is written by geocontact gap gather", "leave it out")
     settings = settings_of(given, fspath(path))
     check_settings(settings, path, KNOWN_SYSTEMS)
     parameters_of(settings, path)  # refused here and not when the case is read that is written from it

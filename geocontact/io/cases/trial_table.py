@@ -90,7 +90,7 @@ def _check_finite(
     if len(values) < FEWEST_ROWS:
         raise InputError(file, "", f"{len(values)} row", f"a trial needs at least {FEWEST_ROWS}")
     if np.all(np.isnan(values[:, 1:])):
-        raise InputError(file, "", "every channel is empty in every row", "strike the trial from case.toml")
+        raise InputError(file, "", "every channel is empty in every row", "delete the trial from case.toml")
 
 
 def _check_time(time: Float[np.ndarray, " t"], lines: Int[np.ndarray, " t"], file: str) -> None:
@@ -111,7 +111,7 @@ def alike(trials: Trials) -> dict[str, TrialTable]:
     found = {name: _ordered_like(model, table) for name, table in trials.items()}
     for channel in model.signals.channels:
         if all(np.all(np.isnan(table.signals.column(channel))) for table in found.values()):
-            remedy = "strike the column from all trials, or add a trial that has it"
+            remedy = "delete the column from all trials, or add a trial that has it"
             raise InputError(Path(model.file).parent, "", f"column '{channel}' is empty in all trials", remedy)
     return found
 
@@ -228,7 +228,7 @@ def _files(home: Path, site: str, settings: CaseSettings) -> Mapping[str, Path]:
     there = {name: path for name, path in paths.items() if path.is_file()}
     lacking = tuple(paths[name].name for name in paths if name not in there)
     if lacking:
-        message = f"{home / TRIALS}: no {listed(lacking)}: cells of {site} are not looked at there"
+        message = f"{home / TRIALS}: no {listed(lacking)}: cells of {site} are not used there"
         warnings.warn(InputWarning(message), stacklevel=4)
     return there
 

@@ -32,7 +32,7 @@ def warn_implausible(file: str, name: str, highest: float, unit: float) -> None:
     value = highest / unit
     meant = next((each for each in LIKELY if LEAST < value * DIMENSIONS["Pa"][each] < MOST), None)
     bound = f"more than {MOST * 1e-6:g} MPa" if highest > MOST else f"less than {LEAST:g} Pa"
-    said = f"{file}: the largest pressure of '{name}' is {value:.4g} {read}, {bound}, which no skin under load reads"
+    said = f"{file}: the largest pressure of '{name}' is {value:.4g} {read}, {bound}, implausible for skin under load"
     warnings.warn(InputWarning(f"{said}{f'; is the file in {meant}?' if meant else ''}"), stacklevel=5)
 
 
@@ -263,7 +263,7 @@ def _warn_negative(pressure: Float[np.ndarray, "t r c"], unit: float, found: Mat
     lowest, highest = float(np.nanmin(pressure)), float(np.nanmax(pressure))
     if -lowest > highest:
         what = f"pressures of '{found.name}' run from {lowest / unit:g} to {highest / unit:g} of the file's unit"
-        raise InputError(found.file, "", what, "is their sign turned, or an offset taken off twice?")
+        raise InputError(found.file, "", what, "is their sign turned, or an offset subtracted twice?")
     message = (
         f"{found.file}: {int(below.sum())} pressures of '{found.name}' below 0 (lowest {lowest / unit:g} "
         f"of the file's unit): an offset, or noise about it"

@@ -49,7 +49,7 @@ class MatText:
         """Number and text of every line that is not blank, without blanks around it; tabs at its end are cells."""
         for number, line in enumerate(lines(self.data), 1):
             if len(line) > LONGEST_LINE:
-                raise InputError(self.file, f"line {number}", "does not end", "is this the export of a mat?")
+                raise InputError(self.file, f"line {number}", "is too long", "is this the export of a mat?")
             if text := line.decode(self.encoding, "replace").strip(" "):
                 yield number, text
 

@@ -72,7 +72,7 @@ def _plain(data: bytes, file: str) -> tuple[bytearray, int, Int[np.ndarray, "m 3
                 corners.extend(_face(words, count))
                 sizes.append(len(words))
             elif keyword not in _PASSED_OVER:
-                raise ValueError(f"{shown(keyword)} is no OBJ keyword")
+                raise ValueError(f"{shown(keyword)} is not an OBJ keyword")
         except ValueError as error:
             meant = remedy(error, _AGAIN)
             if number == 1 and meant == _AGAIN:

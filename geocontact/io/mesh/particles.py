@@ -40,5 +40,5 @@ def _point(line: bytes, number: int, file: str) -> list[float]:
     words = line.split()
     values = [float(word) for word in words] if all(map(is_number, words)) else []
     if len(values) != 3 or not np.isfinite(values).all():
-        raise InputError(file, f"line {number}", f"{shown(line.strip())} is no point", "expected x y z")
+        raise InputError(file, f"line {number}", f"{shown(line.strip())} is not a point", "expected x y z")
     return values

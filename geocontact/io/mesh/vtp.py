@@ -205,7 +205,7 @@ def require_integers(element: Element, count: int, document: VtpDocument) -> Int
     """The `count` integers of a `<DataArray>`; ValueError as in `require_values`, and when it is one of decimals."""
     stored, dtype = require_values(element, count, document), _dtype(element, document)
     if dtype.kind == "f":
-        raise ValueError("they are no integers")
+        raise ValueError("they are not integers")
     if element.get("format", "ascii") == "ascii":
         return np.fromstring(stored, np.int64, sep=" ")
     return np.frombuffer(stored, dtype).astype(np.int64)

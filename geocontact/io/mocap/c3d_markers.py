@@ -56,7 +56,8 @@ def _named(file: str, labels: list[str], positions: Float[np.ndarray, "t m 3"]) 
             continue
         frames = f"seen in {counts[before]} and {counts[k]} frames"
         warnings.warn(
-            InputWarning(f"{file}: marker '{name}' is there twice, {frames}; the fuller is taken"), stacklevel=4
+            InputWarning(f"{file}: marker '{name}' occurs twice, {frames}; the one with more frames is used"),
+            stacklevel=4,
         )
         kept[name] = k if counts[k] > counts[before] else before
     return tuple(kept), list(kept.values())

@@ -105,13 +105,13 @@ def point_metre(file: str, written: str, stated: str | None) -> float:
     """
     if not written.strip():
         if stated is None:
-            raise InputError(file, "POINT:UNITS", "is empty: the unit of its places is not known", _STATE_IT)
+            raise InputError(file, "POINT:UNITS", "is empty: the unit of its points is unknown", _STATE_IT)
         return LENGTH[stated]
     unit = length_unit(written)
     if unit is None:
         raise InputError(file, "POINT:UNITS", f"is '{written[:20]}'", f"expected one of {', '.join(LENGTH)}")
     if stated not in (None, unit):
-        what = f"POINT:UNITS is '{written[:20]}', which counts; `c3d_unit` {stated} is for files whose own is empty"
+        what = f"POINT:UNITS is '{written[:20]}'and is used; `c3d_unit` {stated} is for files without a unit"
         warnings.warn(InputWarning(f"{file}: {what}"), stacklevel=4)
     return LENGTH[unit]
 
@@ -274,7 +274,7 @@ def _run(file: str, module: str, copy: str, patience: float) -> Arrays:
         raise InputError(file, "", "reading .c3d needs ezc3d", "pip install 'geocontact[mocap]'")
     why = said[-1].partition(": ")[2][:160] or said[-1][:160] if said and child.returncode > 0 else "ezc3d stopped"
     if why.startswith(ALONE):
-        what = f"its force plates cannot be worked out ({why.removeprefix(ALONE)})"
+        what = f"its force plates cannot be computed ({why.removeprefix(ALONE)})"
         raise InputError(file, "", what, "the rest of the file is read: correct its parameters FORCE_PLATFORM")
     if any(each in why for each in NOT_DIGESTED):
         what = f"is of a kind that ezc3d does not read ({why}); the file itself may be sound"

@@ -97,7 +97,7 @@ def _require_up(plate: ForcePlate, plates: tuple[ForcePlate, ...], path: Path, w
         raise InputError(path, plate.name, f"{what}: that is the force on the plate", remedy)
     part = f"{-usual / weight:.0%} of the model's weight"
     warnings.warn(
-        InputWarning(f"{path} {plate.name}: {what}, {part}: it presses down, as a device does that is worn"),
+        InputWarning(f"{path} {plate.name}: {what}, {part}: it presses down, as a worn device does"),
         stacklevel=4,
     )
 
@@ -168,7 +168,7 @@ def _factor(table: TextTable, name: str, si: str) -> float:
     written = table.units[table.channels.index(name)]
     known = si_unit(written)
     if known is None or known[0] != si:
-        what = f"column '{name}' has no unit" if not written else f"'{written}' is no unit in which {name} can be"
+        what = f"column '{name}' has no unit" if not written else f"'{written}' is not a unit in which {name} can be"
         raise InputError(table.file, "", what, f"name it '{name} [{si}]'")
     return known[1]
 

@@ -86,7 +86,7 @@ def read_csv_markers(path: str | PathLike[str]) -> MarkerTrajectories:
     endless = np.flatnonzero(np.isinf(positions).any(axis=(1, 2)))
     if len(endless):
         line = f"line {table.lines[endless[0]]}"
-        raise InputError(table.file, line, "a place is infinite", "leave missing cells empty")
+        raise InputError(table.file, line, "a coordinate is infinite", "leave missing cells empty")
     return MarkerTrajectories(table.time, positions, names, table.file)
 
 

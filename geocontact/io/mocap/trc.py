@@ -77,7 +77,7 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
         raise InputError(file, f"line {line}", "time does not increase", "every frame needs its own time")
     endless = np.flatnonzero(np.isinf(values[:, 2:]).any(axis=1))
     if len(endless):
-        raise InputError(file, f"line {places[endless[0]]}", "a place is infinite", "leave missing cells empty")
+        raise InputError(file, f"line {places[endless[0]]}", "a coordinate is infinite", "leave missing cells empty")
     positions = LENGTH[unit] * values[:, 2:].reshape(len(values), -1, 3)[:, slots]
     return MarkerTrajectories(_unrounded(time, values[:, 0], declared), _without_zeros(file, positions), names, file)
 
@@ -137,7 +137,7 @@ def _behind(rows: list[str], width: int, file: str) -> tuple[int, int]:
             cells.pop()
         beyond = len(cells) - width
         if beyond > 0 and beyond % 3:
-            what = f"more cells where {width} columns are named, and the {beyond} behind these are no whole markers"
+            what = f"more cells where {width} columns are named, and the {beyond} behind these are not whole markers"
             raise InputError(file, f"line {number}", what, "rows must be as long as the header")
         behind = max(behind, beyond // 3)
     return behind, longest

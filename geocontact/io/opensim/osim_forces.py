@@ -124,7 +124,7 @@ def _coordinate(file: str, element: Element, model: Multibody) -> tuple[str, str
     name = text_of(element, "coordinate")
     kinds = {c.name: c.kind for c in model.coordinates}
     if name not in kinds:
-        what = f"acts along '{name}', which is no coordinate of the model"
+        what = f"acts along '{name}', which is not a coordinate of the model"
         raise InputError(file, label(element), what, f"coordinates are: {listed(tuple(kinds))}")
     return name, kinds[name]
 

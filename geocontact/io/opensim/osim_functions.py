@@ -182,7 +182,9 @@ def _coupler(file: str, element: Element, coordinates: Sequence[str]) -> Coupler
     of = tuple(text_of(element, "independent_coordinate_names").split())
     unknown = [name for name in (dependent, *of) if name not in coordinates]
     if unknown or not of:
-        what = f"names '{unknown[0]}', which is no coordinate of the model" if unknown else "depends on no coordinate"
+        what = (
+            f"names '{unknown[0]}', which is not a coordinate of the model" if unknown else "depends on no coordinate"
+        )
         raise InputError(file, label(element), what, "correct the model, or switch the constraint off")
     function = next(iter(element.findall("coupled_coordinates_function/*")), None)
     if function is None:

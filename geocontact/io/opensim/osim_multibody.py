@@ -69,7 +69,9 @@ def _markers(file: str, frames: Frames, elements: list[Element], bodies: set[str
     markers = tuple(_marker(file, frames, e) for e in elements)
     unknown = [m for m in markers if m.body not in bodies | {GROUND}]
     if unknown:
-        raise InputError(file, f"marker {unknown[0].name}", f"is on '{unknown[0].body}', which is no body of the model")
+        raise InputError(
+            file, f"marker {unknown[0].name}", f"is on '{unknown[0].body}', which is not a body of the model"
+        )
     names = [m.name for m in markers]
     twice = [name for name in names if names.count(name) > 1]
     if twice:

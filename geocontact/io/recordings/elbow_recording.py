@@ -119,7 +119,7 @@ def require_elbow(beta: Float[np.ndarray, " t"], file: str, name: str) -> None:
         raise InputError(file, "", f"{span}: flexion is positive here", f"turn its sign: `map` {BETA}=-{name}")
     if beta.min() < STRAIGHTEST or beta.max() > MOST_BENT:
         what = f"{span}, beyond any elbow: are degrees taken for radians, or is its zero elsewhere?"
-        raise InputError(file, "", what, "pass `angles` deg or rad, or take the zero off")
+        raise InputError(file, "", what, "pass `angles` deg or rad, or subtract the zero")
 
 
 def _source(table: TextTable, channel: str, mapping: Mapped, must: bool) -> tuple[float, str] | None:
@@ -138,7 +138,7 @@ def _force(table: TextTable, source: tuple[float, str] | None, unit: str | None)
     newtons, said = column_in_newtons(table, name, unit)
     largest = float(np.abs(newtons).max())
     if largest > STRONGEST:
-        what = f"'{name}' reaches {largest:.4g} N, more than any cuff bears"
+        what = f"'{name}' reaches {largest:.4g} N, more than any cuff carries"
         raise InputError(table.file, "", what, f"is it in {said} at all?")
     if float(np.ptp(newtons)) == 0.0:
         raise InputError(table.file, "", f"'{name}' is {newtons[0]:g} N throughout", "is the right column named?")

@@ -44,7 +44,9 @@ def read_cycle_table(path: Path) -> tuple[CycleRow, ...]:
     )
     for k, row in enumerate(rows):
         if not row.start < row.end:
-            raise InputError(path, f"row {k + 1}", f"a cycle from {row.start:g} to {row.end:g} s", "end it after it")
+            raise InputError(
+                path, f"row {k + 1}", f"a cycle from {row.start:g} to {row.end:g} s", "the end must be after the start"
+            )
     return rows
 
 

@@ -58,7 +58,7 @@ Length = Annotated[float, WithUnit("m")]
 def _span(value: Any) -> tuple[float, float]:
     numbers = isinstance(value, list) and all(type(each) in (int, float) and math.isfinite(each) for each in value)
     if not numbers or len(value) != 2:
-        raise refusal(f"{value!r:.60} is no span", "write [first, last] in s")
+        raise refusal(f"{value!r:.60} is not a span", "write [first, last] in s")
     return float(value[0]), float(value[1])
 
 

@@ -60,7 +60,7 @@ class _Range(Document):
     @model_validator(mode="after")
     def _require_order(self) -> _Range:
         if self.numbers.get("upper", math.inf) <= self.numbers.get("lower", -math.inf):
-            raise refusal("is not above lower", "turn them round", at=("upper",))
+            raise refusal("is not above lower", "exchange them", at=("upper",))
         return self
 
 
@@ -162,13 +162,13 @@ class PopulationDescription(Document):
         for k, (first, second) in enumerate(self.pairs):
             at = ("correlation", f"{first}_{second}")
             if first == second or not {first, second} <= {*self.quantities}:
-                raise refusal("is no pair of quantities", "write x_y = 0.4", at=at)
+                raise refusal("is not a pair of quantities", "write x_y = 0.4", at=at)
             for name in (first, second):
                 if (kind := self.quantities[name].kind) in ("table", "value"):
                     remedy = "a table brings its own correlation, a value has none"
                     raise refusal(f"{name} is described by {kind}", remedy, at=at)
             if (second, first) in [*self.pairs][:k]:
-                raise refusal("stands there twice", "keep one", at=at)
+                raise refusal("occurs twice", "keep one", at=at)
         return self
 
 

@@ -154,7 +154,7 @@ def read_law(path: str | PathLike[str]) -> LawFile:
         first = error.errors()[0]
         place = ".".join(map(str, first["loc"]))
         what = "is not known here" if first["type"] == "extra_forbidden" else first["msg"].lower()
-        remedy = "known are k, b, n, delta_full, mu_s, mu_k, v_th, and k, b, mu_s, mu_k in [zone.NAME]"
+        remedy = "it may have k, b, n, delta_full, mu_s, mu_k, v_th, and k, b, mu_s, mu_k in [zone.NAME]"
         if place.startswith("foot"):
             remedy = "[foot] has height, height_sd [m], pitch, pitch_sd [rad] and standing, a SHA-256"
         raise InputError(file, place, what, remedy) from error
@@ -196,7 +196,7 @@ class _Cells:
         """Finite numbers of a column; InputError names the line of the first cell that holds none."""
         values = np.array([self._number(name, line, text) for line, text in self.column(name)])
         self.refuse(name, values, ~np.isfinite(values), "must be finite")
-        self.refuse(name, values, too_large(values), "must be a number that is meant")
+        self.refuse(name, values, too_large(values), "must be of a plausible size")
         return values
 
     def lengths(self, name: str) -> Float[np.ndarray, " n"]:
@@ -326,7 +326,7 @@ def read_contact_parameters(
         except (TypeError, ValueError):
             found[name] = math.nan
         if not math.isfinite(found[name]):
-            raise InputError(path, f"line {number}", f"{name} is no number", "calibrate it, or write its value")
+            raise InputError(path, f"line {number}", f"{name} is not a number", "calibrate it, or write its value")
         low, high = bounds[name]
         if not low <= found[name] <= high:
             what = f"{name} {found[name]:g} {unit} is outside {low:g} to {high:g}"

@@ -105,7 +105,7 @@ class StandingTrialFiles(Document):
     @model_validator(mode="after")
     def _require_chair(self) -> StandingTrialFiles:
         if self.sitting and (self.chair is None or self.plates is None):
-            raise refusal("sitting without the force of a chair", "name plates, and chair among them")
+            raise refusal("sitting needs the force of a chair", "name plates, with a chair among them")
         return self
 
 

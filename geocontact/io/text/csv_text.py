@@ -162,6 +162,6 @@ def _column(name: str, unit: str, place: str, file: str) -> Column:
         return Column(name, "", "", 1.0)
     known = si_unit(unit)
     if known is None:
-        remedy = f"known are {', '.join(unit for units in DIMENSIONS.values() for unit in units)}"
+        remedy = f"write one of {', '.join(unit for units in DIMENSIONS.values() for unit in units)}"
         raise InputError(file, place, f"'{name}' is in {unit[:40]!r}, which is not a unit known here", remedy)
     return Column(name, unit, *known)

@@ -132,6 +132,8 @@ class TextTable(Signals):
         True for .mot and .sto: lengths are in m.
     time_unit
         Unit of `time`: "s", or "%" of a cycle. Without a unit it is "s", but 0, 1, … 100 is "%", with a warning.
+    words
+        Names of columns that hold words and were left out.
     """
 
     file: str
@@ -139,6 +141,7 @@ class TextTable(Signals):
     angles: AngleEvidence
     opensim: bool
     time_unit: str = "s"
+    words: tuple[str, ...] = ()
 
     def needed(self, name: str) -> Float[np.ndarray, " t"]:
         """Values of a column that must be there once and finite; InputError otherwise."""
@@ -160,8 +163,10 @@ def listed(names: tuple[str, ...], most: int = 30) -> str:
     return f"{shown} … ({len(names)} in all)" if len(names) > most else shown or "none"
 
 
-def read_table(path: str | PathLike[str]) -> TextTable:
+def read_table(path: str | PathLike[str], leave_words: bool = False) -> TextTable:
     """Table in a .mot, .sto (versions 1 to 3, SIMM's form too), .csv or .xlsx file.
+
+    With `leave_words`, columns of a .csv or .xlsx that hold words in all rows are left out; they are refused without.
 
     Refused with InputError: other content, ragged rows, cells that are not numbers, and time that is missing, NaN or
     not strictly increasing. Warned of: counts that the header declares and the rows do not bear out, bytes that are
@@ -175,7 +180,7 @@ def read_table(path: str | PathLike[str]) -> TextTable:
     encoding = UTF8 if suffix == SHEET else encoding_of(file)
     if suffix in CELLS:
         with open_plain(file, encoding=encoding) as stream:
-            return _read_csv(stream, file)
+            return _read_csv(stream, file, leave_words)
     with open(file, encoding=encoding) as stream:
         return _read_storage(stream, file)
 
@@ -219,14 +224,54 @@ def _warn_of_counts(header: StorageHeader, rows: int, columns: int, file: str) -
                 )
 
 
-def _read_csv(stream: TextIOBase, file: str) -> TextTable:
+def _read_csv(stream: TextIOBase, file: str, leave_words: bool) -> TextTable:
     number, line = 1, _label_line(stream, file, 1)
     while line.lstrip().startswith("#"):
         number, line = number + 1, _label_line(stream, file, number + 1)
     headers = [split_header(cell) for cell in next(csv.reader([line], skipinitialspace=True), [])]
     names, units = tuple(name for name, _ in headers), tuple(unit for _, unit in headers)
-    values, lines = read_rows(stream, number + 1, names, file, _split_commas)
-    return _table(file, names, units, values, lines, None)
+    words = _WordColumns(names, file)
+    values, lines = read_rows(stream, number + 1, names, file, words.split if leave_words else _split_commas)
+    return _table(file, names, units, values, lines, None, frozenset(words.first))
+
+
+class _WordColumns:
+    """Columns whose cells are words from the first row to the last, but for empty ones; they are read as NaN.
+
+    A column with a word in the first row and a number in another one is refused, as one with a damaged number.
+    """
+
+    def __init__(self, names: tuple[str, ...], file: str) -> None:
+        self.names, self.file = names, file
+        self.first: dict[int, str] = {}
+        self.begun = False
+
+    def split(self, line: str, separator: None, most: int) -> list[str]:
+        """Cells of a line as `_split_commas` has them."""
+        cells = _split_commas(line, separator, most)
+        if cells and not self.begun:
+            self.begun = True
+            places = [i for i, name in enumerate(self.names[: len(cells)]) if not _TIME.fullmatch(name)]
+            self.first = {i: cells[i] for i in places if not _is_number(cells[i])}
+        for i, word in self.first.items():
+            if i < len(cells):
+                if cells[i].strip() and _is_number(cells[i]):
+                    what = f"'{word.strip()[:40]}' in column '{self.names[i]}' is not a number"
+                    raise InputError(self.file, "", what, "use decimal points, leave missing cells NaN")
+                cells[i] = "nan"
+        return cells
+
+
+def _is_number(cell: str) -> bool:
+    """Whether a cell is a number, empty, or another word for NaN."""
+    text = cell.strip().strip('"').strip()
+    if text.lower() in _NOT_A_NUMBER:
+        return True
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return "_" not in text and text.isascii()
 
 
 def _split_commas(line: str, _separator: None, most: int) -> list[str]:
@@ -249,15 +294,16 @@ def _table(
     values: Float[np.ndarray, "t c"],
     lines: Int[np.ndarray, " t"],
     angles: AngleEvidence | None,
+    words: frozenset[int] = frozenset(),
 ) -> TextTable:
-    """Take the time column out and check it; `angles` is None for .csv."""
+    """Take the time column out and check it; `angles` is None for .csv. Columns at the places `words` are left out."""
     places = [i for i, name in enumerate(names) if _TIME.fullmatch(name)]
     if not places:
         places = [i for i, name in enumerate(names) if units[i] == "%" and _PLACE.fullmatch(name)]
     if len(places) != 1:
         what = f"{len(places) or 'no'} columns named 'time'"
         raise InputError(file, f"line {lines[0] - 1}", what, f"one is needed; columns are: {listed(names)}")
-    rest = [i for i in range(len(names)) if i != places[0]]
+    rest = [i for i in range(len(names)) if i != places[0] and i not in words]
     found = _TIME.fullmatch(names[places[0]])
     unit = units[places[0]] or (found["unit"] or "" if found else "")
     time, time_unit = _time(values[:, places[0]], unit, lines, file)
@@ -271,6 +317,7 @@ def _table(
         angles=angles or AngleEvidence(),
         opensim=angles is not None,
         time_unit=time_unit,
+        words=tuple(names[i] for i in sorted(words)),
     )
 
 

@@ -140,7 +140,7 @@ class Table:
         if self.links and len(self.links) != len(self.rows):
             raise ValueError(f"{len(self.links)} links for {len(self.rows)} rows")
         if odd := next((link for link in self.links if not _LINK.fullmatch(link)), None):
-            raise ValueError(f"{odd!r} is no path from the page")
+            raise ValueError(f"{odd!r} is not a path from the page")
 
 
 @dataclass(frozen=True, eq=False)

@@ -98,7 +98,7 @@ def shown(text: str) -> str:
 
 def minus(text: str) -> str:
     """Words with a minus sign before numbers that stand by themselves, and units kept beside them: "z −19.5 mm"."""
-    signed = re.sub(r"(?<!\S)-(?=\d)", "−", text)
+    signed = re.sub(r"(?<![^\s(\[])-(?=\d)", "−", text)
     return re.sub(rf"(?<=\d) (?=(?:{UNITS})(?![\w/]))", "\u00a0", signed)
 
 

@@ -179,7 +179,7 @@ def test_the_diagnosis_says_where_the_strap_pulls(strapped: tuple[Any, Path]) ->
         (lambda text: text.replace("t02_thigh", "nowhere"), "nowhere: no cells.csv in it; name the folder that"),
         (lambda text: text.replace('"t02.csv"', '"t08.csv"'), "t08.csv: there is no such file"),
         (lambda text: text.split("\n[from")[0], "gather.toml: no [from.NAME]; write one for each, with inputs"),
-        (lambda text: 'layout = {thigh = "a.csv"}\n' + text, "gather.toml layout: is what gathering writes"),
+        (lambda text: 'layout = {thigh = "a.csv"}\n' + text, "gather.toml layout: is written by geocontact gap gather"),
         (lambda text: text.replace("[noise]", "[noise]\nshank_force = 0.5"), "no trial has a channel 'shank_force'"),
         (lambda text: text.replace('"t02.csv"', '"t02_late.csv"'), "t02_late.csv: runs from 7 to 14.98 s, the mat in"),
         (lambda text: text.replace('"t02.csv"', '"t02_full.csv"'), "has a column 'thigh_force' already"),

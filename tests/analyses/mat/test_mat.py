@@ -265,9 +265,13 @@ def test_coarse_and_faulty_recordings_stay_near_the_truth(kind: str, layout: str
 @pytest.mark.parametrize(
     ("unit", "kpa", "said"),
     [
-        ("MPa", 21.0, "is 21 MPa, more than 2 MPa, which no skin under load reads; is the file in kPa?"),
-        ("Pa", 21.0, "is 21 Pa, less than 100 Pa, which no skin under load reads; is the file in kPa?"),
-        ("kPa", 21e3, "is 2.1e+04 kPa, more than 2 MPa, which no skin under load reads; is the file in Pa?"),
+        ("MPa", 21.0, "is 21 MPa, more than 2 MPa, implausible for skin under load; is the file in kPa?"),
+        ("Pa", 21.0, "is 21 Pa, less than 100 Pa, implausible for skin under load; is the file in kPa?"),
+        (
+            "kPa",
+            21e3,
+            "is 2.1e+04 kPa, more than 2 MPa, implausible for skin under load; is the file in Pa?",
+        ),
     ],
 )
 def test_pressures_that_no_skin_bears_name_the_unit_that_may_be_meant(

@@ -91,7 +91,7 @@ def test_a_fixation_that_is_hardly_told_is_warned_of_unless_more_is_known(made: 
     result = quietly(gc.misalignment.identify, *locked(made), known=KNOWN["known"], free=("c",), **COARSE)
     found = result.fit
     share = result.summary["identifiability"]["fixation_from_cuff"]["own_beside_all_free"]
-    assert 0.0 < share < 0.1 and f"(only {share:.2%} of what c does to the force is its own)" in hardly_told(found)
+    assert 0.0 < share < 0.1 and f"(only {share:.2%} of the effect of c on the force is its own)" in hardly_told(found)
     assert "(not at all)" in hardly_told(replace(found, separable=Separability(0.0, 0.0)))
     assert not hardly_told(replace(found, separable=Separability(0.5, 0.2)))
     for name in ("k", "c", "l"):

@@ -9,7 +9,14 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.pages import Drawings
-from geocontact.analyses.misalignment.identify.show import Boxes, arm_drawing, conditions_figure, told_figure
+from geocontact.analyses.misalignment.identify.curves import (
+    Boxes,
+    condition_curves,
+    direction_bars,
+    identified_curves,
+    residual_curves,
+)
+from geocontact.analyses.misalignment.identify.show import arm_drawing
 from geocontact.analyses.misalignment.population import show as population_page
 from geocontact.analyses.misalignment.simulate import show as simulate_page
 from geocontact.analyses.misalignment.simulate.show import surface_figure
@@ -29,30 +36,58 @@ def test_surfaces_stand_in_space_and_say_which_offset_is_0() -> None:
     assert [axes.get_ylabel() for axes in spaces] == ["offset x [mm]", "offset y [mm]"]
 
 
-def test_boxes_of_both_conditions_share_an_axis() -> None:
+def test_spreads_of_both_conditions_share_an_axis() -> None:
+    """Quantiles 0 … 4 N locked and 5 … 9 N free at the same three angles."""
     beta = np.radians([15.0, 25.0, 35.0])
     rows = np.array([[0.0, 1.0, 2.0, 3.0, 4.0]] * 3)
     curve = BinMeans(beta, np.array([1.0, 2.0, 3.0]), np.zeros(3))
-    stroke = RecordedStroke(curve, (), 0.0, 1.0, np.ones(3, bool))
+    recorded = RecordedStroke(curve, (), 0.0, 1.0, np.ones(3, bool))
     both = [Boxes(beta, rows + shift, np.radians(10.0)) for shift in (0.0, 5.0)]
-    spread = conditions_figure(curve, stroke, *both).axes[2]
-    boxes = [line.get_xydata() for line in spread.get_lines() if len(line.get_xydata()) == 5]
-    assert len(boxes) == 6
-    middles = np.array([0.5 * (box[:, 0].min() + box[:, 0].max()) for box in boxes])
-    np.testing.assert_allclose(middles[3:] - middles[:3], 4.0)
-    assert [box[:, 1].min() for box in boxes] == [1.0] * 3 + [6.0] * 3
+    spread = condition_curves(curve, recorded, *both).panels[2]
+    assert [each.name for each in spread.curves] == ["joint locked", "joint free"]
+    assert spread.over is not None
+    np.testing.assert_allclose(spread.over.values, [15.0, 25.0, 35.0])
+    for shift, each in zip((0.0, 5.0), spread.curves, strict=True):
+        np.testing.assert_allclose([each.lower, each.values, each.upper], [[shift + q] * 3 for q in (0.0, 2.0, 4.0)])
 
 
-def test_profiles_are_drawn_over_the_best_value_and_k_has_three_ticks() -> None:
-    told = Direction(("k", "l"), np.array([1.0, 1e-12]), np.array([-0.7, 0.7]))
+def test_profiles_are_drawn_over_the_best_value() -> None:
     line = np.tile(np.linspace(100.0, 400.0, 41)[:, None], 8)
     values = np.array([-0.4, 0.0, 0.4])
     profile = Profile("x", 0.2, ((-0.4, -0.1), (0.1, 0.4)), False, False, values, np.array([1.0, 3.0, 1.0]))
-    _, along, shape = told_figure(told, line, np.ones(41), np.ones(41), {"x/l": profile}).axes[:3]
-    assert [tick.get_text() for tick in along.get_xticklabels()] == ["100", "250", "400"]
-    assert not along.get_xticklabels(minor=True)
-    np.testing.assert_allclose(shape.get_lines()[0].get_xdata(), [-2.0, 0.0, 2.0])
-    assert [text.get_text() for text in shape.get_legend().get_texts()] == ["x/l"]
+    along, shape = identified_curves(line, np.ones(41), -np.ones(41), {"x/l": profile}).panels
+    assert along.over is not None and along.over.values[[0, -1]].tolist() == [100.0, 400.0]
+    assert min(along.curves[1].values) == -0.5  # R² far below 0 would flatten the other
+    assert [(each.name, each.time.tolist()) for each in shape.points] == [("x/l", [-2.0, 2.0])]
+    assert [limit.value for limit in shape.limits] == [1.0]
+
+
+def test_the_direction_that_is_identified_least_has_a_bar_for_each_number() -> None:
+    bars = direction_bars(Direction(("k", "l"), np.array([1.0, 1e-12]), np.array([-0.7, 0.7])))
+    assert bars.bars and [(one.name, one.value) for one in bars.intervals] == [("k", -0.7), ("l", 0.7)]
+    assert "1e-12 of the largest" in bars.words
+
+
+def test_residuals_are_drawn_over_the_angle_as_a_density_and_by_quantiles() -> None:
+    """The density of 200 values is 1 in all; the line of the quantiles is their mean and SD."""
+    rng = np.random.default_rng(3)
+    beta, residual = np.linspace(0.1, 1.0, 200), rng.normal(size=200)
+    over, density, quantiles = residual_curves(beta, residual, residual / 2.0, "p = 0.5").panels
+    np.testing.assert_allclose(over.points[0].values, residual)
+    assert density.over is not None
+    for curve in density.curves:
+        assert np.trapezoid(curve.values, density.over.values) == pytest.approx(1.0, abs=0.02)
+    (line,) = quantiles.curves
+    slope, mean = np.polyfit(quantiles.over.values, line.values, 1)
+    assert (slope, mean) == pytest.approx((np.std(residual / 2.0, ddof=1), np.mean(residual / 2.0)))
+
+
+def test_all_curves_of_a_fit_are_the_pages_own(made: Path) -> None:
+    result = quietly(gc.misalignment.identify, *locked(made), **KNOWN)
+    sections = page_of(result).sections
+    assert not any(isinstance(each, Picture) for each in sections)
+    titles = [each.title for each in sections if isinstance(each, Curves)]
+    assert titles == [panel.title for sheet in result.curves().values() for panel in sheet.panels]
 
 
 DESIGN = {"k": 222.43, "l": gc.mm(169), "z": gc.mm(127), "range": gc.deg(0, 120), "offset": gc.mm(48, 59)}
@@ -94,7 +129,8 @@ def test_both_shares_stand_side_by_side(tmp_path: Path) -> None:
     assert population_page.answer(d)[0].startswith(f"In {d.beyond.value:.2%} of 5000 synthetic people")
     (shares,) = (each for each in population_page._shares(d) if isinstance(each, Intervals))
     assert shares.bars and [(one.name, one.kind) for one in shares.intervals] == [
-        ("y", "total"), ("y", "first-order"), ("k", "total"), ("k", "first-order"),
+        (name, kind) for name in ("offset along the upper arm (y)", "stiffness of cuff and fixation (k)")
+        for kind in ("total", "first-order")
     ]  # fmt: skip
     assert all(one.lower <= one.value <= one.upper for one in shares.intervals)
 

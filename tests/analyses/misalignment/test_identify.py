@@ -95,7 +95,7 @@ def test_the_moment_on_the_cuff_and_the_fixation_beside_it_are_told(told: Any, u
     assert shown == {"own_beside_k": apart.from_cuff, "own_beside_all_free": apart.from_all, "told_apart": True}
     assert 0.0 < apart.from_all < apart.from_cuff < 0.2
     assert (
-        f"as c is taken as 0. Of what a yielding fixation does to the force, {apart.from_all:.1%}"
+        f"as c is taken as 0. Of the effect of a yielding fixation on the force, {apart.from_all:.1%}"
         in explained(told.fit, told.free)[1]
     )
     assert not any("compliance" in line or "torque" in line for line in told.warnings)
@@ -246,7 +246,7 @@ def test_a_force_that_is_turned_over_throughout_is_doubted(made: Path) -> None:
     """Offsets of the other sign make nearly the same curve: where the turned one fits better, it is said."""
     bounds = {"x": gc.mm(0, 100), "y": gc.mm(0, 100)}
     result = identify(*locked(made), **KNOWN, bounds=bounds, map="force=-force")
-    assert any("the force turned over fits better" in line for line in result.warnings)
+    assert any("the force with its sign turned fits better" in line for line in result.warnings)
     assert PAPER["x"] < bounds["x"][1]
 
 
@@ -280,7 +280,7 @@ def test_a_pressure_that_stays_tells_no_stiffness_over_it(tmp_path: Path, made: 
     ("given", "said"),
     [
         ({"known": {"l": 169.0}}, "169000 mm cannot be a link of an exoskeleton"),
-        ({"prior": {"q": (1.0, 1.0)}}, "'q' is no number of the law"),
+        ({"prior": {"q": (1.0, 1.0)}}, "'q' is not a number of the law"),
         ({"bin": 2.0}, "`bin`: 114.592 deg cannot be a width of bins: that is 0.1 to 30 deg; is 2 deg meant?"),
         ({"free": ("k",)}, "`free`: 'k' is not b, s or c"),
         ({"rotary_free": True}, "`rotary_free`: has no effect without `unlocked`"),

@@ -13,6 +13,7 @@ from scipy import stats
 import geocontact as gc
 from benchmarks.elbow.population import drawn
 from geocontact.axis_misalignment.design import Exposure, peak_forces
+from geocontact.view.page.content import Table
 from tests.analyses.misalignment.trials import quietly
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -131,3 +132,21 @@ def test_a_stiffness_in_another_unit_than_meant_is_asked_about(tmp_path: Path) -
     (line,) = [str(w.message) for w in heard if "[k]" in str(w.message)]
     assert line.endswith("[k] mean: 222000 N/m is unusual for the stiffness of an attachment, which mostly is "
                          "10 to 100000 N/m; is 222 N/m meant?")  # fmt: skip
+
+
+def test_a_deviation_in_another_unit_is_refused_with_the_likely_one(tmp_path: Path) -> None:
+    """15 m for 15 mm about 0; a mean says nothing there."""
+    with pytest.raises(gc.InputError, match=r"\[x\] sd: .*is 15 mm meant\?"):
+        population(described(tmp_path, x='unit = "m"\nnormal = { mean = 0, sd = 15 }'))
+
+
+def test_the_page_has_no_infinite_force_and_names_of_quantities(tmp_path: Path) -> None:
+    """Offsets about as long as the link: more than 5 % have no force."""
+    wide = 'unit = "mm"\nnormal = { mean = 0, sd = 120 }'
+    page = population(described(tmp_path, x=wide), limit=10.0).pages({})["report.html"]
+    texts = [text for _, text in page.facts] + [
+        cell for section in page.sections if isinstance(section, Table) for row in section.rows for cell in row
+    ]
+    assert dict(page.facts)["95 % stay below"] == "no finite force"
+    assert not any(re.search(r"\b(inf|nan)\b", text) for text in texts)
+    assert any("offset across the upper arm (x)" in text for text in texts)

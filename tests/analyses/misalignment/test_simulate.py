@@ -71,7 +71,7 @@ def test_surfaces_are_those_of_the_link() -> None:
         ({"range": gc.deg(0, 190)}, "190 deg cannot be an angle of an elbow"),
         ({"stroke": gc.mm(10, -10)}, "`stroke`: its upper end is below"),
         ({"band": (0.3, 0.1)}, "`band`: has no room"),
-        ({"numbers": {"q": 1.0}}, "'q' is no number of the law; these are k, x, y, l, z, b, s, c"),
+        ({"numbers": {"q": 1.0}}, "'q' is not a number of the law; these are k, x, y, l, z, b, s, c"),
         ({"numbers": {"s": 1e-4}}, "give `pressure`"),
         ({"seed": -1}, "`seed`: -1 is not 0 or more"),
         ({"recordings": (Path("a.csv"),), "noise": 0.1}, "`noise`: has no effect along a recording; leave it out"),

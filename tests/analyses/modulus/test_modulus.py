@@ -106,7 +106,7 @@ def test_bounds_of_a_free_number_are_kept(tmp_path: Path) -> None:
     with pytest.warns(InputWarning) as said:
         free = found(tmp_path, force=late, free={"lag": (-0.02, 0.02)})
     assert free.sides["total"].profiles["lag"].best == pytest.approx(0.02, abs=1e-6)
-    assert any("the data set no limit to lag within its bounds" in str(each.message) for each in said)
+    assert any("the data do not limit lag within its bounds" in str(each.message) for each in said)
 
 
 def test_calibrated_threshold(tmp_path: Path) -> None:

@@ -10,8 +10,13 @@ import numpy as np
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.compare.show import comparison_curves
+from geocontact.analyses.prosthesis.compare.stances import read as read_study
+from geocontact.analyses.prosthesis.quantity_words import below_zero
 from tests.cli.calls import MESHES
+from tests.recording import opened
 
 PERSON = '[persons.P1]\nmass = {{ value = 77.3, unit = "kg" }}\nstatic = "{meshes}/gait_P1_medium_1/standing.trc"\n'
 TRIAL = """
@@ -120,3 +125,20 @@ def test_the_foot_beside_its_standing_trial_is_said_and_written(tmp_path: Path) 
     lines = (tmp_path / "out" / "trials" / "P1_low_1" / "numbers.csv").read_text().splitlines()
     (pitch,) = [line.split(",")[1] for line in lines if line.startswith("leg foot_pitch,")]
     assert float(pitch) == -0.012
+
+
+def test_what_all_stances_are_warned_of_is_one_line(tmp_path: Path) -> None:
+    """The hip's regression is that of the person; a study has keys, no options."""
+    heard = opened(Record("prosthesis compare", {}))
+    read_study(ProsthesisCompareOptions(written(tmp_path, "low", "medium")))
+    assert [line for line in heard.warnings if "regression" in line] == [
+        "all 2 stances: the hip's centre comes from a regression; a functional trial determines it better"
+    ]
+
+
+def test_a_fit_below_a_constant_is_asked_about() -> None:
+    assert below_zero("resultant", -8.18) == (
+        "resultant force: R² is -8.18, a constant would fit better: are mass, setting, and unit and sign of the plates "
+        "right?"
+    )
+    assert below_zero("medio_lateral", -2.565).endswith("sideways force: R² is -2.56, a constant would fit better")

@@ -13,7 +13,7 @@ from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.sweep import intact_table, intact_words
 from geocontact.analyses.prosthesis.design.trial import intact_side
-from geocontact.analyses.prosthesis.recorded_files import Laboratory
+from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles
 from geocontact.below_knee_prosthesis.design.drawn import RecordedTrial
 from geocontact.below_knee_prosthesis.design.intact_step import IntactStep
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_keel
@@ -31,7 +31,7 @@ def found_step(folder: Path, late: float = 0.0, away: float = 0.0, **changed: An
     given: dict[str, Any] = {"static": STANDING, "mass": MASS, "plates": TRIAL / "plates.mot", "plate": "own_force"}
     given |= {"intact": made.markers, "intact_plates": made.plates}
     o = ProsthesisDesignOptions(TRIAL / "walking.trc", **(given | changed))
-    laboratory = Laboratory(o.side)
+    laboratory = LaboratoryFiles(o.side)
     standing = laboratory.markers("`static`", o.static)
     plate = laboratory.stance(laboratory.plate_under_foot(o.plates, o.plate, o.mass), o.plates)
     trial = RecordedTrial(standing, standing, plate, Person(o.mass), vsf_keel(), 0.117, 0.05, 15.0, 0.2)

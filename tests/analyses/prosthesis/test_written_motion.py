@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 
 import numpy as np
-import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-import geocontact as gc
 from geocontact.analyses.prosthesis.stance_files import write_coordinates
 from geocontact.below_knee_prosthesis.leg import Leg
 from geocontact.below_knee_prosthesis.leg_tree import RECORDED, SOCKET, LegMotion
-from geocontact.below_knee_prosthesis.simulate import Stance
-from tests.analyses.prosthesis.test_simulate import GIVEN, TRIAL
 from tests.below_knee_prosthesis.model.legs import a_leg
 from tests.below_knee_prosthesis.stances import a_stance
 
@@ -69,17 +64,3 @@ def test_coordinates_between_frames_are_those_of_the_motion(tmp_path: Path) -> N
         if name not in ("pelvis_tx", "pelvis_ty"):  # which are found, not recorded
             called = name if name.startswith("pelvis") else f"{name}_r"
             np.testing.assert_allclose(written[called], wanted[:, k], atol=2e-7)
-
-
-@pytest.mark.slow
-def test_written_coordinates_put_the_foot_where_it_was_simulated(tmp_path: Path) -> None:
-    """At all 500 samples a second. Drawn in lines between frames the foot is 0.5 mm off."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", gc.InputWarning)
-        found = gc.prosthesis.simulate(TRIAL / "walking.trc", machine_code=False, **GIVEN)
-    stance: Stance = found.stance
-    write_coordinates(tmp_path, stance, "right")
-    keel = keel_frames(read_back(tmp_path), stance.motion.leg)
-    np.testing.assert_allclose(keel.translation, stance.poses.translation, atol=5e-6)
-    off = (keel.rotation.inv() * stance.poses.rotation).magnitude()
-    assert off.max() < 2e-5

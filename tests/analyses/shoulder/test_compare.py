@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -52,8 +53,10 @@ def test_errors_are_those_that_were_put_in_phase_by_phase(tmp_path: Path) -> Non
 
 def test_a_late_clock_is_set_right(tmp_path: Path) -> None:
     file = recorded(tmp_path, late=0.5, **{"elevation [deg]": np.degrees(raised(TIME))})
-    with pytest.warns(gc.InputWarning, match="96% of the simulated time was recorded"):
+    with pytest.warns(gc.InputWarning) as seen:  # a clock that is a quarter of a second late is warned of as well
         both = [gc.shoulder.compare(simulated(tmp_path), file, delay=delay) for delay in (0.5, 0.25)]
+    assert any("96% of the simulated time was recorded" in str(each.message) for each in seen)
+    assert any("0.25 s late: is its clock right? give `delay` 0.50s" in str(each.message) for each in seen)
     assert both[0].table()["mae"].max() < 1e-9
     assert both[1].table()["mae"][0] > 1.0
     assert both[1].table()["lag [s]"][0] == pytest.approx(-0.25, abs=0.01)
@@ -96,3 +99,63 @@ def test_a_sphere_out_of_the_cuff_is_told_in_every_sentence(tmp_path: Path) -> N
     found = gc.shoulder.compare(file, recorded(tmp_path, **{"elevation [deg]": np.degrees(raised(TIME))}))
     assert len(found.sentences) == 2
     assert all(line.endswith("deg; the sphere is out of the cuff for 20% of the time") for line in found.sentences)
+
+
+def test_a_column_of_words_is_left_out_of_a_recording(tmp_path: Path) -> None:
+    """The table of `shoulder simulate` itself has one, the work phase."""
+    angle = np.degrees(raised(TIME))
+    file = recorded(tmp_path, phase=PHASE, **{"elevation [deg]": angle + 1.0, "force [N]": 0.2 * angle})
+    table = gc.shoulder.compare(simulated(tmp_path), file).table().set_index(["channel", "phase"])
+    assert table.loc[("elevation", "all"), "mae"] == pytest.approx(1.0, abs=1e-9)
+    with pytest.raises(gc.InputError, match="column 'phase' holds words, no force"):
+        gc.shoulder.compare(simulated(tmp_path), file, map="force=phase")
+
+
+@pytest.mark.parametrize("row", [0, 300])
+def test_a_damaged_number_is_no_column_of_words(tmp_path: Path, row: int) -> None:
+    angle = np.degrees(raised(TIME)).astype(str).astype(object)
+    angle[row] = "12.5x"
+    file = recorded(tmp_path, **{"elevation [deg]": angle})
+    with pytest.raises(gc.InputError, match=r"'12\.5x' in column 'elevation' is not a number"):
+        gc.shoulder.compare(simulated(tmp_path), file)
+
+
+@pytest.mark.parametrize(
+    ("factor", "shift", "words"),
+    [
+        (-1.0, 0.0, r"force: R² is -\d.*: is a sign turned"),
+        (1e-3, 0.0, r"force: R² is -\d.*recorded values are 0\.001 times the simulated ones: is the unit right"),
+        (1.0, 15.0, r"force: R² is -\d.*a constant would fit better"),
+    ],
+)
+def test_a_recording_that_cannot_be_meant_is_warned_of(tmp_path: Path, factor: float, shift: float, words: str) -> None:
+    """A force turned round, in kN under [N], and with an offset larger than its spread."""
+    angle = np.degrees(raised(TIME))
+    file = recorded(tmp_path, **{"elevation [deg]": angle, "force [N]": factor * 0.2 * angle + shift})
+    with pytest.warns(gc.InputWarning, match=words):
+        gc.shoulder.compare(simulated(tmp_path), file)
+
+
+@pytest.mark.parametrize("late", [1.0, -0.8])
+def test_a_clock_that_is_off_is_warned_of_with_its_delay(tmp_path: Path, late: float) -> None:
+    """The delay that the warning names sets the clock right: the error is that of a tenth of a sample then."""
+    file = recorded(tmp_path, late=late, **{"elevation [deg]": np.degrees(raised(TIME))})
+    with pytest.warns(gc.InputWarning) as seen:
+        gc.shoulder.compare(simulated(tmp_path), file)
+    named = next(found[1] for each in seen if (found := re.search(r"give `delay` (\S+)", str(each.message))))
+    assert float(named.rstrip("s")) == pytest.approx(late, abs=0.02)
+
+
+def test_a_recording_that_fits_has_no_warning(tmp_path: Path) -> None:
+    angle = np.degrees(raised(TIME))
+    found = gc.shoulder.compare(simulated(tmp_path), recorded(tmp_path, **{"elevation [deg]": angle + 1.0}))
+    assert not found.warnings
+
+
+def test_the_headline_has_both_channels(tmp_path: Path) -> None:
+    """Elevation 1 degree too high in the recording, force 2 N too low."""
+    angle = np.degrees(raised(TIME))
+    file = recorded(tmp_path, **{"elevation [deg]": angle + 1.0, "force [N]": 0.2 * angle - 2.0})
+    page = gc.shoulder.compare(simulated(tmp_path), file).pages({})["report.html"]
+    assert page.headline[0].startswith("The simulation misses the elevation by 1° and the force by 2 N")
+    assert any(label.startswith("force") and "2 N" in value for label, value in page.facts)

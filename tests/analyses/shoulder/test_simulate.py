@@ -24,6 +24,7 @@ from geocontact.shoulder_exoskeleton import arm_model
 from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers
 from geocontact.shoulder_exoskeleton.device import QUANTITIES, Device
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
+from geocontact.view.page.content import Scene
 from tests import opensim_oracle
 from tests.cli.calls import MESHES
 from tests.elsewhere import Elsewhere
@@ -393,3 +394,20 @@ def test_sensitivity_is_written_where_it_is_asked_for() -> None:
     table = simulated(sensitivity=True, side="left").table("sensitivity")
     assert table["supporting [N]"].is_monotonic_decreasing
     assert set(table["side"]) == {"left"} and len(table) > 30
+
+
+def test_the_page_opens_at_the_largest_force_with_trunk_and_head(found: ShoulderSimulateResult) -> None:
+    """The trunk is as long as the wearer's, from the shoulders down; the head is above them."""
+    page = found.pages({})["report.html"]
+    lifting = np.max([each.simulation.supporting for each in found.arms], axis=0)
+    time = found.arms[0].simulation.motion.time
+    assert page.time[page.start_frame] == pytest.approx(time[np.argmax(lifting)])
+    scene = next(section for section in page.sections if isinstance(section, Scene))
+    trunk, head = (next(one for one in scene.linkages if one.name.startswith(name)) for name in ("trunk", "head"))
+    assert "drawn only" in trunk.name and "drawn only" in head.name
+    shoulder = found.arms[0].simulation.motion.shoulder.mean(axis=0)
+    heights = trunk.points[0, :-1, 2]  # the last point is the head's
+    assert heights.min() - trunk.radius == pytest.approx(shoulder[2] - found.wearer.torso)
+    assert heights.max() == pytest.approx(shoulder[2])
+    assert head.points[0, 0, 2] > shoulder[2] + head.radius
+    np.testing.assert_allclose(trunk.points[0, :, 0].mean(), 0.0, atol=1e-12)

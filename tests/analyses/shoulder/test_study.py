@@ -148,10 +148,33 @@ def test_the_dominant_arm_is_what_was_recorded(folder: Path, tmp_path: Path) -> 
     assert errors.loc[errors["channel"] == "elevation", "bias"].abs().max() > 4.1
 
 
-def test_what_is_to_be_doubted_is_told_of_each_trial(found: StudyResult) -> None:
-    told = "\n".join(found.warnings)
-    for trial in ("supported: right arm", "supported as bare: right arm"):
-        assert f"{trial}: passive_1 is at a stop for" in told
+def test_a_joint_at_its_stop_in_all_arms_is_one_finding(found: StudyResult) -> None:
+    """Six simulations of four arms, each with the first passive joint at its stop: one sentence, no warning."""
+    arms = [arm.simulation for case in found.cases for arm in (case.within, case.without) if arm is not None]
+    shares = [float(each.at_stop[:, 0].mean()) for each in arms]
+    assert len(shares) == 6 and min(shares) > 0.0
+    (line,) = [line for line in found.sentences if "passive_1" in line]
+    assert line.startswith(
+        f"passive_1 is at a stop in all of 6 simulations, for {min(shares):.0%} to {max(shares):.0%} of the time: "
+    )
+    assert not any("passive_1" in line for line in found.warnings)
+
+
+def test_equal_warnings_are_one_line_with_their_range(found: StudyResult) -> None:
+    arms = [arm.simulation for case in found.cases for arm in (case.within, case.without) if arm is not None]
+    out = [float(each.out_of_cuff.mean()) for each in arms if each.out_of_cuff.any()]
+    (line,) = [line for line in found.warnings if "out of the cuff" in line]
+    assert line.startswith(f"the sphere is out of the cuff in {len(out)} of 6 simulations, for ")
+    assert f"{max(out):.0%} of the time" in line
+
+
+def test_the_headline_has_force_and_elevation(found: StudyResult) -> None:
+    """Elevations are 2 and 4 degrees off, the force 3 N."""
+    page = found.pages({})["report.html"]
+    assert page.headline[0].startswith(
+        "Over 2 recorded arms the simulation misses the elevation by 3° and the force by"
+    )
+    assert any(label.startswith("force") and value == "3 N" for label, value in page.facts)
 
 
 def test_a_study_without_the_device_is_none(folder: Path, tmp_path: Path) -> None:

@@ -74,5 +74,5 @@ def test_a_trial_may_begin_on_the_chair(tmp_path: Path) -> None:
     assert first.time[-1] - second.time[-1] > 0.3 + 1.5 - 1.3 - 0.02
     text = (tmp_path / "study.toml").read_text()
     (tmp_path / "study.toml").write_text(text.replace('chair = "chair_force"\nsitting', "sitting", 1))
-    with pytest.raises(gc.InputError, match="sitting without the force of a chair"):
+    with pytest.raises(gc.InputError, match="sitting needs the force of a chair"):
         gc.sit_to_stand.calibrate(tmp_path / "study.toml")

@@ -73,6 +73,7 @@ def stood_out_of_flat() -> RecordedStance:
 
 
 @pytest.mark.slow
+@pytest.mark.long  # with every change: test_whole_height_and_pitch.py, and a planted pitch by the analysis
 def test_with_half_a_degree_planted_no_known_number_is_outside_its_interval() -> None:
     """Before, midfoot (27.0 [21.8, 33.3] kN/m for 11) and forefoot (37.8 [34.6, 41.4] for 52) were told as known."""
     found = calibrate([stood_out_of_flat()], vsf_foot(), starts=3, finished=1)

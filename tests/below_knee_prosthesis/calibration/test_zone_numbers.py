@@ -25,5 +25,5 @@ def test_an_interval_is_as_wide_as_its_standard_deviation() -> None:
 @pytest.mark.parametrize("ends", [(0.0, 1.0), (2.0, 1.0), (1.0, np.inf), (-1.0, 1.0)])
 def test_what_is_no_interval_is_refused(ends: tuple[float, float]) -> None:
     zones = ZoneParameters(vsf_foot().sole, vsf_foot().law)
-    with pytest.raises(ValueError, match=r"damping.heel_back: .* is no interval"):
+    with pytest.raises(ValueError, match=r"damping.heel_back: .* is not an interval"):
         zones.sd_within({"damping.heel_back": ends})

@@ -21,6 +21,7 @@ TRIAL = MESHES / "gait_P1_medium_1"
 
 
 @pytest.mark.slow
+@pytest.mark.long  # with every change: the shipped trial in tests/analyses/prosthesis/test_design.py
 def test_draws_lie_about_the_foot_as_it_is() -> None:
     """One drawn foot of a sole that is known, walked twice: near what the numbers as they are give."""
     foot, present = vsf_foot(), 0.1174

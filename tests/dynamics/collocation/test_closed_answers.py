@@ -151,7 +151,7 @@ def test_problems_that_cannot_be_meant_are_refused() -> None:
         "trial u0: the search starts at 7": replace(one, guess_u=lambda t: np.full((len(t), 1), 7.0)),
         "trial x0: the search starts at no number": replace(one, guess_x=lambda t: np.full((len(t), 2), np.nan)),
         "trial end x1: no room between 3 and 2": replace(one, end=(np.array([0.0, 3.0]), np.array([0.0, 2.0]))),
-        "trial duration: 2 to 1 s is no time": replace(one, duration=(2.0, 1.0)),
+        "trial duration: 2 to 1 s is not a time": replace(one, duration=(2.0, 1.0)),
     }
     for words, each in wrong.items():
         with pytest.raises(InputError, match=words):

@@ -30,6 +30,8 @@ NATS = 800.0
 TRIALS = {"shoulder": 3}
 """So that all levels of support are among them."""
 EFFECTS = [(system, one.name) for system in SCENES for one in plans(system) if one.name not in NO_GAP.get(system, ())]
+TWICE = {each for k, each in enumerate(EFFECTS) if sum(name == each[1] for _, name in EFFECTS[:k]) < 2}
+"""Every effect in two systems; in others it is long."""
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +45,10 @@ def stages():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("system", "name"), EFFECTS)
+@pytest.mark.parametrize(
+    ("system", "name"),
+    [pytest.param(*each, marks=[] if each in TWICE else pytest.mark.long) for each in EFFECTS],
+)
 def test_the_candidate_at_its_best_leaves_a_part_of_the_effect(system, name, stages):
     stage = stages[system]
     scene = stage.scene

@@ -192,7 +192,15 @@ def test_noise_has_the_covariance_that_it_states():
 
 
 @pytest.mark.parametrize(
-    "passed", [NoiseFilter(4.0), NoiseFilter(6.0), NoiseFilter(10.0), NoiseFilter(6.0, 4), NoiseFilter(5.0, 3)]
+    "passed",
+    [
+        NoiseFilter(10.0),
+        NoiseFilter(5.0, 3),
+        *(
+            pytest.param(each, marks=pytest.mark.long)
+            for each in (NoiseFilter(4.0), NoiseFilter(6.0), NoiseFilter(6.0, 4))
+        ),
+    ],
 )
 def test_noise_of_inputs_has_the_covariance_that_it_states(passed):
     rng = np.random.default_rng(0)

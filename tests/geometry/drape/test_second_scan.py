@@ -14,7 +14,12 @@ from tests.geometry.drape.sheets import over, plane
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("thickness", "noise", "n", "within"), [(3.0, 0.0, 30, 0.7), (1.5, 0.1, 40, 0.6), (8.0, 0.3, 24, 1.6)]
+    ("thickness", "noise", "n", "within"),
+    [
+        (1.5, 0.1, 40, 0.6),
+        pytest.param(3.0, 0.0, 30, 0.7, marks=pytest.mark.long),
+        pytest.param(8.0, 0.3, 24, 1.6, marks=pytest.mark.long),
+    ],
 )
 def test_corners_are_found_to_a_part_of_the_scans_edges(thickness, noise, n, within):
     """Through another mesh, turned by a radian, noisy; edges of the scan are 4 to 2 mm long; `within` in mm."""

@@ -86,7 +86,10 @@ def test_marks_that_leave_nothing_over_tell_nothing():
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "point", "heading", "draws"),
-    [(tube(n=40), [0.06, 0, 0.25], [0, 0.3, 1], 120), (sphere(0.12, 14), [0.02, 0.01, 0.1], [0, 1, 0.3], 40)],
+    [
+        pytest.param(tube(n=40), [0.06, 0, 0.25], [0, 0.3, 1], 120, marks=pytest.mark.long),
+        (sphere(0.12, 14), [0.02, 0.01, 0.1], [0, 1, 0.3], 40),
+    ],
     ids=["tube", "sphere"],
 )
 def test_intervals_hold_the_truth(body, point, heading, draws):

@@ -10,28 +10,27 @@ from geocontact.geometry.fit.cylinder import fit_cylinder
 from geocontact.geometry.fit.found import cells, covariance, half_width
 from tests.geometry.fit.clouds import CLOUDS, RADIUS, wall
 
-RUNS = 60
 
-
-def fitted(kind):
+def fitted(kind, runs):
     """Radius, interval and half-width of every run."""
-    fits = [fit_cylinder(CLOUDS[kind](seed)) for seed in range(RUNS)]
+    fits = [fit_cylinder(CLOUDS[kind](seed)) for seed in range(runs)]
     return [(fit.radius, fit.radius_interval, fit.quality.half_widths[-1]) for fit in fits]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "kind", [next(iter(CLOUDS)), *(pytest.param(each, marks=pytest.mark.long) for each in list(CLOUDS)[1:])]
+    ("kind", "runs", "least"),
+    [(next(iter(CLOUDS)), 30, 25), *(pytest.param(each, 60, 52, marks=pytest.mark.long) for each in CLOUDS)],
 )
-def test_the_interval_holds_the_radius_as_often_as_it_says(kind):
-    """Of 60 runs at least 52: 57 expected, three standard errors of the binomial are 5.
+def test_the_interval_holds_the_radius_as_often_as_it_says(kind, runs, least):
+    """Of 60 runs at least 52: 57 expected, three standard errors of the binomial are 5; of 30 25, since they are 3.6.
 
     In a process of its own, where shapes are not checked at every call.
     """
     with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
-        radius, interval, half = zip(*pool.submit(fitted, kind).result(), strict=True)
+        radius, interval, half = zip(*pool.submit(fitted, kind, runs).result(), strict=True)
     held = sum(low <= RADIUS <= high for low, high in interval)
-    assert held >= 52, held
+    assert held >= least, held
     assert np.median(half) / np.std(radius) == pytest.approx(2.0, rel=0.35)
 
 

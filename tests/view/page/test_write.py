@@ -267,6 +267,7 @@ def test_a_page_without_time_has_no_player() -> None:
         ("z -19.5 mm", "z −19.5\u00a0mm"),
         ("5 mmm 4 N, 3 of", "5 mmm 4\u00a0N, 3 of"),
         ("-3", "−3"),
+        ("-17.7 (-25.6 to -12.1), [-1, 2]", "−17.7 (−25.6 to −12.1), [−1, 2]"),
         ("walk-3.csv", "walk-3.csv"),
         ("2-4", "2-4"),
         ("a - b", "a - b"),

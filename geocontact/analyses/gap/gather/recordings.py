@@ -171,7 +171,7 @@ def _widened(table: TrialTable, found: RecordedChannels) -> TrialTable:
     for name in found.channels:
         if name in signals.channels:
             what = f"has a column '{name}' already"
-            raise InputError(table.file, "line 1", what, f"strike it, or leave {found.what} out")
+            raise InputError(table.file, "line 1", what, f"delete it, or leave {found.what} out")
     inside = (signals.time >= found.time[0]) & (signals.time <= found.time[-1])
     if inside.mean() < SHARED:
         what = f"runs from {signals.time[0]:g} to {signals.time[-1]:g} s, {found.what}"

@@ -39,7 +39,7 @@ def _values(one: Candidate, o: InjectOptions) -> Mapping[str, float]:
     for name, value in o.value.items():
         if name not in known:
             there = ", ".join(known) or "it has none"
-            raise InputError("", "`value`", f"{name!r} is no parameter of {one.label}", f"parameters: {there}")
+            raise InputError("", "`value`", f"{name!r} is not a parameter of {one.label}", f"parameters: {there}")
         p = known[name]
         if not p.lower <= value <= p.upper:
             what = f"{name} = {value:g} {p.unit} is outside of {p.lower:.4g} … {p.upper:.4g}"

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 MM = 1e3
 LEVELS = 12
+PAGE_MAP = 0.14
+"""Width of the page's map [m]: narrow, so that its letters can be read on a phone."""
 BEYOND = 4.0
 """Forces above this many limits have the colour of that many."""
 
@@ -45,7 +47,7 @@ def force_curves(d: Designed) -> Curves:
 @in_style
 def map_figure(d: Designed) -> Figure:
     """Draw largest |F| [N] over the offsets with the limit alone."""
-    figure, (plane,) = panels(1, 1, DOUBLE, 0.105)
+    figure, (plane,) = panels(1, 1, PAGE_MAP, 0.61 * PAGE_MAP)
     _map(figure, plane, d)
     return figure
 

@@ -25,6 +25,14 @@ from geocontact.analyses.frame.collector import note, reserve
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.misalignment.identify.curves import (
+    Boxes,
+    Over,
+    condition_curves,
+    force_curves,
+    identified_curves,
+    residual_curves,
+)
 from geocontact.analyses.misalignment.identify.fitted import (
     Fitted,
     Free,
@@ -36,15 +44,7 @@ from geocontact.analyses.misalignment.identify.fitted import (
 from geocontact.analyses.misalignment.identify.numbers import IdentifyInputs, numbers_table, read
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.identify.sentences import described, reserve_doubts, say_numbers
-from geocontact.analyses.misalignment.identify.show import (
-    Boxes,
-    Over,
-    conditions_figure,
-    fit_page,
-    force_figure,
-    residual_figure,
-    told_figure,
-)
+from geocontact.analyses.misalignment.identify.show import fit_page
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.axis_misalignment.bins import Binned, binned
 from geocontact.axis_misalignment.compensation import bin_means
@@ -56,6 +56,7 @@ from geocontact.identify.signals.angle_bins import bin_numbers
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
 
@@ -224,9 +225,20 @@ class IdentifyResult(Result):
         """
         return self.fit.estimate.named
 
-    def figures(self) -> dict[str, Figure]:
+    def curves(self) -> dict[str, CurveSheet]:
         """`forces`, `identifiability`, `residuals`, and `conditions` with a free joint."""
-        return {name: self.figure(name) for name in self._drawn}
+        f, r = self.fit, self.fit.residuals
+        boxes = self._boxes("boxes", f.boxes)
+        profiles = {each.words: each.profile for each in f.intervals}
+        sheets = {
+            "forces": force_curves(self._over(), boxes),
+            "identifiability": identified_curves(f.line.numbers, f.line.r2, f.line.alone_r2, profiles),
+            "residuals": residual_curves(r.beta, r.off, r.standard, f"Normality: Lilliefors {r.normality.shown}."),
+        }
+        if self.free is not None:
+            free = self._boxes("boxes_free", self.free.boxes)
+            sheets["conditions"] = condition_curves(bin_means(f.data), self.free.stroke, boxes, free)
+        return sheets
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`intervals`, `bins`, `boxes`, `scale_line`, `held_out`, with a free joint `conditions` and `boxes_free`; then
@@ -236,45 +248,33 @@ class IdentifyResult(Result):
 
     def figure(self, name: str = "forces") -> Figure:
         """One of the figures: force over the angle unless named."""
-        f = self.fit
-        if name == "forces":
-            return force_figure(_over(f), self._boxes("boxes", f.boxes))
-        if name == "identifiability":
-            profiles = {each.words: each.profile for each in f.intervals}
-            return told_figure(f.all_directions, f.line.numbers, f.line.r2, f.line.alone_r2, profiles)
-        if name == "residuals":
-            r = f.residuals
-            return residual_figure(r.beta, r.off, r.standard, f"Lilliefors {r.normality.shown}")
-        if name == "conditions" and self.free is not None:
-            boxes = self._boxes("boxes", f.boxes), self._boxes("boxes_free", self.free.boxes)
-            return conditions_figure(bin_means(f.data), self.free.stroke, *boxes)
-        raise KeyError(f"no figure {name!r}; there are {', '.join(self._drawn)}")
+        sheets = self.curves()
+        if name not in sheets:
+            raise KeyError(f"no figure {name!r}; there are {', '.join(sheets)}")
+        from geocontact.view.curves.drawn import drawn  # late, like all that draws
+
+        return drawn(sheets[name])
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
-        """Force over the angle, what the data tell, figures and tables."""
-        return {REPORT: fit_page(self.fit, self.free, self.tables(), drawings)}
+        """Force over the angle, what the data identify, curves and tables."""
+        return {REPORT: fit_page(self.fit, self.free, self.tables(), self.curves())}
 
     def write_files(self, folder: Path) -> None:
         """elbow.json besides."""
         write_json(folder / "elbow.json", self.summary)
         super().write_files(folder)
 
-    @property
-    def _drawn(self) -> tuple[str, ...]:
-        own = ("forces", "identifiability", "residuals")
-        return own if self.free is None else (*own, "conditions")
+    def _over(self) -> Over:
+        problem, bins = self.fit.estimate.problem, self.table("bins").dropna(subset="mean [N]")
+        middle = np.radians(bins["beta [deg]"].to_numpy())
+        measured, predicted = bins["mean [N]"].to_numpy(), bins["fitted [N]"].to_numpy()
+        return Over(problem.law.beta, problem.force, middle, measured, predicted)
 
     def _boxes(self, name: str, data: Binned) -> Boxes:
         table = self.table(name)
         table = table[table["samples"] > 0]
         width = float(data.visits.edges[1] - data.visits.edges[0])
         return Boxes(np.radians(table["beta [deg]"].to_numpy()), table[list(QUANTILE_COLUMNS)].to_numpy(), width)
-
-
-def _over(f: Fitted) -> Over:
-    law = f.estimate.problem.law
-    order = np.argsort(law.beta)
-    return Over(law.beta, f.estimate.problem.force, law.beta[order], f.estimate.predicted[order])
 
 
 def run(recorded: IdentifyInputs, o: IdentifyOptions) -> IdentifyResult:

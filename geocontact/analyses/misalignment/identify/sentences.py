@@ -25,7 +25,7 @@ BETTER = 0.02  # of R² that the mirrored force must gain to be worth a word
 APART = 3.0  # times that two stiffnesses may differ before a unit is doubted
 SCALE_FREE = (
     f"k and the lengths {', '.join(LENGTHS)} are known up to one factor only: F(k/s, s × lengths) = F for every s; "
-    "know l, z or k (`known`), give a prior (`prior`), or record the free joint's displacement (`unlocked`)"
+    "state l, z or k (`known`), give a prior (`prior`), or record the free joint's displacement (`unlocked`)"
 )
 
 
@@ -48,9 +48,9 @@ def reserve_doubts(found: Fitted, free: Free | None) -> None:
         reserve(f"R² is {found.r2:.2f}: a constant force would do better than the law")
     bad = [f"{each.name} ({each.r2:.2f})" for each in found.held if each.r2 < 0.0]
     if bad:
-        reserve(f"R² of what was not used is below 0, a constant force would do better: {', '.join(bad)}")
+        reserve(f"R² of unused data is below 0, a constant force would do better: {', '.join(bad)}")
     if found.mirrored_r2 > found.r2 + BETTER:
-        told = f"the force turned over fits better (R² {found.mirrored_r2:.3f} instead of {found.r2:.3f})"
+        told = f"the force with its sign turned fits better (R² {found.mirrored_r2:.3f} instead of {found.r2:.3f})"
         reserve(f"{told}: is its sign turned? see `map` force=-…")
 
 
@@ -62,7 +62,7 @@ def _doubt_displacement(found: Fitted, free: Free) -> None:
     times = free.stiffness.value / found.estimate.named["k"]
     if 1.0 / APART < times < APART:
         return
-    stroke = f"the free joint slides by {1.0 / times:.3g} times what the fitted lengths ask for"
+    stroke = f"the free joint slides by {1.0 / times:.3g} times the displacement that the fitted lengths predict"
     reserve(
         f"{stroke}, so that k by its displacement is {free.stiffness.value:.4g} N/m and not "
         f"{found.estimate.named['k']:.4g}: is the displacement in another unit than its header says?"
@@ -75,10 +75,10 @@ def _say_what_is_open(found: Fitted) -> None:
         reserve(SCALE_FREE)
     apart, problem = found.separable, found.estimate.problem
     if "c" in problem.names and apart.from_all < OWN and not set(problem.priors) & {"k", "c"}:
-        told = f"only {apart.from_all:.2%} of what c does to the force is its own" if apart.told else "not at all"
+        told = f"only {apart.from_all:.2%} of the effect of c on the force is its own" if apart.told else "not at all"
         reserve(
             "angle and force hardly separate the compliance c of the upper arm's fixation from that of the cuff "
-            f"in series with it ({told}): know k or c (`known`), or give a prior (`prior`)"
+            f"in series with it ({told}): state k or c (`known`), or give a prior (`prior`)"
         )
     driven = [r.name for r in found.recordings if r.torque is not None and r.torque.any()]
     if driven and found.estimate.named["c"] != 0.0:
@@ -274,7 +274,7 @@ def fixation_words(found: Fitted) -> str:
         told = "Angle and force cannot separate them: only 1/k + c is identified."
     else:
         told = (
-            f"Of what a yielding fixation does to the force, {apart.from_all:.1%} is its own with all free numbers "
+            f"Of the effect of a yielding fixation on the force, {apart.from_all:.1%} is its own with all free numbers "
             f"({apart.from_cuff:.1%} with k alone); the rest looks like another cuff."
         )
     if "c" in found.estimate.problem.names or c != 0.0:

@@ -77,7 +77,7 @@ def _check_sizes(description: Path, told: PopulationFile) -> None:
     stated = [
         (f"[{n}] {key}", n, one.numbers[key], one.numbers[key] / one.factor)
         for n, one in told.quantities.items()
-        for key in ENDS & {*one.numbers}
+        for key in (ENDS | _wide(one.numbers)) & {*one.numbers}
     ]
     listed = [(f"[{n}] table", n, float(c.max()), None) for columns in told.tables.values() for n, c in columns.items()]
     for place, name, value, written in (*sorted(stated), *listed):
@@ -86,6 +86,11 @@ def _check_sizes(description: Path, told: PopulationFile) -> None:
                 raise InputError(description, place, *refusal)
             if doubt := known.doubt(number, written):
                 reserve(f"{description} {place}: {doubt}")
+
+
+def _wide(numbers: Mapping[str, float]) -> set[str]:
+    """The standard deviation where it says more than the mean how large a quantity is, as of offsets about 0."""
+    return {"sd"} if numbers.get("sd", 0.0) > abs(numbers.get("mean", 0.0)) else set()
 
 
 def _factor(name: str, kind: str, numbers: Mapping[str, float]) -> Factor:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
-from geocontact.analyses.frame.words import NOT_A_DEVICE
+from geocontact.analyses.frame.words import NOT_A_DEVICE, rounded
 from geocontact.analyses.misalignment.planar import MODEL, STATES, WITHOUT_FORCE, page_table
 from geocontact.analyses.misalignment.population.drawn import Drawn, influence_table, quantile_table
 from geocontact.data.motion import Course
@@ -74,7 +75,7 @@ def population_page(d: Drawn) -> Page:
         Readout(readout, "At this force"),
         numbers,
         page_table("Quantiles of the largest |F|", quantile_table(d)),
-        page_table("Where the spread comes from", influence_table(d)),
+        page_table("Where the spread comes from", _influences(d)),
         INPUTS,
         OPTIONS,
         Words("How to read where the spread comes from", [INFLUENCE]),
@@ -86,7 +87,7 @@ def population_page(d: Drawn) -> Page:
         time=d.levels,
         time_label="force [N]",
         headline=answer(d),
-        facts=[(row[0], row[1]) for row in numbers.rows[:5]],
+        facts=[(row[0], row[1]) for row in numbers.rows[:4]],
         start_frame=int(np.argmin(np.abs(d.levels - d.limit))),
         sections=tuple(sections),
         plays=False,
@@ -110,7 +111,46 @@ def _shares(d: Drawn) -> list[Section]:
 
 
 def _factor(d: Drawn, k: int) -> str:
-    return " and ".join(d.sampling.factors[k].names)
+    return " and ".join(_named(name) for name in d.sampling.factors[k].names)
+
+
+MEANING = {
+    "k": "stiffness of cuff and fixation",
+    "l": "length of the link",
+    "z": "distance of attachment and forearm",
+    "x": "offset across the upper arm",
+    "y": "offset along the upper arm",
+}
+"""What the quantities are, as on the pages of `elbow fit`."""
+
+
+def _named(name: str) -> str:
+    return f"{MEANING[name]} ({name})"
+
+
+COLUMNS = {
+    "rank_coefficient": "coefficient of ranks",
+    "distance_rank_coefficient": "of the distance from the median",
+    "sobol_first": "first-order share",
+    "sobol_first_lower": "lower",
+    "sobol_first_upper": "upper",
+    "sobol_total": "total share",
+    "sobol_total_lower": "lower ",
+    "sobol_total_upper": "upper ",
+}
+"""Columns of the table of influences as the page calls them."""
+
+
+def _influences(d: Drawn) -> pd.DataFrame:
+    rows = influence_table(d).dropna(axis="columns", how="all")
+    return (
+        rows.assign(quantity=[_named(name) for name in rows["quantity"]]).drop(columns="factor").rename(columns=COLUMNS)
+    )
+
+
+def _force(value: float, digits: int = 3) -> str:
+    """In N, in words where samples without a force reach that far."""
+    return f"{value:.{digits}f} N" if np.isfinite(value) else "no finite force"
 
 
 def _ordered(indices: Indices) -> list[int]:
@@ -130,7 +170,7 @@ def answer(d: Drawn) -> list[str]:
     most = ""
     if d.indices is not None:
         k = _ordered(d.indices)[0]
-        most = f" Most of the spread comes from {_factor(d, k)}: a total share of {d.indices.total[k]:.0%}."
+        most = f" Most of the spread comes from the {_factor(d, k)}: a total share of {d.indices.total[k]:.0%}."
     return [told, f"{median}; {tail}.{most}"]
 
 
@@ -138,10 +178,10 @@ def _numbers(d: Drawn) -> Table:
     b, middle, high = d.beyond, d.quantiles[0.5], d.quantiles[0.95]
     without = ", ".join(f"{int((d.fate == fate).sum())} {STATES[fate]}" for fate in WITHOUT_FORCE)
     rows = [
-        (f"above {d.limit:g} N", f"{b.value:.3%}", f"{b.lower:.3%} … {b.upper:.3%}, exact"),
-        ("median of the largest |F|", f"{middle.value:.3f} N", f"{middle.lower:.3f} … {middle.upper:.3f} N"),
-        ("95 % stay below", f"{high.value:.3f} N", f"{high.lower:.3f} … {high.upper:.3f} N"),
+        (f"above {d.limit:g} N", f"{b.value:.2%}", f"{b.lower:.2%} … {b.upper:.2%}, exact"),
+        ("median of the largest |F|", _force(middle.value), f"{_force(middle.lower)} … {_force(middle.upper)}"),
+        ("95 % stay below", _force(high.value), f"{_force(high.lower)} … {_force(high.upper)}"),
         ("samples without a force", str(int((d.fate > 0).sum())), f"{without}: they count as beyond every force"),
-        ("error of the grid of angles", f"{d.grid_error:.1e} N", "largest of those checked with a finer one"),
+        ("error of the grid of angles", f"{rounded(d.grid_error, 2)} N", "largest of those checked with a finer one"),
     ]
-    return Table("What was found", ("what", "value", "interval or note"), rows)
+    return Table("Forces and exceedance", ("what", "value", "interval or note"), rows)

@@ -16,7 +16,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.functional_joint import FEWEST, seen_together, segment_poses
 from geocontact.io.text.tables import listed
-from geocontact.trial_checks.recorded import RecordedTrial
+from geocontact.trial_checks.recorded import TrialInputs
 
 SIGHT = "name markers that one frame shows all of, or give `static`"
 
@@ -77,7 +77,7 @@ def read(o: JointOptions) -> MovedPair:
     still = None if o.static is None else markers_given(o.static, o.axes, None, o.c3d_unit)
     if o.static is not None and still is not None:
         add_input("`static`", o.static, frames=len(still), markers=len(still.names))
-    check_trial(RecordedTrial(markers=seen, standing=still, turn=turn_of(o.axes)))
+    check_trial(TrialInputs(markers=seen, standing=still, turn=turn_of(o.axes)))
     first, second = marker_list(o.first), marker_list(o.second)
     both = [name for name in first if name in second]
     if both:
@@ -108,7 +108,9 @@ def _segment(
     for trial in (seen, *([] if still is None else [still])):
         _require(trial, names, option)
     if len(names) < FEWEST:
-        raise InputError(seen.source, option, f"{len(names)} markers fix no pose", f"name {FEWEST} at the least")
+        raise InputError(
+            seen.source, option, f"{len(names)} markers do not determine a pose", f"name {FEWEST} at the least"
+        )
     if still is not None:
         places = means_of(still, names, option)
     else:

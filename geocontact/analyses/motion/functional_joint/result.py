@@ -199,7 +199,7 @@ def _report(o: JointOptions, pair: MovedPair, points: JointPoints, halves: float
         say(f"the axis is {np.degrees(turn):.1f} deg from the line through {' and '.join(marker_list(o.near or ''))}")
     both = "" if np.isnan(halves) else f"; halves of the trial give {SEVERAL[kind]} {1e3 * halves:.1f} mm apart"
     off = f"residual between the segments {1e3 * points.rms:.1f} mm root mean square"
-    say(f"{len(pair.time)} frames, {np.degrees(turned(pair)):.0f} deg of turn: {off}{both}")
+    say(f"{len(pair.time)} frames, {np.degrees(turned(pair)):.0f} degrees of rotation: {off}{both}")
     if np.isnan(halves):
         reserve(f"{o.trial}: half of the trial does not determine the {kind}: its repeatability is unknown")
     elif halves > APART:

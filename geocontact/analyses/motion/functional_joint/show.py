@@ -19,7 +19,7 @@ from geocontact.view.page.content import Linkage, Page, Scene, Section, Words
 
 SKIN = (
     "Segments are taken to be rigid. Skin slides over bone by centimetres at the thigh, smoothly and alike in every "
-    "repetition: neither the standard error nor the halves of the trial hold what that adds."
+    "repetition: neither the standard error nor the halves of the trial include this."
 )
 
 

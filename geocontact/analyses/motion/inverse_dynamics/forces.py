@@ -24,7 +24,7 @@ def words(forces: GeneralisedForces) -> str:
     force, moment = force_residual(forces), moment_residual(forces)
     text = f"residual at the joint to the {GROUND}: {force.size:.3g} N at most, {force.share:.1%} of the"
     if forces.peak == 0.0:
-        return f"{text} weight, as nothing but gravity acts"
+        return f"{text} weight (only gravity acts)"
     return (
         f"{text} largest measured force (below {FORCE:.0%} is asked for), and {moment.size:.3g} N m, "
         f"{moment.share:.1%} of that force at the height of the mass centre (below {MOMENT:.0%})"
@@ -34,11 +34,11 @@ def words(forces: GeneralisedForces) -> str:
 def warn_of_residuals(forces: GeneralisedForces) -> None:
     """One line where more is left over than Hicks et al. allow, or where nothing tells."""
     if not forces.at_ground.any():
-        reserve(f"no joint frees a body from the {GROUND} with six coordinates: there is no residual to check")
+        reserve(f"no joint of six coordinates connects a body to the {GROUND}: there is no residual to check")
     elif forces.peak == 0.0 and force_residual(forces).too_large:
         reserve(
             f"{words(forces)} ({force_residual(forces).time:.3g} s): give `loads`, or `plates` with `plate`; moments "
-            "are those of a body in the air"
+            "are computed without ground contact"
         )
     elif (force := force_residual(forces)).too_large or moment_residual(forces).too_large:
         when = f"at {force.time:.3g} and {moment_residual(forces).time:.3g} s, limits of Hicks et al. 2015"

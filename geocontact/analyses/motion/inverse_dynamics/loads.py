@@ -39,7 +39,7 @@ from geocontact.io.opensim.osim_forces import read_passive_forces
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.trial_checks.landmarks import body_points
-from geocontact.trial_checks.recorded import FootPlate, RecordedTrial
+from geocontact.trial_checks.recorded import FootPlate, TrialInputs
 
 UP = 0.9  # smallest cosine between a plate's normal and the way up
 REACH = 1.0  # m from the body's origin to the point that a plate's force acts at
@@ -84,7 +84,7 @@ def loads_on_bodies(
         _warn_of_far_points(file, load, wrench, poses[load.body].translation)
         found[load.body] = added(wrench, found[load.body]) if load.body in found else wrench
     check_trial(
-        RecordedTrial(
+        TrialInputs(
             body_points(model, time, values, str(o.coordinates)),
             plates=tuple(plates_used),
             mass=model.mass or None,

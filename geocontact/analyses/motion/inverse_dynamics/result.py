@@ -3,8 +3,8 @@
 >>> import geocontact as gc
 >>> result = gc.inverse_dynamics("meshes/leg_swing.mot", model="meshes/leg.osim")
 >>> result.sentences[0]
-'101 frames; most at hip_z_moment, 26.8 N m; residual at the joint to the ground: 264 N at most, 117.0% of
-the weight, as nothing but gravity acts'
+'101 frames; largest at hip_z_moment, 26.8 N m; residual at the joint to the ground: 264 N at most, 117.0% of
+the weight (only gravity acts)'
 """
 
 from __future__ import annotations
@@ -186,7 +186,7 @@ def _report(forces: GeneralisedForces) -> None:
     frame, largest = forces.largest(~forces.at_ground)
     name = forces.names[largest]
     unit = "N m" if name.endswith("_moment") else "N"
-    said = f"{len(forces.time)} frames; most at {name}, {abs(np.asarray(forces.values)[frame, largest]):.4g} {unit}"
+    said = f"{len(forces.time)} frames; largest at {name}, {abs(np.asarray(forces.values)[frame, largest]):.4g} {unit}"
     say("; ".join(each for each in (said, words(forces)) if each))
 
 

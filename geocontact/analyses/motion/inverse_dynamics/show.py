@@ -20,8 +20,8 @@ from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Scale
 from geocontact.view.page.content import Page, Section, Table, Words
 
 LEFT = (
-    "The joint to the ground has no muscle: what is found along its coordinates is what motion, masses and plates do "
-    "not agree upon. Hicks et al. (2015, J Biomech Eng 137, 020905) ask for peaks below 5 % of the largest external "
+    "The joint to the ground has no muscle: a force or moment along its coordinates shows how far motion, masses and "
+    "plates disagree. Hicks et al. (2015, J Biomech Eng 137, 020905) ask for peaks below 5 % of the largest external "
     "force, and for moments below 1 % of that force times the height of the mass centre. OpenSim calls a largest force "
     "up to 10 N good, up to 25 N okay and more bad after residual reduction, which nothing here has done."
 )
@@ -90,7 +90,7 @@ def answer(forces: GeneralisedForces, turning: Bool[np.ndarray, " n"]) -> list[s
     told = [f"{name} needs the largest moment, {size:.1f} N m at {forces.time[frame]:.3g} s."]
     if forces.at_ground.any():
         left = force_residual(forces)
-        of = "largest measured force" if forces.peak > 0.0 else "weight, as nothing but gravity acts"
+        of = "largest measured force" if forces.peak > 0.0 else "weight (only gravity acts)"
         told.append(f"Up to {left.size:.0f} N of residual force at the ground: {left.share:.1%} of the {of}.")
     return told
 
@@ -108,7 +108,7 @@ def _facts(forces: GeneralisedForces, turning: Bool[np.ndarray, " n"]) -> list[t
         told.append(("Largest moment", f"{abs(forces.values[frame, which]):.1f} N m, {where}"))
     if forces.at_ground.any():
         left = force_residual(forces)
-        of = "the largest measured force" if forces.peak > 0.0 else "the weight, as nothing but gravity acts"
+        of = "the largest measured force" if forces.peak > 0.0 else "the weight (only gravity acts)"
         told.append(("Largest residual at the ground", f"{left.size:.1f} N ({left.share:.1%} of {of})"))
     return told
 

@@ -18,7 +18,7 @@ from geocontact.identify.signals.gait_cycles import Strikes
 from geocontact.io.mocap.c3d_analogs import read_c3d_analogs
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import TextTable
-from geocontact.trial_checks.recorded import RecordedTrial
+from geocontact.trial_checks.recorded import TrialInputs
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ def read(o: IkOptions) -> KinematicsInputs:
     knees = knees_of(o.knee, model)
     seen = renamed(markers_given(o.markers, o.axes, o.time, o.c3d_unit), model, o.markers_map)
     add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
-    doubts = check_trial(RecordedTrial(markers=seen, turn=turn_of(o.axes)))
+    doubts = check_trial(TrialInputs(markers=seen, turn=turn_of(o.axes)))
     strikes = strikes_typed(o.events) or strikes_marked(o.markers)
     tasks = marker_tasks(model, seen, o.tasks, o.follow, o.weight, o.hold)
     return KinematicsInputs(model, seen, tasks, knees, strikes, _analog(o), doubts)
@@ -56,7 +56,7 @@ def _analog(o: IkOptions) -> TextTable | None:
     if not o.analog:
         return None
     if o.markers.suffix.lower() != ".c3d":
-        raise InputError(o.markers, "`analog`", "is no .c3d file", "leave it out: only a .c3d holds analog channels")
+        raise InputError(o.markers, "`analog`", "is not a .c3d file", "leave it out: only a .c3d holds analog channels")
     found = read_c3d_analogs(o.markers, plates=False)
     if not found.channels or not len(found.time):
         raise InputError(o.markers, "`analog`", "no analog channel but those of force plates", "leave it out")

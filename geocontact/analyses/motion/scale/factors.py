@@ -20,7 +20,7 @@ from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.scaling import Factors, measured_factor
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import listed
-from geocontact.trial_checks.recorded import RecordedTrial
+from geocontact.trial_checks.recorded import TrialInputs
 
 MOVED = 0.02
 """m that a marker may move in a static trial without a word."""
@@ -43,7 +43,7 @@ def read(o: ScaleOptions) -> Standing:
     add_input("`model`", o.model, bodies=len(model.bodies), markers=len(model.markers))
     model = with_marker_set(model, o.model, o.marker_set)
     whole = renamed(markers_given(o.static, o.axes, o.time, o.c3d_unit), model, o.markers_map)
-    check_trial(RecordedTrial(standing=whole, turn=turn_of(o.axes)))
+    check_trial(TrialInputs(standing=whole, turn=turn_of(o.axes)))
     seen = _standing(whole)
     add_input("static", o.static, frames=len(whole), markers=len(seen.names))
     factors = factors_told(model, _measured(o, model, whole), o.scale)
@@ -129,7 +129,9 @@ def _named(bodies: str) -> list[tuple[str, list[int]]]:
         if not colon:
             name, axes = axes, AXES
         if not axes or set(axes) - set(AXES) or len(set(axes)) < len(axes):
-            raise InputError("", "`scale`", f"'{axes}' is not some of the axes x, y and z", "write femur_r:xz=1.05")
+            raise InputError(
+                "", "`scale`", f"'{axes}' is not one or more of the axes x, y and z", "write femur_r:xz=1.05"
+            )
         found.append((name, [AXES.index(axis) for axis in axes]))
     return found
 

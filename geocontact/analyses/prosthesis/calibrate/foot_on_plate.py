@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from geocontact.analyses.frame.collector import listener, reserve
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.ranges import TURNS
-from geocontact.analyses.prosthesis.recorded_files import Laboratory, foot_with_law
+from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law
 from geocontact.analyses.prosthesis.stance_files import counted_twice
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import (
@@ -51,7 +51,7 @@ def read(o: ProsthesisCalibrateOptions) -> FootOnPlate:
     with listener().preparing():
         foot = foot_with_law(vsf_foot(), o.law)
     fulcrum = fulcrum_of(o.setting) if o.fulcrum is None else o.fulcrum
-    lab = Laboratory(o.side, o.axes, o.markers_map, o.c3d_unit)
+    lab = LaboratoryFiles(o.side, o.axes, o.markers_map, o.c3d_unit)
     still, walking = lab.markers("`static`", o.static), lab.markers("markers", o.markers)
     own = lab.plate_under_foot(o.plates, o.plate, o.mass)
     there = plate_named(lab.plates(o.plates), o.other_plate, o.plates, "`other_plate`") if o.full else None

@@ -28,7 +28,7 @@ from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.prosthesis.calibrate.foot_on_plate import FootOnPlate, along_poses, on_whole_model, read
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
-from geocontact.analyses.prosthesis.calibrate.show import calibration_page, stance_curves
+from geocontact.analyses.prosthesis.calibrate.show import CalibratedFit, calibration_page, stance_curves
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
 from geocontact.below_knee_prosthesis.calibration.fit import (
     doubts_of_fit,
@@ -184,8 +184,15 @@ class ProsthesisCalibrateResult(Result):
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Curves, numbers, and what they mean."""
         numbers, walked = self.tables()["numbers"], self.whole is not None
-        page = calibration_page(self.stance, self.curves()["stance"], numbers, self.sentences, walked)
-        return {REPORT: page}
+        law = self.last.law
+        fit = CalibratedFit(
+            self.vertical,
+            self.centre,
+            _along(self, NO_TEST),
+            self.last.offsets[0].words,
+            float(np.ravel(law.exponent)[0]),
+        )
+        return {REPORT: calibration_page(self.stance, self.curves()["stance"], numbers, fit, walked)}
 
     def write_files(self, folder: Path) -> None:
         """law.toml besides."""
@@ -228,6 +235,17 @@ def _summarise_fit(r: ProsthesisCalibrateResult) -> None:
         reserve(words)
 
 
+NO_TEST = ", which makes it no test of the sole"
+
+
+def _along(r: ProsthesisCalibrateResult, met: str = "") -> str:
+    """What is said of the force along the floor; `met` follows where the foot's slips were chosen to meet it."""
+    if r.whole is None:
+        slip = 1e3 * float(np.sqrt(np.mean(r.slip**2)))
+        return f"is met by slips of {slip:.0f} mm/s relative to the recorded speed{met}"
+    return f"fore and aft within {100.0 * fore_aft_error(r.predicted, r.stance):.1f} % of body weight"
+
+
 def _summarise(r: ProsthesisCalibrateResult) -> None:
     """Sentences, reservations and results of a calibration."""
     found = r.last
@@ -238,13 +256,10 @@ def _summarise(r: ProsthesisCalibrateResult) -> None:
     if not found.converged:
         reserve("the search stopped before convergence; give more `starts`")
     apart = found.knowledge.told_apart
-    along = f"is met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s relative to the recorded speed"
-    if r.whole is not None:
-        along = f"fore and aft within {100.0 * fore_aft_error(r.predicted, r.stance):.1f} % of body weight"
     say(
         f"vertical force within {100.0 * r.vertical.rmsd:.1f} % of body weight (R² {r.vertical.r2:.3f}), centre of "
         f"pressure within {100.0 * r.centre.rmsd:.1f} % of the foot (R² {r.centre.r2:.2f}); the force along the floor "
-        f"{along}"
+        f"{_along(r)}"
     )
     _summarise_fit(r)
     if r.whole is not None:

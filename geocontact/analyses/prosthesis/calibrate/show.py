@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import dataclass
 
+import numpy as np
 import pandas as pd
 from jaxtyping import Float
 from numpy import argmax, ndarray
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
-from geocontact.analyses.frame.words import headline
+from geocontact.analyses.frame.words import rounded
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.data.motion import Course
+from geocontact.identify.signals.agreement import Agreement
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet
 from geocontact.view.page.content import Page, Section, Words
 from geocontact.view.page.tables import frame_table
@@ -63,12 +65,64 @@ READ = [
 ]
 
 
+@dataclass(frozen=True)
+class CalibratedFit:
+    """What the first screen says of a calibration.
+
+    Parameters
+    ----------
+    vertical, centre
+        Agreement of the vertical force over body weight, and of the centre of pressure over the foot.
+    along
+        What is said of the force along the floor.
+    offset
+        Of the foot, from its standing trial, in words.
+    exponent
+        Of the force law.
+    """
+
+    vertical: Agreement
+    centre: Agreement
+    along: str
+    offset: str
+    exponent: float
+
+
+def answer(fit: CalibratedFit, numbers: pd.DataFrame) -> list[str]:
+    """How well the calibrated sole makes the force on the plate, and how many of its numbers that identifies."""
+    missed = (
+        f"The calibrated sole misses the vertical force by {fit.vertical.rmsd:.1%} of body weight and the centre of "
+        f"pressure by {fit.centre.rmsd:.1%} of the foot; the stance identifies {_identified(numbers)} of its numbers."
+    )
+    return [
+        missed,
+        f"The force along the floor {fit.along}.",
+        f"The foot is {fit.offset} off its standing trial.",
+    ]
+
+
+def _identified(numbers: pd.DataFrame) -> str:
+    sole = numbers[~numbers["number"].str.startswith("foot.")]
+    return f"{int((sole['verdict'] == 'known').sum())} of {len(sole)}"
+
+
+def numbers_in_words(numbers: pd.DataFrame, exponent: float) -> pd.DataFrame:
+    """Numbers as the page shows them: names in words, the exponent of the law in the unit, three digits."""
+    unit = "N/m" if exponent == 1.0 else f"N/m^{exponent:.3g}"
+
+    def text(value: object) -> object:
+        return rounded(value, 3) if isinstance(value, float) and np.isfinite(value) else value
+
+    named = [", ".join(each.replace("_", " ").split(".")) for each in numbers["number"]]
+    units = [unit if each == "N/m^n" else each for each in numbers["unit"]]
+    shown = numbers.assign(number=named, unit=units)
+    for name in shown.select_dtypes("float").columns:
+        shown[name] = shown[name].map(text)
+    return shown
+
+
 def calibration_page(
-    stance: RecordedStance,
-    curves: CurveSheet,
-    numbers: pd.DataFrame,
-    sentences: Sequence[str],
-    walked: bool,
+    stance: RecordedStance, curves: CurveSheet, numbers: pd.DataFrame, fit: CalibratedFit, walked: bool
 ) -> Page:
     """Curves, numbers and what they mean.
 
@@ -81,7 +135,7 @@ def calibration_page(
     """
     sections: list[Section] = [
         *curves.panels,
-        frame_table("Numbers of the zones", numbers, 3),
+        frame_table("Numbers of the zones", numbers_in_words(numbers, fit.exponent), 3),
         INPUTS,
         OPTIONS,
         Words("What the numbers mean", (WALKED if walked else POSES) + READ),
@@ -91,7 +145,12 @@ def calibration_page(
         subtitle="Stiffness, damping and friction of five zones from one stance",
         time=stance.time,
         time_label="time [s]",
-        headline=headline(sentences),
+        headline=answer(fit, numbers),
+        facts=[
+            ("vertical force missed by", f"{fit.vertical.rmsd:.1%} of body weight, R² {fit.vertical.r2:.2f}"),
+            ("centre of pressure missed by", f"{fit.centre.rmsd:.1%} of the foot, R² {fit.centre.r2:.2f}"),
+            ("numbers identified", _identified(numbers)),
+        ],
         start_frame=int(argmax(stance.measured[:, 1])),
         sections=tuple(sections),
         plays=False,

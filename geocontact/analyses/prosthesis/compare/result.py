@@ -44,6 +44,7 @@ from geocontact.analyses.prosthesis.compare.stances import (
     summary_table,
     trials_table,
 )
+from geocontact.analyses.prosthesis.quantity_words import NAMES, SAID, below_zero
 from geocontact.analyses.prosthesis.stance_files import (
     counted_twice,
     numbers_table,
@@ -111,7 +112,7 @@ class ProsthesisCompareResult(Result):
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Ensembles, errors beside trivial predictors, outliers."""
-        return {REPORT: comparison_page(self.stances, self.tables(), self.sentences)}
+        return {REPORT: comparison_page(self.stances, self.tables())}
 
     def write_files(self, folder: Path) -> None:
         """Coordinates, loads, spheres and numbers of each stance besides, as `prosthesis simulate` writes them."""
@@ -125,9 +126,7 @@ class ProsthesisCompareResult(Result):
         super().write_files(folder)
 
 
-WORDS = {"resultant": "resultant force", "cop_ground": "centre of pressure", "ankle_moment": "ankle moment"}
-SAID = tuple(WORDS)
-"""Quantities that have a sentence."""
+WORDS = {name: NAMES[name] for name in SAID}
 PLAIN = ("mean of the others rmse", "another rmse")
 """Columns of both predictors without a model."""
 
@@ -195,7 +194,15 @@ def _summarise(r: ProsthesisCompareResult) -> None:
             reserve(f"{one.name} is an outlier with {one.errors.table['resultant'][1]:.1%} BW: {seen}")
     if transfer < FEWEST:
         reserve(f"with {transfer} stances outliers cannot be detected: {FEWEST} are needed")
+    _reserve_below_a_constant(rows)
     note("compare", plain({one.name: _numbers(one) for one in stances}))
+
+
+def _reserve_below_a_constant(rows: pd.DataFrame) -> None:
+    """A reservation on every quantity whose mean R² is below 0."""
+    for quantity, r2 in rows["r2 [-]"].items():
+        if r2 < 0.0:
+            reserve(below_zero(str(quantity), float(r2)))
 
 
 def _of_setting(name: str, row: pd.Series) -> str:

@@ -46,21 +46,34 @@ class StudiedStance:
 
 
 def read(o: ProsthesisCompareOptions) -> tuple[StudiedStance, ...]:
-    """Every stance; what is warned of several is warned once."""
+    """Every stance; what is warned of several is one line."""
     study = read_gait_study(o.study)
     add_input("study", o.study, trials=len(study.trials), persons=len(study.persons))
-    return tuple(_stance(each, study.persons[each.person], o) for each in study.trials)
+    seen: dict[str, list[str]] = {}
+    found = tuple(_stance(each, study.persons[each.person], o, seen) for each in study.trials)
+    for line, names in seen.items():
+        reserve(f"{_whose(names, len(found))}: {line}")
+    return found
 
 
-def _stance(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -> StudiedStance:
+def _whose(names: Sequence[str], count: int) -> str:
+    """The stance that a warning is of, or how many of all have it."""
+    if len(names) == 1:
+        return names[0]
+    return f"all {count} stances" if len(names) == count else f"{len(names)} of {count} stances"
+
+
+def _stance(
+    trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions, seen: dict[str, list[str]]
+) -> StudiedStance:
+    """One stance; its warnings go into `seen` with its name."""
     asked = _asked(trial, person, o)
     with collecting(Record("prosthesis simulate", {})) as own:
         walk = walk_of(read_walk(asked), asked)
     for entry in own.inputs:
         current().inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
-    for line in own.warnings:
-        if not any(line in known for known in current().warnings):
-            reserve(f"{trial.name}: {line}")
+    for line in (each.replace("`", "") for each in own.warnings):  # keys of the study, no options of this command
+        seen.setdefault(line, []).append(trial.name)
     if walk.plate is None:  # every stance of a study names its plate
         raise ValueError(f"{trial.name}: no plate")
     return StudiedStance(trial, person, asked, walk, walk.plate)

@@ -127,7 +127,8 @@ class ProsthesisDesignResult(Result):
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Outcomes, answers, what they hang on, numbers."""
-        return {REPORT: design_page(self.curves()["design"], self.sweep, self.tables(), self.sentences)}
+        drawn, aim = self.curves()["design"], self.options.aim
+        return {REPORT: design_page(drawn, self.sweep, self.answers, aim, self.tables(), self.sentences)}
 
     def _shapes(self) -> pd.DataFrame:
         vary = self.ends.vary

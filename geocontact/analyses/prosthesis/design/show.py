@@ -9,7 +9,7 @@ import pandas as pd
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, UNITS, shown_values
+from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, UNITS, shown_values, value_words
 from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import words
 from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES, Knob, Response
@@ -94,28 +94,100 @@ LIMITS = [
 ]
 
 
-def design_page(curves: CurveSheet, sweep: Sweep, tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]) -> Page:
-    """Outcomes, answers, what they hang on, numbers; `curves` are those of `design_curves`."""
+def best_words(answer: AimAnswer, sweep: Sweep) -> str:
+    """The best value for one aim with its interval, and whether that is an end of what can be set."""
+    vary, choice = sweep.knob.vary, answer.choice
+    if not choice.told:
+        return "no effect" if _without_effect(answer) else "not identified"
+    ends = sweep.knob.settings[[0, -1]]
+    at_end = ", the end of the range" if np.isclose(choice.best, ends).any() else ""
+    best, upper = (value_words(vary, each) for each in (choice.best, choice.upper))
+    lower = f"{SHOWN[vary][0] * choice.lower:.{DIGITS[vary]}f}"
+    return f"{best} ({lower} to {upper}{at_end})"
+
+
+def _without_effect(answer: AimAnswer) -> bool:
+    return all(side.verdict == "no effect" for side in answer.choice.sides.values())
+
+
+def others_words(answers: Sequence[AimAnswer], aim: str, sweep: Sweep) -> list[str]:
+    """The best values for the aims that were not asked for, as far as they are identified."""
+    found = [
+        f"{MEASURES[each.aim].words.partition(',')[0]}, {each.wanted}: {best_words(each, sweep)}"
+        for each in answers
+        if each.aim != aim and each.choice.told
+    ]
+    return [f"Identified for other aims: {'; '.join(found)}."] if found else ["No other aim has a best value either."]
+
+
+def answers_in_words(answers: Sequence[AimAnswer], sweep: Sweep) -> pd.DataFrame:
+    """One row for each aim, as the page shows it; answers.csv has the gains by response."""
+    present = value_words(sweep.knob.vary, sweep.knob.present)
+    rows = []
+    for each in answers:
+        choice = each.choice
+        better = ("yes" if choice.better else "not shown") if choice.told else ""
+        row = {"outcome": MEASURES[each.aim].words, "wanted": each.wanted}
+        row |= {f"best {sweep.knob.vary}": best_words(each, sweep), f"better than {present}": better, "why": choice.why}
+        rows.append(row | {response: side.verdict for response, side in choice.sides.items()})
+    return pd.DataFrame(rows)
+
+
+def _outcomes_in_words(table: pd.DataFrame) -> pd.DataFrame:
+    names = {aim: measure.words.partition(",")[0] for aim, measure in MEASURES.items()}
+    return table.assign(outcome=[names.get(each, each) for each in table["outcome"]])
+
+
+def design_page(
+    curves: CurveSheet,
+    sweep: Sweep,
+    answers: Sequence[AimAnswer],
+    aim: str,
+    tables: Mapping[str, pd.DataFrame],
+    sentences: Sequence[str],
+) -> Page:
+    """Outcomes, answers, what they hang on, numbers.
+
+    Parameters
+    ----------
+    curves
+        Those of `design_curves`; outcomes without any effect are left out.
+    aim
+        What was asked for.
+    """
+    vary, where = sweep.knob.vary, words(sweep.knob.terrain)
+    flat = [each for each in answers if _without_effect(each)]
+    idle = [f"There is no curve of the {MEASURES[each.aim].words}: the {vary} has no effect on it." for each in flat]
+    panels = [panel for panel, each in zip(curves.panels, [*answers, None], strict=True) if each not in flat]
+    told = next(each for each in answers if each.aim == aim).choice.told
     sections: list[Section] = [
-        *curves.panels,
-        frame_table("What is best, and whether the data identify it", tables["answers"], 3),
-        *(frame_table(INTACT, tables["intact"], 3) for _ in range("intact" in tables)),
-        *(frame_table(PAIRS, tables["pairs"], 3) for _ in range("pairs" in tables)),
-        frame_table("Between which ends each outcome lies, whatever the person keeps", tables["ranges"], 3),
-        frame_table("Sensitivities of the outcomes of the present foot", tables["sensitivities"], 3),
+        *panels,
+        frame_table("What is best, and whether the data identify it", answers_in_words(answers, sweep), 3),
+        *(frame_table(INTACT, _outcomes_in_words(tables["intact"]), 3) for _ in range("intact" in tables)),
+        *(frame_table(PAIRS, _outcomes_in_words(tables["pairs"]), 3) for _ in range("pairs" in tables)),
+        frame_table(
+            "Between which ends each outcome lies, whatever the person keeps", _outcomes_in_words(tables["ranges"]), 3
+        ),
+        frame_table(
+            "Sensitivities of the outcomes of the present foot", _outcomes_in_words(tables["sensitivities"]), 3
+        ),
         frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
         INPUTS,
         OPTIONS,
-        Words("What the numbers do and do not contain", [*LIMITS, NOT_A_DEVICE]),
+        Words("What the numbers do and do not contain", [*LIMITS, *idle, NOT_A_DEVICE]),
     ]
-    vary, where = sweep.knob.vary, words(sweep.knob.terrain)
     place = f"; {where}" if where else ""
     return Page(
         title=f"Which {vary} of the foot suits this person",
         subtitle=f"Recorded at the fulcrum of {1e3 * sweep.knob.fulcrum:.0f} mm; {len(sweep.drawn)} draws{place}",
         time=shown_values(sweep),
         time_label=f"{vary} [{UNITS[vary]}]",
-        headline=headline(sentences, most=2),
+        headline=[*headline(sentences, most=2 if told else 1), *others_words(answers, aim, sweep)],
+        facts=[
+            (f"{MEASURES[each.aim].words.partition(',')[0]}, {each.wanted}", best_words(each, sweep))
+            for each in answers
+        ],
         sections=tuple(sections),
+        start_frame=int(np.argmin(np.abs(sweep.knob.settings - sweep.knob.present))),
         plays=False,
     )

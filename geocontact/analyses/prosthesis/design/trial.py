@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, listener, reserve
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
-from geocontact.analyses.prosthesis.recorded_files import Laboratory, foot_with_law, offset_of_law
+from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_intact_leg
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import stance_on_plate
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
@@ -45,7 +45,7 @@ def read(o: ProsthesisDesignOptions) -> FootAndTrial:
     """Everything the options name."""
     with listener().preparing():
         foot = foot_with_law(vsf_foot(), o.law)
-    lab = Laboratory(o.side, o.axes, o.markers_map, o.c3d_unit)
+    lab = LaboratoryFiles(o.side, o.axes, o.markers_map, o.c3d_unit)
     own = lab.plate_under_foot(o.plates, o.plate, o.mass)
     plate = lab.stance(own, o.plates)
     standing, walking = lab.markers("`static`", o.static), lab.markers("markers", o.markers)
@@ -105,7 +105,7 @@ def intact_side(o: ProsthesisDesignOptions, trial: RecordedTrial) -> IntactStep 
         what = f"`intact` states already which {MEASURES[o.aim].words} is wanted"
         raise InputError("", "`target`", what, "give one of them")
     leg = standing_intact_leg(trial.standing, trial.person)
-    lab = Laboratory(o.side, o.axes, o.markers_map, o.c3d_unit)
+    lab = LaboratoryFiles(o.side, o.axes, o.markers_map, o.c3d_unit)
     recorded = lab.markers("`intact`", o.intact)
     plates = o.plates if o.intact_plates is None else o.intact_plates
     under = lab.plate_under_foot(plates, o.intact_plate, o.mass, "intact_plate")

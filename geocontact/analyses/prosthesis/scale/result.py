@@ -32,7 +32,7 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
 from geocontact.analyses.motion.skeleton import MARKER, scene_of, skeleton
-from geocontact.analyses.prosthesis.recorded_files import Laboratory
+from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
 from geocontact.analyses.prosthesis.stance_files import numbers_table
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
@@ -139,7 +139,7 @@ class Stood:
 
 def read(o: ProsthesisScaleOptions) -> Stood:
     """Everything the options name."""
-    lab = Laboratory(o.side, o.axes, o.markers_map, o.c3d_unit)
+    lab = LaboratoryFiles(o.side, o.axes, o.markers_map, o.c3d_unit)
     standing = lab.markers("static", o.static)
     moved = None if o.functional is None else lab.markers("`functional`", o.functional)
     lab.check(standing, moved, cast(float, o.mass))

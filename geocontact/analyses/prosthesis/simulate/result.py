@@ -27,6 +27,7 @@ from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.prosthesis.quantity_words import SAID, below_zero
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.show import stance_curves, stance_page
 from geocontact.analyses.prosthesis.simulate.walk import (
@@ -198,6 +199,8 @@ def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimul
     say(found_words(found, told))
     if errors is not None:
         say(beside_words(errors))
+        for line in below_a_constant(errors):
+            reserve(line)
         note("errors", plain({name: {"r2": r2, "rmse": off} for name, (r2, off) in errors.table.items()}))
     if walk.leg.offset.given:
         say(offset_words(walk.leg.offset))
@@ -226,11 +229,16 @@ def beside_words(errors: StanceErrors) -> str:
     )
 
 
+def below_a_constant(errors: StanceErrors) -> list[str]:
+    """Words on the force and the centre of pressure where a constant would fit the plate better."""
+    return [below_zero(name, float(r2)) for name, (r2, _) in errors.table.items() if name in SAID and r2 < 0.0]
+
+
 def _lasting(errors: StanceErrors) -> str:
     late = 1e3 * (errors.stance[0] - errors.stance[1])
     if np.isfinite(late):
         return f"stance {late:+.0f} ms"
-    return f"over the first {errors.simulated:.0%} of the plate's stance, for the simulation ended before toe-off"
+    return f"over the first {errors.simulated:.0%} of the plate's stance, because the simulation ended before toe-off"
 
 
 simulate = Job("prosthesis simulate", ProsthesisSimulateOptions, read, run)

@@ -35,24 +35,24 @@ DIRECTIONS = {
 }
 ALONE = (
     "Only the prosthetic side is modelled: trunk, arms and the other leg are one mass on the pelvis, the measured "
-    "force under the other foot acts on it, and the other leg's swing does not. Turns of pelvis, hip and knee are as "
-    "recorded; the pelvis' height and advance, the socket and the keel are found."
+    "force under the other foot acts on it, and the other leg's swing does not. Rotations of pelvis, hip and knee "
+    "are as recorded; the pelvis' height and advance, the socket and the keel are computed."
 )
 SOLE = (
-    "The foot is a keel of eight hinges on spheres. Where the spheres are, and what they press with, is invented but "
-    "for stiffness in compression; nothing was fitted to this person."
+    "The foot is a keel of eight hinges on spheres. Positions and forces of the spheres are invented except for the "
+    "stiffness in compression; nothing was fitted to this person."
 )
 CALIBRATED = (
-    "The foot is a keel of eight hinges on spheres. Where the spheres are is invented; what they press with, and how "
-    "the foot is off its standing trial, is what the law's file says of it."
+    "The foot is a keel of eight hinges on spheres. Positions of the spheres are invented; their forces, and the "
+    "offset of the foot from its standing trial, are from the law's file."
 )
 TWICE = (
-    "Markers on the socket see the socket's own turn against the residual limb, so that it is in the knee angle as "
+    "Markers on the socket include its rotation against the residual limb, so this rotation is in the knee angle as "
     "well as in the bushing."
 )
 IN_TURNS = (
-    "Markers on the socket see the socket's own turn against the residual limb. What the simulation finds of it is "
-    "taken out of them, in turns of fitting and simulating."
+    "Markers on the socket include its rotation against the residual limb. The simulation computes this rotation and "
+    "removes it from them; fit and simulation are repeated."
 )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_tasks import MOVING
-from geocontact.analyses.prosthesis.recorded_files import Laboratory, foot_with_law, offset_of_law
+from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import of_side
@@ -55,7 +55,7 @@ class RecordedWalk:
 
 def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
     """Everything the options name."""
-    lab = Laboratory(o.side, o.axes, o.markers_map, o.c3d_unit)
+    lab = LaboratoryFiles(o.side, o.axes, o.markers_map, o.c3d_unit)
     ground = _ground(o)
     foot = foot_with_law(vsf_foot(), o.law)
     standing = lab.markers("`static`", cast(Path, o.static))

@@ -11,6 +11,7 @@ elevation, all: MAE 4.02, RMSD 4.51 deg
 elevation, work: MAE 4.93, RMSD 5.12 deg
 force, all: MAE 13.4, RMSD 14.7 N
 force, work: MAE 16.1, RMSD 16.6 N
+warning: force: R² is -0.66, a constant would fit better
 """
 
 from __future__ import annotations
@@ -22,13 +23,14 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.frame.collector import add_input, note, reserve, say
+from geocontact.analyses.frame.collector import add_input, note, reserve, say, spelled
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
+from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
+from geocontact.analyses.shoulder.recording_doubts import recording_doubts
 from geocontact.analyses.shoulder.recordings import recorded_channels, shown_in
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
 from geocontact.data.errors import InputError
@@ -92,7 +94,7 @@ def _simulated(path: Path) -> tuple[Channels, tuple[str, ...], float]:
     phase = tuple(map(str, table["phase"]))
     odd = [name for name in phase if name not in PHASES]
     if odd:
-        raise InputError(path, "phase", f"{odd[0]!r} is no phase", f"phases are {', '.join(PHASES)}")
+        raise InputError(path, "phase", f"{odd[0]!r} is not a phase", f"phases are {', '.join(PHASES)}")
     values = {channel: np.asarray(table[name], float) for channel, name in SIMULATED.items()}
     out = float(np.mean([str(each) != "0" for each in table[OUT]])) if OUT in table else 0.0
     return Channels(np.asarray(table["time [s]"], float), values), phase, out
@@ -108,6 +110,9 @@ def compared(both: ArmAndRecording, o: ShoulderCompareOptions) -> tuple[Compared
         raise InputError(o.recorded, "", f"runs from {theirs}, the simulation from {ours}", "give `delay`")
     if found.share < 1.0:
         reserve(f"{o.recorded.name}: {found.share:.0%} of the simulated time was recorded")
+    for one in found.channels.values():
+        for words in recording_doubts(one, o.delay):
+            reserve(spelled(f"{one.channel}: {words}"))
     return tuple(found.channels.values())
 
 
@@ -146,8 +151,41 @@ def channel_curves(channels: Sequence[ComparedChannel]) -> CurveSheet:
     return CurveSheet(panels, Course("time", "s", channels[0].time))
 
 
-def comparison_page(recorded: str, channels: Sequence[ComparedChannel], sentences: Sequence[str]) -> Page:
-    """Both curves of each channel, and errors by phase; `recorded` is the name of the recording."""
+UNITS = {"deg": "°", "N": " N"}
+
+
+def answer(channels: Sequence[ComparedChannel], reserved: str = "") -> list[str]:
+    """How far each channel is off over the whole trial, and over the work; `reserved` ends the first sentence."""
+    told = []
+    for part, where in ((ALL, "over the whole trial"), (WORK, "while the arm works")):
+        off = [f"the {one.channel} by {_size(one, part)}" for one in channels if part in one.errors]
+        if off:
+            told.append(f"{' and '.join(off)} (root mean square) {where}")
+    return [f"The simulation misses {told[0]}{reserved}.", *(f"It misses {words}." for words in told[1:])]
+
+
+def _size(one: ComparedChannel, part: str) -> str:
+    unit, factor = shown_in(one.channel)
+    return f"{factor * one.errors[part].rmsd:.3g}{UNITS[unit]}"
+
+
+def _facts(channels: Sequence[ComparedChannel]) -> list[tuple[str, str]]:
+    """Error and R² of each channel over the whole trial, and error over the work."""
+    facts = []
+    for one in channels:
+        r2 = one.errors[ALL].r2
+        known = "" if np.isnan(r2) else f", R² {r2:.2f}"
+        facts.append((f"{one.channel}, whole trial, RMSD", f"{_size(one, ALL)}{known}"))
+        if WORK in one.errors:
+            facts.append((f"{one.channel}, at work, RMSD", _size(one, WORK)))
+    return facts
+
+
+def comparison_page(recorded: str, channels: Sequence[ComparedChannel], reserved: str) -> Page:
+    """Both curves of each channel, and errors by phase; `recorded` is the name of the recording.
+
+    `reserved` are the words of `answer`.
+    """
     time = channels[0].time
     shown = thinned(len(time), [values for one in channels for values in (one.measured, one.model)])
     return Page(
@@ -155,7 +193,9 @@ def comparison_page(recorded: str, channels: Sequence[ComparedChannel], sentence
         subtitle="Shoulder exoskeleton: elevation of its arm, force in its cuff",
         time=time[shown],
         time_label="time [s]",
-        headline=headline(sentences, most=2),
+        headline=answer(channels, reserved),
+        facts=_facts(channels),
+        start_frame=int(np.argmax(np.nan_to_num(channels[-1].measured[shown]))),
         sections=(
             *channel_curves(channels).at(shown),
             frame_table("Errors by channel and phase", comparison_table(channels)),
@@ -170,10 +210,19 @@ def comparison_page(recorded: str, channels: Sequence[ComparedChannel], sentence
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class ShoulderCompareResult(Result):
-    """A simulated arm beside a recording."""
+    """A simulated arm beside a recording.
+
+    Parameters
+    ----------
+    channels
+        Those that were recorded.
+    out_of_cuff
+        Share of the simulated time for which the sphere is out of the cuff.
+    """
 
     options: ShoulderCompareOptions
     channels: tuple[ComparedChannel, ...]
+    out_of_cuff: float
 
     @property
     def rmsd(self) -> dict[tuple[str, str], float]:
@@ -190,7 +239,8 @@ class ShoulderCompareResult(Result):
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Both curves of each channel, and errors by phase."""
-        return {REPORT: comparison_page(self.options.recorded.name, self.channels, self.sentences)}
+        reserved = out_of_cuff_words(self.out_of_cuff)
+        return {REPORT: comparison_page(self.options.recorded.name, self.channels, reserved)}
 
 
 def run(both: ArmAndRecording, o: ShoulderCompareOptions) -> ShoulderCompareResult:
@@ -206,7 +256,7 @@ def run(both: ArmAndRecording, o: ShoulderCompareOptions) -> ShoulderCompareResu
         "comparison",
         plain({each.channel: {name: vars(error) for name, error in each.errors.items()} for each in channels}),
     )
-    return ShoulderCompareResult(options=o, channels=channels)
+    return ShoulderCompareResult(options=o, channels=channels, out_of_cuff=both.out_of_cuff)
 
 
 compare = Job("shoulder compare", ShoulderCompareOptions, read, run)

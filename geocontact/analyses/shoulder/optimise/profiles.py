@@ -35,7 +35,7 @@ from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport, hel
 from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds
 from geocontact.shoulder_exoskeleton.support.profile_limits import Limits
 from geocontact.shoulder_exoskeleton.synthetic import all_arms
-from geocontact.trial_checks.recorded import RecordedTrial
+from geocontact.trial_checks.recorded import TrialInputs
 
 T = TypeVar("T")
 WORST = 0.25
@@ -87,7 +87,7 @@ def read(o: ShoulderOptimiseOptions) -> WorkersAndDevice:
 def _arms(o: ShoulderOptimiseOptions, study: OverheadStudy, trial: StudyTrial, lengths: Wearer) -> list[ArmTrial]:
     person, task = study.persons[trial.person], study.tasks[trial.task]
     recorded = renamed_as_told(markers_given(trial.markers, o.axes, None, o.c3d_unit), o.markers_map)
-    check_trial(RecordedTrial(markers=recorded, turn=turn_of(o.axes)))
+    check_trial(TrialInputs(markers=recorded, turn=turn_of(o.axes)))
     seen = filled_markers(recorded, o.gap_limit)
     add_input(f"{trial.person} {trial.task}", trial.markers, frames=len(seen))
     current = tool_current(trial.tool, seen.time)

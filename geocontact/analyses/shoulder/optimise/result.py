@@ -85,6 +85,8 @@ class ShoulderOptimiseResult(Result):
         By person; empty where there is one only.
     front
         Reserve by reserve.
+    taken
+        What the group's profile and one factor take away, by the aim and in the mean over persons; "with sensors".
     """
 
     options: ShoulderOptimiseOptions
@@ -99,6 +101,7 @@ class ShoulderOptimiseResult(Result):
     noisy: Mapping[str, Mapping[str, SupportOutcome]]
     held_out: Mapping[str, HeldOutSupport]
     front: tuple[FrontPoint, ...]
+    taken: Mapping[str, float]
 
     @property
     def factors(self) -> dict[tuple[str, str, str, str], float]:
@@ -145,7 +148,7 @@ class ShoulderOptimiseResult(Result):
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Torques, factors, what they do, held-out persons, fronts."""
-        return {REPORT: profile_page(self.curves()["profile"], self.tables(), self.sentences)}
+        return {REPORT: profile_page(self.curves()["profile"], self.tables(), self.taken)}
 
     def _rows(self, outcomes: Mapping[str, Mapping[str, SupportOutcome]]) -> pd.DataFrame:
         rows = []
@@ -207,7 +210,11 @@ def run(workers: WorkersAndDevice, o: ShoulderOptimiseOptions) -> ShoulderOptimi
     if judged:
         by_person[OTHERS] = {person: each.factors for person, each in judged.items()}
     noisy = sound(o, lambda: {name: with_sensors(trials, workers.device, f, o.seed) for name, f in by_person.items()})
-    result = ShoulderOptimiseResult(
+    taken = say_profiles(made, loop, trials)
+    say_held_out(judged, noisy.get(OTHERS, {}))
+    taken["with sensors"] = say_simulated(noisy, loop.limits)
+    note("optimise", plain({"device": workers.device.name, **taken}))
+    return ShoulderOptimiseResult(
         options=o,
         cases=tuple(support_case(each, workers.support) for each in trials),
         corrected=corrected,
@@ -220,12 +227,8 @@ def run(workers: WorkersAndDevice, o: ShoulderOptimiseOptions) -> ShoulderOptimi
         noisy=noisy,
         held_out=judged,
         front=front_points(corrected, loop),
+        taken=taken,
     )
-    taken = say_profiles(made, loop, trials)
-    say_held_out(judged, noisy.get(OTHERS, {}))
-    left = say_simulated(noisy, loop.limits)
-    note("optimise", plain({"device": workers.device.name, **taken, "with sensors": left}))
-    return result
 
 
 optimise = Job("shoulder optimise", ShoulderOptimiseOptions, read, run)

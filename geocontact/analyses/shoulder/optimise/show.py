@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import reserve, say
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
-from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
+from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
 from geocontact.data.motion import Course
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial
@@ -68,15 +68,38 @@ def profile_curves(
     return CurveSheet([*torques, *angles], columns=3)
 
 
-def profile_page(drawn: CurveSheet, tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]) -> Page:
+def answer(taken: Mapping[str, float], held: pd.DataFrame) -> list[str]:
+    """What the profile takes away, and what is left of it for a person who did not make it.
+
+    `taken` is what `say_profiles` returns, `held` the table of persons held out.
+    """
+    best = (
+        f"{taken['taken away']:.1%} of the shoulders' torque is taken away without pushing an arm up, in the mean over "
+        f"persons; one factor for all tasks, hands and phases takes {taken['taken away by one factor']:.1%}."
+    )
+    found = [best]
+    if len(held):
+        shares, gains = (100.0 * held[name] for name in ("taken away [-]", "gain over one factor [-]"))
+        sure = int(held["gain beyond the model's error"].sum())
+        pushed = int((held["pushed up [-]"] > 0.0).sum())
+        up = f"{pushed} of {len(held)} are pushed up" if pushed else "none is pushed up"
+        found.append(
+            f"For persons who did not make it: {shares.min():.1f} to {shares.max():.1f} %, {gains.min():.1f} to "
+            f"{gains.max():.1f} points over one factor; {up}, and the gain is beyond the model's error for {sure} of "
+            f"{len(held)}."
+        )
+    return found
+
+
+def profile_page(drawn: CurveSheet, tables: Mapping[str, pd.DataFrame], taken: Mapping[str, float]) -> Page:
     """The page of support profiles.
 
-    `drawn` are those of `profile_curves`, `tables` those of the result.
+    `drawn` are those of `profile_curves`, `tables` those of the result, `taken` what `say_profiles` returns.
     """
     front = tables["front"]
-    limits, reserves, taken = (front[name].to_numpy(float) for name in front.columns)
+    limits, reserves, shares = (front[name].to_numpy(float) for name in front.columns)
     curves = [
-        Curve(f"reserve {100.0 * reserve:g} %", 100.0 * taken[reserves == reserve]) for reserve in np.unique(reserves)
+        Curve(f"reserve {100.0 * reserve:g} %", 100.0 * shares[reserves == reserve]) for reserve in np.unique(reserves)
     ]
     held = tables["held_out"]
     sections: list[Section] = [
@@ -100,7 +123,7 @@ def profile_page(drawn: CurveSheet, tables: Mapping[str, pd.DataFrame], sentence
         subtitle="Factors by work phase, hand and task that never push the arm up",
         time=np.unique(limits),
         time_label="force limit [N]",
-        headline=headline(sentences),
+        headline=answer(taken, tables["held_out"]),
         facts=_facts(tables["factors"]),
         sections=tuple(sections),
         plays=False,

@@ -29,7 +29,7 @@ from geocontact.shoulder_exoskeleton.support.outcome import Factors
 from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey, Hand
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 from geocontact.shoulder_exoskeleton.working_arm import SCREWING, SimulatedArm, arm_at_work
-from geocontact.trial_checks.recorded import RecordedTrial
+from geocontact.trial_checks.recorded import TrialInputs
 
 CURRENT = 1.0
 """A; a tool that idles takes less."""
@@ -74,7 +74,7 @@ def worn_along(o: ShoulderSimulateOptions, wearer: Wearer) -> Worn:
     device = device_named(o.device)
     seen = renamed_as_told(markers_given(o.markers, o.axes, o.time, o.c3d_unit), o.markers_map)
     add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
-    check_trial(RecordedTrial(markers=seen, turn=turn_of(o.axes)))
+    check_trial(TrialInputs(markers=seen, turn=turn_of(o.axes)))
     settings = MarkerSettings(upright=o.upright, gap_limit=o.gap_limit)
     found = smoothed_arms(seen, settings, None if o.cutoff == 0.0 else o.cutoff, o.side)
     for line in found.notes:

@@ -107,7 +107,8 @@ class ShoulderSimulateResult(Result):
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Moving arms with the forces in their cuffs, curves, tables."""
-        return {REPORT: simulation_page(self.options, self.arms, self.markers, self.tables(), self.sentences)}
+        page = simulation_page(self.options, self.arms, self.markers, self.wearer, self.tables(), self.sentences)
+        return {REPORT: page}
 
     def write_files(self, folder: Path) -> None:
         """Angles and external loads for OpenSim, lines for ParaView, a case in the plane besides."""

@@ -11,8 +11,9 @@ from jaxtyping import Float, Int
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
+from geocontact.analyses.shoulder.simulate.wearer_body import wearer_body
 from geocontact.data.motion import Course
-from geocontact.shoulder_exoskeleton.device import JOINTS
+from geocontact.shoulder_exoskeleton.device import JOINTS, Wearer
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 from geocontact.shoulder_exoskeleton.working_arm import SimulatedArm
 from geocontact.view.curves.declared import Curve, Curves, CurveSheet, stroke
@@ -31,6 +32,8 @@ DIRECTIONS = {
     "left (+x)": (1.0, 0.0, 0.0),
     "above (+z)": (0.0, 0.0, 1.0),
 }
+VIEW = {"right": (-1.0, 0.55, 0.35), "left": (1.0, 0.55, 0.35)}
+"""From behind, on the side of the first arm."""
 POINT = (
     "The cuff holds the arm at one point: a sphere in a tube of the same radius. That holds two of the three joints; "
     "the third is held by friction, stops and damping of the joints, which are invented, and so is what of the passive "
@@ -51,10 +54,11 @@ def simulation_page(
     o: ShoulderSimulateOptions,
     arms: Sequence[SimulatedArm],
     markers: Float[np.ndarray, "t m 3"],
+    wearer: Wearer,
     tables: Mapping[str, pd.DataFrame],
     sentences: Sequence[str],
 ) -> Page:
-    """The page of simulated arms.
+    """The page of simulated arms, opened where the force that lifts an arm is largest.
 
     Parameters
     ----------
@@ -64,10 +68,19 @@ def simulation_page(
         Those of the result.
     """
     time = arms[0].simulation.motion.time
-    shown = thinned(len(time), [np.linalg.norm(each.simulation.told["force"], axis=1) for each in arms])
+    lifting = [each.simulation.supporting for each in arms]
+    shown = thinned(len(time), [np.linalg.norm(each.simulation.told["force"], axis=1) for each in arms] + lifting)
     changed = [tables[name] for name in ("sensitivity",) if name in tables]
     sections: list[Section] = [
-        Scene(directions=DIRECTIONS, up=(0.0, 0.0, 1.0), view=(-0.8, 1.0, 0.5), linkages=_lines(arms, markers, shown)),
+        Scene(
+            directions=DIRECTIONS,
+            up=(0.0, 0.0, 1.0),
+            view=VIEW[arms[0].side],
+            linkages=[
+                *_lines(arms, markers, shown),
+                *wearer_body(wearer, arms[0].simulation.motion.shoulder.mean(axis=0)),
+            ],
+        ),
         *arm_curves(arms).at(shown),
         Readout([row for each in arms for row in _phases(each, shown)]),
         *(frame_table("What each number of the device changes, root mean square", table) for table in changed),
@@ -83,6 +96,7 @@ def simulation_page(
         time_label="time [s]",
         headline=headline(sentences, most=2),
         facts=[fact for each in arms for fact in _facts(each)],
+        start_frame=int(np.argmax(np.max(lifting, axis=0)[shown])),
         sections=tuple(sections),
         numbers=shown + 1,
         total=len(time),

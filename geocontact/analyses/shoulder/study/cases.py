@@ -16,13 +16,18 @@ from geocontact.analyses.shoulder.recordings import recorded_channels, shown_in
 from geocontact.analyses.shoulder.shared_options import level
 from geocontact.analyses.shoulder.simulate.arms import Worn, worn_along
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
-from geocontact.analyses.shoulder.simulated_arm import warn_of
 from geocontact.analyses.shoulder.study.options import StudyOptions
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import Agreement
 from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
-from geocontact.shoulder_exoskeleton.beside_recording import ELEVATION, FORCE, Channels, beside_recording
+from geocontact.shoulder_exoskeleton.beside_recording import (
+    ELEVATION,
+    FORCE,
+    BesideRecording,
+    Channels,
+    beside_recording,
+)
 from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
 from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
@@ -120,16 +125,20 @@ class StudyCase:
         Along the motion recorded without it: group 2; None where there is none.
     recorded
         Of this arm's logger and mat; None where there are none.
-    errors
-        By channel and part of the trial, of `within`; the channel `COPIED` is the human elevation in place of the
-        exoskeleton's.
+    beside
+        `within` beside the recording; the channel `COPIED` is the human elevation in place of the exoskeleton's.
     """
 
     trial: StudyTrial
     within: SimulatedArm
     without: SimulatedArm | None
     recorded: Channels | None
-    errors: Mapping[str, Mapping[str, Agreement]]
+    beside: BesideRecording | None
+
+    @property
+    def errors(self) -> dict[str, Mapping[str, Agreement]]:
+        """By channel and part of the trial; none without a recording."""
+        return {} if self.beside is None else {name: one.errors for name, one in self.beside.channels.items()}
 
     @property
     def name(self) -> str:
@@ -143,12 +152,9 @@ def study_case(each: StudyTrialInputs, arm: ArmMotion, o: StudyOptions) -> Study
     bare = () if each.without is None else each.without.arms
     same = next((one for one in bare if one.side == arm.side), None)
     without = None if each.without is None or same is None else _simulated(each, each.without, same, o)
-    warn_of(within.simulation, each.trial.name)
-    if without is not None:
-        warn_of(without.simulation, f"{each.trial.name} as {each.trial.without}")
     recorded = each.recorded.get(arm.side)
-    errors = {} if recorded is None else _errors(each, within, recorded)
-    return StudyCase(each.trial, within, without, recorded, errors)
+    beside = None if recorded is None else _beside(each, within, recorded)
+    return StudyCase(each.trial, within, without, recorded, beside)
 
 
 def _simulated(each: StudyTrialInputs, worn: Worn, arm: ArmMotion, o: StudyOptions) -> SimulatedArm:
@@ -164,7 +170,7 @@ def _simulated(each: StudyTrialInputs, worn: Worn, arm: ArmMotion, o: StudyOptio
         raise InputError(o.study, f"[[trials]] {each.trial.name}", what, remedy) from error
 
 
-def _errors(each: StudyTrialInputs, within: SimulatedArm, recorded: Channels) -> dict[str, Mapping[str, Agreement]]:
+def _beside(each: StudyTrialInputs, within: SimulatedArm, recorded: Channels) -> BesideRecording:
     s, time = within.simulation, within.simulation.motion.time
     models = {
         ELEVATION: (ELEVATION, s.elevation),
@@ -176,9 +182,7 @@ def _errors(each: StudyTrialInputs, within: SimulatedArm, recorded: Channels) ->
         what = f"was recorded from {recorded.time[0]:g} to {recorded.time[-1]:g} s"
         remedy = f"its markers are from {time[0]:g} to {time[-1]:g} s"
         raise InputError("", f"{each.trial.name}, {s.motion.side} arm", what, remedy)
-    if found.share < 1.0:
-        reserve(f"{each.trial.name}, {s.motion.side} arm: {found.share:.0%} of the simulated time was recorded")
-    return {name: one.errors for name, one in found.channels.items()}
+    return found
 
 
 def error_table(cases: Sequence[StudyCase]) -> pd.DataFrame:

@@ -14,12 +14,11 @@ r"""A study of a shoulder exoskeleton: `geocontact shoulder study`, `gc.shoulder
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
@@ -27,7 +26,7 @@ from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
+from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_clause
 from geocontact.analyses.shoulder.study.cases import (
     StudyCase,
@@ -39,49 +38,20 @@ from geocontact.analyses.shoulder.study.cases import (
     study_case,
     summary_table,
 )
+from geocontact.analyses.shoulder.study.doubts import say_doubts
 from geocontact.analyses.shoulder.study.options import StudyOptions
-from geocontact.data.motion import Course
-from geocontact.shoulder_exoskeleton.beside_recording import ELEVATION, FORCE
+from geocontact.analyses.shoulder.study.show import answer, error_bars, facts, study_curves
 from geocontact.shoulder_exoskeleton.device import Device
-from geocontact.shoulder_exoskeleton.working_arm import SimulatedArm
-from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, stroke
+from geocontact.view.curves.declared import CurveSheet
 from geocontact.view.page.content import Page, Words
 from geocontact.view.page.tables import frame_table
 
-MOST = 24
-"""Arms that are drawn."""
 PASSIVE = (
     "What turns the passive joints is the sphere's push sideways; about the third direction only friction, stops and "
     "joint damping hold them, so their angles depend on numbers that are invented."
 )
-SHOWN = {ELEVATION: ("elevation of the exoskeleton's arm", "deg"), FORCE: ("force that lifts the arm", "N")}
-"""Channels, with title and unit."""
 SAMPLES = 301
 """Samples of each curve on the page."""
-
-
-def study_curves(cases: Sequence[StudyCase]) -> CurveSheet:
-    """Both channels of each arm in its trial, the first 24: recorded, and simulated along both motions."""
-    return CurveSheet([_panel(case, channel) for case in cases[:MOST] for channel in SHOWN], columns=4)
-
-
-def _panel(case: StudyCase, channel: str) -> Curves:
-    factor = float(np.degrees(1.0)) if channel == ELEVATION else 1.0
-    time = case.within.simulation.motion.time
-    curves = []
-    if case.recorded is not None and channel in case.recorded.curves:
-        seen = np.interp(time, case.recorded.time, case.recorded.curves[channel], np.nan, np.nan)
-        curves.append(Curve("recorded", factor * seen, stroke=INK))
-    for k, (name, arm) in enumerate((("motion in the device", case.within), ("motion without it", case.without))):
-        if arm is not None:
-            values = np.interp(time, arm.simulation.motion.time, _curve(arm, channel), np.nan, np.nan)
-            curves.append(Curve(name, factor * values, stroke=stroke(k, k)))
-    title, unit = SHOWN[channel]
-    return Curves(f"{case.name}: {title}", unit, curves, over=Course("time", "s", time))
-
-
-def _curve(arm: SimulatedArm, channel: str) -> Float[np.ndarray, " t"]:
-    return arm.simulation.elevation if channel == ELEVATION else arm.simulation.supporting
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -120,12 +90,14 @@ class StudyResult(Result):
             "errors": "Errors by trial and arm",
         }
         page = Page(
-            title=f"Study of {len({each.trial.name for each in self.cases})} trials with {self.device.name}",
+            title=f"Study of {counted(len({each.trial.name for each in self.cases}), 'trial')} with {self.device.name}",
             subtitle="Shoulder exoskeleton driven by human motion, compared with its logger and a pressure mat",
             time=np.zeros(1),
             time_label="",
-            headline=headline(self.sentences, most=2),
+            headline=answer(self.cases, self.sentences),
+            facts=facts(tables["summary"]),
             sections=(
+                *error_bars(tables["errors"]),
                 *(panel.bounded(SAMPLES) for panel in self.curves()["study"].panels),
                 *(frame_table(title, tables[name], 3) for name, title in words.items() if len(tables[name])),
                 INPUTS,
@@ -154,7 +126,7 @@ def run(trials: tuple[StudyTrialInputs, ...], o: StudyOptions) -> StudyResult:
         if row["part"] in ("all", "work"):
             say(
                 f"{row['channel']}, {row['part']}: MAE {row['mae']:.3g}, RMSD {row['rmsd']:.3g} {row['unit']} "
-                f"over {row['arms']} arms in their trials{out}"
+                f"over {counted(row['arms'], 'arm')} in {'its trial' if row['arms'] == 1 else 'their trials'}{out}"
             )
     for row in difference_table(result.cases).to_dict("records"):
         if row["trial"] == "mean":
@@ -164,6 +136,7 @@ def run(trials: tuple[StudyTrialInputs, ...], o: StudyOptions) -> StudyResult:
                 f"force {row['force [N]']:.3g} N; shoulder less exoskeleton "
                 f"{row['shoulder less exoskeleton [deg]']:.3g} deg{out_of_both}"
             )
+    say_doubts(cases, out_of_both)
     note(
         "study",
         plain({c.name: {ch: {part: vars(a) for part, a in e.items()} for ch, e in c.errors.items()} for c in cases}),

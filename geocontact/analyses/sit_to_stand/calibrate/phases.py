@@ -57,8 +57,8 @@ def doubt_phase(one: CalibratedPhase) -> None:
         reserve(f"{words}: not separable, with intervals that cover both: {apart}")
     if one.found.solved and one.misfit > DOUBTFUL:
         reserve(
-            f"{phase} leaves {one.misfit:.1f} times the squares that the noise makes: "
-            "the model lacks something, or the noise is larger than said"
+            f"{phase} leaves {one.misfit:.1f} times the sum of squares that the noise explains: the model lacks an "
+            "effect, or the noise is larger than stated"
         )
     if believed:
         words = f"these trials add little to the prior of {believed}"

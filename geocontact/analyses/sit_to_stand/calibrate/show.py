@@ -14,13 +14,13 @@ from geocontact.view.page.tables import frame_table
 
 MODEL = [
     "Both legs are one planar chain: masses, torques and the ground's force are for both, a strap's force for one.",
-    "Each deviation from the recording counts in parts of its noise.",
+    "Each deviation from the recording is divided by its noise.",
     "The motion is computed together with the parameters under exact equations of motion; it is not the recorded one.",
     "Identified: the trials at least halve the standard deviation of the prior. Prior-dominated: they do not.",
     "Not separable: another minimum that costs little more has another value; the interval covers both.",
     "The priors are invented, as are the usual values.",
     "Intervals hold for this model and white noise of the stated size, not beyond.",
-    "Values are less the mean error that calibrations of resampled trials show, where these were asked for.",
+    "The mean error of calibrations of resampled trials is subtracted from the values, if these were requested.",
     "Certified: the balance holds between the collocation points to 5 N and 1 N m.",
     "In addition, another integrator that starts at any node follows the motion over one interval and over 0.2 s.",
     "Standing up is unstable: an open loop departs even from an exact answer, at the growth rate in the table.",

@@ -17,10 +17,10 @@ from geocontact.view.page.content import Page, Section
 from geocontact.view.page.tables import frame_table
 
 MEANT = [
-    "Given yes: that predictor receives the channel, so that its error there is no prediction.",
+    "Given yes: the predictor receives this channel, so its error there is not an error of prediction.",
     "All given: ground reaction, centre of pressure and torques; the others receive less.",
-    "Mean and nearest of the calibration know how long the trial is; the nearest is so by first and last posture.",
-    "R² is about the mean of what was recorded: below 0 that mean is the better model.",
+    "Mean and nearest of the calibration know its duration; the nearest has the most similar first and last posture.",
+    "R² compares with the mean of the recording: below 0 that mean is the better model.",
 ]
 PREDICTED = "{} of {}, by predictor"
 """Title of a panel, with the trial."""

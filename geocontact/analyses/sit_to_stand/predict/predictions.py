@@ -63,7 +63,7 @@ def read(o: StandingPredictOptions) -> HeldOutTrials:
         raise InputError(o.study, "mass", "is another person's than the calibration's", "predict trials of one person")
     lacking = {site.name for site in trials.sites} - {site.name for site in known.sites}
     if lacking:
-        what = f"has a strap at the {min(lacking)}, which the calibration has not"
+        what = f"has a strap at the {min(lacking)}, which the calibration does not have"
         raise InputError(o.study, "", what, f"leave strap_{min(lacking)} out, or calibrate with it")
     every = contact_parameters(known.sites)
     bounds = {each.name: (each.least, each.most) for each in every}

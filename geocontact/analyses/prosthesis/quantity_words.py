@@ -1,0 +1,23 @@
+"""Names of the quantities that a stance is compared with its plate in, and what an R² below 0 of one says."""
+
+from __future__ import annotations
+
+NAMES = {
+    "resultant": "resultant force",
+    "vertical": "vertical force",
+    "fore_aft": "fore-aft force",
+    "medio_lateral": "sideways force",
+    "impulse": "impulse",
+    "cop_ground": "centre of pressure",
+    "cop_sphere": "centre of pressure, middle of the spheres",
+    "ankle_moment": "ankle moment",
+}
+"""Quantities in words."""
+SAID = ("resultant", "cop_ground", "ankle_moment")
+"""Those that sentences are about."""
+
+
+def below_zero(quantity: str, r2: float) -> str:
+    """What a coefficient of determination below 0 says."""
+    asked = ": are mass, setting, and unit and sign of the plates right?" if quantity in SAID else ""
+    return f"{NAMES.get(quantity, quantity)}: R² is {r2:.2f}, a constant would fit better{asked}"

@@ -1,0 +1,52 @@
+"""What speaks against a recording beside a simulated arm: a sign, a unit, another arm, a clock that is off."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.identify.signals.agreement import lag_of
+from geocontact.shoulder_exoskeleton.beside_recording import ALL, ComparedChannel
+
+LONGEST = 2.0
+"""s; the largest lag that is looked at."""
+LATE = 0.15
+"""s; a lag from which a clock is doubted."""
+ALIKE, SHARPER = 0.9, 0.02
+"""Correlation at a lag, and how much it is above that without, from which a clock is doubted."""
+SIZES = 0.02
+"""Sizes of the curves that differ by more than this, or its inverse, are of two units: cN, mN and kN beside N."""
+
+
+def recording_doubts(one: ComparedChannel, delay: float | None = None) -> list[str]:
+    """Words on R² below 0, with what is likely, and on a clock that is off; `delay` [s] is what it was set right by.
+
+    None where there is no `delay` to be given.
+    """
+    both = np.isfinite(one.model) & np.isfinite(one.measured)
+    model, measured = one.model[both], one.measured[both]
+    found = []
+    r2 = one.errors[ALL].r2
+    if r2 < 0.0:
+        found.append(f"R² is {r2:.2g}, a constant would fit better{_likely(model, measured)}")
+    clock = _clock(one, delay)
+    return [*found, clock] if clock else found
+
+
+def _likely(model: np.ndarray, measured: np.ndarray) -> str:
+    size = float(np.sqrt(np.mean(measured**2) / np.mean(model**2))) if model.any() else float("nan")
+    if size < SIZES or size > 1.0 / SIZES:
+        return f"; recorded values are {size:.2g} times the simulated ones: is the unit right?"
+    if np.std(model) > 0.0 and np.std(measured) > 0.0 and np.corrcoef(model, measured)[0, 1] < 0.0:
+        return ": is a sign turned?"
+    return ""
+
+
+def _clock(one: ComparedChannel, delay: float | None) -> str:
+    step = float(one.time[1] - one.time[0])
+    model = np.where(np.isfinite(one.measured), one.model, np.nan)
+    lag, there = lag_of(model, one.measured, step, LONGEST)
+    _, now = lag_of(model, one.measured, step, 0.0)
+    if not (abs(lag) >= LATE and there >= ALIKE and there - now >= SHARPER):
+        return ""
+    words = f"the recording is {abs(lag):.2f} s {'early' if lag > 0.0 else 'late'}: is its clock right?"
+    return words if delay is None else f"{words} give `delay` {delay - lag:.2f}s"
