@@ -173,7 +173,7 @@ def test_a_knee_gets_areas_and_forces_of_its_sides(knee: Path, tmp_path: Path) -
         ("knee", lambda t: t.replace('forces = "forces.mot"\n', ""), "areas: has no meaning without forces"),
         ("knee", lambda t: t.replace('"area.csv"', '"whole.csv"'), "whole.csv: has no area of the medial side"),
         ("knee", lambda t: t.replace('force_unit = "lbf"\n', ""), "forces.mot"),
-        ("knee", lambda t: t.replace('"t02.csv"', '"full.csv"'), "has a column 'area_medial' already; strike it"),
+        ("knee", lambda t: t.replace('"t02.csv"', '"full.csv"'), "has a column 'area_medial' already; delete it"),
     ],
 )
 def test_what_cannot_be_gathered_is_refused(
