@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from geocontact.analyses.frame.record import Listener
 
 SILENCE = 2.5  # s; loading compiled kernels from the cache takes less
+PAUSE = 30.0
+"""s between two lines on how far the work is, where stderr is a file or a pipe."""
 
 
 def rate(per_second: float | None) -> str:
@@ -17,6 +20,19 @@ def rate(per_second: float | None) -> str:
     if not per_second:
         return ""
     return f"{per_second:.3g}/s" if per_second >= 1.0 else f"{60.0 * per_second:.3g}/min"
+
+
+class Paced:
+    """Lines on stderr, one in `PAUSE` seconds at most; none of work that is done sooner."""
+
+    def __init__(self) -> None:
+        self._last = time.monotonic()
+
+    def say(self, line: str) -> None:
+        """Print the line, if it is time."""
+        if time.monotonic() - self._last >= PAUSE:
+            self._last = time.monotonic()
+            print(line, file=sys.stderr, flush=True)
 
 
 class Terminal(Listener):
@@ -44,9 +60,12 @@ class Terminal(Listener):
 
     @contextmanager
     def progress(self, label: str, total: int) -> Iterator[Callable[[], None]]:
-        """A progress bar when stderr is a terminal; the block calls what it is given after each step."""
-        if not sys.stderr.isatty() or total < 2:
+        """A progress bar when stderr is a terminal, else a line now and then; the block calls it after each step."""
+        if total < 2:
             yield lambda: None
+            return
+        if not sys.stderr.isatty():
+            yield _counting(label, total)
             return
         from rich.console import Console
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, Task, TextColumn, TimeRemainingColumn
@@ -65,9 +84,12 @@ class Terminal(Listener):
 
     @contextmanager
     def stages(self, label: str) -> Iterator[Callable[[str], None]]:
-        """What is being done, and for how long, when stderr is a terminal; the block names stages as they begin."""
+        """What is being done, and for how long, when stderr is a terminal, else a line now and then; the block names
+        stages as they begin.
+        """
         if not sys.stderr.isatty():
-            yield lambda _: None
+            paced = Paced()
+            yield lambda stage: paced.say(f"{label}: {stage} …")
             return
         from rich.console import Console
         from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
@@ -76,3 +98,15 @@ class Terminal(Listener):
         with Progress(*columns, console=Console(stderr=True), transient=True) as line:
             task = line.add_task(label, total=None)
             yield lambda stage: line.update(task, description=f"{label}: {stage}")
+
+
+def _counting(label: str, total: int) -> Callable[[], None]:
+    """Counts steps, and says now and then how many are done."""
+    paced, done = Paced(), 0
+
+    def step() -> None:
+        nonlocal done
+        done += 1
+        paced.say(f"{label}: {done} of {total} done …")
+
+    return step

@@ -30,6 +30,7 @@ from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.noise_sources import coarse_rates
 from geocontact.gap.case.refit import free
 from geocontact.gap.experiment.proposal import first_of, next_experiment
+from geocontact.gap.held_out_growth import confirmed
 from geocontact.gap.identifiability.non_identifiable import non_identifiable
 from geocontact.gap.identifiability.separability import one_law
 from geocontact.gap.levels import SURE, WORTH_NAMING
@@ -42,7 +43,7 @@ from geocontact.gap.reduction.error_reduction import (
     held_out,
     leave_one_out,
 )
-from geocontact.gap.reduction.raw_input_errors import RawInputErrors, raw_input_errors
+from geocontact.gap.reduction.raw_input_errors import RawInputErrors
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import Contender, base_contender
 from geocontact.gap.selection.stated_noise import loudest
@@ -152,6 +153,7 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
     version, at
         As in `diagnose`.
     """
+    found, errors = confirmed(case, found, at)
     said, problem = found.answer, found.problem
     named = bool(said.effects) or said.verdict == "unresolved"
     chosen = said.chosen.judged
@@ -165,7 +167,6 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
     at("where it misses, and how far that shrinks")
     cells = gap_map(found.clean, found.base.judged)
     as_came = cells if found.data_error is None else gap_map(problem, base_contender(problem).judged)
-    errors = raw_input_errors(problem, found.clean, chosen, found.data_error)
     gap = {
         name: ChannelGap(s.rmse_before, s.rmse_after, s.floor, s.reduction, (s.low, s.high), s.unexplained)
         for name, s in error_reduction_of(errors, problem, chosen, named, found.data_error).items()

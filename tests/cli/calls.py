@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import subprocess
 import sys
@@ -65,9 +66,10 @@ class Call:
 
 
 def call(*arguments: object, folder: Path = Path()) -> Call:
-    """Run the command line in this process."""
+    """Run the command line in this process, without the lines that say every half minute how far it is."""
     out, err = StringIO(), StringIO()
-    with redirect_stdout(out), redirect_stderr(err):
+    patient = mock.patch("geocontact.cli.show.PAUSE", math.inf)
+    with patient, redirect_stdout(out), redirect_stderr(err):
         code = run([str(argument) for argument in arguments])
     return Call(code, out.getvalue(), err.getvalue(), folder)
 

@@ -38,6 +38,7 @@ WRONG = {
     "parameter missing": ("elbow", "case.toml", K, "", "elbow: k is missing; give it as a parameter or as a constant"),
     "two meanings": ("elbow", "case.toml", "\nl = ", "\nk = 2.0\nl = ", "[parameters.k]: is in [constants] too"),
     "overlap": ("elbow", "case.toml", "['t03', 't04']", "['t02', 't04']", "evaluation: 't02' is listed in calibration"),
+    "one to fit": ("elbow", "case.toml", "['t01', 't02']", "['t01']", "calibration: 1 trial to fit to: how much"),
     "no such trial": ("elbow", "case.toml", "'t04'", "'t09'", "evaluation: no file trials/t09.csv"),
     "noise of nothing": ("elbow", "case.toml", "force = ", "torque = ", "[noise]: no trial has a channel 'torque'"),
     "noise below zero": ("elbow", "case.toml", "force = ", "force = -", "[noise] force: is -0.15; a standard deviatio"),
@@ -114,6 +115,16 @@ def test_too_little_was_measured(
     for name in trials:
         rewritten(folder, name, change)
     assert words in refused(folder, tmp_path / "out")
+
+
+def test_a_copy_of_a_trial_is_refused(cases: dict[str, Path], tmp_path: Path) -> None:
+    """What is held out would confirm anything that was fitted to it."""
+    folder = spoilt(cases["elbow"], tmp_path / "case", "case.toml", "format = 1", "format = 1")
+    (folder / "trials" / "t03.csv").write_bytes((folder / "trials" / "t01.csv").read_bytes())
+    line = refused(folder, tmp_path / "out")
+    assert line.endswith(
+        "case.toml trial t03: force is the same as in trial t01, sample by sample; give each trial its own recording"
+    )
 
 
 def test_folders_that_are_none(cases: dict[str, Path], tmp_path: Path) -> None:

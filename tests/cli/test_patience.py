@@ -41,7 +41,23 @@ def test_steps_are_counted_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> Non
     assert "2/3" in shown.getvalue()
 
 
-def test_a_file_gets_neither(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_gets_a_line_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One in half a minute at most: 57 s of work said nothing."""
+    now, written = [0.0], io.StringIO()
+    monkeypatch.setattr(sys, "stderr", written)
+    monkeypatch.setattr(show.time, "monotonic", lambda: now[0])
+    with show.Terminal().progress("effects", 52) as step, show.Terminal().stages("knee_07") as at:
+        for now[0] in (10.0, 31.0, 40.0, 59.0, 62.0):
+            step()
+        at("two effects together")
+    assert written.getvalue().splitlines() == [
+        "effects: 2 of 52 done …",
+        "effects: 5 of 52 done …",
+        "knee_07: two effects together …",
+    ]
+
+
+def test_a_file_gets_nothing_of_what_is_quick(monkeypatch: pytest.MonkeyPatch) -> None:
     written = io.StringIO()
     monkeypatch.setattr(sys, "stderr", written)
     with show.Terminal().stages("knee_07") as at, show.Terminal().progress("frames", 3) as step:

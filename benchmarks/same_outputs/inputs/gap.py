@@ -110,10 +110,10 @@ def program(home: Path) -> None:
 
 def chain(home: Path, meshes: Path) -> None:
     """Knee angles of the shipped cycle and load cells that swell with it; two meshes in the folder."""
-    trials, rng = ("t01", "t02"), np.random.default_rng(14)
+    trials, rng = ("t01", "t02", "t03"), np.random.default_rng(14)
     rows = np.loadtxt((meshes / "gait.csv").read_text("utf-8").splitlines()[1:], delimiter=",")
-    for k, name in enumerate(trials):
-        some = rows[2 * k :: 4]
+    for first, name in zip((0, 2, 1), trials, strict=True):
+        some = rows[first::4]
         w, x, y, z = some[:, 4:].T
         adduction = np.arcsin(2.0 * (w * x - y * z))
         rotation = np.arctan2(2.0 * (x * z + w * y), 1.0 - 2.0 * (x**2 + y**2))

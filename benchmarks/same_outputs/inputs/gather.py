@@ -22,6 +22,11 @@ def make(home: Path, meshes: Path) -> None:
     knee(home / "knee")
 
 
+def later(k: int, columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """A trial that begins `k` samples later: the same samples twice are refused as a copy."""
+    return {name: values[k:] for name, values in columns.items()}
+
+
 def mats(home: Path, truth: Path) -> None:
     """Displacements that the recorded force suits, but for a strap and what differs from trial to trial."""
     values = np.array([line.split(",")[::7][:2] for line in truth.read_text("utf-8").splitlines()[4:]], float)
@@ -35,7 +40,7 @@ def mats(home: Path, truth: Path) -> None:
             "thigh_tangential [m]": 0.003 * wave,
             "thigh_rotation [rad]": 0.08 * wave,
         }
-        table(home / f"{name}.csv", {"time [s]": time, **columns})
+        table(home / f"{name}.csv", later(k, {"time [s]": time, **columns}))
     sources = [f'[from.{name}]\ninputs = "{name}.csv"\nthigh = "{MAT}"' for name in TRIALS]
     more = ("[noise]\nthigh_force = 0.5", constants({"b": 80.0, "rho_thigh": 0.02}))
     free = parameter("k_n_thigh", 5000.0, 1500.0, 25000.0, "N/m")
@@ -46,17 +51,17 @@ def plates(home: Path) -> None:
     """A foot on a belt that runs backwards, and the reactions of two plates."""
     foot.spheres(home / "spheres.csv")
     foot.plate(home / "grf.mot")
-    for k, name in enumerate(TRIALS[:2]):
+    for k, name in enumerate(TRIALS[:3]):
         x, y, pitch = foot.motion(foot.TIME, 0.004 + 0.0005 * k)
         columns = {"x [m]": x - 1.2 * foot.TIME, "y [m]": y, "pitch [rad]": pitch}
-        table(home / f"{name}.csv", {"time [s]": foot.TIME, **columns})
+        table(home / f"{name}.csv", later(k, {"time [s]": foot.TIME, **columns}))
     source = 'plates = "grf.mot"\nplate = "ground_force_r"\nbelt = 1.2'
-    sources = [f'[from.{name}]\ninputs = "{name}.csv"\n{source}' for name in TRIALS[:2]]
+    sources = [f'[from.{name}]\ninputs = "{name}.csv"\n{source}' for name in TRIALS[:3]]
     numbers = {"n": 1.2, "delta_full": 0.002, "mu_s": 0.9, "mu_k": 0.7, "v_th": 0.25}
     free = [parameter(f"k_z{i}", 8e4, 8e3, 1e6, "N/m^n") for i in (1, 2, 3)]
     free += [parameter(f"b_z{i}", 100.0, 0.0, 3000.0, "N s/m") for i in (1, 2, 3)]
     more = ('spheres = "spheres.csv"', constants(numbers), *free, *sources)
-    written(home / "plan.toml", settings("foot", TRIALS[:2], 1, *more))
+    written(home / "plan.toml", settings("foot", TRIALS[:3], 1, *more))
 
 
 def knee(home: Path) -> None:
@@ -70,8 +75,9 @@ def knee(home: Path) -> None:
     clock = np.linspace(0.95, 1.7, 91)
     storage(home / "forces.mot", {"time": clock, "medial": 100.0 * clock, "lateral": 50.0 * clock})
     clock = np.linspace(1.0, 1.8, 81)
-    for name in TRIALS[:2]:
-        table(home / f"{name}.csv", {"time [s]": clock, "flexion [deg]": 30.0 * clock, "adduction [deg]": 0.1 * clock})
+    for k, name in enumerate(TRIALS[:2]):
+        columns = {"time [s]": clock, "flexion [deg]": 30.0 * clock, "adduction [deg]": 0.1 * clock}
+        table(home / f"{name}.csv", later(k, columns))
     source = 'forces = "forces.mot"\nforce_unit = "lbf"\nareas = "area.csv"\nthreshold = 0.002'
     sources = [f'[from.{name}]\ninputs = "{name}.csv"\n{source}' for name in TRIALS[:2]]
     more = (constants({"R": 0.037}), parameter("E_star", 1e7, 1e5, 1e9, "Pa"), *sources)

@@ -9,6 +9,7 @@ from pathlib import Path
 from geocontact.analyses.frame.collector import add_input
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import NextExperiment
+from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.trial_table import cells_file
@@ -44,9 +45,27 @@ class CaseWithModel:
 def read_case(folder: Path, run_simulator: bool) -> CaseWithModel:
     """Case in a folder; `run_simulator` allows one of the system "command" to run the program that it names."""
     case = read_gap_case(folder, run_programs=run_simulator)
+    require_shares(case, folder / "case.toml")
     system = system_of(case)
     add_inputs(folder, case)
     return CaseWithModel(folder, case, system)
+
+
+SHARES = {"shoulder": ("level",)}
+"""Numbers of a trial that are shares of a whole, by base model."""
+
+
+def require_shares(case: GapCase, file: Path) -> None:
+    """InputError where a number of a trial that is a share, such as the level of the support, is not between 0 and 1.
+
+    `file` is what states it.
+    """
+    for trial in (*case.calibration, *case.evaluation):
+        for name in SHARES.get(case.system, ()):
+            value = trial.covariates.get(name, 0.0)
+            if not 0.0 <= value <= 1.0:
+                meant = f"is {value / 100.0:g} ({value:g} %) meant?" if 1.0 < value <= 100.0 else "write 0.5 for 50 %"
+                raise InputError(file, f"[trial.{trial.name}] {name}", f"{value:g} is no share between 0 and 1", meant)
 
 
 def add_inputs(folder: Path, case: GapCase) -> None:

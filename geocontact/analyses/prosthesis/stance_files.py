@@ -56,6 +56,7 @@ def write_spheres(folder: Path, s: Stance, side: Side) -> None:
 STIFFEST, MOST_DAMPED = 12.0, 30.0
 """Factors on a sphere's own numbers, up to which those of a row may be fitted."""
 HEAD = """# the foot in its plane; a rigid foot of these numbers is {off:.0f} N (rms) off the simulated one
+# a diagnosis needs two trials to fit to, and others to hold out
 format = 1
 system = "foot"
 spheres = "spheres.csv"

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,6 +12,9 @@ from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.gap.levels import FEWEST
+
+FEWEST_FITTED = 2
+"""Trials that are fitted to, at least: what trials differ by is told by no single one."""
 
 
 def admitted(case: GapCase, system: System) -> GapCase:
@@ -28,6 +32,10 @@ def admitted(case: GapCase, system: System) -> GapCase:
                 what = f"{name} has {count} measured values in the {side} trials"
                 raise _refusal(case, side, what, f"at least {FEWEST} are needed" if count else "choose other trials")
     _require_movement(case, system)
+    _require_own_recordings(case, system)
+    if len(case.calibration) < FEWEST_FITTED:
+        what = f"{len(case.calibration)} trial to fit to: how much trials differ from each other is not known"
+        raise _refusal(case, "calibration", what, f"list at least {FEWEST_FITTED}, and one or more to evaluate on")
     for site, cells in case.cells.items():
         if cells.channel not in system.outputs:
             what = f"the model does not predict {cells.channel}, which the cells of {site} add up to"
@@ -37,6 +45,42 @@ def admitted(case: GapCase, system: System) -> GapCase:
         calibration=tuple(sorted(case.calibration, key=lambda trial: _content(trial, system))),
         evaluation=tuple(sorted(case.evaluation, key=lambda trial: _content(trial, system))),
     )
+
+
+@dataclass(frozen=True)
+class Repeated:
+    """Two trials that hold the same values of a channel that was measured."""
+
+    first: str
+    second: str
+    channel: str
+
+
+def repeated(trials: Sequence[Trial], channels: Sequence[str]) -> Repeated | None:
+    """The first two trials with the same values of one of these channels, sample by sample; None where all differ.
+
+    No sensor reads the same twice. A channel that never changes says nothing.
+    """
+    for name in channels:
+        seen: dict[bytes, str] = {}
+        for trial in trials:
+            values = trial.column(name)
+            there = values[np.isfinite(values)]
+            if not len(there) or np.ptp(there) == 0.0:
+                continue
+            content = np.where(np.isfinite(values), values, np.nan).tobytes()
+            if content in seen:
+                return Repeated(seen[content], trial.name, name)
+            seen[content] = trial.name
+    return None
+
+
+def _require_own_recordings(case: GapCase, system: System) -> None:
+    """Each trial must be a recording of its own: a copy that is held out would confirm anything."""
+    same = repeated((*case.calibration, *case.evaluation), system.outputs)
+    if same is not None:
+        what = f"{same.channel} is the same as in trial {same.first}, sample by sample"
+        raise _refusal(case, f"trial {same.second}", what, "give each trial its own recording")
 
 
 def _require_samples(case: GapCase, system: System, trial: Trial) -> None:

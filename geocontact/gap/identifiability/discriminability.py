@@ -12,7 +12,7 @@ from geocontact.chain.system import System
 from geocontact.data.diagnosis import NextExperiment
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.attribute import Attribution, attribute
+from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.experiment.proposal import first_of, next_experiment
 from geocontact.gap.identifiability.detectability import Detectability, detectabilities
@@ -75,6 +75,7 @@ def discriminability(
     names: Sequence[str] = (),
     nats: float = NATS,
     step: Callable[[], None] = lambda: None,
+    at: Listener = nobody,
 ) -> Discriminability:
     """What the trials of a case tell of effects, on one core.
 
@@ -91,9 +92,11 @@ def discriminability(
         How visible each effect is taken to be when it is held against others.
     step
         Called twice per candidate.
+    at
+        Called in words with what is being done, while the case is diagnosed first.
     """
     with threadpool_limits(limits=1):
-        found = attribute(admitted(case, system), system, candidates)
+        found = attribute(admitted(case, system), system, candidates, at)
         problem, judged = found.clean, found.answer.chosen.judged
         ground = base_state_of(problem, judged.noise, judged.model.values)
         asked = offered(problem.system, names)

@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.view.curves.declared import Curve, Curves, Limit, Points, Scale, Shade
+from geocontact.view.page.heat import Matrix, StripBlock, Strips
 from geocontact.view.page.plan import Length, Mark, Plan, Track
 from geocontact.view.page.scene import FaceMap, Linkage, Scene, SceneBody
 
@@ -62,6 +63,7 @@ __all__ = [
     "Limit",
     "Linkage",
     "Mark",
+    "Matrix",
     "Page",
     "PageChoice",
     "Picture",
@@ -75,6 +77,8 @@ __all__ = [
     "Section",
     "Shade",
     "Strip",
+    "StripBlock",
+    "Strips",
     "Table",
     "Track",
     "Words",
@@ -172,7 +176,7 @@ class Words:
     paragraphs: Sequence[str]
 
 
-Section = Scene | Curves | Strip | Plan | Intervals | Readout | Picture | Table | Words
+Section = Scene | Curves | Strip | Plan | Intervals | Strips | Matrix | Readout | Picture | Table | Words
 
 
 @dataclass(frozen=True, eq=False)
@@ -212,7 +216,7 @@ class Page:
     """Everything on one page.
 
     The first screen holds the headline, the reservations, the facts, and the picture that shows the answer: the scene,
-    or else the first curves, plan, intervals or drawing of the sections.
+    or else the first curves, plan, intervals, strips, matrix or drawing of the sections.
 
     Parameters
     ----------
@@ -282,7 +286,7 @@ class Page:
     @property
     def leads(self) -> range:
         """Places of the sections that show the answer on the first screen; none where there is no picture."""
-        for kinds in (Scene, (Curves, Plan, Intervals, Picture)):
+        for kinds in (Scene, (Curves, Plan, Intervals, Strips, Matrix, Picture)):
             for k, section in enumerate(self.sections):
                 if isinstance(section, kinds):
                     return range(k, k + self.answers)

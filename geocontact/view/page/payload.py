@@ -16,6 +16,7 @@ from geocontact.view.page.content import (
     Curves,
     FaceMap,
     Intervals,
+    Matrix,
     Page,
     Plan,
     Readout,
@@ -23,8 +24,10 @@ from geocontact.view.page.content import (
     SceneBody,
     Section,
     Strip,
+    Strips,
     Track,
 )
+from geocontact.view.page.heat import matrix_data, strips_data
 from geocontact.view.page.opening import opacities, opening_view
 from geocontact.view.page.pack import AmountLevels, Block, Grid, Levels, across, face_words, packed
 from geocontact.view.page.scene import Linkage
@@ -84,6 +87,10 @@ def payload(page: Page) -> Payload:
                 parts.append(place | {"kind": "plan"} | _plan(section, own))
             case Intervals():
                 parts.append(place | {"kind": "intervals"} | _intervals(section, own, named))
+            case Strips():
+                parts.append(place | {"kind": "strips"} | strips_data(section))
+            case Matrix():
+                parts.append(place | {"kind": "matrix"} | matrix_data(section))
             case Readout():
                 texts = [[shown(text) for text in row.texts] for row in section.rows]
                 parts.append(place | {"kind": "readout", "texts": texts})

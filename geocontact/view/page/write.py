@@ -18,6 +18,7 @@ from geocontact.view.page.content import (
     Choices,
     Curves,
     Intervals,
+    Matrix,
     Page,
     PageChoice,
     Picture,
@@ -26,6 +27,7 @@ from geocontact.view.page.content import (
     Scene,
     Section,
     Strip,
+    Strips,
     Table,
     Words,
 )
@@ -123,6 +125,8 @@ KINDS = {
     Strip: "strip",
     Plan: "plan",
     Intervals: "intervals",
+    Strips: "strips",
+    Matrix: "matrix",
     Readout: "readout",
     Picture: "picture",
     Table: "table",
@@ -143,7 +147,7 @@ def write_page(page: Page, path: Path) -> int:
     return len(data)
 
 
-PANELS = ("curves", "strip", "plan", "intervals", "readout")
+PANELS = ("curves", "strip", "plan", "intervals", "strips", "matrix", "readout")
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
@@ -10,8 +11,10 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.json_file import plain
-from geocontact.analyses.gap.discriminability.answer import answer
+from geocontact.analyses.gap.discriminability.answer import answer, confusion_sentences
 from geocontact.analyses.gap.discriminability.result import DiscriminabilityResult
+from geocontact.analyses.gap.discriminability.show import confusion_page, separation_matrix
+from geocontact.view.page.content import Table
 from tests.cli.calls import call, done
 from tests.cli.gap_cases import EFFECTS, confused_elbow, damped_elbow
 
@@ -61,7 +64,44 @@ def test_what_is_known_of_the_elbow_is_said(confused: DiscriminabilityResult, to
 def test_the_page_has_sizes_in_a_table(confused: DiscriminabilityResult, tmp_path: Path) -> None:
     page = confused.page(tmp_path / "page.html").read_text(encoding="utf-8")
     assert "Separation of effects, by pairs" in page and "Smallest amplitudes" in page
+    assert "<h1><bdi>Effects that the trials of elbow_7 show</bdi></h1>" in page and "<img" not in page
     assert "these trials show" in page.lower() and " of 100 repetitions" not in page
+
+
+@pytest.mark.slow
+def test_the_matrix_has_the_nats_of_every_pair(confused: DiscriminabilityResult, told: dict) -> None:
+    matrix = separation_matrix(confused.found)
+    assert tuple(matrix.rows) == LABELS and tuple(matrix.columns) == ("none", *LABELS)
+    for r, true in enumerate(matrix.rows):
+        for c, imitator in enumerate(matrix.columns):
+            nats = max(told["separability"][true][imitator] or 0.0, 0.0)
+            assert matrix.values[r, c] == pytest.approx(min(nats, 20.0) / 20.0) or np.isnan(matrix.values[r, c])
+            assert matrix.texts[r][c] in ("", ">99", f"{nats:.0f}")
+    assert matrix.texts[0][0] == "50", "as visible as asked for"
+
+
+@pytest.mark.slow
+def test_amplitudes_stand_in_units_beside_their_share(confused: DiscriminabilityResult, told: dict) -> None:
+    page = confusion_page("title", confused.found)
+    (table,) = [s for s in page.sections if isinstance(s, Table) and s.title.startswith("Smallest")]
+    rows = {row[0]: dict(zip(table.header, row, strict=True)) for row in table.rows}
+    assert rows["damping"]["smallest"] == f"{told['detectability']['damping']['smallest']:.3g} N s/m"
+    assert rows["damping"]["of its plausible range"].endswith(" %")
+    assert (rows["sensor_gain.force"]["smallest"], rows["sensor_gain.force"]["of its plausible range"]) == (
+        "not to be seen",
+        "–",
+    )
+    assert table.rows[-1][0] == "sensor_gain.force", "the most easily seen first"
+
+
+def test_groups_that_look_alike_are_one_sentence() -> None:
+    """Three groups made three sentences of the same words."""
+    groups = (("a", "b"), ("c", "d", "e"), ("f", "g"))
+    found = SimpleNamespace(
+        detectabilities=(), absorbed=(), mistakes=(), classes=groups, effects=(), proposal=None, found=None
+    )
+    said = [line for line in confusion_sentences(found) if "not separable" in line]  # type: ignore[arg-type]
+    assert said == ["not separable (less than 5 nats between any two): a and b; c, d and e; f and g"]
 
 
 @pytest.mark.slow

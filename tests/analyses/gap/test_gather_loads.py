@@ -17,6 +17,8 @@ from geocontact.systems.catalogue import system_of
 from tests.cli.calls import written
 
 TIME = np.linspace(1.0, 1.8, 81)
+FIRST = {"t01": 0, "t02": 1}
+"""Row that a trial begins at: two trials with the same samples are refused as copies."""
 BELT, GROUND = 1.2, -0.0075  # m/s, m
 PARAMETERS = "".join(
     f'[parameters.{name}_all]\nstart = {start}\nlower = 0.0\nupper = 1e6\nunit = "{unit}"\n'
@@ -74,7 +76,7 @@ def foot(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for name in ("t01", "t02"):
         empty.to_csv(folder / "true" / "trials" / f"{name}.csv", index=False)
         laboratory = table.assign(**{"x [m]": along - BELT * TIME})
-        laboratory.to_csv(folder / f"{name}.csv", index=False, float_format="%.12g")
+        laboratory.iloc[FIRST[name] :].to_csv(folder / f"{name}.csv", index=False, float_format="%.12g")
     written(folder / "true" / "spheres.csv", spheres)
     written(folder / "true" / "case.toml", FOOT)
     case = read_gap_case(folder / "true")
@@ -143,7 +145,7 @@ def knee(tmp_path_factory: pytest.TempPathFactory) -> Path:
     written(folder / "forces.mot", f"{head}\n{lines}\n")
     angles = {"flexion [deg]": 30.0 * TIME, "adduction [deg]": 0.1 * TIME}
     for name in ("t01", "t02"):
-        pd.DataFrame({"time [s]": TIME} | angles).to_csv(folder / f"{name}.csv", index=False)
+        pd.DataFrame({"time [s]": TIME} | angles).iloc[FIRST[name] :].to_csv(folder / f"{name}.csv", index=False)
     return folder
 
 
@@ -171,7 +173,7 @@ def test_a_knee_gets_areas_and_forces_of_its_sides(knee: Path, tmp_path: Path) -
         ("knee", lambda t: t.replace('forces = "forces.mot"\n', ""), "areas: has no meaning without forces"),
         ("knee", lambda t: t.replace('"area.csv"', '"whole.csv"'), "whole.csv: has no area of the medial side"),
         ("knee", lambda t: t.replace('force_unit = "lbf"\n', ""), "forces.mot"),
-        ("knee", lambda t: t.replace('"t02.csv"', '"full.csv"'), "has a column 'area_medial' already; strike it"),
+        ("knee", lambda t: t.replace('"t02.csv"', '"full.csv"'), "has a column 'area_medial' already; delete it"),
     ],
 )
 def test_what_cannot_be_gathered_is_refused(
@@ -180,8 +182,8 @@ def test_what_cannot_be_gathered_is_refused(
     folder, text = (foot, FOOT + PLATES) if what == "foot" else (knee, KNEE + SIDES)
     table = pd.read_csv(folder / "t02.csv")
     table.drop(columns="pitch [rad]", errors="ignore").to_csv(folder / "bare.csv", index=False)
-    table.assign(**{"time [s]": TIME + 0.7}).to_csv(folder / "late.csv", index=False)
-    table.assign(**{"area_medial [m^2]": TIME}).to_csv(folder / "full.csv", index=False)
+    table.assign(**{"time [s]": table["time [s]"] + 0.7}).to_csv(folder / "late.csv", index=False)
+    table.assign(**{"area_medial [m^2]": table["time [s]"]}).to_csv(folder / "full.csv", index=False)
     if what == "knee":
         areas = pd.read_csv(folder / "area.csv")
         areas.drop(columns="area_fixed_medial [mm^2]").to_csv(folder / "whole.csv", index=False)

@@ -35,6 +35,8 @@ def test_a_planted_effect_is_found(tmp_path: Path) -> None:
     assert row["found"] == pytest.approx(planted, rel=0.1) and row["low"] < planted < row["high"]
     words = str(result)
     assert f"injected damping (damping.b = {planted:.4g} N s/m" in words and "found: damping; damping.b = " in words
+    page = result.page(tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "<bdi>What was injected</bdi>" in page and '<p class="answer"><bdi>Found: damping; damping.b = ' in page
     out = result.write(tmp_path / "out")
     told = json.loads((out / "planted.json").read_text("utf-8"))
     assert told["named"] and told["parameters"]["damping.b"]["value"] == planted

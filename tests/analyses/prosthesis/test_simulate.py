@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import geocontact as gc
@@ -113,7 +114,9 @@ def test_shipped_trial_from_markers_to_files(found: ProsthesisSimulateResult, tm
     told = np.genfromtxt(tmp_path / "out" / "ground_reaction.mot", skip_header=6, names=True)
     np.testing.assert_allclose(told["ground_right_force_vy"], found.stance.force[:, 1], rtol=1e-8, atol=1e-8)
     text = (tmp_path / "out" / "plane" / "foot.toml").read_text()
-    again = text.replace("[constants]", '[from.t02]\ninputs = "foot.csv"\noutputs = "plate.csv"\n\n[constants]')
+    plate = pd.read_csv(tmp_path / "out" / "plane" / "plate.csv", index_col=0)
+    (1.001 * plate).to_csv(tmp_path / "out" / "plane" / "second.csv")  # not the same trial to the last digit
+    again = text.replace("[constants]", '[from.t02]\ninputs = "foot.csv"\noutputs = "second.csv"\n\n[constants]')
     (tmp_path / "out" / "plane" / "gather.toml").write_text(again)
     case = gc.gather(tmp_path / "out" / "plane" / "gather.toml").case
     system, trial = gc.system_of(case), case.calibration[0]

@@ -31,13 +31,19 @@ def gathered(tmp_path_factory: pytest.TempPathFactory) -> Path:
         gc.shoulder.simulate(home / "markers.trc", **options).write(home / "second")
         file = home / "first" / "plane" / "right.toml"
         text = file.read_text(encoding="utf-8")
-        with pytest.raises(gc.InputError, match=r"OTHER/plane/right\.csv: there is no such file"):
+        with pytest.raises(gc.InputError, match=r"SECOND/plane/right\.csv: there is no such file"):
             gc.gather(file)
-        of_other = text.index("[trial.t02]")
-        text = text[:of_other] + text[of_other:].replace("level = 1", "level = 0.5")
-        file.write_text(text.replace("OTHER", "../../second"), encoding="utf-8")
+        file.write_text(of_two(text), encoding="utf-8")
         gc.gather(file).write(home / "case")
     return home
+
+
+def of_two(text: str) -> str:
+    """The file with one trial to fit to and one held out: enough to gather, not to diagnose."""
+    before, _, numbers = text[: text.index("[from.t03]")], *text.partition("[constants]")[1:]
+    before = before.replace('["t01", "t02"]', '["t01"]').replace('["t03"]', '["t02"]').replace("SECOND", "../../second")
+    of_other = before.index("[trial.t02]")
+    return f"{before[:of_other]}{before[of_other:].replace('level = 1', 'level = 0.5')}[constants]{numbers}"
 
 
 def test_the_base_model_takes_the_projected_simulation(gathered: Path) -> None:

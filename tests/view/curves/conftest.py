@@ -18,7 +18,7 @@ from geocontact.view.curves.bland_altman import bland_altman
 from geocontact.view.curves.declared import Curve, Curves, CurveSheet, Limit, Points, Shade
 from geocontact.view.curves.diagnosis_answers import Ranked, ranking_figure
 from geocontact.view.curves.drawn import drawn
-from geocontact.view.curves.gap_map import gap_map_figure, gap_residuals
+from geocontact.view.curves.gap_map import gap_map_figure
 from geocontact.view.curves.over_cycle import mean_over_cycle
 from geocontact.view.curves.path import contact_path
 from geocontact.view.curves.quantity import AREA, CYCLE, FORCE, LENGTH
@@ -98,13 +98,6 @@ def gains(name: str) -> Figure:
     return ranking_figure([*models, Ranked(f"{name} + damping", f"damping + {name}", 525.0, 301.0, None)])
 
 
-def gap_left_over(name: str) -> Figure:
-    phase = PERCENT / 100.0
-    base = np.stack([trials(2, 10.0), trials(2, 2e-3)], axis=-1) - np.array([10.0, 2e-3])
-    channels = (replace(FORCE, name=name), replace(LENGTH, name="cop_x"))
-    return gap_residuals(phase, channels, base, 0.3 * base, {name: 1.0, "cop_x": 1e-4}, {name: (0.2, 0.5)}, name)
-
-
 def declared(name: str) -> Figure:
     """Panels of their own axes, with marks, spans and limits, each with a legend of its own."""
     time = Course(name, "s", PERCENT)
@@ -133,7 +126,6 @@ SPECIMENS: dict[str, Callable[[str], Figure]] = {
     "bland_altman": agreement,
     "gap_map": gap_map,
     "ranking": gains,
-    "gap_residuals": gap_left_over,
     "histogram": lambda name: residual_histogram(RESIDUAL, replace(LENGTH, name=name)),
     "quantiles": lambda name: residual_quantiles(RESIDUAL, replace(LENGTH, name=name)),
     "residuals": lambda name: residual_figure(RESIDUAL, replace(LENGTH, name=name)),

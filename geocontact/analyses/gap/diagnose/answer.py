@@ -203,7 +203,7 @@ def facts_of(findings: Findings) -> list[tuple[str, str]]:
     if d.partial is not None:
         lines.append(("Explained in part", in_part(d.partial)))
     alive = ", ".join(f"{name} {value:.2f}" for name, value in _likeliest(d) if value >= 0.005)
-    lines.append(("Probabilities", alive))
+    lines.append(("Probability p of each answer", alive))
     if d.one_law:
         lines.append(("Not distinguishable from", "; ".join(one_law_words(d))))
     if d.verdict == "unresolved":

@@ -33,8 +33,9 @@ from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.result import PARTS, REPORT, Part, Result
 from geocontact.analyses.gap.case import CaseWithModel, read_case
 from geocontact.analyses.gap.diagnose.answer import diagnosis_tables, untried_law, verdict_sentences
+from geocontact.analyses.gap.diagnose.curves import gap_figures, map_figure
 from geocontact.analyses.gap.diagnose.options import DiagnoseOptions
-from geocontact.analyses.gap.diagnose.show import gap_figures, gap_page, map_figure
+from geocontact.analyses.gap.diagnose.show import gap_page
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.gap_case import GapCase
 from geocontact.data.version import VERSION
@@ -58,11 +59,14 @@ class DiagnoseResult(Result):
         What was diagnosed, SI units.
     findings
         Answer, gap map, held-out curves, ranking, and all that they rest on.
+    injected
+        Which effect was put into the trials, and whether it was found, in sentences; none in trials as they came.
     """
 
     options: DiagnoseOptions
     case: GapCase
     findings: Findings
+    injected: tuple[str, ...] = ()
 
     @property
     def diagnosis(self) -> Diagnosis:
@@ -112,7 +116,7 @@ class DiagnoseResult(Result):
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Verdict, curves of held-out trials, figures and tables."""
-        return {REPORT: gap_page(self.case, self.findings, drawings)}
+        return {REPORT: gap_page(self.case, self.findings, drawings, self.injected)}
 
     def write_files(self, folder: Path) -> None:
         """Also the answer."""

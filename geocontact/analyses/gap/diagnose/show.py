@@ -1,45 +1,34 @@
-"""A diagnosis in figures and on its page: what, where, how far and how sure; curves of held-out trials after that."""
+"""A diagnosis on its page: measured and simulated first, then where, how far and how sure; words and tables after."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
-from jaxtyping import Float
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.gap.case import names, percent
-from geocontact.analyses.gap.diagnose.answer import (
-    axis_units,
-    facts_of,
-    in_question,
-    verdict_sentences,
+from geocontact.analyses.gap.diagnose.answer import axis_units, facts_of, in_question, verdict_sentences
+from geocontact.analyses.gap.diagnose.curves import (
+    FRAMES,
+    OVER,
+    quantity_of,
+    readout,
+    residual_panel,
+    surface_names,
+    trial_panel,
+    worst_first,
 )
-from geocontact.data.diagnosis import Diagnosis, HeldOut
+from geocontact.analyses.gap.diagnose.page_answers import map_strips, ranking_bars, reduction_bars
+from geocontact.analyses.gap.nats import ODDS
+from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.diagnose import Findings
-from geocontact.view.curves.before_after import SIDE_BY_SIDE, before_after
-from geocontact.view.curves.diagnosis_answers import ranking_figure, reductions_figure
-from geocontact.view.curves.gap_map import (
-    PHASE,
-    SIGNIFICANT,
-    gap_map_figure,
-    gap_residuals,
-    gap_surface_figure,
-)
-from geocontact.view.curves.quantity import Quantity
+from geocontact.view.curves.gap_map import SIGNIFICANT
 from geocontact.view.curves.sheet import number
-from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
+from geocontact.view.page.content import Curves, Page, Picture, Section, Table, Words
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-GRID = np.linspace(0.0, 1.0, 401)
-SURFACE = "gap_surface_"
-PRINTED = {"N m": ("N m", 1.0), "N": ("N", 1.0), "m": ("mm", 1e3), "rad": ("°", 180.0 / np.pi)}
 CELLS = 12  # of the gap map that the page lists
 GAP_HEADER = (
     "channel",
@@ -52,7 +41,7 @@ GAP_HEADER = (
     "unexplained",
     "part of the whole gap",
     "phase with 70 % of it",
-    "p",
+    "p-value",
 )
 CELLS_HEADER = (
     "channel",
@@ -61,34 +50,12 @@ CELLS_HEADER = (
     "share of the channel's gap",
     "95 % interval",
     "floor: of the squared residual, no gap",
-    "p, whole map",
+    "p-value, whole map",
 )
-FRAMES = 201
 PANELS = 12  # held-out trials times channels; more are left to the tables
-STROKES = {"measured": 0, "base model": 1}
-"""Colours that hold in all panels; the model with the effect has the next."""
-MAP = (
-    "Share of each channel's squared residual over the phase of the trial, over inputs, their rates and the load (cut "
-    "at quantiles), over frequency bands, and over the phase again of what is faster than 5 Hz; all trials, base model."
-)
-RANKING = "Gain of evidence over the base model of every model that was tried, in nats."
-RESIDUALS = (
-    "Residuals of the held-out trials over the phase; the band is the noise floor, the grey window holds 70 % of the "
-    "gap."
-)
 SURFACE_WORDS = (
     "Part of each cell of the mat in the load that the base model expects, and in the gap on held-out trials."
 )
-REDUCTIONS = (
-    "Root mean square error of each channel on trials that no parameter was fitted to; the whisker is the 95 % "
-    "interval of what stays on fresh trials of the same kind, the dashed line the noise floor."
-)
-CAPTIONS = {
-    "gap_map": ("Where the gap is", MAP),
-    "reductions": ("How far it shrinks", REDUCTIONS),
-    "ranking": ("How sure that is", RANKING),
-}
-LEFT_OVER = {"gap_residuals": ("Residuals", RESIDUALS)}
 CHOSEN = (
     "Probabilities weigh the effects that the vocabulary has for this system, none, and anything unknown; an effect is "
     "named because it predicts these trials best, not because it was observed."
@@ -97,92 +64,14 @@ HELD_OUT = (
     "Errors and reduction are those of predictions from measured inputs on trials that no parameter was fitted to; the "
     "interval is for the reduction on fresh trials of the same kind."
 )
-
-
-def resampled(
-    trial: HeldOut, values: Float[np.ndarray, "t c"], phase: Float[np.ndarray, " p"]
-) -> Float[np.ndarray, "p c"]:
-    """Columns of a trial at other phases, by linear interpolation; NaN next to what is not there."""
-    return np.stack([np.interp(phase, trial.phase, column) for column in values.T], axis=1)
-
-
-def quantity_of(findings: Findings, channel: str) -> Quantity:
-    """A channel as it is drawn: lengths in mm, angles in degrees."""
-    unit = findings.attribution.problem.system.unit(channel)
-    printed, per_si = PRINTED.get(unit, (unit, 1.0))
-    return Quantity(channel, printed, per_si)
-
-
-def map_figure(findings: Findings) -> Figure:
-    """Where the gap is."""
-    return gap_map_figure(findings.cells, axis_units(findings))
-
-
-def gap_figures(findings: Findings) -> dict[str, Figure]:
-    """Map, errors, ranking, residuals, cells of each mat, and curves of each channel where something was named."""
-    found = {
-        "gap_map": map_figure(findings),
-        "reductions": _reductions(findings),
-        "ranking": ranking_figure(findings.ranking),
-        "gap_residuals": _residuals(findings),
-    }
-    found |= {f"{SURFACE}{_file_name(one.site, k)}": gap_surface_figure(one) for k, one in enumerate(findings.surface)}
-    for c, name in enumerate(findings.attribution.problem.system.outputs):
-        drawn = _before_after(findings, c)
-        found |= {} if drawn is None else {f"before_after_{_file_name(name, c)}": drawn}
-    return found
-
-
-def _reductions(findings: Findings) -> Figure:
-    d = findings.diagnosis
-    effect = effect_words(findings) if any(t.named is not None for t in findings.held_out) else ""
-    return reductions_figure(d.gap, [quantity_of(findings, name) for name in d.gap], effect)
-
-
-def _residuals(findings: Findings) -> Figure:
-    d, trials = findings.diagnosis, findings.held_out
-    channels = findings.attribution.problem.system.outputs
-    base = np.array([resampled(t, t.measured - t.base, GRID) for t in trials])
-    named = [resampled(t, t.measured - t.named, GRID) for t in trials if t.named is not None]
-    return gap_residuals(
-        GRID,
-        [quantity_of(findings, name) for name in channels],
-        base,
-        np.array(named) if named else None,
-        {name: g.noise_floor for name, g in d.gap.items()},
-        {w.channel: w.phase for w in d.where},
-        effect_words(findings),
-    )
-
-
-def _before_after(findings: Findings, c: int) -> Figure | None:
-    """One channel on the first held-out trials that have it; None where nothing is named, or gaps hide a phase."""
-    trials = findings.held_out
-    shown = [t for t in trials if np.isfinite(t.measured[:, c]).any()][:SIDE_BY_SIDE]
-    if all(t.named is None for t in trials) or not shown:
-        return None
-    measured, before, after = (
-        np.array([resampled(t, part, GRID)[:, c] for t, part in zip(shown, parts, strict=True)])
-        for parts in ([t.measured for t in shown], [t.base for t in shown], [_named(t) for t in shown])
-    )
-    if not np.isfinite(measured + before + after).any(axis=1).all():
-        return None
-    quantity = quantity_of(findings, findings.attribution.problem.system.outputs[c])
-    names, effect = [t.name for t in shown], effect_words(findings)
-    return before_after(100.0 * GRID, measured, before, after, quantity, effect, range(len(shown)), names, PHASE)
-
-
-def effect_words(findings: Findings) -> str:
-    """What the curves are drawn with."""
-    return " + ".join(findings.diagnosis.effects) or "the most probable candidate"
-
-
-def _named(trial: HeldOut) -> Float[np.ndarray, "t c"]:
-    return trial.base if trial.named is None else trial.named
-
-
-def _file_name(channel: str, number: int) -> str:
-    return channel if re.fullmatch(r"\w{1,60}", channel, re.ASCII) else str(number + 1)
+PROBABILITY = (
+    "p is the probability of an answer, from 0 to 1: each effect that was tried, none of them, or anything unknown. It "
+    "takes into account how often such answers were wrong on cases whose truth was known."
+)
+P_VALUE = (
+    "A p-value is something else: how often chance alone would give a gap as clear as this one. It is small where "
+    "there surely is a gap."
+)
 
 
 def gap_table(findings: Findings) -> Table:
@@ -252,11 +141,7 @@ def cells_table(findings: Findings) -> Table:
     return Table(f"Gap map: {len(rows)} of {len(cells)} significant cells", CELLS_HEADER, rows)
 
 
-def gap_page(
-    case: GapCase,
-    findings: Findings,
-    drawings: Mapping[str, bytes],
-) -> Page:
+def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes], injected: Sequence[str] = ()) -> Page:
     """The self-contained page of one diagnosis, before it becomes a file.
 
     Parameters
@@ -264,17 +149,21 @@ def gap_page(
     case, findings
         What was diagnosed, and what was found.
     drawings
-        `gap_figures` as SVG; those that `CAPTIONS` and `LEFT_OVER` name are shown, and those of surfaces.
+        `gap_figures` as SVG; those of surfaces are shown.
+    injected
+        Which effect was put into the trials, and whether it was found, in sentences.
     """
     d = findings.diagnosis
-    phase = np.linspace(0.0, 1.0, FRAMES)
-    panels, missing = _panels(findings, phase)
+    first, further = _panels(findings)
+    missing = max(len(findings.held_out) * len(d.gap) - PANELS, 0)
     sentences = verdict_sentences(d, findings.cells)
-    surfaces = {name: ("Where on the surface", SURFACE_WORDS) for name in drawings if name.startswith(SURFACE)}
-    sections: list[Section] = [*_pictures(drawings, CAPTIONS)]
-    sections += [Words("Verdict", [f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences])]
-    sections += [*_pictures(drawings, surfaces)]
-    sections += [*panels, _readout(findings, phase), *_pictures(drawings, LEFT_OVER)]
+    sections: list[Section] = [*first, reduction_bars(findings), ranking_bars(findings), map_strips(findings)]
+    sections += [*further, readout(findings)]
+    sections += [Words("What was injected", [_sentence(line) for line in injected])] if injected else []
+    sections += [Words("Verdict", [_sentence(line) for line in sentences])]
+    sections += [Words("How to read these numbers", reading(d))]
+    surfaces = [drawings[name] for name in surface_names(findings)]
+    sections += [Picture("Where on the surface", SURFACE_WORDS, each, wide=True) for each in surfaces]
     sections += [gap_table(findings), ranking_table(findings)]
     sections += [trials_table(findings)] if findings.trials else []
     sections += [parameters_table(d), cells_table(findings)]
@@ -283,21 +172,47 @@ def gap_page(
     return Page(
         title=d.case,
         subtitle=_subtitle(case, d),
-        time=100.0 * phase,
-        time_label="phase of the trial [%]",
-        headline=headline(sentences, most=1),
+        time=OVER.values,
+        time_label=OVER.label,
+        headline=headline([*injected[1:], *sentences], most=1 + len(injected[1:])),
         facts=facts_of(findings),
         start_frame=round(0.5 * sum(window) * (FRAMES - 1)),
         sections=tuple(sections),
         plays=False,
-        answers=sum(name in drawings for name in CAPTIONS),
     )
 
 
-def _pictures(drawings: Mapping[str, bytes], captions: Mapping[str, tuple[str, str]]) -> list[Picture]:
-    """Those that there are, in the order of their captions."""
-    shown = [name for name in captions if name in drawings]
-    return [Picture(*captions[name], drawings[name], wide=name not in CAPTIONS) for name in shown]
+def _sentence(words: str) -> str:
+    return f"{words[0].upper()}{words[1:]}."
+
+
+def reading(d: Diagnosis) -> list[str]:
+    """What p, nats and an interval that reaches below zero mean, as far as this diagnosis has them."""
+    said = [PROBABILITY]
+    main = d.where[0].channel if d.where else next(iter(d.gap), None)
+    if d.effects and main is not None and d.gap[main].ci95[0] < 0.0:
+        low, high = d.gap[main].ci95
+        p = sum(d.probabilities.get(name, 0.0) for name in d.effects)
+        said.append(
+            f"The interval {percent(low)} … {percent(high)} % reaches below 0 beside p = {p:.2f}. These are two "
+            f"questions. p says how sure it is that {names(d.effects)} {'is' if len(d.effects) == 1 else 'are'} there, "
+            "from all trials together. The interval says how much smaller the error of a new trial may be. Trials "
+            f"differ, and few were held out: on a new trial the error of {main} may shrink by up to {percent(high)} %, "
+            f"or grow by up to {percent(-low)} %."
+        )
+    return [*said, ODDS, P_VALUE]
+
+
+def _panels(findings: Findings) -> tuple[list[Curves], list[Curves]]:
+    """Each channel on the first held-out trial, that with the largest gap first; then what else there is room for."""
+    channels, trials = worst_first(findings), findings.held_out
+    pairs = [(name, trial) for name in channels for trial in trials][:PANELS]
+    first = [trial_panel(findings, name, trials[0]) for name in channels[:PANELS]]
+    further = []
+    for name, trial in pairs:
+        further += [] if trial is trials[0] else [trial_panel(findings, name, trial)]
+        further.append(residual_panel(findings, name, trial))
+    return first, further
 
 
 def _subtitle(case: GapCase, d: Diagnosis) -> str:
@@ -309,58 +224,9 @@ def _subtitle(case: GapCase, d: Diagnosis) -> str:
     )
 
 
-def _panels(findings: Findings, phase: Float[np.ndarray, " p"]) -> tuple[list[Curves], int]:
-    """Two panels per held-out trial and channel, curves and residuals, and how many trials there was no room for."""
-    effect = effect_words(findings)
-    panels = []
-    for c, name in enumerate(findings.attribution.problem.system.outputs):
-        quantity = quantity_of(findings, name)
-        for trial in findings.held_out:
-            models = {"base model": trial.base} | ({} if trial.named is None else {f"with {effect}": trial.named})
-            off = {label: trial.measured - values for label, values in models.items()}
-            for words, parts in (("", {"measured": trial.measured, **models}), (": measured − predicted", off)):
-                curves = [
-                    Curve(label, quantity.shown(resampled(trial, values, phase)[:, c]), stroke=STROKES.get(label, 2))
-                    for label, values in parts.items()
-                ]
-                panels.append(Curves(f"{name}, held-out trial {trial.name}{words}", quantity.unit, curves))
-    return panels[: 2 * PANELS], max(len(panels) // 2 - PANELS, 0)
-
-
-def _readout(findings: Findings, phase: Float[np.ndarray, " p"]) -> Readout:
-    """Root mean square residual at the phase under the cursor, over the held-out trials."""
-    rows, trials = [], findings.held_out
-    for c, name in enumerate(findings.attribution.problem.system.outputs):
-        quantity = quantity_of(findings, name)
-        for words, off in (
-            ("base model", [t.measured - t.base for t in trials]),
-            ("with it", [t.measured - t.named for t in trials if t.named is not None]),
-        ):
-            if off:
-                rows.append(_row(f"{name}, {words} off by", quantity, trials, off, phase, c))
-    return Readout(rows, title="At this phase, held-out trials together (rms)")
-
-
-def _row(
-    label: str,
-    quantity: Quantity,
-    trials: Sequence[HeldOut],
-    off: Sequence[np.ndarray],
-    phase: Float[np.ndarray, " p"],
-    c: int,
-) -> Row:
-    values = np.array([resampled(t, part, phase)[:, c] for t, part in zip(trials, off, strict=True)])
-    there = np.isfinite(values)
-    squares = np.where(there, values, 0.0) ** 2
-    mean = squares.sum(axis=0) / np.where(there.any(axis=0), there.sum(axis=0), np.nan)
-    shown = quantity.shown(np.sqrt(mean))
-    scale = float(np.nanmax(shown, initial=0.0))
-    return Row(label, quantity.unit, [number(value, scale) for value in shown])
-
-
 def _confounded(d: Diagnosis) -> Words:
     said = []
-    said += [f"{sentence[0].upper()}{sentence[1:]}." for sentence in (in_question(d) if d.effects else ())]
+    said += [_sentence(line) for line in (in_question(d) if d.effects else ())]
     if len(d.ambiguity) > 1:
         said.append(f"Still possible, most probable first: {names(d.ambiguity)}.")
     if len(d.effects) == 2:

@@ -30,7 +30,9 @@ def confusion_sentences(c: Discriminability) -> list[str]:
         )
     if c.mistakes:
         said.append(f"mistakes in the data that would leave a gap, made in all trials: {names(c.mistakes)}")
-    said += [f"not separable (less than {APART:g} nats between any two): {names(one)}" for one in c.classes]
+    if c.classes:
+        alike = "; ".join(names(one) for one in c.classes)
+        said.append(f"not separable (less than {APART:g} nats between any two): {alike}")
     if not c.classes and len(c.effects) > 1:
         said.append(f"any two of these effects would be separated by {APART:g} nats or more, one way round at least")
     if c.proposal is not None:

@@ -20,8 +20,9 @@ r"""What trials can tell: `geocontact gap discriminability`, `gc.discriminabilit
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -73,8 +74,8 @@ class DiscriminabilityResult(Result):
 
     @property
     def title(self) -> str:
-        """Name of the case."""
-        return self.case.name
+        """Of which case."""
+        return f"Effects that the trials of {self.case.name} show"
 
     @property
     def parts(self) -> frozenset[Part]:
@@ -101,12 +102,12 @@ class DiscriminabilityResult(Result):
         return {"separability": separability_table(self.found), "detectability": detectability_table(self.found)}
 
     def figures(self) -> dict[str, Figure]:
-        """`separability`: who is told from whom; `detectability`: from which size on effects are seen."""
+        """`separability`: nats between every two effects; `detectability`: from which size on effects are seen."""
         return confusion_figures(self.found)
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Sentences, matrix, smallest amplitudes."""
-        return {REPORT: confusion_page(self.title, self.found, drawings)}
+        return {REPORT: confusion_page(self.title, self.found)}
 
     def write_files(self, folder: Path) -> None:
         """Also the answer."""
@@ -146,12 +147,18 @@ def asked(text: str | None, system: System) -> tuple[str, ...]:
 def run(question: Question, o: DiscriminabilityOptions) -> DiscriminabilityResult:
     """Every effect on top of the base model, and what is found in words."""
     case, system, names = question.given.case, question.given.system, question.effects
-    with listener().progress("effects", 2 * len(offered(system, names))) as step:
-        found = compared(case, system, names, o.nats, step)
+    with listener().stages(o.case.resolve().name) as at:
+        found = compared(case, system, names, o.nats, _steps(at, 2 * len(offered(system, names))), at)
     for sentence in (*confusion_sentences(found), sizes_sentence(found)):
         if sentence:
             say(sentence)
     return DiscriminabilityResult(options=o, case=case, found=found)
+
+
+def _steps(at: Callable[[str], None], count: int) -> Callable[[], None]:
+    """Says after each step how many are done."""
+    done = itertools.count(1)
+    return lambda: at(f"effects, step {next(done)} of {count}")
 
 
 discriminability = Job("gap confuse", DiscriminabilityOptions, read, run)

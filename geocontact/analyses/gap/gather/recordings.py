@@ -11,6 +11,7 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, reserve
+from geocontact.analyses.gap.gather.checks import check_gathered
 from geocontact.analyses.gap.gather.options import GatherOptions
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
@@ -234,6 +235,13 @@ def gathered(recordings: Recordings, o: GatherOptions) -> GapCase:
     settings = recordings.plan.settings
     parameters = parameters_of(settings, o.settings)
     case = case_of(settings, parameters, o.settings, o.settings.stem, alike(trials), recordings.tables)
+    measured = {
+        name: tuple(
+            each for each in table.signals.channels if each not in recordings.trials[name].inputs.signals.channels
+        )
+        for name, table in trials.items()
+    }
+    check_gathered(case, measured, o.settings)
     return replace(case, cells={site: cell_channels(site, own) for site, own in mats.items()})
 
 

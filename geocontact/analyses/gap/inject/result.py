@@ -21,7 +21,7 @@ floor'
 from __future__ import annotations
 
 import shutil
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -164,9 +164,11 @@ def run(given: CaseWithModel, o: InjectOptions) -> InjectResult:
         reserve("cells of mats are left as they were: they do not show the effect")
     found = _diagnosed(scratch.folder / CASE, o)
     judgement = judged(one, made, before, found.diagnosis)
+    said = tuple(sentences(one, made, found.diagnosis, judgement))
+    found = replace(found, injected=said)
     result = InjectResult(options=o, effect=one, planted=made, diagnosed=found, judgement=judgement, scratch=scratch)
     note("planted", answer(one, made, found.diagnosis, judgement))
-    for sentence in sentences(one, made, found.diagnosis, judgement):
+    for sentence in said:
         say(sentence)
     if made.size < LEAST * o.size and not (one.parameters and one.parameters[0].name in o.value):
         reserve("the amplitude is as large as its bounds admit; base parameters imitate the rest")

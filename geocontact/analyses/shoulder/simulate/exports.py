@@ -82,12 +82,13 @@ def write_lines(folder: Path, arms: Sequence[ArmSimulation]) -> None:
 FREE = {"k_t": ("N/m", 50.0, 2e4), "b_t": ("N s/m", 0.0, 500.0), "m": ("kg", 0.05, 5.0)}
 """Numbers that a fit may free, with unit and bounds; the others are constants."""
 HEAD = """# {side} arm in its plane; the hinge moves by {moved} (standard deviation) forwards and upwards
-# A case needs a second trial, held out: simulate it as well, then write its folder for OTHER below, and its level.
+# A diagnosis needs two trials to fit to, and others to hold out, two if there are: simulate them as well, then write
+# their folders for SECOND and THIRD below, and their levels, 0 to 1.
 format = 1
 system = "shoulder"
 support = "support.csv"
-calibration = ["t01"]
-evaluation = ["t02"]
+calibration = ["t01", "t02"]
+evaluation = ["t03"]
 
 [from.t01]
 inputs = "{side}.csv"
@@ -97,10 +98,17 @@ outputs = "{side}_simulated.csv"
 level = {level:g}
 
 [from.t02]
-inputs = "OTHER/plane/{side}.csv"
-outputs = "OTHER/plane/{side}_simulated.csv"
+inputs = "SECOND/plane/{side}.csv"
+outputs = "SECOND/plane/{side}_simulated.csv"
 
 [trial.t02]
+level = {level:g}
+
+[from.t03]
+inputs = "THIRD/plane/{side}.csv"
+outputs = "THIRD/plane/{side}_simulated.csv"
+
+[trial.t03]
 level = {level:g}
 
 [constants]

@@ -2,6 +2,7 @@
 import { curves, strip } from "./charts.js";
 import { continues } from "./continues.js";
 import { cursor, keys, player } from "./controls.js";
+import { matrix, strips } from "./heat.js";
 import { intervals } from "./intervals.js";
 import { names } from "./linkages.js";
 import { legend, scaleBar, triad } from "./overlays.js";
@@ -69,7 +70,7 @@ async function start() {
     time.go(frame);
   };
   const reading = { go: pointed, plays: data.plays };
-  const makers = { curves: (f, p) => curves(f, p, data.time, data.timeLabel, reading), strip, plan, intervals, readout };
+  const makers = { curves: (f, p) => curves(f, p, data.time, data.timeLabel, reading), strip, plan, intervals, matrix, strips, readout };
   const parts = data.parts.filter((part) => element(part.id)).map((part) => makers[part.kind](element(part.id), part));
   for (const move of parts) time.listen(move);
   time.listen((frame) => (state.frame = frame));

@@ -1,0 +1,151 @@
+"""What trials that are joined cannot be: copies, shares of 50, forces turned round, outputs a second late.
+
+A copy is refused, and so is a share beyond 1. Signs and lags are warned of: they may be real, and only the diagnosis
+knows the model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.analyses.frame.collector import reserve
+from geocontact.analyses.gap.case import names, require_shares
+from geocontact.data.errors import InputError
+from geocontact.data.gap_case import GapCase
+from geocontact.data.trial import Trial
+from geocontact.gap.case.admission import repeated
+
+OPPOSITE = -0.8
+"""Cosine between how two trials' outputs go with their inputs, from which one is the other turned round."""
+CLEAR = 0.5
+"""Size of that relation, of 1, below which its sign says nothing."""
+LATEST = 2.0
+"""Lag up to which outputs are looked for behind or before inputs [s]."""
+LATE = 0.3
+"""Lag that no sensor and no strap makes [s]."""
+EXPLAINED = 0.6
+"""Part of an output's variance that its inputs must explain at the best lag, for the lag to be one."""
+MISSED = 0.05
+"""Part of the variance that inputs must leave unexplained without a lag, for one to be looked for."""
+CLEARER = 0.5
+"""Part of what is unexplained without a lag that may remain at it."""
+STEPS = 40
+"""Lags that are tried to either side."""
+
+
+def check_gathered(case: GapCase, measured: Mapping[str, Sequence[str]], file: Path) -> None:
+    """InputError for copies and shares beyond 1; a reservation for forces turned round and for late outputs.
+
+    Parameters
+    ----------
+    measured
+        Channels of each trial that were measured beside its inputs.
+    file
+        The settings, gather.toml.
+    """
+    trials = [*case.calibration, *case.evaluation]
+    channels = [name for name in case.calibration[0].signals.channels if all(name in measured[t.name] for t in trials)]
+    same = repeated(trials, channels)
+    if same is not None:
+        what = f"{same.channel} is the same as in [from.{same.first}], sample by sample"
+        raise InputError(file, f"[from.{same.second}]", what, "name the files of that trial's own recording")
+    require_shares(case, file)
+    for line in (*turned_round(trials, channels), *late(trials, channels)):
+        reserve(line)
+
+
+def turned_round(trials: Sequence[Trial], channels: Sequence[str]) -> list[str]:
+    """Which trials have a channel with the sign of another trial's turned round, in words."""
+    found = []
+    for name in channels:
+        related = {trial.name: _relation(trial, name, channels) for trial in trials}
+        pairs = [
+            (a, b)
+            for a, b in combinations(related, 2)
+            if min(np.linalg.norm(related[a]), np.linalg.norm(related[b])) > CLEAR
+            and related[a] @ related[b] < OPPOSITE * np.linalg.norm(related[a]) * np.linalg.norm(related[b])
+        ]
+        if not pairs:
+            continue
+        count = {each: sum(each in pair for pair in pairs) for each in related}
+        odd = [each for each in related if count[each] == max(count.values())]
+        signs = f"in {names(odd)} its sign is opposite to that in the other trials"
+        if len(pairs) == 1:
+            signs = f"its signs in {names(pairs[0])} are opposite"
+        found.append(f"{name}: {signs}; is one of them the load on the other body?")
+    return found
+
+
+def _relation(trial: Trial, name: str, measured: Sequence[str]) -> Float[np.ndarray, " r"]:
+    """How a channel goes with the inputs: its mean over its root mean square, and its correlation with each of them."""
+    values = trial.column(name)
+    there = np.isfinite(values)
+    others = [trial.column(each) for each in trial.signals.channels if each not in measured]
+    for each in others:
+        there &= np.isfinite(each)
+    if there.sum() < STEPS:
+        return np.zeros(1 + len(others))
+    own = values[there]
+    size = float(np.sqrt(np.mean(own**2)))
+    level = float(own.mean()) / size if size > 0.0 else 0.0
+    return np.array([level, *(_correlation(own, each[there]) for each in others)])
+
+
+def _correlation(a: Float[np.ndarray, " t"], b: Float[np.ndarray, " t"]) -> float:
+    spread = float(a.std() * b.std())
+    return float(np.mean((a - a.mean()) * (b - b.mean()))) / spread if spread > 0.0 else 0.0
+
+
+def late(trials: Sequence[Trial], channels: Sequence[str]) -> list[str]:
+    """Which measured channels follow the inputs of their trial much later, or precede them, in words."""
+    found = []
+    for trial in trials:
+        worst = [(name, lag) for name in channels if (lag := lag_of(trial, name, channels)) is not None]
+        if worst:
+            some = names(list(dict.fromkeys(name for name, _ in worst)))
+            lag = worst[0][1]
+            way = "later" if lag > 0.0 else "earlier"
+            found.append(
+                f"trial {trial.name}: {some} moves {abs(lag):.2g} s {way} than the inputs; is it the same clock?"
+            )
+    return found
+
+
+def lag_of(trial: Trial, name: str, measured: Sequence[str]) -> float | None:
+    """By how much a channel is late [s]: where inputs, their squares and rates explain it far better than without lag.
+
+    None where the lag is less than `LATE`, or is none.
+    """
+    time, values = trial.time, trial.column(name)
+    inputs = [trial.column(each) for each in trial.signals.channels if each not in measured]
+    inputs = [each for each in inputs if np.isfinite(each).all() and np.ptp(each) > 0.0]
+    reach = min(LATEST, 0.3 * float(time[-1] - time[0]))
+    if not inputs or reach < LATE:
+        return None
+    lags = np.linspace(-reach, reach, 2 * STEPS + 1)
+    inside = np.isfinite(values) & (time >= time[0] + reach) & (time <= time[-1] - reach)
+    if inside.sum() < STEPS or np.ptp(values[inside]) == 0.0:
+        return None
+    moved = [np.array([np.interp(time - lag, time, each) for each in inputs]) for lag in lags]
+    rests = np.array([_unexplained(values[inside], _regressors(time, each)[inside]) for each in moved])
+    best, none = int(np.argmin(rests)), rests[STEPS]
+    clear = none > MISSED and rests[best] < min(1.0 - EXPLAINED, CLEARER * none)
+    if abs(lags[best]) < LATE or not clear:
+        return None
+    return float(lags[best])
+
+
+def _regressors(time: Float[np.ndarray, " t"], inputs: Float[np.ndarray, "i t"]) -> Float[np.ndarray, "t r"]:
+    rates = np.gradient(inputs, time, axis=1)
+    return np.column_stack([np.ones(len(time)), *inputs, *inputs**2, *rates])
+
+
+def _unexplained(values: Float[np.ndarray, " t"], regressors: Float[np.ndarray, "t r"]) -> float:
+    """Part of the variance that a straight combination of the regressors leaves."""
+    off = values - regressors @ np.linalg.lstsq(regressors, values, rcond=None)[0]
+    return float(np.var(off) / np.var(values))
