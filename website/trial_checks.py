@@ -32,7 +32,8 @@ turn and not after it is in the model's axes already: it stays as it is, with a 
 
 A result that was compared with data says so in `run.json` (`fit`), and in Python as `result.fit_outcome`: `fits`,
 `doubtful`, or `contradicts`. With `contradicts` that is the first sentence, the command ends with 1, no parameter is
-called known and no interval is written. `sit-to-stand calibrate` has it; other analyses follow.
+called known and no interval is written. A doubt is a warning. `sit-to-stand calibrate` and `device`, `elbow fit`,
+`prosthesis simulate` and `shoulder simulate` have it; intervals are left out by the first of them only.
 
 | compares | doubtful | contradicts |
 |---|---|---|

@@ -82,7 +82,7 @@ class Job(Generic[I, R]):
             parts = map(held.spelled, (fspath(error.file), error.place, error.what, error.remedy))
             raise InputError(*parts) from error
         record.name_in_memory()
-        for line in merged(record.warnings):
+        for line in (*((record.judged,) if record.judged else ()), *merged(record.warnings)):
             warnings.warn(line, InputWarning, stacklevel=2)
         return result
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.analyses.frame.collector import reserve
+from geocontact.analyses.frame.collector import judge, reserve
+from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit
 from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
 
@@ -38,6 +39,9 @@ def warn_of(found: ArmSimulation) -> None:
     """Warn where the sphere is out of the cuff, or a joint is at a stop."""
     which, time = f"{found.motion.side} arm", found.motion.time
     out = found.out_of_cuff
+    share = float(out.mean())
+    lost = Doubt(f"{which}: the sphere is out of the cuff for {share_words(share)} of the time", True)
+    judge(GoodnessOfFit((lost,) if share >= MUCH else (), (f"{which} in its cuff",)))
     if out.any():
         far = np.abs(found.told["place"][:, 0])
         reserve(

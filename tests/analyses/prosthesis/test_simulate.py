@@ -15,7 +15,7 @@ import geocontact as gc
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.prosthesis.simulate.result import (
     ProsthesisSimulateResult,
-    below_a_constant,
+    against_the_plate,
     beside_words,
     curves_table,
     errors_table,
@@ -156,6 +156,7 @@ def test_a_stance_that_fits_worse_than_a_constant_is_asked_about() -> None:
     errors = stance_errors(a_stance(own, walked(own)), plate_of(own))
     fits = dict.fromkeys(errors.table, (0.9, 0.1))
     errors = replace(errors, table=fits)
-    assert below_a_constant(errors) == []
-    (line,) = below_a_constant(replace(errors, table=fits | {"cop_ground": (-31.28, 0.9), "fore_aft": (-1.0, 0.1)}))
-    assert line.startswith("centre of pressure: R² is -31.28, a constant would fit better: are mass, setting, and unit")
+    assert against_the_plate(errors).outcome == "fits"
+    table = fits | {"cop_ground": (-31.28, 0.9), "fore_aft": (-1.0, 0.1)}
+    (doubt,) = against_the_plate(replace(errors, table=table)).doubts
+    assert doubt.contradicts and doubt.what.startswith("centre of pressure: R² is -31.28, a constant would describe")

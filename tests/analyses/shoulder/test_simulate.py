@@ -128,8 +128,9 @@ def test_a_short_cuff_lets_the_sphere_out(tmp_path: Path) -> None:
     assert any(
         re.search(r"right arm: the sphere is out of the cuff for \d+% .* up to \d+ mm", w) for w in short.warnings
     )
-    assert short.sentences[0].endswith("; the sphere is out of the cuff for 94% of the time")
-    assert short.sentences[0] in str(short)
+    assert short.sentences[0].startswith("the result contradicts its data") and short.exit_code == 1
+    assert short.sentences[1].endswith("; the sphere is out of the cuff for 94% of the time")
+    assert short.sentences[1] in str(short)
     short.write_page(tmp_path / "report.html")
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "the sphere is out of the cuff for 94% of the time." in page and "Out of the cuff, right" in page

@@ -56,8 +56,9 @@ def test_torques_that_are_not_of_this_motion_are_doubted(tmp_path: Path) -> None
     motors = tmp_path / "motors.sto"
     exchanged = MOTORS.read_text().replace("exo_ankle", "hip").replace("exo_hip", "exo_ankle")
     motors.write_text(exchanged.replace("hip\texo_knee", "exo_hip\texo_knee"))
-    with pytest.warns(gc.InputWarning, match="are left of the motors' torques"):
-        gc.sit_to_stand.device(ANGLES, motors=motors)
+    with pytest.warns(gc.InputWarning, match="contradicts its data.* of the motors' torques are not explained"):
+        result = gc.sit_to_stand.device(ANGLES, motors=motors)
+    assert result.fit_outcome == "contradicts" and result.exit_code == 1
 
 
 @pytest.mark.parametrize(
