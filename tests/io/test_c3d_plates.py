@@ -175,7 +175,7 @@ def test_channels_in_volts_are_said(tmp_path: Path) -> None:
 def test_an_empty_unit_of_points_is_refused_unless_it_is_stated(tmp_path: Path) -> None:
     """It was taken as mm, which is a thousand times too small where it is m."""
     file = plate_file(tmp_path / "a.c3d", channels(stance()), ("", "N", "Nm"), 1.0, 1.0)
-    with pytest.raises(InputError, match=r"POINT:UNITS: is empty: .* is not known; state it with `c3d_unit` m, cm, mm"):
+    with pytest.raises(InputError, match=r"POINT:UNITS: is empty: .* is unknown; state it with `c3d_unit` m, cm, mm"):
         read_force_plates(file)
     (plate,) = read_force_plates(file, "m")
     require_true(plate, stance(), 1e-5)

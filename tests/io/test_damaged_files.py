@@ -47,7 +47,7 @@ TRC = (
 Read = Callable[[Path], Any]
 CASES: dict[str, tuple[str, str, Read, str]] = {
     # what is wrong: file, content, reader, part of the line
-    "cell": ("a.csv", "time [s],f [N]\n0,1\n1,1e30\n", read_table, "line 3: 1e+30 in column 'f' is larger than any"),
+    "cell": ("a.csv", "time [s],f [N]\n0,1\n1,1e30\n", read_table, "line 3: 1e+30 in column 'f' is implausibly large"),
     "cell in storage": ("a.sto", "a\nendheader\ntime f\n0 1\n1 -1e39\n", read_table, "line 5: -1e+39 in column 'f'"),
     "side table": ("a.csv", "id,x [mm]\na,1e30\n", read_side_table, "line 2: '1e30' in column 'x' is not a finite"),
     "pose": ("a.txt", "1 0 0 1e30\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", read_pose, "a.txt: not a 4x4 matrix of finite"),
@@ -82,7 +82,7 @@ CASES: dict[str, tuple[str, str, Read, str]] = {
         "area.csv",
         "time [s],threshold [mm],area_fixed [mm^2]\n0,4,1e30\n",
         lambda path: read_area_table([path]),
-        "area.csv row 1: 'area_fixed [mm^2]' is 1e+30, which is larger",
+        "area.csv row 1: 'area_fixed [mm^2]' is 1e+30, which is implausibly large",
     ),
     "profile": (
         "profile.csv",
@@ -107,7 +107,7 @@ CASES: dict[str, tuple[str, str, Read, str]] = {
         "parameters.csv",
         "parameter,unit,value,lower,upper\nk,N/m,1,0,1e30\n",
         lambda path: read_contact_intervals(path, ["k"]),
-        "parameters.csv k: an end of its interval is larger",
+        "parameters.csv k: an end of its interval is implausibly large",
     ),
     "no particles": (
         "a.particles",
@@ -119,7 +119,7 @@ CASES: dict[str, tuple[str, str, Read, str]] = {
         "a.particles",
         "1 2 3\n4 -1e30 6\n",
         lambda path: read_particles(path, "mm"),
-        "line 2: y is -1e+30, which is larger than any number",
+        "line 2: y is -1e+30, which is implausibly large",
     ),
     "particle with underscores": (
         "a.particles",

@@ -313,7 +313,9 @@ def simulated(folder: Path, program: str = PROGRAM, system: str = "command") -> 
 
 def test_a_program_is_not_run_unasked(tmp_path: Path) -> None:
     home = simulated(tmp_path)
-    with pytest.raises(InputError, match=r"case\.toml simulate: would run 'wrist \{params\} \{trial\} \{out\}', which"):
+    with pytest.raises(
+        InputError, match=r"case\.toml simulate: would run 'wrist \{params\} \{trial\} \{out\}'; a case"
+    ):
         read_gap_case(home)
     own = read_gap_case(home, run_programs=True).simulator
     assert own is not None

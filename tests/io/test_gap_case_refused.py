@@ -70,7 +70,7 @@ BAD_SETTINGS = {
     "ids are numbers": ('["t03"]', "[3]", "case.toml evaluation.0: is 3; input should be a valid string"),
     "trial twice": ('["t03"]', '["t03", "t03"]', "case.toml evaluation: 't03' is listed 2 times"),
     "trial on both sides": ('["t03"]', '["t02", "t03"]', "case.toml evaluation: 't02' is listed in calibration too"),
-    "trial without file": ('["t03"]', '["t03", "t04"]', "case.toml evaluation: no file trials/t04.csv; strike it"),
+    "trial without file": ('["t03"]', '["t03", "t04"]', "case.toml evaluation: no file trials/t04.csv; delete it"),
     "id leads up": ('["t03"]', '["../t03"]', "case.toml evaluation.0: is '../t03'; expected letters"),
     "id has dots": ('["t03"]', '["a..b"]', "case.toml evaluation.0: is 'a..b'; expected letters"),
     "id is dots": ('["t03"]', '[".."]', "case.toml evaluation.0: is '..'; expected letters"),
@@ -258,7 +258,7 @@ BAD_TRIALS = {
     "time runs back": ("0.2,", "0.05,", " line 4: time 0.05 s does not follow 0.1 s; time must increase"),
     "row of commas": ("0.2,", ",,,\n0.2,", " line 4: time is missing"),
     "second header": ("0.1,", TRIAL.split("\n")[0] + "\n0.1,", " line 3: 'time [s]' in column 'time' is not a number"),
-    "NaN throughout": (BODY, "0,,,\n1,nan,,\n", ": every channel is empty in every row; strike the trial from case.to"),
+    "NaN throughout": (BODY, "0,,,\n1,nan,,\n", ": every channel is empty in every row; delete the trial from case.to"),
 }  # fmt: skip
 
 
@@ -346,11 +346,11 @@ def test_equal_bounds_ask_for_fixed(tmp_path: Path) -> None:
         ("case.toml", "case.toml: there is no such file"),
         (
             "trials/t02.csv",
-            "case.toml calibration: no file trials/t02.csv; strike it or add the file; there are t01, t03",
+            "case.toml calibration: no file trials/t02.csv; delete it or add the file; there are t01, t03",
         ),
         (
             "trials/t03.csv",
-            "case.toml evaluation: no file trials/t03.csv; strike it or add the file; there are t01, t02",
+            "case.toml evaluation: no file trials/t03.csv; delete it or add the file; there are t01, t02",
         ),
         ("spheres.csv", "spheres.csv: there is no such file"),
     ],

@@ -101,7 +101,7 @@ def test_markers_of_a_c3d_file_in_words(word: str, tmp_path: Path) -> None:
 def test_a_c3d_file_without_a_unit_is_refused_unless_it_is_stated(unit: str | None, tmp_path: Path) -> None:
     """It was taken as mm."""
     file = c3d(tmp_path, unit)
-    with pytest.raises(InputError, match=r"POINT:UNITS: is empty: .* not known; state it with `c3d_unit` m, cm, mm"):
+    with pytest.raises(InputError, match=r"POINT:UNITS: is empty: .* is unknown; state it with `c3d_unit` m, cm, mm"):
         read_c3d_markers(file)
     for stated in ("mm", "m", "in"):
         seen = read_markers(file, stated)
@@ -110,7 +110,7 @@ def test_a_c3d_file_without_a_unit_is_refused_unless_it_is_stated(unit: str | No
 
 def test_a_stated_unit_does_not_count_where_the_file_has_its_own(tmp_path: Path) -> None:
     file = c3d(tmp_path, "cm")
-    with pytest.warns(InputWarning, match="POINT:UNITS is 'cm'and is used; `c3d_unit` mm is for files"):
+    with pytest.warns(InputWarning, match="POINT:UNITS is 'cm' and is used; `c3d_unit` mm is for files"):
         seen = read_markers(file, "mm")
     np.testing.assert_allclose(seen.positions[1, 0], [0.01, 0.02, 0.04], rtol=1e-6)
     np.testing.assert_allclose(read_markers(file, "cm").positions[1, 0], [0.01, 0.02, 0.04], rtol=1e-6)

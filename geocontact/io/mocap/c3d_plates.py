@@ -111,7 +111,7 @@ def point_metre(file: str, written: str, stated: str | None) -> float:
     if unit is None:
         raise InputError(file, "POINT:UNITS", f"is '{written[:20]}'", f"expected one of {', '.join(LENGTH)}")
     if stated not in (None, unit):
-        what = f"POINT:UNITS is '{written[:20]}'and is used; `c3d_unit` {stated} is for files without a unit"
+        what = f"POINT:UNITS is '{written[:20]}' and is used; `c3d_unit` {stated} is for files without a unit"
         warnings.warn(InputWarning(f"{file}: {what}"), stacklevel=4)
     return LENGTH[unit]
 

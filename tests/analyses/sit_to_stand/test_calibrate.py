@@ -197,7 +197,7 @@ def doubts(**other: object) -> tuple[list[str], list[str]]:
         ({"ends": (WORSE, BEST)}, "ends in a minimum worse than that of another start"),
         ({"ends": (Ended(2.0, False, False), BEST)}, "ends in a minimum worse than that of another start"),
         ({"ends": (Ended(1.0005, True, False), BEST)}, "ends in a minimum worse than that of another start"),
-        ({"misfit": 1.74}, "phase A leaves 1.7 times the squares that the noise makes"),
+        ({"misfit": 1.74}, "phase A leaves 1.7 times the sum of squares that the noise explains"),
         ({"verdict": "not separable"}, "not separable, with intervals that cover both: heel"),
         ({"verdict": "on its bound"}, "at a bound, so the value only reflects the bound: heel"),
         ({"verdict": "prior-dominated"}, "add little to the prior of heel"),
