@@ -167,7 +167,7 @@ def test_edges_of_a_sphere_are_as_long_as_its_faces_say() -> None:
 ADDED = {
     CATALOGUE: ('    Entry("fit", ', '    Entry("edges", "edges", "EdgeOptions", "result:edge_lengths"),\n'),
     "benchmarks/same_outputs/runs.txt": ("fit_cylinder: ", "edges: edges inputs/meshes/sphere_r20.stl --unit mm\n"),
-    "docs/reference/written_files.md": ("| `cop` | ", "| `edges` | `edges.csv` | `length [mm]` |\n"),
+    "docs/reference/written_files.md": ("- `cop`", "- `edges`\n  - `edges.csv`: `length [mm]`\n"),
     "README.md": (
         "| Find joint centres",
         "| edges | `edges` | `gc.edge_lengths` | [meshes](docs/how-to/my_implant.md) |\n",

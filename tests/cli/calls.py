@@ -49,8 +49,9 @@ class Call:
 
     @property
     def complaints(self) -> list[str]:
-        """Lines on stderr that do not warn."""
-        return [line for line in self.err.splitlines() if not line.startswith("warning: ")]
+        """Lines on stderr that do not warn, nor say how far a long run is."""
+        lines = self.err.splitlines()
+        return [line for line in lines if not line.startswith("warning: ") and not line.endswith(" done …")]
 
     def bytes(self, name: str = "area.csv") -> bytes:
         """Content of a result file."""

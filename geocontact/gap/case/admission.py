@@ -13,9 +13,6 @@ from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.gap.levels import FEWEST
 
-FEWEST_FITTED = 2
-"""Trials that are fitted to, at least: what trials differ by is told by no single one."""
-
 
 def admitted(case: GapCase, system: System) -> GapCase:
     """The case with its trials in an order that neither their names nor case.toml have a say in.
@@ -33,9 +30,9 @@ def admitted(case: GapCase, system: System) -> GapCase:
                 raise _refusal(case, side, what, f"at least {FEWEST} are needed" if count else "choose other trials")
     _require_movement(case, system)
     _require_own_recordings(case, system)
-    if len(case.calibration) < FEWEST_FITTED:
-        what = f"{len(case.calibration)} trial to fit to: how much trials differ from each other is not known"
-        raise _refusal(case, "calibration", what, f"list at least {FEWEST_FITTED}, and one or more to evaluate on")
+    if len(case.calibration) == 1:
+        what = "1 trial to fit to: how much trials differ from each other is not known"
+        raise _refusal(case, "calibration", what, "list at least 2, and one or more to evaluate on")
     for site, cells in case.cells.items():
         if cells.channel not in system.outputs:
             what = f"the model does not predict {cells.channel}, which the cells of {site} add up to"

@@ -48,7 +48,7 @@ def test_the_deviation_of_few_draws_is_said_with_its_own_error(tmp_path: Path) -
         assert lower < true < upper
         assert (upper - lower) / sd == pytest.approx(4 / np.sqrt(2 * 49), rel=0.05)  # four errors of SD, to first order
     (line,) = [line for line in result.sentences if "standard deviation of the area" in line]
-    assert line.startswith("largest standard deviation of the area ") and ": 50 draws know it to " in line
+    assert line.startswith("largest standard deviation of the area ") and ": 50 draws give " in line
     summary = result.record.results["pose_error"]["at_4_mm"]
     page, peak = page_of(result), summary["largest_area_ci95_mm2"]
     span = f"{peak[0]:.0f} … {peak[1]:.0f} mm²"

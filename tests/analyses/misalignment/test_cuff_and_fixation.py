@@ -97,7 +97,10 @@ def test_a_fixation_that_is_hardly_told_is_warned_of_unless_more_is_known(made: 
     for name in ("k", "c", "l"):
         problem = replace(found.estimate.problem, priors={name: Prior(1.0, 0.1)})
         assert bool(hardly_told(replace(found, estimate=replace(found.estimate, problem=problem)))) == (name == "l")
-    assert "Cuff (k) and fixation of the upper arm (c) yield in series. Of what" in fixation_words(found)
+    assert (
+        "Cuff (k) and fixation of the upper arm (c) yield in series. Of the effect of a yielding fixation"
+        in fixation_words(found)
+    )
 
 
 def hardly_told(found: Fitted) -> str:

@@ -293,6 +293,6 @@ def test_what_cannot_be_is_refused_in_si(given: dict, said: str) -> None:
 
 
 def test_every_figure_has_a_name(told: Any, unscaled: Any) -> None:
-    assert told._drawn == ("forces", "identifiability", "residuals", "conditions")
+    assert tuple(told.curves()) == ("forces", "identifiability", "residuals", "conditions")
     with pytest.raises(KeyError, match="there are forces, identifiability, residuals"):
         unscaled.figure("conditions")

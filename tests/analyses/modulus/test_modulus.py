@@ -38,7 +38,7 @@ def test_modulus_of_a_synthetic_step(tmp_path: Path) -> None:
 
 def test_says_what_was_found_and_what_cannot_be(tmp_path: Path) -> None:
     result = found(tmp_path)
-    first, second = repr(result).splitlines()
+    first, second = str(result).splitlines()
     assert first.startswith("total: E* 6.8 MPa (95 % 6.8 … 6.8), RMSE 0 N, R² 1.00")
     assert second.startswith("E and ν are one number here")
     numbers = describe(result.found)

@@ -119,7 +119,7 @@ def late(trials: Sequence[Trial], channels: Sequence[str]) -> list[str]:
 def lag_of(trial: Trial, name: str, measured: Sequence[str]) -> float | None:
     """By how much a channel is late [s]: where inputs, their squares and rates explain it far better than without lag.
 
-    None where the lag is less than `LATE`, or is none.
+    None where the lag is less than `LATE`, is none, or may lie beyond the lags that are tried.
     """
     time, values = trial.time, trial.column(name)
     inputs = [trial.column(each) for each in trial.signals.channels if each not in measured]
@@ -135,7 +135,7 @@ def lag_of(trial: Trial, name: str, measured: Sequence[str]) -> float | None:
     rests = np.array([_unexplained(values[inside], _regressors(time, each)[inside]) for each in moved])
     best, none = int(np.argmin(rests)), rests[STEPS]
     clear = none > MISSED and rests[best] < min(1.0 - EXPLAINED, CLEARER * none)
-    if abs(lags[best]) < LATE or not clear:
+    if not LATE <= abs(lags[best]) < reach or not clear:  # at the end of the search there is no least value
         return None
     return float(lags[best])
 

@@ -54,8 +54,9 @@ def against_the_forces(found: Fitted) -> GoodnessOfFit:
         what = f"the residual is {excess.ratio:.2g} times what noise within the trials would leave"
         cause = "offsets that change from trial to trial, or something the law misses; intervals are too short"
         doubts.append(Doubt(f"{what}: {cause}", False, excess.ratio))
-    for each in found.held:
-        doubts += of_r2(f"the force of {each.name}, which was left out", each.r2)
+    bad = [f"{each.name} ({each.r2:.2f})" for each in found.held if each.r2 < 0.0]
+    if bad:  # the law may be right, and the trial that was left out another one
+        doubts.append(Doubt(f"R² of unused data is below 0, a constant force would do better: {', '.join(bad)}", False))
     return GoodnessOfFit(tuple(doubts), ("force", *(each.name for each in found.held)))
 
 
