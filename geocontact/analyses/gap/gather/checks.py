@@ -28,7 +28,7 @@ LATEST = 2.0
 """Lag up to which outputs are looked for behind or before inputs [s]."""
 LATE = 0.3
 """Lag that no sensor and no strap makes [s]."""
-EXPLAINED = 0.6
+EXPLAINED = 0.9
 """Part of an output's variance that its inputs must explain at the best lag, for the lag to be one."""
 MISSED = 0.05
 """Part of the variance that inputs must leave unexplained without a lag, for one to be looked for."""
@@ -117,14 +117,14 @@ def late(trials: Sequence[Trial], channels: Sequence[str]) -> list[str]:
 
 
 def lag_of(trial: Trial, name: str, measured: Sequence[str]) -> float | None:
-    """By how much a channel is late [s]: where inputs, their squares and rates explain it far better than without lag.
+    """By how much a channel is late [s]: where inputs and their squares explain it far better than without lag.
 
     None where the lag is less than `LATE`, is none, or may lie beyond the lags that are tried.
     """
     time, values = trial.time, trial.column(name)
     inputs = [trial.column(each) for each in trial.signals.channels if each not in measured]
     inputs = [each for each in inputs if np.isfinite(each).all() and np.ptp(each) > 0.0]
-    reach = min(LATEST, 0.3 * float(time[-1] - time[0]))
+    reach = min(LATEST, 0.15 * float(time[-1] - time[0]))
     if not inputs or reach < LATE:
         return None
     lags = np.linspace(-reach, reach, 2 * STEPS + 1)
@@ -132,7 +132,7 @@ def lag_of(trial: Trial, name: str, measured: Sequence[str]) -> float | None:
     if inside.sum() < STEPS or np.ptp(values[inside]) == 0.0:
         return None
     moved = [np.array([np.interp(time - lag, time, each) for each in inputs]) for lag in lags]
-    rests = np.array([_unexplained(values[inside], _regressors(time, each)[inside]) for each in moved])
+    rests = np.array([_unexplained(values[inside], _regressors(each)[inside]) for each in moved])
     best, none = int(np.argmin(rests)), rests[STEPS]
     clear = none > MISSED and rests[best] < min(1.0 - EXPLAINED, CLEARER * none)
     if not LATE <= abs(lags[best]) < reach or not clear:  # at the end of the search there is no least value
@@ -140,9 +140,9 @@ def lag_of(trial: Trial, name: str, measured: Sequence[str]) -> float | None:
     return float(lags[best])
 
 
-def _regressors(time: Float[np.ndarray, " t"], inputs: Float[np.ndarray, "i t"]) -> Float[np.ndarray, "t r"]:
-    rates = np.gradient(inputs, time, axis=1)
-    return np.column_stack([np.ones(len(time)), *inputs, *inputs**2, *rates])
+def _regressors(inputs: Float[np.ndarray, "i t"]) -> Float[np.ndarray, "t r"]:
+    """A constant, the inputs and their squares; with their rates any lag of a harmonic movement would do."""
+    return np.column_stack([np.ones(inputs.shape[1]), *inputs, *inputs**2])
 
 
 def _unexplained(values: Float[np.ndarray, " t"], regressors: Float[np.ndarray, "t r"]) -> float:
