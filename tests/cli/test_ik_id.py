@@ -512,9 +512,9 @@ def test_a_joint_on_a_frame_of_a_body_is_scaled_or_refused(tmp_path: Path) -> No
 
 
 REFUSED = {
-    "no such marker": (("--weight", "heel=3"), "'heel=3' names nothing"),
+    "no such marker": (("--weight", "heel=3"), "'heel=3' is not in the model"),
     "a negative weight": (("--weight", "foot_r1=-3"), "negative"),
-    "no such coordinate": (("--hold", "elbow=3"), "'elbow=3' names nothing"),
+    "no such coordinate": (("--hold", "elbow=3"), "'elbow=3' is not in the model"),
     "a span without end": (("--time", "0.3"), "'0.3' is not a span"),
     "a span before the recording": (("--time", "7:8"), "no frame between 7 and 8 s"),
     "mirrored axes": (("--axes", "x,z,y"), "mirrors"),

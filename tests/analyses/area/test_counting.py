@@ -210,7 +210,7 @@ def test_an_open_body_is_closed_on_the_users_word(tmp_path: Path, word: str) -> 
     given, near = (PLATE, poses(tmp_path, (0, 19.5, 0))), {"threshold": gc.mm(0.1)}
     whole = area(SPHERE, *given, **near).table()
     result = area(opened, *given, **near, assume_closed=word)
-    assert any("open.stl" in line and "your word" in line for line in result.warnings)
+    assert any("open.stl" in line and "as you requested" in line for line in result.warnings)
     agree(result.table(), whole, areas=1e-3, lengths=1e-3)
     unsigned = area(opened, *given, **near, assume_closed="fixed")
     assert list(unsigned.table()["signed"]) == ["moving"]

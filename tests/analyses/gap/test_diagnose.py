@@ -83,7 +83,7 @@ def nothing_is_computed() -> Iterator[None]:
     """Whatever predicts, fits or maps fails."""
     places = ["geocontact.chain.system.System.simulate", "geocontact.chain.system.System.demand"]
     places += ["geocontact.gap.case.refit.refit", "geocontact.gap.reduction.raw_input_errors.refit"]
-    places += [f"geocontact.gap.diagnose.{name}" for name in ("attribute", "raw_input_errors", "gap_map", "ranking")]
+    places += [f"geocontact.gap.diagnose.{name}" for name in ("attribute", "confirmed", "gap_map", "ranking")]
     with ExitStack() as stack:
         for place in places:
             stack.enter_context(mock.patch(place, side_effect=AssertionError(f"{place} is called")))

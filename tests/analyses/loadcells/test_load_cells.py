@@ -212,7 +212,7 @@ def test_samples_missing_inside_a_load_are_not_interpolated_over(tmp_path: Path)
     with pytest.warns(InputWarning) as said:
         result = load_cells(with_gap(tmp_path, 1.495, 1.805), unit="N", cycles="stance")
     lines = [str(each.message) for each in said]
-    assert any("gap.csv: no samples from 1.49 to 1.81 s: nothing is known" in line for line in lines)
+    assert any("gap.csv: no samples from 1.49 to 1.81 s: the forces there are unknown" in line for line in lines)
     assert "1 of 4 cycles contain gaps of a recording and are left out" in lines
     left = result.table("cycles").drop(columns=["style", "recording"])
     want = whole.drop(index=1).drop(columns=["style", "recording"]).reset_index(drop=True)
