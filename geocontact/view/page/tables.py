@@ -13,7 +13,7 @@ from geocontact.view.page.content import Table
 
 def inputs_table(inputs: Sequence[Mapping[str, object]]) -> Table:
     """Files that went in, as `run.json` lists them."""
-    rows = [(str(i["role"]), Path(str(i["file"])).name, str(i.get("unit", "")), str(i["sha256"])) for i in inputs]
+    rows = [(str(i["role"]).replace("`", ""), Path(str(i["file"])).name, str(i.get("unit", "")), str(i["sha256"])) for i in inputs]
     return Table("Input files", ("role", "file", "unit", "SHA-256"), rows, folded=True)
 
 
