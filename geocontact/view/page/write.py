@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     from jinja2 import Template
 
 
+CROWD = 8
+"""Curves of a card; with more it takes the whole width."""
 SPARE = 1.2
 """Times `FRAMES` that a page may have before it is thinned out: those that were thinned out have a few added."""
 
@@ -159,6 +161,11 @@ class PlacedSection:
     section: Section
     choice: str
     lead: bool
+
+    @property
+    def crowded(self) -> bool:
+        """It holds more curves than a narrow card has room to name."""
+        return isinstance(self.section, Curves) and len(self.section.curves) > CROWD
 
     @property
     def empty(self) -> bool:

@@ -9,7 +9,7 @@ from jaxtyping import Float, Int
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
-from geocontact.analyses.frame.words import NOT_A_DEVICE
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.functional_joint.read import MovedPair, Segment
 from geocontact.analyses.motion.skeleton import JOINT, MARKER, RAY, scene_over
 from geocontact.data.motion import Course
@@ -45,7 +45,7 @@ def joint_page(
         subtitle=f"{', '.join(pair.first.names)} against {', '.join(pair.second.names)}",
         time=pair.time[shown],
         time_label="time [s]",
-        headline=[f"{each[:1].upper()}{each[1:]}." for each in sentences],
+        headline=headline(sentences),
         facts=facts,
         sections=tuple(sections),
         numbers=shown + 1,
