@@ -10,6 +10,7 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
+from geocontact.analyses.prosthesis.quantity_words import NAMES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times
 from geocontact.below_knee_prosthesis.from_markers import of_side
@@ -69,7 +70,11 @@ def stance_page(
     sections: list[Section] = [
         Scene(directions=DIRECTIONS, up=(0.0, 1.0, 0.0), view=(0.3, 0.2, 1.0), linkages=_lines(s, o, shown)),
         *curves.at(shown),
-        *([frame_table("Compared with the force plate", tables["errors"])] if "errors" in tables else []),
+        *(
+            [frame_table("Compared with the force plate", tables["errors"].replace({"quantity": NAMES}))]
+            if "errors" in tables
+            else []
+        ),
         frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
         INPUTS,
         OPTIONS,
