@@ -19,7 +19,7 @@ from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.motion import Course
 from geocontact.loads.ground import Stairs
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet
-from geocontact.view.page.content import Page, Section, Words
+from geocontact.view.page.content import Page, Section, Table, Words
 from geocontact.view.page.scene import Linkage, Scene
 from geocontact.view.page.tables import frame_table
 
@@ -162,6 +162,10 @@ def _keel(s: Stance) -> Float[np.ndarray, "t n 3"]:
 
 def _chain(points: int) -> Int[np.ndarray, "k 2"]:
     return np.array([(i, i + 1) for i in range(points - 1)], np.int64)
+
+
+def _errors_table(errors: pd.DataFrame) -> Table:
+    return frame_table("Compared with the force plate", errors.replace({"quantity": NAMES}))
 
 
 def stance_curves(s: Stance, plate: PlateStance | None) -> CurveSheet:
