@@ -77,7 +77,7 @@ def _answer(found: Identified, chosen: tuple[str, ...], missed: dict[str, float]
     each = {side: found.sides[side] for side in chosen}
     values = {side: _with_interval(one.profiles[MODULUS]) for side, one in each.items()}
     if len(chosen) > 1:
-        met = ", ".join(f"{agreement(one.measured, one.predicted)[0]:.0f} N" for one in each.values())
+        met = " and ".join(f"{agreement(one.measured, one.predicted)[0]:.0f} N" for one in each.values())
         shown = ", ".join(f"{value} {side}" for side, value in values.items())
         return f"E* is {shown}: the law{_sticking(found)} meets these forces to {met}."
     side = chosen[0]

@@ -106,6 +106,8 @@ def edge_text(value: float, span: float) -> str:
 HEIGHT = 0.070  # [m]
 MM = 1e3
 FAINT = 0.1  # of the largest part, below which a negative one is not drawn as such
+RING = 0.2  # of the area of a cell's marker, so that rings of neighbours stay apart
+ON_BLUE = "#d55e00"  # seen on the darkest and the lightest cell
 CELL = 110.0  # pt, that all cells of a square mat side by side are drawn as wide
 
 
@@ -124,7 +126,7 @@ def gap_surface_figure(found: SurfaceGap) -> Figure:
     _map(right, at, found.gap, size, f"part of the gap of {found.channel} [–]")
     most = np.isin(found.ids, found.holding)
     for panel in (left, right):
-        panel.scatter(at[most, 0], at[most, 1], s=1.6 * size, facecolors="none", edgecolors="black", linewidths=0.8)
+        panel.scatter(*at[most].T, s=RING * size, facecolors="none", edgecolors=ON_BLUE, linewidths=0.9)
         panel.set_xlabel("along the mat [mm]")
         panel.set_aspect("equal")
     left.set_ylabel("across the mat [mm]")

@@ -50,6 +50,9 @@ class Intervals:
 
 
 _LINK = re.compile(r"([\w-][\w.-]*/)*[\w-][\w.-]*|", re.ASCII)
+IN_THE_DARK = {b"#ffffff": b"#1d2126", b"#000000": b"#e8eaed"}
+"""White and black of a drawing in dark surroundings: the page's own card and ink."""
+LETTERS = b"<style>text { fill: #e8eaed }</style>"
 DRAWN_IN = 12  # colours of a line drawing at most; more are those of a scale
 
 __all__ = [
@@ -163,9 +166,15 @@ class Picture:
 
     @property
     def light(self) -> bool:
-        """It holds a colour scale: it stays light in dark surroundings, so that colours mean what its words say."""
+        """It holds a colour scale: its colours stay in dark surroundings, so that they mean what its words say."""
         fills = set(re.findall(rb"fill: (#[0-9a-f]{6})", self.svg))
         return b"<image" in self.svg or len(fills) > DRAWN_IN
+
+    @property
+    def dark_base64(self) -> str:
+        """The drawing with a dark ground, light lines and letters, and all other colours as they are."""
+        drawn = re.sub(rb"\b(fill|stroke): (#ffffff|#000000)", lambda m: m[1] + b": " + IN_THE_DARK[m[2]], self.svg)
+        return b64encode(re.sub(rb"(<svg\b[^>]*>)", rb"\1" + LETTERS, drawn, count=1)).decode("ascii")
 
 
 @dataclass(frozen=True, eq=False)

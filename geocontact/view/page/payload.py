@@ -104,8 +104,8 @@ def shown(text: str) -> str:
 
 
 def minus(text: str) -> str:
-    """Words with a minus sign before numbers that stand by themselves, and units kept beside them: "z −19.5 mm"."""
-    signed = re.sub(r"(?<![^\s(\[])-(?=\d)", "−", text)
+    """Words with a minus sign before numbers and axes that stand by themselves, and units kept beside: "z −19.5 mm"."""
+    signed = re.sub(r"(?<![^\s(\[])-(?=\d|[xyz]\b)", "−", text)
     return re.sub(rf"(?<=\d) (?=(?:{UNITS})(?![\w/]))", "\u00a0", signed)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import re
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -37,6 +38,10 @@ if TYPE_CHECKING:
     from jinja2 import Template
 
 
+CROWD = 8
+"""Curves of a card; with more it takes the whole width."""
+ROWS = 12
+"""Rows of intervals likewise."""
 SPARE = 1.2
 """Times `FRAMES` that a page may have before it is thinned out: those that were thinned out have a few added."""
 
@@ -75,6 +80,11 @@ def bounded(page: Page) -> Page:
         total=count if page.total is None else page.total,
         choices=choices,
     )
+
+
+def _follows(section: Section) -> bool:
+    """Something in it changes along the page's own time."""
+    return isinstance(section, Scene | Plan | Readout | Strip) or (isinstance(section, Curves) and section.over is None)
 
 
 def _fewer(section: Section, kept: Int[np.ndarray, " k"]) -> Section:
@@ -161,6 +171,16 @@ class PlacedSection:
     lead: bool
 
     @property
+    def crowded(self) -> bool:
+        """It holds more curves or rows than a narrow card has room for."""
+        match self.section:
+            case Curves(curves=curves):
+                return len(curves) > CROWD
+            case Intervals(intervals=rows):
+                return len(rows) > ROWS
+        return False
+
+    @property
     def empty(self) -> bool:
         """Nothing would be seen: numbers of a frame that no frame has."""
         return isinstance(self.section, Readout) and not self.section.rows
@@ -178,7 +198,7 @@ def page_html(page: Page) -> str:
     shown_here = [each for each in placed if not each.empty]
     return _template().render(
         page=page,
-        moves=page.plays and len(page.time) > 1,
+        moves=page.plays and len(page.time) > 1 and any(map(_follows, page.sections)),
         steps=len(page.time) > 1,
         readings=_readings(page),
         scene=next((each.section for each in placed if each.kind == "scene"), None),
@@ -229,6 +249,7 @@ def _template() -> Template:
     )
     environment.filters["shown"] = shown
     environment.filters["minus"] = minus
+    environment.filters["quoted"] = lambda text: re.sub(r"`([^`]+)`", r"“\1”", text)
     return environment.get_template("page.html")
 
 

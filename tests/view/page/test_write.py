@@ -15,7 +15,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Scene, SceneBody, Words
+from geocontact.data.motion import Course
+from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Scene, SceneBody, Table, Words
 from geocontact.view.page.opening import opening_view
 from geocontact.view.page.payload import minus, payload, shown
 from geocontact.view.page.write import page_html, write_page
@@ -275,6 +276,22 @@ def test_a_page_without_time_has_no_player() -> None:
 )
 def test_numbers_that_stand_by_themselves_have_a_minus(text: str, here: str) -> None:
     assert minus(text) == here
+
+
+def test_tables_print_a_minus_and_commands_keep_their_hyphens() -> None:
+    rows = [("turned", "-1.5 … -0.5 mm"), ("--axis", "-1,2")]
+    shown_table, folded = Table("Numbers", ("what", "value"), rows), Table("How", ("what", "value"), rows, folded=True)
+    page = page_html(replace(small_page(), sections=(*small_page().sections, shown_table, folded)))
+    assert "<bdi>−1.5 … −0.5\u00a0mm</bdi>" in page
+    assert "<bdi>-1.5 … -0.5 mm</bdi>" in page.split("<summary><h2><bdi>How</bdi>")[1]
+
+
+def test_nothing_is_played_where_nothing_follows_the_time() -> None:
+    page = curves_page()
+    assert 'id="timeline"' in page_html(page)
+    course = Course("angle", "°", page.time)
+    own = [replace(each, over=course) for each in page.sections if isinstance(each, Curves)]
+    assert own and 'id="timeline"' not in page_html(replace(page, sections=own))
 
 
 def test_times_of_a_late_clock_are_counted_from_the_first_frame() -> None:

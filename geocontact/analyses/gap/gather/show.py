@@ -12,7 +12,13 @@ from geocontact.data.trial import Trial
 from geocontact.view.page.content import Curve, Curves, Page, Section, Table, Words
 
 SAMPLES = 401  # of the longest trial that the page shows
-OTHER = {"rad": ("deg", 180.0 / np.pi), "rad/s": ("deg/s", 180.0 / np.pi), "m^2": ("mm²", 1e6)}
+OTHER = {
+    "m": ("mm", 1e3),
+    "m/s": ("mm/s", 1e3),
+    "m^2": ("mm²", 1e6),
+    "rad": ("deg", 180.0 / np.pi),
+    "rad/s": ("deg/s", 180.0 / np.pi),
+}
 """Units that are shown in others."""
 
 

@@ -250,7 +250,7 @@ def _summarise(i: SettleInputs, s: Settled, balance: EnergyBalance | None) -> No
         )
         say(
             f"work of the load {balance.work * 1e3:.4g} mJ, energy stored {balance.stored * 1e3:.4g} mJ: "
-            f"{balance.difference:.1e} apart{way}"
+            f"{100.0 * balance.difference:.2g} % apart{way}"
         )
         if balance.difference > BALANCED:
             reserve(f"work and stored energy differ by {balance.difference:.1%}; give a smaller `piece`")

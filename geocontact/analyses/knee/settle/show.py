@@ -37,6 +37,7 @@ def settle_page(s: Settled, sentences: Sequence[str], frames: Int[np.ndarray, " 
         time=course.values[frames],
         time_label=course.label,
         headline=headline(sentences),
+        facts=_facts(s),
         start_frame=place,
         sections=(
             _scene(s, frames),
@@ -48,6 +49,20 @@ def settle_page(s: Settled, sentences: Sequence[str], frames: Int[np.ndarray, " 
         numbers=frames + 1,
         total=len(s.frames),
     )
+
+
+def _facts(s: Settled) -> list[tuple[str, str]]:
+    """Largest pressure and when, areas, share of the force on the medial side."""
+    peaks, areas = MPA * s.peaks, MM**2 * s.areas
+    worst = int(np.nanargmax(peaks))
+    shares = 100.0 * s.forces("medial") / s.forces("total")
+    of_load = {f"{each(shares):.0f}" for each in (np.nanmin, np.nanmax)}
+    return [
+        ("Largest contact pressure", f"{peaks[worst]:.2f} MPa at {s.inputs.motion.course.values[worst]:.3g} s"),
+        ("Contact area", f"{np.nanmin(areas):.1f} … {np.nanmax(areas):.1f} mm²"),
+        ("Part of the force that is medial", f"{' … '.join(sorted(of_load, key=float))} %"),
+        ("Frames at rest", f"{int(s.converged.sum())} of {len(s.frames)}"),
+    ]
 
 
 def _shown(s: Settled, most: int) -> Int[np.ndarray, " k"]:

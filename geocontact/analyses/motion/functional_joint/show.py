@@ -9,7 +9,7 @@ from jaxtyping import Float, Int
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
-from geocontact.analyses.frame.words import NOT_A_DEVICE
+from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.functional_joint.read import MovedPair, Segment
 from geocontact.analyses.motion.skeleton import JOINT, MARKER, RAY, scene_over
 from geocontact.data.motion import Course
@@ -45,7 +45,7 @@ def joint_page(
         subtitle=f"{', '.join(pair.first.names)} against {', '.join(pair.second.names)}",
         time=pair.time[shown],
         time_label="time [s]",
-        headline=list(sentences),
+        headline=headline(sentences),
         facts=facts,
         sections=tuple(sections),
         numbers=shown + 1,
@@ -74,8 +74,12 @@ def _picture(pair: MovedPair, points: JointPoints, shown: Int[np.ndarray, " k"])
         RAY,
     )
     linkages = [first, second]
-    for name, poses, joint in (("first", pair.first_poses, points.first), ("second", pair.second_poses, points.second)):
-        linkages.append(Linkage(f"joint of the {name} segment", _moved(poses[shown], joint), line, "model", JOINT, RAY))
+    joints = (
+        ("first", pair.first_poses, points.first, "model"),
+        ("second", pair.second_poses, points.second, "force"),
+    )
+    for name, poses, joint, tone in joints:
+        linkages.append(Linkage(f"joint of the {name} segment", _moved(poses[shown], joint), line, tone, JOINT, RAY))
     places = pair.shown.positions[np.isfinite(pair.shown.positions).all(axis=2)]
     upright = np.eye(3)[int(np.argmax(np.ptp(places, axis=0)))]  # for the picture only: people are taller than wide
     return scene_over(upright, linkages)

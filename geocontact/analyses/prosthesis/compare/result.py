@@ -30,6 +30,7 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.frame.words import counted
 from geocontact.analyses.frame.workers import each
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.compare.show import comparison_curves, comparison_page
@@ -193,7 +194,7 @@ def _summarise(r: ProsthesisCompareResult) -> None:
             seen = "; ".join(reasons(one)) or "no checked cause explains it"
             reserve(f"{one.name} is an outlier with {one.errors.table['resultant'][1]:.1%} BW: {seen}")
     if transfer < FEWEST:
-        reserve(f"with {transfer} stances outliers cannot be detected: {FEWEST} are needed")
+        reserve(f"with {counted(transfer, 'stance')} outliers cannot be detected: {FEWEST} are needed")
     _reserve_below_a_constant(rows)
     note("compare", plain({one.name: _numbers(one) for one in stances}))
 

@@ -111,7 +111,7 @@ def comparison_page(stances: Sequence[JudgedStance], tables: Mapping[str, pd.Dat
         Words("How to read the numbers", [*WITHOUT, *MEASURES, NOT_A_DEVICE]),
     ]
     return Page(
-        title=f"{counted(len(stances), 'prosthetic stance')} compared with their plates",
+        title=f"{counted(len(stances), 'prosthetic stance')} compared with force plates",
         subtitle="Ground reaction, centre of pressure and ankle moment of a variable-stiffness foot",
         time=100.0 * stances[0].errors.share,
         time_label="stance on the plate [%]",

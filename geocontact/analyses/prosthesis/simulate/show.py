@@ -10,6 +10,7 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
+from geocontact.analyses.prosthesis.quantity_words import NAMES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times
 from geocontact.below_knee_prosthesis.from_markers import of_side
@@ -18,7 +19,7 @@ from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.motion import Course
 from geocontact.loads.ground import Stairs
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet
-from geocontact.view.page.content import Page, Section, Words
+from geocontact.view.page.content import Page, Section, Table, Words
 from geocontact.view.page.scene import Linkage, Scene
 from geocontact.view.page.tables import frame_table
 
@@ -69,7 +70,11 @@ def stance_page(
     sections: list[Section] = [
         Scene(directions=DIRECTIONS, up=(0.0, 1.0, 0.0), view=(0.3, 0.2, 1.0), linkages=_lines(s, o, shown)),
         *curves.at(shown),
-        *([frame_table("Compared with the force plate", tables["errors"])] if "errors" in tables else []),
+        *(
+            [frame_table("Compared with the force plate", tables["errors"].replace({"quantity": NAMES}))]
+            if "errors" in tables
+            else []
+        ),
         frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
         INPUTS,
         OPTIONS,
@@ -157,6 +162,10 @@ def _keel(s: Stance) -> Float[np.ndarray, "t n 3"]:
 
 def _chain(points: int) -> Int[np.ndarray, "k 2"]:
     return np.array([(i, i + 1) for i in range(points - 1)], np.int64)
+
+
+def _errors_table(errors: pd.DataFrame) -> Table:
+    return frame_table("Compared with the force plate", errors.replace({"quantity": NAMES}))
 
 
 def stance_curves(s: Stance, plate: PlateStance | None) -> CurveSheet:

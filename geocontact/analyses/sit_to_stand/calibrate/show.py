@@ -40,8 +40,9 @@ def calibration_page(
         frame_table("Parameters in SI: what these trials identify", tables["parameters"], 3),
         frame_table("Between and beyond the collocation points", tables["certificate"], 3),
         frame_table("Root mean square differences and the stated noise", tables["errors"], 3),
-        frame_table("Correlation of the estimates", tables["correlation"], 2),
     ]
+    if len(tables["correlation"]):
+        sections.append(frame_table("Correlation of the estimates", tables["correlation"], 2))
     residual = max(float(trial.judged.force.max()) for trial in trials)
     names = ", ".join(t.recorded.name for t in trials)
     titles = "Contacts calibrated on standing up", f"{names}; {given.subject.mass:g} kg, {given.subject.height:g} m"

@@ -6,6 +6,7 @@ import { brief, course, decades, extent } from "./ticks.js";
 
 /** Measured values are open marks in ink, unless they have a stroke: circle, square, triangle. */
 const MARKS = ["M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0", "M-3.5-3.5h7v7h-7z", "M0-4.5L4.2 3.2h-8.4z"];
+const UNSEEN = 1e-4; // of the axis: less is printed as 0
 const tone = (stroke) => (stroke === null ? "" : ` own ${colour(stroke)}`);
 const mark = (k, stroke, x, y) =>
   svg("path", { class: `mark${tone(stroke)}`, d: MARKS[k % MARKS.length], transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` });
@@ -31,9 +32,11 @@ export function curves(figure, part, pageTime, pageLabel, { go, plays }) {
     ),
   );
   let [now, begun] = [0, false];
+  const y = part.log ? decades(all) : extent(all, part.unit);
+  const unseen = part.log ? 0 : UNSEEN * (y[1] - y[0]);
   const plot = axes(figure, {
     x: course([...time, ...part.points.flatMap((p) => p.time)], time),
-    y: part.log ? decades(all) : extent(all, part.unit),
+    y,
     log: part.log,
     xLabel: timeLabel,
     beside: part.beside,
@@ -65,10 +68,13 @@ export function curves(figure, part, pageTime, pageLabel, { go, plays }) {
     },
   });
 
+  /** Rounding errors are nothing. */
+  const shown = (value) => (value !== null && Math.abs(value) < unseen ? 0 : value);
+
   function move(frame) {
     now = frame;
     // nothing is known there: said of a place that the reader chose, not of the one where the page opens
-    named.forEach((c, k) => (values[k].textContent = begun || c.values[frame] !== null ? brief(c.values[frame]) : ""));
+    named.forEach((c, k) => (values[k].textContent = begun || c.values[frame] !== null ? brief(shown(c.values[frame])) : ""));
     begun = true;
     place(plot);
   }

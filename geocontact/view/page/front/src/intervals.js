@@ -1,8 +1,10 @@
 // Numbers with whiskers, or as bars, one below the other on one axis. Names stand above them where room is scarce.
+import { lines } from "./letters.js";
 import { html, svg } from "./svg.js";
 import { brief, extent, ticks } from "./ticks.js";
 
 const [RIGHT, BOTTOM, NARROW] = [16, 34, 560];
+const LINE = 14; // of a name
 const BARS = [0, 3, 2]; // colours of kinds; those of whiskers are apart from them
 const swatch = (k) => svg("svg", { class: "sample small", viewBox: "0 0 16 12", "aria-hidden": "true" }, svg("rect", { class: `bar c${k}`, width: 16, height: 12 }));
 
@@ -23,9 +25,12 @@ export function intervals(figure, part) {
     const width = room.clientWidth;
     if (!width) return;
     const narrow = width < NARROW;
-    const left = narrow ? 12 : 24 + 6.6 * Math.min(44, Math.max(...rows.map((row) => row.name.length)));
-    const high = narrow ? 42 : 28;
-    const bottom = 6 + high * rows.length;
+    const beside = Math.min(300, 0.42 * width); // of a name, at most
+    const names = rows.map((row, k) => (narrow ? lines(words(row, ""), width - 16) : rows[k - 1]?.name === row.name ? [] : lines(row.name, beside)));
+    const left = narrow ? 12 : 24 + Math.max(...names.flat().map((line) => line.width));
+    const highs = names.map((own) => (narrow ? 28 + LINE * own.length : Math.max(28, 8 + LINE * own.length)));
+    const tops = highs.map((_, k) => 6 + highs.slice(0, k).reduce((sum, high) => sum + high, 0));
+    const bottom = tops.at(-1) + highs.at(-1);
     const x = (value) => left + ((value - lower) / (upper - lower)) * (width - left - RIGHT);
     frame.setAttribute("viewBox", `0 0 ${width} ${bottom + BOTTOM}`);
     frame.setAttribute("height", bottom + BOTTOM);
@@ -36,9 +41,11 @@ export function intervals(figure, part) {
     }
     frame.append(svg("text", { class: "axis", x: 0.5 * (left + width - RIGHT), y: bottom + 30, "text-anchor": "middle" }, part.unit));
     rows.forEach((row, k) => {
-      const y = 6 + high * (k + (narrow ? 0.7 : 0.5));
-      const place = narrow ? { x: left, y: y - 13 } : { x: left - 12, y: y + 4, "text-anchor": "end" };
-      frame.append(svg("text", { class: "label", ...place }, narrow ? words(row, "") : rows[k - 1]?.name === row.name ? "" : row.name));
+      const y = narrow ? tops[k] + highs[k] - 13 : tops[k] + 0.5 * highs[k];
+      names[k].forEach(({ text }, i) => {
+        const place = narrow ? { x: 4, y: tops[k] + 14 + LINE * i } : { x: left - 12, y: y + 4 + LINE * (i - 0.5 * (names[k].length - 1)), "text-anchor": "end" };
+        frame.append(svg("text", { class: "label", ...place }, text));
+      });
       if (part.bars && row.value !== null) {
         const [from, to] = [x(Math.min(0, row.value)), x(Math.max(0, row.value))];
         frame.append(svg("rect", { class: `bar c${tone(row)}`, x: from, y: y - 6, width: to - from, height: 12 }));

@@ -5,6 +5,7 @@ import { html, svg } from "./svg.js";
 import { brief, extent, ticks } from "./ticks.js";
 
 const [LEFT, RIGHT, TOP, BOTTOM] = [44, 14, 8, 34];
+const LOW = 70; // px: the name of the axis that goes up needs as much
 
 /** Puts the plan into `figure`; returns what moves its points. */
 export function plan(figure, part) {
@@ -29,11 +30,13 @@ export function plan(figure, part) {
     const width = room.clientWidth;
     if (!width) return;
     const most = figure.classList.contains("lead") ? 0.5 * window.innerHeight : 320;
-    const [wide, high] = reach.map(([lower, upper]) => upper - lower);
-    const scale = Math.min((width - LEFT - RIGHT) / wide, (most - TOP - BOTTOM) / high);
+    const [wide, flat] = reach.map(([lower, upper]) => upper - lower);
+    const scale = Math.min((width - LEFT - RIGHT) / wide, (most - TOP - BOTTOM) / flat);
+    const high = Math.max(flat, LOW / scale);
+    const top = reach[1][1] + 0.5 * (high - flat);
     const tall = TOP + BOTTOM + scale * high;
     const start = LEFT + 0.5 * (width - LEFT - RIGHT - scale * wide);
-    plot = { x: (v) => start + (v - reach[0][0]) * scale, y: (v) => TOP + (reach[1][1] - v) * scale };
+    plot = { x: (v) => start + (v - reach[0][0]) * scale, y: (v) => TOP + (top - v) * scale };
     frame.setAttribute("viewBox", `0 0 ${width} ${tall}`);
     frame.setAttribute("height", tall);
     frame.replaceChildren();
@@ -43,7 +46,7 @@ export function plan(figure, part) {
       frame.append(svg("line", { class: "grid", x1: at, x2: at, y1: TOP, y2: bottom }));
       frame.append(svg("text", { class: "tick", x: at, y: bottom + 14, "text-anchor": "middle" }, brief(value)));
     }
-    for (const value of ticks(...reach[1], (scale * high) / 50)) {
+    for (const value of ticks(top - high, top, (scale * high) / 50)) {
       const at = plot.y(value);
       frame.append(svg("line", { class: "grid", x1: left, x2: right, y1: at, y2: at }));
       frame.append(svg("text", { class: "tick", x: left - 6, y: at + 3.5, "text-anchor": "end" }, brief(value)));

@@ -20,7 +20,7 @@ export function ticks(lower, upper, count) {
 
 /** A number of at most `digits` significant digits. */
 export const brief = (value, digits = 4) =>
-  value === null || value === undefined || !Number.isFinite(value) ? "–" : String(Number(value.toPrecision(digits))).replace("-", "−");
+  value === null || value === undefined || !Number.isFinite(value) ? "–" : String(Number(value.toPrecision(digits))).replaceAll("-", "−");
 
 /** Ends of a time axis that holds `values`: it runs the way time does, also down, and holds times that come back. */
 export function course(values, time = values) {
