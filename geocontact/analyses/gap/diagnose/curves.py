@@ -136,7 +136,7 @@ def map_figure(findings: Findings) -> Figure:
 
 
 def surface_names(findings: Findings) -> list[str]:
-    """Of the figures of cells, one for each mat."""
+    """Names of the figures of cells, one for each mat."""
     return [f"{SURFACE}{_file_name(one.site, k)}" for k, one in enumerate(findings.surface)]
 
 

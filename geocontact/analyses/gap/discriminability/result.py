@@ -74,7 +74,7 @@ class DiscriminabilityResult(Result):
 
     @property
     def title(self) -> str:
-        """Of which case."""
+        """Heading that names the case."""
         return f"Effects that the trials of {self.case.name} show"
 
     @property

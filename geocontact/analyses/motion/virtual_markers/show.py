@@ -16,7 +16,7 @@ from geocontact.view.page.content import Linkage, Page, Scene, Section, Words
 
 MM = 1e3
 EXTREMES = ((np.nanargmin, np.nanmin), (np.nanargmax, np.nanmax))
-"""Of the heights: which marker is lowest, which highest."""
+"""Extremes of the heights: which marker is lowest, which highest."""
 MODELLED = "Markers sit on rigid segments: they do not slide as those on skin do, and hold no noise of cameras."
 
 
