@@ -16,6 +16,7 @@ from geocontact.data.motion import Course
 from geocontact.dynamics.functional_joint import JointPoints
 from geocontact.view.curves.declared import Curve, Curves, CurveSheet
 from geocontact.view.page.content import Linkage, Page, Scene, Section, Words
+from geocontact.view.page.scene import Tone
 
 SKIN = (
     "Segments are taken to be rigid. Skin slides over bone by centimetres at the thigh, smoothly and alike in every "
@@ -74,7 +75,7 @@ def _picture(pair: MovedPair, points: JointPoints, shown: Int[np.ndarray, " k"])
         RAY,
     )
     linkages = [first, second]
-    joints = (
+    joints: tuple[tuple[str, RigidTransform, Float[np.ndarray, "m 3"], Tone], ...] = (
         ("first", pair.first_poses, points.first, "model"),
         ("second", pair.second_poses, points.second, "force"),
     )
