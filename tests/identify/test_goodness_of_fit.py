@@ -76,7 +76,7 @@ def test_outcome_is_the_worst_of_its_doubts() -> None:
     assert GoodnessOfFit((), ("force",)).outcome == "fits"
     assert GoodnessOfFit((unsure,), ()).outcome == "doubtful"
     found = GoodnessOfFit((unsure, sure), ())
-    many = GoodnessOfFit(tuple(Doubt(f"channel {k}", True, k) for k in range(5)), ())
+    many = GoodnessOfFit(tuple(Doubt(f"channel {k}", True, float(k)) for k in range(5)), ())
     assert many.words.endswith("channel 4; channel 3; channel 2; and 2 more, see run.json")
     assert found.outcome == "contradicts" and found.words.endswith("must not be used: R² is -1; k is on a bound")
 
