@@ -290,7 +290,7 @@ class Leg:
         socket, pylon, foot = self.person.parts
         thigh, residual = self.thigh_body(), self.residual_body()
         return {
-            "mass": Number(self.person.mass, "paper", "given"),
+            "mass": Number(self.person.mass, "option", "of the whole body, as the option mass states it"),
             "thigh_length": Number(self.thigh, "derived", measured),
             "shank_length": Number(self.shank, "derived", measured),
             "knee_radius": Number(self.knee_radius, "derived", f"{measured}: half the distance of the epicondyles"),

@@ -131,7 +131,7 @@ class ChannelGap:
     """Size of one channel's gap on the held-out trials, in the channel's SI unit.
 
     `reduction` and `ci95` are those expected of fresh trials of the same kind; `unexplained` is None where there is too
-    little gap to speak of.
+    little gap to speak of. `unit` is that SI unit, `trials` how many held-out trials have the channel.
     """
 
     rmse_before: float
@@ -140,6 +140,13 @@ class ChannelGap:
     reduction: float
     ci95: tuple[float, float]
     unexplained: float | None
+    unit: str = ""
+    trials: int = 0
+
+    @property
+    def removed(self) -> float:
+        """Part of the error that is removed on the held-out trials themselves; 0 where there is no error."""
+        return 1.0 - self.rmse_after / self.rmse_before if self.rmse_before > 0.0 else 0.0
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-Source = Literal["paper", "derived", "invented"]
+Source = Literal["paper", "derived", "invented", "option"]
 SOURCES: tuple[Source, ...] = ("paper", "derived", "invented")
 
 

@@ -167,8 +167,18 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
     at("where it misses, and how far that shrinks")
     cells = gap_map(found.clean, found.base.judged)
     as_came = cells if found.data_error is None else gap_map(problem, base_contender(problem).judged)
+    curves = held_out(problem, errors, named)
     gap = {
-        name: ChannelGap(s.rmse_before, s.rmse_after, s.floor, s.reduction, (s.low, s.high), s.unexplained)
+        name: ChannelGap(
+            s.rmse_before,
+            s.rmse_after,
+            s.floor,
+            s.reduction,
+            (s.low, s.high),
+            s.unexplained,
+            problem.system.unit(name),
+            sum(bool(np.isfinite(trial.measured[:, problem.system.outputs.index(name)]).any()) for trial in curves),
+        )
         for name, s in error_reduction_of(errors, problem, chosen, named, found.data_error).items()
     }
     stages = {one.name: one.stage for one in offered}
@@ -207,8 +217,7 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
         apart=law.apart,
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
-    curves, models = held_out(problem, errors, named), ranking(found, said.probabilities)
-    return Findings(diagnosis, found, cells, curves, models, trials, surface)
+    return Findings(diagnosis, found, cells, curves, ranking(found, said.probabilities), trials, surface)
 
 
 def ranking(found: Attribution, probabilities: Mapping[str, float]) -> tuple[Ranked, ...]:

@@ -382,7 +382,7 @@ def test_a_table_is_taken_wherever_a_file_is(job: Job[Any, Any], one: Declared) 
 LEG = SAMPLES / "leg.osim"
 
 
-@pytest.mark.filterwarnings("ignore:residual at the joint to the ground")  # nothing but gravity acts on the leg
+@pytest.mark.filterwarnings("ignore:residual force")  # nothing but gravity acts on the leg
 def test_an_hour_with_tables_alone() -> None:
     """Markers to coordinates to moments: results of one job go into the next without a file."""
     seen = gc.virtual_markers(SAMPLES / "leg_swing.mot", model=LEG)

@@ -13,9 +13,10 @@ import pandas as pd
 import pytest
 from matplotlib.figure import Figure
 
-from geocontact.analyses.frame.pages import INPUTS, OPTIONS, Thinned, finished
+from geocontact.analyses.frame.pages import INPUTS, OPTIONS, Thinned, finished, options_table
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import Part, Result
+from geocontact.data.version import VERSION
 from geocontact.io.text.results import CASES
 from geocontact.view.page.content import Page, Picture, Table, Words
 from geocontact.view.page.write import page_html
@@ -167,6 +168,16 @@ def test_reservations_that_writing_brings_up_are_on_the_page(tmp_path: Path) -> 
 
     out = Further(record=record(tmp_path)).write(tmp_path / "out")
     assert "no colours in this file" in (out / "left/report.html").read_text(encoding="utf-8")
+
+
+def test_how_it_was_made_names_version_units_and_how_to_run_again() -> None:
+    known = Record("area", {"depth": "4", "rule": "clip", "rays": 8}, {"depth [m]": [0.004], "rule": "clip", "rays": 8})
+    rows = dict(options_table(known).rows)
+    assert rows["geocontact"] == VERSION and rows["command"] == "geocontact area"
+    assert rows["run again"] == "geocontact rerun run.json"
+    assert rows["depth"] == "4 (in SI: 0.004 m)" and (rows["rule"], rows["rays"]) == ("clip", "8")
+    python = Record("area", {"depth [m]": 0.004}, {"depth [m]": 0.004})
+    assert dict(options_table(python).rows)["depth [m]"] == "0.004"
 
 
 def test_inputs_and_options_stand_where_the_page_has_a_place_for_them(tmp_path: Path) -> None:

@@ -113,7 +113,8 @@ def _error(settings: Settings, e: AreaEvolution, main: int) -> list[str]:
     bounds = (
         f"The true area of the two triangulated surfaces lies between the bounds shown in every frame; they are "
         f"{upper[widest] - lower[widest]:.1f} mm² apart at most (frame {widest + 1}, area {area[widest]:.1f} mm²). "
-        "They follow from the 1-Lipschitz property of the distance. "
+        "They follow from the distances of the corners of each triangle: between them, a point of it can be neither "
+        "farther from the other surface nor nearer to it than these and the size of the triangle allow. "
     )
     if settings.rule == REFINED:
         bounds += (
@@ -210,7 +211,7 @@ def facts(told: Told, k: int) -> list[tuple[str, str]]:
         span = f"{area.min():.0f} … {area.max():.0f} mm² (mean {area.mean():.0f} mm²)"
         lines.append(("Range over the motion", span))
         if area[largest] > 0.0:
-            lines.append(("Where, in that frame", _where(told, largest, k)))
+            lines.append((f"Centre of the patch, at {course.at(largest)}", _where(told, largest, k)))
     lines += _uncertain_facts(told, k)
     word = "Deepest overlap" if e.min_distance[nearest] < 0.0 else "Smallest distance"
     lines.append((word, f"{abs(e.min_distance[nearest]) * MM:.2f} mm at {course.at(nearest)}"))
@@ -242,7 +243,7 @@ def _span(low: float, high: float) -> str:
 def _where(told: Told, frame: int, k: int) -> str:
     e = told.evolution
     x, y, z = e.fixed.centroid[frame, k] * MM
-    where = f"centroid x {x:.1f}, y {y:.1f}, z {z:.1f} mm"
+    where = f"x {x:.1f}, y {y:.1f}, z {z:.1f} mm"
     if e.medial_side:
         medial = e.medial[frame, k] / e.fixed.area[frame, k]
         where += f"; {medial:.0%} medial, {1.0 - medial:.0%} lateral"

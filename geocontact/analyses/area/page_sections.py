@@ -22,11 +22,11 @@ from geocontact.view.page.content import Curve, Curves, Points, Row, Scene, Scen
 from geocontact.view.surfaces.camera import camera_directions
 
 READ = (
-    ("certainly at least", "area_fixed_lower [mm^2]", 2),
-    ("certainly at most", "area_fixed_upper [mm^2]", 2),
+    ("lower bound (these meshes)", "area_fixed_lower [mm^2]", 2),
+    ("upper bound (these meshes)", "area_fixed_upper [mm^2]", 2),
     ("medial part", "area_fixed_medial [mm^2]", 2),
     ("lateral part", "area_fixed_lateral [mm^2]", 2),
-    ("area of the moving body", "area_moving [mm^2]", 2),
+    ("contact area on the moving body", "area_moving [mm^2]", 2),
     ("smallest distance", "min_distance [mm]", 3),
     ("penetration of the fixed body", "max_penetration_fixed [mm]", 3),
     ("index of congruence", "congruence_index [1/mm]", 4),
@@ -133,7 +133,11 @@ def rows(told: Told, k: int) -> list[Row]:
     alike = {} if told.congruence is None else told.congruence.columns()
     columns = e.table().assign(**alike).iloc[told.frames * len(e.thresholds) + k]
     found = [] if told.pressures is None else pressure_rows(told.pressures, told.frames)
-    area = ("area of the fixed body" + (f", {told.settings.rule}" if told.crude else ""), "area_fixed [mm^2]", 2)
+    area = (
+        "contact area on the fixed body" + (f", {told.settings.rule}" if told.crude else ""),
+        "area_fixed [mm^2]",
+        2,
+    )
     for label, column, digits in (area, *more):
         if column in columns:
             unit = column[column.index("[") + 1 : -1].replace("^2", "²")

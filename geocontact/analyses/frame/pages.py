@@ -13,9 +13,11 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.analyses.frame import quantities
+from geocontact.analyses.frame.folder import RUN
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.warning_kinds import merged
 from geocontact.analyses.frame.words import MOST, headline
+from geocontact.data.version import VERSION
 from geocontact.view.curves.style import save
 from geocontact.view.extremes import FRAMES, with_extremes
 from geocontact.view.page.content import Page, Picture, Section, Table, Words
@@ -72,12 +74,28 @@ class Drawings(Mapping[str, bytes]):
         return len(self.figures)
 
 
+AGAIN = f"geocontact rerun {RUN}"
+
+
 def options_table(record: Record) -> Table:
     """Options without the folders of files: a page is passed on, and where its files lay is nobody's business."""
     told = {key: value for key, value in record.options.items() if key != "out"}
     given = [(key, _shown(value)) for key, value in told.items() if value not in (None, False, [], ())]
-    rows = [("command", f"geocontact {record.command}"), *given, *record.versions().items()]
-    return Table("How it was made", ("option", "value"), rows, folded=True)
+    sizes = _sizes_in_si(record)
+    options = [(key, f"{shown} (in SI: {sizes[key]})" if key in sizes else shown) for key, shown in given]
+    made = [("geocontact", VERSION), ("command", f"geocontact {record.command}"), ("run again", AGAIN)]
+    return Table("How it was made", ("option", "value"), [*made, *options, *record.versions().items()], folded=True)
+
+
+def _sizes_in_si(record: Record) -> dict[str, str]:
+    """Numbers of typed options with their SI unit; names that have their unit with them need none."""
+    found = {}
+    for key, value in record.in_si.items():
+        name, bracket, unit = key.partition(" [")
+        numbers = value if isinstance(value, (list, tuple)) else [value]
+        if bracket and numbers and all(isinstance(each, (int, float)) for each in numbers):
+            found[name] = f"{', '.join(f'{each:.6g}' for each in numbers)} {unit.removesuffix(']')}"
+    return found
 
 
 def _shown(value: object) -> str:

@@ -27,6 +27,9 @@ from geocontact.loads.dead_cells import filling_covariance
 from geocontact.loads.mat_load import MatErrors, MatLoad, mat_load, segment_loads, wrench_covariance
 from geocontact.loads.mat_map import MatMap
 
+SUM, ALONG = "sum of pressure × area", "resultant along the mean normal"
+"""Two sizes of a mat's force: of all cells, whichever way they look, and of their resultant along one direction."""
+
 
 def stated_errors(
     placed: MatMap, registration: Registration | None, slip: PoseCovariance | None, o: MatOptions
@@ -132,7 +135,7 @@ def _report(found: MatLoads, time: Float[np.ndarray, " t"], point: Float[np.ndar
         },
     )
     say(
-        f"force up to {whole.pressing[heaviest]:.1f} N at {time[heaviest]:g} s, pressure up to "
+        f"force up to {whole.pressing[heaviest]:.1f} N at {time[heaviest]:g} s ({SUM}), pressure up to "
         f"{whole.peak.max() * 1e-3:.1f} kPa, area up to {whole.area.max() * 1e4:.0f} cm²"
     )
 

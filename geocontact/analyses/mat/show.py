@@ -11,7 +11,7 @@ from jaxtyping import Float, Int
 from geocontact.analyses.frame.collector import spelled
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.mat.loads import MatFindings
+from geocontact.analyses.mat.loads import ALONG, SUM, MatFindings
 from geocontact.data.motion import Course
 from geocontact.geometry.drape.cells import Drape
 from geocontact.loads.closest_point_mat import ClosestPoint
@@ -146,10 +146,11 @@ def _rows(r: MatFindings, shown: Int[np.ndarray, " k"]) -> list[Row]:
     w = r.loads
     sd = r.deviation[shown]
     rows = [
-        Row("force, perpendicular", "N", _texts(w.perpendicular[shown], 1)),
-        *(Row(f"force {axis}", "N", _with(w.wrench.force[shown, k], sd[:, k], 1)) for k, axis in enumerate("xyz")),
+        Row(SUM, "N", _texts(w.pressing[shown], 1)),
+        Row(ALONG, "N", _texts(w.perpendicular[shown], 1)),
+        *(Row(f"resultant {axis}", "N", _with(w.wrench.force[shown, k], sd[:, k], 1)) for k, axis in enumerate("xyz")),
         *(
-            Row(f"moment {axis}", "N m", _with(w.wrench.moment[shown, k], sd[:, 3 + k], 2))
+            Row(f"moment {axis} about {_point(r)}", "N m", _with(w.wrench.moment[shown, k], sd[:, 3 + k], 2))
             for k, axis in enumerate("xyz")
         ),
         Row("largest pressure", "kPa", _texts(w.peak[shown] * KPA, 1)),
@@ -170,13 +171,19 @@ def mat_curves(r: MatFindings) -> CurveSheet:
             FORCE,
             "N",
             [
-                Curve("perpendicular", w.perpendicular, stroke=INK),
-                *(Curve(axis, w.wrench.force[:, k], stroke=own) for k, (axis, own) in enumerate(by_axis)),
+                Curve(SUM, w.pressing, stroke=INK),
+                Curve(ALONG, w.perpendicular, stroke=stroke(3, 3)),
+                *(
+                    Curve(f"resultant {axis}", w.wrench.force[:, k], stroke=own)
+                    for k, (axis, own) in enumerate(by_axis)
+                ),
             ],
         ),
         *([Curves("Force of each segment", "N", parts)] if parts else []),
         Curves(
-            "Moment", "N m", [Curve(axis, w.wrench.moment[:, k], stroke=own) for k, (axis, own) in enumerate(by_axis)]
+            f"Moment about {_point(r)}",
+            "N m",
+            [Curve(axis, w.wrench.moment[:, k], stroke=own) for k, (axis, own) in enumerate(by_axis)],
         ),
         Curves(
             PRESSURE,
@@ -193,15 +200,31 @@ def mat_curves(r: MatFindings) -> CurveSheet:
     return CurveSheet(panels, Course("time", "s", r.frames.time))
 
 
+TWO_SIZES = (
+    f"The {SUM} counts every cell, whichever way it looks. The resultant adds forces as vectors: it is smaller where "
+    "the mat bends; x, y and z are its components."
+)
+
+
+def _point(r: MatFindings) -> str:
+    """The point that moments refer to: "the origin", else its place in mm."""
+    places = np.reshape(r.loads.wrench.origin, (-1, 3)) * MM
+    if np.ptp(places, axis=0).max() > 1e-6:
+        return "a point that moves"
+    x, y, z = places[0] + 0.0
+    return "the origin" if not places[0].any() else f"({x:.4g}, {y:.4g}, {z:.4g}) mm"
+
+
 def _facts(r: MatFindings) -> list[tuple[str, str]]:
     k, w = r.heaviest, r.loads
     peak = int(np.argmax(w.peak))
-    along = "" if np.isnan(w.perpendicular[k]) else f" ({w.perpendicular[k]:.0f} N perpendicular)"
+    along = [] if np.isnan(w.perpendicular[k]) else [(f"R{ALONG[1:]}, then", f"{w.perpendicular[k]:.1f} N")]
     lines = [
         (
             "Largest force",
-            f"{w.pressing[k]:.0f} N at {r.frames.time[k]:.2f} s{along}",
+            f"{w.pressing[k]:.1f} N at {r.frames.time[k]:.2f} s ({SUM})",
         ),
+        *along,
         ("Largest pressure", f"{w.peak[peak] * KPA:.1f} kPa at {r.frames.time[peak]:.2f} s"),
         ("Area under the largest force", f"{w.area[k] * CM2:.0f} cm²"),
     ]
@@ -219,7 +242,8 @@ def _reservations(r: MatFindings) -> list[str]:
     frame = r.loads.wrench.frame
     still = "" if frame == r.home else f" The picture stands still in the frame {r.home}, with which the segment moves."
     return [
-        f"Forces, moments and centres of pressure are in the frame {frame}.{still}",
+        f"Forces, moments and centres of pressure are in the frame {frame}, moments about {_point(r)} in it.{still}",
+        TWO_SIZES,
         "A mat measures forces perpendicular to its cells. Friction along the skin is not included.",
         f"Cells are up to {known.max():.1%} larger or smaller on the scan than flat; each keeps its own sensing area.",
         f"Landmarks are missed by up to {miss}.",

@@ -17,7 +17,20 @@ SAID = ("resultant", "cop_ground", "ankle_moment")
 """Those that sentences are about."""
 
 
+SMALL = ("medio_lateral",)
+"""Those that are small beside the others: their R² compares an error with little."""
+
+
+def small_force(quantity: str, r2: float) -> str:
+    """How to read an R² below 0 of a small force; empty for others."""
+    if quantity not in SMALL or not r2 < 0.0:
+        return ""
+    return f"{NAMES[quantity]}: R² is {r2:.2f}; this force is small: judge by its error"
+
+
 def below_zero(quantity: str, r2: float) -> str:
     """What a coefficient of determination below 0 says."""
+    if small := small_force(quantity, r2):
+        return small
     asked = ": are mass, setting, and unit and sign of the plates right?" if quantity in SAID else ""
     return f"{NAMES.get(quantity, quantity)}: R² is {r2:.2f}, a constant would fit better{asked}"

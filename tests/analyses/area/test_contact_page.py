@@ -29,7 +29,7 @@ def test_where_how_much_and_when_are_said_at_the_top():
     assert said["Largest contact area on the fixed body"] == f"{largest:.0f} mm² at 0.2 s"
     assert said["Range over the motion"].startswith(f"0 … {largest:.0f} mm²")
     assert said["Smallest distance"] == f"{evolution.min_distance[2] * 1e3:.2f} mm at 0.2 s"
-    assert "50% medial, 50% lateral" in said["Where, in that frame"]
+    assert "50% medial, 50% lateral" in said["Centre of the patch, at 0.2 s"]
 
 
 def test_overlap_is_called_overlap():
@@ -49,16 +49,16 @@ def test_numbers_under_the_cursor_are_those_of_the_table():
     table = evolution.table().query("`threshold [mm]` == 4").reset_index(drop=True)
     rows = {row.label: row for row in section(found, Readout).rows}
     for label, column, digits in (
-        ("area of the fixed body", "area_fixed [mm^2]", 2),
-        ("certainly at most", "area_fixed_upper [mm^2]", 2),
+        ("contact area on the fixed body", "area_fixed [mm^2]", 2),
+        ("upper bound (these meshes)", "area_fixed_upper [mm^2]", 2),
         ("medial part", "area_fixed_medial [mm^2]", 2),
-        ("area of the moving body", "area_moving [mm^2]", 2),
+        ("contact area on the moving body", "area_moving [mm^2]", 2),
         ("smallest distance", "min_distance [mm]", 3),
         ("centroid y", "centroid_y [mm]", 2),
     ):
         expected = ["–" if np.isnan(x) else f"{x:.{digits}f}" for x in table[column]]
         assert list(rows[label].texts) == expected, label
-    assert rows["area of the fixed body"].unit == "mm²" and rows["smallest distance"].unit == "mm"
+    assert rows["contact area on the fixed body"].unit == "mm²" and rows["smallest distance"].unit == "mm"
 
 
 def test_curves_are_the_areas_with_their_bounds():
@@ -123,7 +123,7 @@ def test_long_motions_are_thinned_and_keep_the_frames_that_answer(monkeypatch):
     assert list(found.time) == pytest.approx([0.1 * k for k in frames])
     table = here[-2].table().query("`threshold [mm]` == 4")["area_fixed [mm^2]"].to_numpy()
     rows = {row.label: row for row in section(found, Readout).rows}
-    assert list(rows["area of the fixed body"].texts) == [f"{table[k]:.2f}" for k in frames]
+    assert list(rows["contact area on the fixed body"].texts) == [f"{table[k]:.2f}" for k in frames]
     ground, ball = section(found, Scene).bodies
     heights = here[2].poses.translation[frames, 1]
     assert ball.poses.translation[:, 1] == pytest.approx(heights)
@@ -242,7 +242,7 @@ def test_a_crude_rule_is_named_and_not_called_certified():
     assert "(any-vertex)" in found.subtitle
     assert "rule any-vertex" in words["Numerical error"] and "outside the bounds" in words["Numerical error"]
     assert "estimated error" not in words["Numerical error"]
-    assert "area of the fixed body, any-vertex" in [row.label for row in section(found, Readout).rows]
+    assert "contact area on the fixed body, any-vertex" in [row.label for row in section(found, Readout).rows]
     np.testing.assert_array_equal(section(found, Strip).values, evolution.sensitivity * 1e6)
 
 

@@ -45,8 +45,11 @@ def test_the_verdict_is_said_in_one_sentence(found: DiagnoseResult) -> None:
     low, high = (100.0 * edge for edge in found.diagnosis.where[0].phase)
     said = found.sentences[0]
     assert said.startswith(f"damping is missing; it sits in force (phase {low:.0f}–{high:.0f} %, fast part of beta); ")
-    interval = ", ".join(f"{100.0 * edge:.0f}" for edge in gap.ci95).replace("-", "−")
-    assert f"adding it removes {100.0 * gap.reduction:.0f} % [{interval}] of the error on trials not used; " in said
+    part = 100.0 * (1.0 - gap.rmse_after / gap.rmse_before)
+    assert f"on the 2 held-out trials adding it removes {part:.0f} % of the error (" in said
+    interval = " to ".join(f"{100.0 * edge:.0f}" for edge in gap.ci95).replace("-", "−")
+    expected = f"on a new trial: {100.0 * gap.reduction:.0f} % expected, 95 % interval {interval} %"
+    assert found.diagnosis.gap["force"].unit == "N" and found.sentences[1].startswith(expected)
     assert said.endswith("% stays unexplained")
     assert str(found).splitlines() == [*found.sentences, *(f"warning: {line}" for line in found.warnings)]
     assert "<img src=" in found._repr_html_()

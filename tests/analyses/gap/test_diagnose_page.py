@@ -66,8 +66,14 @@ def test_the_answer_stands_at_the_top(told: Told, page: Page) -> None:
     assert said["What is missing"] == "damping"
     assert said["Where"].startswith("force (phase ")
     gap = d.gap["force"]
-    interval = f"{percent(gap.reduction)} % [{percent(gap.ci95[0])}, {percent(gap.ci95[1])}]"
-    assert said["Adding it removes"] == f"{interval} of the error of force on trials not used"
+    sizes = (gap.rmse_before, gap.rmse_after, gap.noise_floor)
+    before, after, floor = (number(size, gap.rmse_before) for size in sizes)
+    part = percent(1.0 - gap.rmse_after / gap.rmse_before)
+    words = f"({before} → {after} N, noise floor {floor})"
+    assert said["Adding it removes"] == f"{part} % of the error of force {words} on the 2 held-out trials"
+    interval = f"{percent(gap.ci95[0])} to {percent(gap.ci95[1])} %"
+    assert said["On a new trial"].startswith(f"{percent(gap.reduction)} % expected, 95 % interval {interval}")
+    assert page.headline[1].startswith(f"On a new trial: {percent(gap.reduction)} % expected")
     assert f"damping {d.probabilities['damping']:.2f}" in said["Probability p of each answer"]
 
 
@@ -167,7 +173,7 @@ def test_an_interval_below_zero_is_explained_where_there_is_one(told: Told) -> N
     doubtful = replace(d, gap=wide, probabilities={"damping": 0.95, "none": 0.05})
     first, second, *_ = reading(doubtful)
     assert first.startswith("p is the probability of an answer, from 0 to 1")
-    assert second.startswith("The interval −3 … 95 % reaches below 0 beside p = 0.95. These are two questions.")
+    assert second.startswith("The 95 % interval −3 to 95 % reaches below 0 beside p = 0.95. These are two questions.")
     assert second.endswith("the error of force may shrink by up to 95 %, or grow by up to 3 %.")
     sure = replace(d, gap={"force": replace(d.gap["force"], ci95=(0.8, 0.9))})
     assert not any("reaches below 0" in line for line in reading(sure))
@@ -325,7 +331,7 @@ def test_rivals_are_behind_by_the_difference_of_their_evidence(told: Told) -> No
 
 # Words of each verdict, on answers made by hand.
 
-GAP = {"force": ChannelGap(2.1, 0.31, 0.22, 0.85, (0.80, 0.89), 0.03)}
+GAP = {"force": ChannelGap(2.1, 0.31, 0.22, 0.84, (0.80, 0.89), 0.03, "N", 2)}
 WHERE = (Where("force", (0.42, 0.61), 1.0, 0.001, "constitutive"),)
 
 
@@ -356,18 +362,35 @@ def rates(shares: tuple[float, ...], p_value: float = 0.001, axis: str = "beta'"
 
 
 def test_the_sentence_of_the_issue() -> None:
-    (sentence,) = said()
-    assert sentence == (
-        "damping is missing; it sits in force (phase 42–61 %, fast part of beta); adding it removes 85 % [80, 89] of "
-        "the error on trials not used; 3 % stays unexplained"
+    first, second = said()
+    assert first == (
+        "damping is missing; it sits in force (phase 42–61 %, fast part of beta); on the 2 held-out trials adding it "
+        "removes 85 % of the error (2.10 → 0.31 N, noise floor 0.22); 3 % stays unexplained"
     )
+    assert second == "on a new trial: 84 % expected, 95 % interval 80 to 89 %"
+
+
+def test_a_wide_interval_of_few_trials_says_to_record_more() -> None:
+    """The numbers of the held-out trials and of a new one stand side by side, however far they are apart."""
+
+    def of(trials: int, low: float) -> list[str]:
+        return said(gap={"force": ChannelGap(3.85, 0.2, 0.2, 0.86, (low, 0.95), 0.02, "N m", trials)})[:2]
+
+    first, second = of(2, -0.03)
+    assert "on the 2 held-out trials adding it removes 95 % of the error (3.85 → 0.20 N m, noise floor 0.20)" in first
+    assert second == (
+        "on a new trial: 86 % expected, 95 % interval −3 to 95 %; the interval is wide because there are 2 held-out "
+        "trials: record more"
+    )
+    assert of(1, -0.03)[1].endswith("because there is 1 held-out trial: record more")
+    assert of(5, -0.03)[1].endswith("−3 to 95 %") and of(2, 0.8)[1].endswith("80 to 95 %")
 
 
 def test_what_is_not_ruled_out_is_said_with_how_far_it_is_behind() -> None:
-    _, second, third = said(ambiguity=("damping", "filter_lag", "relaxation"))
+    _, _, second, third = said(ambiguity=("damping", "filter_lag", "relaxation"))
     assert (second, third) == ("filter_lag is not ruled out", "relaxation is not ruled out")
     rivals = {"ambiguity": ("damping", "filter_lag"), "behind": {"filter_lag": 1.24}, "apart": {"filter_lag": 9.71}}
-    _, second = said(**rivals)
+    _, _, second = said(**rivals)
     assert second == "filter_lag is not ruled out: 1.2 nats behind, the two differ by 9.7 nats on these trials"
 
 
@@ -378,7 +401,7 @@ def test_a_class_is_the_answer_where_effects_are_one_law() -> None:
         "one_law": (("damping", "filter_lag"),),
         "apart": {"filter_lag": 1.26, "slip": 8.0},
     }
-    first, second, third = said(**alike)
+    first, _, second, third = said(**alike)
     assert first.startswith("damping or filter_lag (one law on these trials) is missing; it sits in force (")
     close = "they predict what damping does to within 1.3 nats, together p = 0.90"
     assert second == f"these trials cannot distinguish damping from filter_lag: {close}"
@@ -443,9 +466,9 @@ def test_what_is_explained_in_part_is_said() -> None:
     removed = {"force": (0.7, (0.62, 0.78)), "exo": (-0.1, (-0.3, 0.1)), "cop_x": (0.8, (0.7, 0.9))}
     first, *_ = said(verdict="unknown", effects=(), partial=Partial(("dry_friction",), 80.0, removed))
     assert first == (
-        "there is a gap in force (phase 42–61 %, fast part of beta); dry_friction explains 80 % [70, 90] of the error "
-        "of cop_x, 70 % [62, 78] of that of force on trials not used, and something else remains that no known effect "
-        "explains"
+        "there is a gap in force (phase 42–61 %, fast part of beta); dry_friction explains 80 % (95 % interval "
+        "70 to 90 %) of the error of cop_x, 70 % (95 % interval 62 to 78 %) of that of force on trials not used, and "
+        "something else remains that no known effect explains"
     )
 
 
@@ -460,6 +483,7 @@ def test_a_mistake_in_the_data_is_not_called_missing() -> None:
 def test_invisible_effects_faults_and_oddities_are_said() -> None:
     fault = DataErrorFound("unit_error", "force", 1e-3, ("t01", "t03"))
     found = said(absorbed=("preload", "slip"), faults=(fault,), remarks=("a line at 8 Hz in force",))
+    found = [found[0], *found[2:]]
     assert found[1] == "base parameters would imitate preload or slip: these trials cannot show it either way"
     assert found[2] == (
         "mistake in the data: unit_error of force (reads 0.001 times what it should) in t01 and t03, taken as undone "

@@ -141,4 +141,4 @@ def test_a_fit_below_a_constant_is_asked_about() -> None:
         "resultant force: R² is -8.18, a constant would fit better: are mass, setting, and unit and sign of the plates "
         "right?"
     )
-    assert below_zero("medio_lateral", -2.565).endswith("sideways force: R² is -2.56, a constant would fit better")
+    assert below_zero("medio_lateral", -2.565).endswith("R² is -2.56; this force is small: judge by its error")

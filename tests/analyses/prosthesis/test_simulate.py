@@ -13,6 +13,7 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.prosthesis.number_units import with_units
 from geocontact.analyses.prosthesis.simulate.result import (
     ProsthesisSimulateResult,
     against_the_plate,
@@ -21,6 +22,7 @@ from geocontact.analyses.prosthesis.simulate.result import (
     errors_table,
     found_words,
 )
+from geocontact.analyses.prosthesis.simulate.show import small_forces
 from geocontact.analyses.prosthesis.stance_files import write_coordinates
 from geocontact.below_knee_prosthesis.evaluation import stance_errors
 from geocontact.below_knee_prosthesis.stance_summary import doubts, summary
@@ -106,7 +108,13 @@ def test_shipped_trial_from_markers_to_files(found: ProsthesisSimulateResult, tm
     assert not any("counted twice" in line for line in found.warnings)
     assert errors.loc["cop_ground", "r2 [-]"] > 0.8
     assert errors.loc["cop_ground", "rmse"] < 0.10
-    assert abs(errors.loc["stance", "rmse"]) < 0.03
+    assert abs(errors.loc["stance", "difference"]) < 0.03 and not (errors["rmse"] < 0.0).any()
+    assert np.isnan(errors.loc["stance", "rmse"]), "a difference is no root mean square"
+    numbers = found.table("numbers").set_index("number")
+    assert numbers.loc["leg mass", "source"] == "option" and "option mass" in numbers.loc["leg mass", "note"]
+    shown = with_units(found.table("numbers")).set_index("number")
+    assert shown["unit"].str.len().all(), "each number has its unit"
+    assert shown.loc["leg mass", "unit"] == "kg" and shown.loc["gravity", "unit"] == "m/s²"
     found.write(tmp_path / "out")
     file, loads = read_external_loads(tmp_path / "out" / "ground_reaction.xml")
     assert file.name == "ground_reaction.mot"
@@ -147,7 +155,31 @@ def test_a_whole_stance_has_its_length() -> None:
     found = a_stance(own, walked(own))
     assert not any("still on the floor" in line for line in doubts(found))
     assert found_words(found, summary(found)).startswith("stance of 0.69 s at the fulcrum of 117 mm")
-    assert beside_words(stance_errors(found, plate_of(own))).endswith("stance +0 ms")
+    assert beside_words(stance_errors(found, plate_of(own))).endswith("stance as long as measured")
+
+
+def test_numbers_of_the_page_have_units_and_no_rounding_errors() -> None:
+    names = ["leg ankle_x", "sole exponent", "sole heel_stiffness"]
+    numbers = pd.DataFrame({"number": names, "value": [3.469e-18, 1.5, 2.0]})
+    shown = with_units(numbers)
+    assert list(shown["unit"]) == ["m", "-", "N/m^n"] and list(shown["value"]) == [0.0, 1.5, 2.0]
+
+
+@pytest.mark.parametrize(("late", "words"), [(-0.0064, "6 ms shorter"), (0.012, "12 ms longer")])
+def test_a_stance_of_another_length_is_shorter_or_longer(late: float, words: str) -> None:
+    own = np.arange(0.0, 0.95, 0.002)
+    errors = stance_errors(a_stance(own, walked(own)), plate_of(own))
+    errors = replace(errors, stance=(0.7 + late, 0.7))
+    assert beside_words(errors).endswith(f"stance {words} than measured")
+    table = errors_table(errors).set_index("quantity")
+    assert table.loc["stance", "difference"] == pytest.approx(late) and np.isnan(table.loc["stance", "rmse"])
+
+
+def test_a_small_force_is_judged_by_its_error() -> None:
+    table = pd.DataFrame({"quantity": ["vertical", "medio_lateral"], "r2 [-]": [0.9, -1.2]})
+    (words,) = small_forces(table)
+    assert words.paragraphs == ["sideways force: R² is -1.20; this force is small: judge by its error"]
+    assert small_forces(table.assign(**{"r2 [-]": 0.5})) == [] and small_forces(None) == []
 
 
 def test_a_stance_that_fits_worse_than_a_constant_is_asked_about() -> None:

@@ -18,12 +18,12 @@ from tests.view.page.hostile import HOSTILE
 pytestmark = pytest.mark.slow
 
 SHOWN = {
-    "area of the fixed body": ("area_fixed [mm^2]", 2),
-    "certainly at least": ("area_fixed_lower [mm^2]", 2),
-    "certainly at most": ("area_fixed_upper [mm^2]", 2),
+    "contact area on the fixed body": ("area_fixed [mm^2]", 2),
+    "lower bound (these meshes)": ("area_fixed_lower [mm^2]", 2),
+    "upper bound (these meshes)": ("area_fixed_upper [mm^2]", 2),
     "medial part": ("area_fixed_medial [mm^2]", 2),
     "lateral part": ("area_fixed_lateral [mm^2]", 2),
-    "area of the moving body": ("area_moving [mm^2]", 2),
+    "contact area on the moving body": ("area_moving [mm^2]", 2),
     "smallest distance": ("min_distance [mm]", 3),
     "penetration of the fixed body": ("max_penetration_fixed [mm]", 3),
     "centroid x": ("centroid_x [mm]", 2),

@@ -7,8 +7,15 @@ from collections.abc import Sequence
 import pandas as pd
 
 from geocontact.analyses.gap.case import names, percent, proposal_words
+from geocontact.analyses.gap.diagnose.shrinking import (
+    expected_words,
+    held_out_words,
+    interval,
+    removed_words,
+    sizes_words,
+)
 from geocontact.chain.system import System
-from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, Partial, Where
+from geocontact.data.diagnosis import CellsHeld, Diagnosis, Partial, Where
 from geocontact.data.gap_cells import BAND, FAST_PHASE, Cell
 from geocontact.gap.diagnose import Findings
 from geocontact.gap.localise.gap_map import load_outputs
@@ -82,14 +89,13 @@ def _explained(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     if d.where:
         parts.append(f"{'it sits' if it == 'it' else 'they sit'} in {place(d.where[0], cells)}")
     others = [w.channel for w in d.where[1:] if w.share >= MOST]
-    removed = [f"{_removed(d.gap[main])} of the error{f' of {main}' if others else ''} on trials not used"]
-    removed += [f"{_removed(d.gap[name])} of that of {name}" for name in others]
+    gaps = {name: d.gap[name] for name in (main, *others)}
     doing = " and ".join([*["adding"] * bool(lacking), *["undoing"] * bool(mistakes)])
-    parts.append(f"{doing} {it} removes {', '.join(removed)}")
+    parts.append(f"{held_out_words(d.gap[main])} {doing} {it} removes {removed_words(gaps)}")
     rest = d.gap[main].unexplained
     if rest is not None:
         parts.append(f"{percent(rest)} % stays unexplained")
-    return ["; ".join(parts), *in_question(d), *_absorbed(d)]
+    return ["; ".join(parts), f"on a new trial: {expected_words(gaps)}", *in_question(d), *_absorbed(d)]
 
 
 def in_question(d: Diagnosis) -> list[str]:
@@ -128,14 +134,6 @@ def _named(d: Diagnosis, some: Sequence[str], what: str) -> list[str]:
     return [f"{with_classes(d, some)} {'is' if len(some) == 1 else 'are'} {what}"] if some else []
 
 
-def _removed(gap: ChannelGap) -> str:
-    return _percent(gap.reduction, gap.ci95)
-
-
-def _percent(part: float, ci95: tuple[float, float]) -> str:
-    return f"{percent(part)} % [{percent(ci95[0])}, {percent(ci95[1])}]"
-
-
 def _no_gap(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     return ["nothing is missing beyond noise and trial-to-trial variation", *_not_ruled_out(d), *_absorbed(d)]
 
@@ -150,11 +148,11 @@ def _unknown(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
 
 
 def in_part(partial: Partial) -> str:
-    """What known effects explain, the most first: "slip explains 70 % [62, 78] of the error of force…"."""
+    """What known effects explain, the most first: "slip explains 70 % (95 % interval 62 to 78 %) of the error of …"."""
     shares = [(name, part, ci95) for name, (part, ci95) in partial.removed.items() if part > 0.0]
     shares.sort(key=lambda each: -each[1])
     parts = [
-        f"{_percent(part, ci95)} of {'that' if k else 'the error'} of {name}"
+        f"{percent(part)} % (95 % interval {interval(ci95)}) of {'that' if k else 'the error'} of {name}"
         for k, (name, part, ci95) in enumerate(shares)
     ]
     some = f"{names(partial.effects)} {'explains' if len(partial.effects) == 1 else 'explain'}"
@@ -197,9 +195,9 @@ def facts_of(findings: Findings) -> list[tuple[str, str]]:
         lines.append(("Where", place(d.where[0], findings.cells)))
         gap = d.gap[d.where[0].channel]
         if d.effects:
-            low, high = gap.ci95
-            reduction = f"{percent(gap.reduction)} % [{percent(low)}, {percent(high)}] of the error of "
-            lines.append(("Adding it removes", f"{reduction}{d.where[0].channel} on trials not used"))
+            removed = f"{percent(gap.removed)} % of the error of {d.where[0].channel} ({sizes_words(gap)})"
+            lines.append(("Adding it removes", f"{removed} {held_out_words(gap)}"))
+            lines.append(("On a new trial", expected_words({d.where[0].channel: gap})))
     if d.partial is not None:
         lines.append(("Explained in part", in_part(d.partial)))
     alive = ", ".join(f"{name} {value:.2f}" for name, value in _likeliest(d) if value >= 0.005)

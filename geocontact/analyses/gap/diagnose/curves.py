@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.gap.diagnose.answer import axis_units
+from geocontact.analyses.gap.diagnose.shrinking import axis_words, printed
 from geocontact.data.diagnosis import HeldOut
 from geocontact.data.motion import Course
 from geocontact.gap.diagnose import Findings
@@ -25,7 +27,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SURFACE = "gap_surface_"
-PRINTED = {"N m": ("N m", 1.0), "N": ("N", 1.0), "m": ("mm", 1e3), "rad": ("°", 180.0 / np.pi)}
 FRAMES = 201
 PHASE = np.linspace(0.0, 1.0, FRAMES)
 """Fractions of a trial that curves are shown at."""
@@ -34,14 +35,6 @@ SIDE_BY_SIDE = 6
 """Held-out trials of a channel that a figure holds."""
 MEASURED, BASE, NAMED, FLOOR = INK, stroke(1), stroke(0), stroke(3)
 Z95 = 1.959964
-
-
-def printed(unit: str) -> tuple[str, float]:
-    """A unit as it is shown, and how many of it one of the SI unit is; rates likewise."""
-    if unit.endswith("/s") and unit[:-2] in PRINTED:
-        name, per_si = PRINTED[unit[:-2]]
-        return f"{name}/s", per_si
-    return PRINTED.get(unit, (unit, 1.0))
 
 
 def quantity_of(findings: Findings, channel: str) -> Quantity:
@@ -132,7 +125,9 @@ def _sheet(panels: Sequence[Curves]) -> Figure:
 
 def map_figure(findings: Findings) -> Figure:
     """Where the gap is."""
-    return gap_map_figure(findings.cells, axis_units(findings))
+    named = {cell.axis: axis_words(cell.axis) for cell in findings.cells}
+    cells = tuple(replace(cell, axis=named[cell.axis]) for cell in findings.cells)
+    return gap_map_figure(cells, {axis_words(axis): unit for axis, unit in axis_units(findings).items()})
 
 
 def surface_names(findings: Findings) -> list[str]:

@@ -8,7 +8,8 @@ import numpy as np
 
 from geocontact.analyses.gap.case import percent
 from geocontact.analyses.gap.diagnose.answer import axis_units
-from geocontact.analyses.gap.diagnose.curves import effect_words, printed, quantity_of
+from geocontact.analyses.gap.diagnose.curves import effect_words, quantity_of
+from geocontact.analyses.gap.diagnose.shrinking import axis_words, printed
 from geocontact.analyses.gap.nats import ODDS, ahead_words
 from geocontact.data.gap_cells import BAND, FAST, FAST_PHASE, Cell
 from geocontact.gap.diagnose import Findings
@@ -76,7 +77,7 @@ def _axis(axis: str, unit: str) -> tuple[str, float, str]:
     if axis == BAND:
         return "frequency", 1.0, "Hz"
     shown_in, per_si = printed(unit)
-    return (f"rate of {axis.rstrip(chr(39))}" if axis.endswith("'") else axis), per_si, shown_in
+    return axis_words(axis), per_si, shown_in
 
 
 def reduction_bars(findings: Findings) -> Intervals:

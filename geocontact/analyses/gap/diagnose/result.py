@@ -14,8 +14,8 @@ r"""Which effect a model lacks: `geocontact gap diagnose`, `gc.diagnose`.
 >>> text += '[parameters.k]\nstart = 50.0\nlower = 10.0\nupper = 200.0\nunit = "N m/rad"\n'
 >>> _ = Path("case/case.toml").write_text(text)
 >>> gc.diagnose("case").sentences[0]
-'damping is missing; it sits in torque (phase 31–100 %, fast part of angle); adding it removes 92 % [87, 95]
-of the error on trials not used; 0 % stays unexplained'
+'damping is missing; it sits in torque (phase 31–100 %, fast part of angle); on the 2 held-out trials adding it
+removes 93 % of the error (2.92 → 0.21 N m, noise floor 0.21); 0 % stays unexplained'
 """
 
 from __future__ import annotations

@@ -21,6 +21,7 @@ from geocontact.analyses.gap.diagnose.curves import (
     worst_first,
 )
 from geocontact.analyses.gap.diagnose.page_answers import map_strips, ranking_bars, reduction_bars
+from geocontact.analyses.gap.diagnose.shrinking import axis_words, interval
 from geocontact.analyses.gap.nats import ODDS
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.gap_case import GapCase
@@ -84,12 +85,11 @@ def gap_table(findings: Findings) -> Table:
         sizes = [
             number(float(quantity.shown(np.array(value)))) for value in (g.rmse_before, g.rmse_after, g.noise_floor)
         ]
-        interval = f"{percent(g.ci95[0])} … {percent(g.ci95[1])} %"
         rest = "–" if g.unexplained is None else f"{percent(g.unexplained)} %"
         window = ["–"] * 3
         if w is not None:
             window = [f"{percent(w.share)} %", f"{percent(w.phase[0])}–{percent(w.phase[1])} %", f"{w.p_value:.2g}"]
-        rows.append((name, quantity.unit, *sizes, f"{percent(g.reduction)} %", interval, rest, *window))
+        rows.append((name, quantity.unit, *sizes, f"{percent(g.reduction)} %", interval(g.ci95), rest, *window))
     return Table("How far the gap shrinks, held-out trials (root mean squares)", GAP_HEADER, rows)
 
 
@@ -129,7 +129,7 @@ def cells_table(findings: Findings) -> Table:
     rows = [
         (
             c.channel,
-            c.axis,
+            axis_words(c.axis),
             f"{c.low:.4g} … {c.high:.4g} {units.get(c.axis, '')}".replace("inf", "∞"),
             f"{percent(c.share)} %",
             " … ".join(percent(part) for part in c.ci95) + " %",
@@ -174,7 +174,7 @@ def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes], i
         subtitle=_subtitle(case, d),
         time=OVER.values,
         time_label=OVER.label,
-        headline=headline([*injected[1:], *sentences], most=1 + len(injected[1:])),
+        headline=headline([*injected[1:], *sentences], most=(2 if d.verdict == "explained" else 1) + len(injected[1:])),
         facts=facts_of(findings),
         start_frame=round(0.5 * sum(window) * (FRAMES - 1)),
         sections=tuple(sections),
@@ -194,7 +194,7 @@ def reading(d: Diagnosis) -> list[str]:
         low, high = d.gap[main].ci95
         p = sum(d.probabilities.get(name, 0.0) for name in d.effects)
         said.append(
-            f"The interval {percent(low)} … {percent(high)} % reaches below 0 beside p = {p:.2f}. These are two "
+            f"The 95 % interval {interval((low, high))} reaches below 0 beside p = {p:.2f}. These are two "
             f"questions. p says how sure it is that {names(d.effects)} {'is' if len(d.effects) == 1 else 'are'} there, "
             "from all trials together. The interval says how much smaller the error of a new trial may be. Trials "
             f"differ, and few were held out: on a new trial the error of {main} may shrink by up to {percent(high)} %, "

@@ -22,13 +22,19 @@ def words(forces: GeneralisedForces) -> str:
     if not forces.at_ground.any():
         return ""
     force, moment = force_residual(forces), moment_residual(forces)
-    text = f"residual at the joint to the {GROUND}: {force.size:.3g} N at most, {force.share:.1%} of the"
+    text = f"residual force {force.size:.3g} N at {force.time:.3g} s = {share_words(force.share)} of the"
     if forces.peak == 0.0:
         return f"{text} weight (only gravity acts)"
     return (
-        f"{text} largest measured force (below {FORCE:.0%} is asked for), and {moment.size:.3g} N m, "
-        f"{moment.share:.1%} of that force at the height of the mass centre (below {MOMENT:.0%})"
+        f"{text} largest plate force (limit {100.0 * FORCE:g} %); residual moment {moment.size:.3g} N m at "
+        f"{moment.time:.3g} s = {share_words(moment.share)} of force × height of the mass centre (limit "
+        f"{100.0 * MOMENT:g} %; Hicks 2015)"
     )
+
+
+def share_words(share: float) -> str:
+    """A share in per cent, to what tells it from limits of 5 and 1 %."""
+    return f"{100.0 * share:.{0 if share >= 0.1 else 1}f} %"
 
 
 def warn_of_residuals(forces: GeneralisedForces) -> None:
@@ -36,14 +42,10 @@ def warn_of_residuals(forces: GeneralisedForces) -> None:
     if not forces.at_ground.any():
         reserve(f"no joint of six coordinates connects a body to the {GROUND}: there is no residual to check")
     elif forces.peak == 0.0 and force_residual(forces).too_large:
+        reserve(f"{words(forces)}: give `loads`, or `plates` with `plate`; moments are computed without ground contact")
+    elif force_residual(forces).too_large or moment_residual(forces).too_large:
         reserve(
-            f"{words(forces)} ({force_residual(forces).time:.3g} s): give `loads`, or `plates` with `plate`; moments "
-            "are computed without ground contact"
-        )
-    elif (force := force_residual(forces)).too_large or moment_residual(forces).too_large:
-        when = f"at {force.time:.3g} and {moment_residual(forces).time:.3g} s, limits of Hicks et al. 2015"
-        reserve(
-            f"{words(forces)}, {when}: check which plate acts on which body, masses, whether plates and markers have "
+            f"{words(forces)}: check which plate acts on which body, masses, whether plates and markers have "
             "one clock, and `cutoff`"
         )
 

@@ -3,8 +3,8 @@
 >>> import geocontact as gc
 >>> result = gc.inverse_dynamics("meshes/leg_swing.mot", model="meshes/leg.osim")
 >>> result.sentences[0]
-'101 frames; largest at hip_z_moment, 26.8 N m; residual at the joint to the ground: 264 N at most, 117.0% of
-the weight (only gravity acts)'
+'101 frames; largest at hip_z_moment, 26.8 N m; residual force 264 N at 0.93 s = 117 % of the weight (only
+gravity acts)'
 """
 
 from __future__ import annotations

@@ -10,6 +10,7 @@ from jaxtyping import Bool, Float, Int
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.gait_cycles import cycles_curves
+from geocontact.analyses.motion.inverse_dynamics.forces import words
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import forces_on, scene_of, skeleton
 from geocontact.data.motion import Course
@@ -89,9 +90,8 @@ def answer(forces: GeneralisedForces, turning: Bool[np.ndarray, " n"]) -> list[s
     name, size = forces.model.coordinates[which].name, abs(forces.values[frame, which])
     told = [f"{name} needs the largest moment, {size:.1f} N m at {forces.time[frame]:.3g} s."]
     if forces.at_ground.any():
-        left = force_residual(forces)
-        of = "largest measured force" if forces.peak > 0.0 else "weight (only gravity acts)"
-        told.append(f"Up to {left.size:.0f} N of residual force at the ground: {left.share:.1%} of the {of}.")
+        told += [f"{part[0].upper()}{part[1:]}." for part in words(forces).split("; residual")[:1]]
+        told += [f"Residual{part}." for part in words(forces).split("; residual")[1:]]
     return told
 
 
@@ -126,7 +126,8 @@ def _residuals(forces: GeneralisedForces) -> list[Section]:
         mean = float(np.sqrt(np.mean(sizes**2)))
         told = verdict(peak.size) if unit == "N" else "-"
         rows.append((f"{name} [{unit}]", f"{peak.size:.1f}", f"{peak.time:.3g}", f"{mean:.1f}", limit, told))
-    header = ("residual", "largest", "at [s]", "root mean square", "Hicks et al.: below", "OpenSim, if reduced")
+    grade = "OpenSim's grade (after residual reduction)"
+    header = ("residual", "largest", "at [s]", "root mean square", "Hicks et al.: below", grade)
     return [Table("Residual force and moment at the ground, and recommended limits", header, rows)]
 
 

@@ -10,6 +10,7 @@ from jaxtyping import Float, Int
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.gait_cycles import cycles_curves
+from geocontact.analyses.motion.marker_tasks import MarkerErrors
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
 from geocontact.data.motion import Course
@@ -53,7 +54,7 @@ def kinematics_page(
         subtitle=f"{len(found.names)} coordinates of {model.name or 'the model'} from {len(found.markers)} markers",
         time=found.time[shown],
         time_label="time [s]",
-        headline=headline(sentences, most=2),
+        headline=[*answer(found), *headline(sentences[1:], most=1)],
         facts=[
             ("Distance of markers, root mean square", f"{np.sqrt(np.nanmean(off**2)):.1f} mm"),
             ("Largest distance", f"{np.nanmax(off):.1f} mm"),
@@ -62,6 +63,17 @@ def kinematics_page(
         numbers=shown + 1,
         total=len(found.time),
     )
+
+
+def answer(found: Poses) -> list[str]:
+    """How well the markers fit and where worst; before it how many coordinates no frame determines, if any."""
+    errors, free = MarkerErrors.of(found), int((~found.determined.any(axis=0)).sum())
+    said = [f"{free} of {len(found.names)} coordinates are not determined."] if free else []
+    said.append(
+        f"Markers fit within {1e3 * errors.rms:.1f} mm RMS; worst {errors.marker}, {1e3 * errors.largest:.1f} mm at "
+        f"{errors.time:.3g} s."
+    )
+    return said
 
 
 def kinematics_curves(model: Multibody, found: Poses) -> CurveSheet:

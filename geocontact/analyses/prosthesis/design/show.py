@@ -10,6 +10,7 @@ import pandas as pd
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, UNITS, shown_values, value_words
+from geocontact.analyses.prosthesis.number_units import with_units
 from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import words
 from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES, Knob, Response
@@ -171,7 +172,7 @@ def design_page(
         frame_table(
             "Sensitivities of the outcomes of the present foot", _outcomes_in_words(tables["sensitivities"]), 3
         ),
-        frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
+        frame_table("Numbers of leg and foot in SI, and where they are from", with_units(tables["numbers"])),
         INPUTS,
         OPTIONS,
         Words("What the numbers do and do not contain", [*LIMITS, *idle, NOT_A_DEVICE]),

@@ -32,6 +32,7 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
 from geocontact.analyses.motion.skeleton import MARKER, scene_of, skeleton
+from geocontact.analyses.prosthesis.number_units import with_units
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
 from geocontact.analyses.prosthesis.stance_files import numbers_table
@@ -92,7 +93,7 @@ def amputee_page(
         frame_table("Segments", tables["segments"]),
         frame_table("Joints while standing", tables["joints"]),
         *_distances(tables),
-        frame_table("Numbers of the segments in SI, and where they are from", tables["numbers"]),
+        frame_table("Numbers of the segments in SI, and where they are from", with_units(tables["numbers"])),
         INPUTS,
         OPTIONS,
         Words("What the numbers do not contain", [TRUNK, SKIN, HELD_PARTS, NOT_A_DEVICE]),

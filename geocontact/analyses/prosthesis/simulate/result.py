@@ -7,7 +7,8 @@
 >>> print(result)
 stance of 0.73 s at the fulcrum of 117 mm: vertical force up to 1.30 BW, ankle moment up to 100 N m, keel
 stores 11.0 J
-against the plate: R² 0.92, 7.8% BW; centre of pressure R² 1.00, 1.1% of the foot; stance -6 ms
+against the plate: R² 0.92, 7.8% BW; centre of pressure R² 1.00, 1.1% of the foot; stance 6 ms
+shorter than measured
 warning: the hip's centre comes from a regression; a `functional` trial determines it better
 warning: 79 of 142 numbers of leg and foot are invented, see numbers.csv
 """
@@ -94,10 +95,10 @@ def stance_table(s: Stance, side: Side) -> pd.DataFrame:
 
 
 def errors_table(errors: StanceErrors) -> pd.DataFrame:
-    """R² and root mean square error by quantity, and the stance's length."""
-    rows = [(name, UNITS.get(name, "-"), r2, off) for name, (r2, off) in errors.table.items()]
-    rows.append(("stance", "s", np.nan, errors.stance[0] - errors.stance[1]))
-    return pd.DataFrame(rows, columns=["quantity", "unit", "r2 [-]", "rmse"])
+    """R² and root mean square error by quantity; of the stance's length the difference, simulated less measured."""
+    rows = [(name, UNITS.get(name, "-"), r2, off, np.nan) for name, (r2, off) in errors.table.items()]
+    rows.append(("stance", "s", np.nan, np.nan, errors.stance[0] - errors.stance[1]))
+    return pd.DataFrame(rows, columns=["quantity", "unit", "r2 [-]", "rmse", "difference"])
 
 
 def curves_table(errors: StanceErrors) -> pd.DataFrame:
@@ -238,8 +239,13 @@ def against_the_plate(errors: StanceErrors) -> GoodnessOfFit:
 def _lasting(errors: StanceErrors) -> str:
     late = 1e3 * (errors.stance[0] - errors.stance[1])
     if np.isfinite(late):
-        return f"stance {late:+.0f} ms"
+        size = f"{abs(late):.0f}"
+        return "stance as long as measured" if size == "0" else f"stance {size} ms {_longer(late)} than measured"
     return f"over the first {errors.simulated:.0%} of the plate's stance, because the simulation ended before toe-off"
+
+
+def _longer(late: float) -> str:
+    return "longer" if late > 0.0 else "shorter"
 
 
 simulate = Job("prosthesis simulate", ProsthesisSimulateOptions, read, run)

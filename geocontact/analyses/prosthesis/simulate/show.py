@@ -10,7 +10,8 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.prosthesis.quantity_words import NAMES
+from geocontact.analyses.prosthesis.number_units import with_units
+from geocontact.analyses.prosthesis.quantity_words import NAMES, small_force
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times
 from geocontact.below_knee_prosthesis.from_markers import of_side
@@ -75,7 +76,8 @@ def stance_page(
             if "errors" in tables
             else []
         ),
-        frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
+        *small_forces(tables.get("errors")),
+        frame_table("Numbers of leg and foot in SI, and where they are from", with_units(tables["numbers"])),
         INPUTS,
         OPTIONS,
         Words("What the numbers do not contain", [ALONE, *_sole_and_socket(o), NOT_A_DEVICE]),
@@ -94,6 +96,14 @@ def stance_page(
         numbers=shown + 1,
         total=len(s.time),
     )
+
+
+def small_forces(errors: pd.DataFrame | None) -> list[Words]:
+    """Why an R² below 0 of the sideways force says little; nothing where it is above."""
+    if errors is None:
+        return []
+    said = [small_force(str(name), float(r2)) for name, r2 in zip(errors["quantity"], errors["r2 [-]"], strict=True)]
+    return [Words("Sideways force", [line for line in said if line])] if any(said) else []
 
 
 def _sole_and_socket(o: ProsthesisSimulateOptions) -> list[str]:
