@@ -10,7 +10,10 @@ from contextlib import contextmanager
 
 from geocontact.analyses.frame.record import Listener
 
-SILENCE = 2.5  # s; loading compiled kernels from the cache takes less
+SILENCE = 2.5  # s; as long may compiling last without a word
+AGAIN = 0.5
+"""s between two looks whether something is compiled."""
+COMPILING = "compiling the distance kernels, once on this machine (about half a minute) …"
 PAUSE = 30.0
 """s between two lines on how far the work is, where stderr is a file or a pipe."""
 
@@ -48,15 +51,24 @@ class Terminal(Listener):
 
     @contextmanager
     def preparing(self) -> Iterator[None]:
-        """Say that kernels are being compiled when the block takes longer than loading them from the cache would."""
-        line = "compiling the distance kernels, once on this machine (about half a minute) …"
-        timer = threading.Timer(SILENCE, lambda: print(line, file=sys.stderr, flush=True))
-        timer.daemon = True
-        timer.start()
+        """Say that kernels are being compiled; nothing where they are loaded from the cache, however long it takes."""
+        from geocontact.geometry.kernels.compile import compilations  # late: --help needs no numba
+
+        before, done = compilations(), threading.Event()
+
+        def look() -> None:
+            wait = SILENCE
+            while not done.wait(wait):
+                if compilations() > before:
+                    print(COMPILING, file=sys.stderr, flush=True)
+                    return
+                wait = AGAIN
+
+        threading.Thread(target=look, daemon=True).start()
         try:
             yield
         finally:
-            timer.cancel()
+            done.set()
 
     @contextmanager
     def progress(self, label: str, total: int) -> Iterator[Callable[[], None]]:

@@ -29,7 +29,8 @@ def mistyped(error: CycloptsError, app: App) -> str:
                 before = f"name the command before its options, {help_of(chain)}"
                 return f"{token} is not an option of {' '.join((NAME, *chain))}; {_nearest(token, group) or before}"
             there = f"there are {', '.join(names)}"
-            return f"{token} is not a command{_of(chain)}; {_nearest(token, names) or there}"
+            elsewhere = f" (`{deeper}`?)" if (deeper := _in_a_group(token, group)) else ""
+            return f"{token} is not a command{_of(chain)}{elsewhere}; {_nearest(token, names) or there}"
         case UnknownOptionError():
             given = (error.token.keyword or error.token.value).partition("=")[0]
             names = [name for each in error.argument_collection if each.parse for name in each.names]
@@ -40,6 +41,12 @@ def mistyped(error: CycloptsError, app: App) -> str:
 def commands(group: App) -> list[str]:
     """Names of the commands of a group."""
     return [name for name in group if not name.startswith("-")]
+
+
+def _in_a_group(token: str, group: App) -> str:
+    """The command of that name in a group of commands, "knee settle" for settle; several are joined by "or"."""
+    found = [f"{name} {token}" for name in commands(group) if token in commands(group[name])]
+    return "` or `".join(found)
 
 
 def help_of(chain: Iterable[str]) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ from geocontact.analyses.frame.in_memory import InMemory
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.options import Declared, declared
 from geocontact.analyses.shape.options import ShapeOptions
+from geocontact.data.errors import InputError
 from geocontact.data.plausible import KNOWN, ByName, ByPlace, Plausible, Range, numbers_in
 from geocontact.data.units import Unit
 from geocontact.io.mocap.force_plates import read_force_plates
@@ -412,3 +414,17 @@ def test_numbers_of_several_motions_are_asked_for_one_by_one() -> None:
         _ = both.area
     with pytest.raises(ValueError, match=r"there are no loads: call `gc.pressure`, or give `modulus` and `poisson`"):
         _ = gc.area(FEMUR, INSERT, unit="mm", motion=TABLE.iloc[:1], threshold="4 mm").force
+
+
+@pytest.mark.parametrize(
+    ("value", "what"),
+    [
+        (np.zeros(7), "is an array of 7;"),
+        (np.zeros((5, 3)), "is an array of 5 x 3;"),
+        (np.zeros((0, 16)), "is an array of 0 x 16;"),
+        ([1.0, 2.0], "is a number;"),
+    ],
+)
+def test_an_array_that_is_no_motion_is_refused_with_what_is_wanted(value: object, what: str) -> None:
+    with pytest.raises(InputError, match=re.escape(f"`motion`: {what} give 4 x 4 matrices")):
+        InMemory().replaced({"motion": value}, "mm")

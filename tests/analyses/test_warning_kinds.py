@@ -28,6 +28,12 @@ def stops(count: int) -> list[str]:
 ONE = "P0_low, P1_low and 46 others: passive_1 is at a stop for 40 … 87 % of the time (48 times)"
 
 
+SIZES = [
+    "f.stl: bounding box 48 x 60.2 x 42.9 cm is 899 mm across, unusual for an implant or a bone; check `unit`",
+    "i.stl: bounding box 74 x 12 x 48.1 cm is 1061 mm across, unusual for an implant or a bone; check `unit`",
+]
+
+
 @pytest.mark.parametrize(
     ("lines", "shown"),
     [
@@ -35,6 +41,9 @@ ONE = "P0_low, P1_low and 46 others: passive_1 is at a stop for 40 … 87 % of t
         (["walk: it is open", "run: it is open"], "walk, run: it is open (2 times)"),
         (["off by -3.5 mm^2.", "off by −1e2 mm^2.", "off by 4 mm^2."], "off by −1e2 … 4 mm^2 (3 times)."),
         (["8% of hip_r", "10% of hip_r"], "8 … 10% of hip_r (2 times)"),
+        (["a: 3 of 8", "b: 4 of 9", "a: 3 of 8"], "a: 3 of 8 (2 times)|b: 4 of 9"),  # two numbers belong together
+        (["a: 3 of 8", "b: 4 of 8"], "a, b: 3 … 4 of 8 (2 times)"),
+        (SIZES, "|".join(SIZES)),
         (["a.stl has 3 holes", "a.stl has 3 edges"], "a.stl has 3 holes|a.stl has 3 edges"),
         (["3 mm^2 of it", "4 cm^2 of it"], "3 mm^2 of it|4 cm^2 of it"),
         (["left: a", "the right hip: a"], "left: a|the right hip: a"),

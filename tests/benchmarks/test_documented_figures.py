@@ -554,7 +554,7 @@ README = {
     "The effect is named in {},": "named_right",
     "confidently wrong in {}:": "confidently_wrong",
     "both of two effects in {};": "both_found",
-    "explains it | {} |": "unknown_called",
+    "does not know? | {}; it called the other 9": "unknown_called",
     "| {} inside their intervals": "coverage",
 }
 """A figure a row of its table, and what stands below it."""
@@ -643,7 +643,7 @@ def test_kinds_of_laboratories() -> None:
         assert words.format(f"{shares[key]['hits']} of {shares[key]['count']}") in readme, words
     alarms = shares["false_alarms"]
     assert f"| {alarms['count'] - alarms['hits']} of {alarms['count']} cases without an effect |" in readme
-    assert f"{abroad['figures']['all']['cases']} synthetic cases of five systems" in readme
+    assert f"{abroad['figures']['all']['cases']} simulated cases of five systems" in readme
     assert f"(version {abroad['commit']})" in readme
 
 

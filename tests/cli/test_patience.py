@@ -3,11 +3,33 @@
 from __future__ import annotations
 
 import io
+import os
+import subprocess
 import sys
+import time
+from pathlib import Path
 
 import pytest
 
 from geocontact.cli import show
+from geocontact.geometry.kernels import compile as kernels
+
+KERNEL = """
+from geocontact.geometry.kernels.compile import compilations, kernel
+
+
+@kernel
+def doubled(x):
+    return 2 * x
+
+
+if __name__ == "__main__":
+    import doubled as itself
+
+    before = compilations()
+    itself.doubled(3)
+    print(compilations() - before)
+"""
 
 
 class Screen(io.StringIO):
@@ -64,3 +86,29 @@ def test_a_file_gets_nothing_of_what_is_quick(monkeypatch: pytest.MonkeyPatch) -
         at("every effect alone")
         step()
     assert written.getvalue() == ""
+
+
+@pytest.mark.parametrize("misses", [0, 1])
+def test_compiling_is_said_where_something_is_compiled(misses: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Preparation that lasts is not compilation: other work may slow it down."""
+    shown = terminal(monkeypatch)
+    monkeypatch.setattr(show, "SILENCE", 0.01)
+    monkeypatch.setattr(show, "AGAIN", 0.01)
+    counts = iter([5, 5, *[5 + misses] * 1000])
+    monkeypatch.setattr(kernels, "compilations", lambda: next(counts))
+    with show.Terminal().preparing():
+        time.sleep(0.2)
+    assert (show.COMPILING in shown.getvalue()) == bool(misses)
+
+
+def test_a_kernel_that_the_cache_lacks_is_counted_once(tmp_path: Path) -> None:
+    """In a process with an empty cache it is compiled, in the next one it is loaded."""
+    (tmp_path / "doubled.py").write_text(KERNEL, encoding="utf-8")
+    places = [str(tmp_path), str(Path(__file__).resolve().parents[2])]
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache"), "PYTHONPATH": os.pathsep.join(places)}
+    environment.pop("NUMBA_DISABLE_JIT", None)
+    counts = [
+        subprocess.run([sys.executable, "-m", "doubled"], env=environment, capture_output=True, text=True, check=True)
+        for _ in range(2)
+    ]
+    assert [int(each.stdout) for each in counts] == [1, 0]

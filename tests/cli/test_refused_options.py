@@ -213,6 +213,7 @@ SLIPS = {
         [*AREA, "--treshold", "4"],
         "--treshold is not an option of area; did you mean --threshold?",
     ),
+    "command of a group": (["settle"], "settle is not a command (`knee settle`?); "),
     "unknown command": (["zzz"], "zzz is not a command; there are area, cohort, cop, "),
     "choice": ([*AREA, "--medial", "left"], 'Invalid value "left" for --medial. Choose from: "-", "+"; see'),
     "type": ([*AREA, "--workers", "all"], 'Invalid value for --workers: unable to convert "all" into int; see'),

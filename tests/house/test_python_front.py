@@ -107,6 +107,28 @@ def test_a_result_is_its_first_sentence_in_one_line() -> None:
     assert str(Said(record=record)).splitlines()[1:] == ["medial is +z", "warning: the bodies overlap"]
 
 
+@pytest.mark.parametrize(
+    ("sentences", "shown"),
+    [
+        (["medial is -z (right side)", "area of FIXED within 4 mm: 1796.3 … 2505.0 mm^2"], 1),
+        (["101 frames, 16 markers: named P1_2", "it removes 86 % of the error"], 1),
+        (["k 201.8 N/m (95 % 117.8 … 262.9)", "x 52.31 mm"], 0),
+        (["4 of 4 trials have results", "the bodies touch"], 0),
+    ],
+)
+def test_a_result_shows_the_first_sentence_with_a_quantity(sentences: list[str], shown: int) -> None:
+    record = Record("said", {}, {})
+    for each in sentences:
+        record.say(each)
+    assert repr(Said(record=record)) == f"<Said: {sentences[shown]}>"
+
+
+def test_tab_of_a_result_offers_what_users_need() -> None:
+    offered = dir(Said(record=Record("said", {}, {})))
+    assert {"table", "tables", "page", "write", "sentences", "warnings", "record"} <= set(offered)
+    assert not set(offered) & {"put", "elsewhere", "refers_to", "parts", "reservations"}
+
+
 @pytest.mark.parametrize("words", ["", "of 12 frames " * 40, "first\nsecond " * 30])
 def test_a_result_has_no_line_longer_than_a_prompt_shows(words: str) -> None:
     record = Record("said", {}, {})

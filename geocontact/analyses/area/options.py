@@ -70,8 +70,8 @@ class AreaOptions(Options):
     Motion
     ------
     motion
-        Poses (.csv, or rows of 16 or 12 numbers in a .csv or .txt) or coordinates (.mot .sto); several, or a pattern in
-        quotes: one sub-folder each.
+        Path of poses (.csv, or rows of 16 or 12 numbers in a .csv or .txt) or of coordinates (.mot .sto), in Python
+        also a DataFrame; several, or a pattern in quotes: one sub-folder each.
     motion_fixed
         Poses of FIXED where it moves too: `motion` and these are in one frame then, such as the laboratory's. As many
         as motions, in their order; interpolated to their times.
@@ -123,7 +123,8 @@ class AreaOptions(Options):
     How area is counted
     -------------------
     threshold
-        Largest distance that counts as contact, or several: 0.1,0.5,1,4. 0 counts what is inside the other body.
+        Largest distance that counts as contact, such as 4mm, or several: 0.1,0.5,1,4 (mm). 0 counts what is inside the
+        other body.
     assume_closed
         Treat a surface as closed although its edges do not show it.
     outer

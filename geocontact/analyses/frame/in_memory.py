@@ -21,6 +21,14 @@ if TYPE_CHECKING:  # whoever passes such a value has imported its library; nobod
     import numpy as np
     import pandas as pd
 
+POSES = ("motion", "motion_fixed")
+"""Options whose arrays are poses."""
+MATRICES = ((16,), (12,), (4, 4), (3, 4))
+"""Shapes of one frame in such an array."""
+MATRICES_OR_TABLE = (
+    "give 4 x 4 matrices (frames x 4 x 4, or 16 or 12 numbers in a row), or a DataFrame with the columns "
+    "time [s], tx [mm], ty [mm], tz [mm], qw, qx, qy, qz"
+)
 METRES = "m"
 
 
@@ -78,6 +86,8 @@ class InMemory:
     def _one(self, name: str, value: Any, unit: object) -> Any:
         if isinstance(value, (tuple, list)):
             return type(value)(self._one(name, each, unit) for each in value)
+        if name in POSES and isinstance(value, (int, float)):
+            raise InputError("", f"`{name}`", "is a number", MATRICES_OR_TABLE)
         made = _written(name, value, unit)
         if made is None:
             return value
@@ -132,6 +142,8 @@ def _array(name: str, array: np.ndarray) -> Written | None:
     import numpy as np
     import pandas as pd
 
+    if array.dtype.names is None and name in POSES:
+        _require_matrices(name, array)
     if array.ndim == 0 or (array.ndim == 1 and array.dtype.names is None):
         return None  # values of an option, not a file
     if array.dtype.names is not None:
@@ -140,6 +152,14 @@ def _array(name: str, array: np.ndarray) -> Written | None:
         raise InputError("", f"`{name}`", f"is an array of {array.dtype}", "give numbers, or a DataFrame")
     rows = array.reshape(len(array), -1)
     return Written(".txt", lambda file: _rows(file, rows.tolist()), f"array, {' x '.join(map(str, array.shape))}")
+
+
+def _require_matrices(name: str, array: np.ndarray) -> None:
+    """InputError unless an array without names of columns holds the numbers of matrices, one frame in a row."""
+    if array.size and array.shape[1:] in MATRICES:
+        return
+    shape = " x ".join(map(str, array.shape)) or "one number"
+    raise InputError("", f"`{name}`", f"is an array of {shape}", MATRICES_OR_TABLE)
 
 
 def _motion(motion: Any) -> Written:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from abc import ABC, abstractmethod
 from base64 import b64encode
 from collections.abc import Mapping
@@ -30,12 +31,18 @@ if TYPE_CHECKING:
 
 REPORT = "report.html"
 """Page of a folder of results."""
+MEASURED = re.compile(r"\d\s?(%|°|[kMmcµn]?(m|N|Pa|s|J|W|Hz|rad)\b|kg\b|deg\b|BW\b)")
+"""A number with a unit: 2505.0 mm^2, 86 %, 201.8 N/m."""
 WIDEST = 200
 """Characters of the line that stands for a result in a list or at the prompt."""
 
 Part = Literal["tables", "figures", "pages"]
 PARTS: frozenset[Part] = frozenset(("tables", "figures", "pages"))
 """What the frame writes."""
+OF_THE_FRAME = frozenset(
+    ("elsewhere", "folders", "parts", "put", "refers_to", "reservations", "units", "write_files", "write_page")
+)
+"""Attributes of a result that are there for the frame and for analyses, not for who has the result."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -245,6 +252,10 @@ class Result(ABC):
             self.write_page(path)
         return path
 
+    def __dir__(self) -> list[str]:
+        """Names without those that only the frame uses: what Tab offers."""
+        return sorted(set(super().__dir__()) - OF_THE_FRAME)
+
     def __str__(self) -> str:
         """Sentences and warnings, as the command prints them."""
         return "\n".join(self._lines())
@@ -254,10 +265,14 @@ class Result(ABC):
         return [*self.sentences, *(f"warning: {line}" for line in merged(self.warnings))]
 
     def __repr__(self) -> str:
-        """The first sentence and how many reservations there are, in one line of `WIDEST` characters at most."""
+        """The first sentence with a number and its unit, and how many reservations there are, in one line.
+
+        Without such a sentence the first one. The line has `WIDEST` characters at most.
+        """
         name, count = type(self).__name__, len(self.warnings)
         end = f"; {counted(count, 'warning')}>" if count else ">"
-        words = " ".join((self.sentences or ("",))[0].split())
+        first = next(filter(MEASURED.search, self.sentences), (self.sentences or ("",))[0])
+        words = " ".join(first.split())
         return f"<{name}: {shorten(words, WIDEST - len(name) - len(end) - 3, placeholder=' …')}{end}"
 
     def _repr_html_(self) -> str:

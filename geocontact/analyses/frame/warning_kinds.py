@@ -17,8 +17,9 @@ SLOT = "\0"
 def merged(lines: Sequence[str]) -> list[str]:
     """One line for each kind of warning, in the order of their first.
 
-    Lines are of one kind where they differ in numbers, in names (with a digit, an underscore or an ending), or in the
-    one word before a first colon. Of numbers that differ the least and the largest remain, of names up to three.
+    Lines are of one kind where they differ in one number at most, in names (with a digit, an underscore or an ending),
+    or in the one word before a first colon. Of numbers that differ the least and the largest remain, of names up to
+    three. Where several numbers differ they belong together in each line, so all lines remain.
 
     >>> merged(["arm_1: strap is slack for 4 % of the time", "arm_2: strap is slack for 12 % of the time"])
     ['arm_1, arm_2: strap is slack for 4 … 12 % of the time (2 times)']
@@ -29,7 +30,7 @@ def merged(lines: Sequence[str]) -> list[str]:
     for line in lines:
         words, skeleton = _parted(line)
         kinds.setdefault(skeleton, []).append(words)
-    return [_line(skeleton, rows) for skeleton, rows in kinds.items()]
+    return [line for skeleton, rows in kinds.items() for line in _lines(skeleton, rows)]
 
 
 def _parted(line: str) -> tuple[list[str], str]:
@@ -46,6 +47,17 @@ def _parted(line: str) -> tuple[list[str], str]:
         return f"{SLOT}{'n' if NUMBER.fullmatch(word) else 'w'}{ending}"
 
     return found, WORD.sub(slot, line)
+
+
+def _lines(skeleton: str, rows: list[list[str]]) -> list[str]:
+    """One line for all rows, or one for each where more than one of their numbers differs."""
+    columns = zip(re.findall(rf"{SLOT}([nw])", skeleton), zip(*rows, strict=True), strict=True)
+    if sum(kind == "n" and len(set(values)) > 1 for kind, values in columns) <= 1:
+        return [_line(skeleton, rows)]
+    alike: dict[tuple[str, ...], list[list[str]]] = {}
+    for row in rows:
+        alike.setdefault(tuple(row), []).append(row)
+    return [_line(skeleton, same) for same in alike.values()]
 
 
 def _line(skeleton: str, rows: Sequence[Sequence[str]]) -> str:

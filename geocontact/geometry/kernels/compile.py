@@ -13,7 +13,8 @@ import inspect
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import Literal, TypeVar, cast
+from typing import Any, Literal, TypeVar, cast
+from weakref import WeakSet
 
 import numba
 import numpy as np
@@ -35,6 +36,13 @@ ROOMS = (
     "gap",
 )
 """Rooms above geometry whose files may hold kernels or laws that kernels call."""
+_KERNELS: WeakSet[Any] = WeakSet()
+"""Everything that numba compiles here, to ask it what the cache lacked."""
+
+
+def compilations() -> int:
+    """How often this process had to compile, or began to, because the cache on disk lacked a kernel."""
+    return sum(sum(each.stats.cache_misses.values()) for each in list(_KERNELS))
 
 
 @functools.cache
@@ -71,4 +79,6 @@ def _compiled(function: F, inline: Literal["never", "always"]) -> F:
     if not os.environ.get("NUMBA_CACHE_DIR"):
         own = Path(inspect.getfile(plain)).parent == HERE
         vars(numba.config)["CACHE_DIR"] = str(_cache_folder(own=own))
-    return cast(F, numba.njit(cache=True, nogil=True, error_model="numpy", inline=inline)(plain))
+    compiled = numba.njit(cache=True, nogil=True, error_model="numpy", inline=inline)(plain)
+    _KERNELS.add(compiled)
+    return cast(F, compiled)

@@ -51,7 +51,7 @@ def sizes_words(gap: ChannelGap) -> str:
 
 def removed_words(gaps: Mapping[str, ChannelGap]) -> str:
     """What is removed on the held-out trials, channel by channel."""
-    parts = []
+    parts: list[str] = []
     for name, gap in gaps.items():
         what = "that" if parts else "the error"
         of = f" of {name}" if len(gaps) > 1 else ""
@@ -61,7 +61,7 @@ def removed_words(gaps: Mapping[str, ChannelGap]) -> str:
 
 def expected_words(gaps: Mapping[str, ChannelGap]) -> str:
     """What is expected of a new trial, channel by channel; why an interval is wide where few trials are the cause."""
-    parts = []
+    parts: list[str] = []
     for name, gap in gaps.items():
         of = f" for {name}" if len(gaps) > 1 else ""
         parts.append(f"{percent(gap.reduction)} % expected{of}, 95 % interval {interval(gap.ci95)}")
