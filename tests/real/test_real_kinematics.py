@@ -158,7 +158,7 @@ def test_markers_of_a_real_c3d(data_dir: Path) -> None:
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
         seen = read_c3d_markers(data_dir / "bmclab_gait_c3d" / "Gait.c3d")
-    assert any("'LANK' is there twice" in str(one.message) for one in said)
+    assert any("'LANK' occurs twice" in str(one.message) for one in said)
     assert len(set(seen.names)) == len(seen.names) > 20
     there = np.isfinite(seen.positions).all(axis=2)
     assert (there.mean(axis=0) > 0.3).all()
