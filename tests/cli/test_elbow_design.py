@@ -29,7 +29,7 @@ def test_the_exoskeleton_of_the_source(tmp_path: Path) -> None:
     assert set(inventory(result.folder)) == FILES
     assert "the lower end must be decreased by 27.48 mm" in result.out
     page = (result.folder / "report.html").read_text(encoding="utf-8")
-    assert "the lower end must be decreased by 27.48 mm" in page and "robust radius" in page
+    assert "the lower end must be decreased by 27.48\u00a0mm" in page and "robust radius" in page
     m = json.loads(result.bytes("design.json"))
     assert m["l_mm"] == 169.0 and m["stroke_mm"] == [0.0, 60.0] and m["range_deg"] == [0.0, 120.0]
     record = result.record()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import shutil
 import subprocess
@@ -156,6 +157,7 @@ def test_module_and_script_are_the_same_program() -> None:
 def test_compiling_is_announced_when_it_keeps_the_user_waiting(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(show, "SILENCE", 0.1)
     monkeypatch.setattr(area_analysis, "warm_up", lambda: time.sleep(1.0))
+    monkeypatch.setattr("geocontact.geometry.kernels.compile.compilations", itertools.count().__next__)
     result = area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=poses(tmp_path, (0, 20, 0)))
     (line,) = result.complaints
     assert line.startswith("compiling the distance kernels, once on this machine") and result.code == 0
