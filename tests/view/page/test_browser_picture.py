@@ -145,8 +145,7 @@ def test_one_loop_is_saved_as_a_video(opened: Open, tmp_path: Path) -> None:
     blank.close()
     assert played["width"] % 2 == 0 and played["height"] % 2 == 0
     assert 2.0 < played["seconds"] < 12.0, "3 s where the machine keeps up"
-    # a still film has 0; on a busy machine fewer frames are recorded, so that the two are nearer to each other
-    assert played["changed"] > 0.0005, "share of the pixels that differ between the beginning and the middle"
+    assert played["changed"] > 0.002, "largest share of the pixels that differ from the beginning"
 
 
 PLAYED = """async (address) => {
@@ -169,8 +168,13 @@ PLAYED = """async (address) => {
   if (!Number.isFinite(video.duration)) video.currentTime = 1e6; // it is known once its end was looked for
   if (!Number.isFinite(video.duration)) await known;
   const seconds = video.duration;
-  const [one, other] = [await at(0.05), await at(seconds / 2)];
-  let changed = 0;
-  for (let k = 0; k < one.length; k += 4) changed += Math.abs(one[k] - other[k]) > 40;
+  const one = await at(0.05);
+  let changed = 0; // of the instant that is farthest from the beginning: where that is depends on the first frame
+  for (const part of [0.25, 0.5, 0.75]) {
+    const other = await at(part * seconds);
+    let count = 0;
+    for (let k = 0; k < one.length; k += 4) count += Math.abs(one[k] - other[k]) > 40;
+    changed = Math.max(changed, count);
+  }
   return { width: video.videoWidth, height: video.videoHeight, seconds, changed: changed / (one.length / 4) };
 }"""
