@@ -5,7 +5,7 @@
 >>> given = {"layout": mat + "layout.toml", "landmarks": mat + "landmarks.csv", "cutoff": 0.0}
 >>> result = gc.mat(mat + "frames.csv", surface="meshes/thigh.stl", unit="mm", **given)
 >>> print(result)
-force up to 79.6 N at 1.1 s, pressure up to 29.1 kPa, area up to 76 cm²
+force up to 79.6 N at 1.1 s (sum of pressure × area), pressure up to 29.1 kPa, area up to 76 cm²
 """
 
 from __future__ import annotations
