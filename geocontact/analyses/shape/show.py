@@ -49,6 +49,7 @@ def colour_end(fit: ShapeFit) -> float:
 
 MM = 1e3
 MOST = 20_000  # points drawn; more are thinned out, always in the same way
+SIDES = dict.fromkeys(("cylinder", "sphere"), "above 0 outside") | {"plane": "above 0 where its normal points"}
 RESIDUALS = "RdBu_r"  # diverging, white on the shape
 SHARE = 98.0  # per cent of the residuals that the distribution shows
 
@@ -249,7 +250,8 @@ def _facts(fit: ShapeFit) -> list[tuple[str, str]]:
 def _scene(fitted: Fitting) -> Scene:
     shape = fitted.whole.shape
     residual = fitted.residual
-    distance = np.where(np.isnan(residual), np.inf, np.abs(residual))
+    distance = np.where(np.isnan(residual), np.inf, residual)
+    limit, end = outlying(fitted.whole), colour_end(fitted.whole)
     bodies = [
         SceneBody(
             fitted.patch.surface.name,
@@ -262,9 +264,10 @@ def _scene(fitted: Fitting) -> Scene:
     bodies.append(SceneBody(SHAPE.format(shape), vertices, faces, opacity=0.2))
     return Scene(
         bodies=bodies,
-        thresholds=(outlying(fitted.whole),),
-        span=(0.0, colour_end(fitted.whole)),
-        value_name=f"distance to the fitted {shape}, to either side; the line is three times the noise",
+        thresholds=(limit, -limit),
+        span=(-end, end),
+        value_name=f"distance to the fitted {shape}: {SIDES[shape]}; the lines are three times the noise",
+        sides=True,
         directions=WAYS,
     )
 

@@ -128,6 +128,7 @@ def _scene(scene: Scene, frame: int, levels: Levels, blocks: list[Block]) -> dic
         "first": levels.first * MM,
         "step": levels.step * MM,
         "valueName": scene.value_name,
+        "sides": scene.sides,
         "directions": [[name, [float(x) for x in vector]] for name, vector in scene.directions.items()],
         "up": [float(x) for x in scene.up],
         "view": opening_view(scene, frame).tolist(),

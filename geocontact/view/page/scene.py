@@ -148,6 +148,8 @@ class Scene:
         Limits of the colours [m], the same in all frames.
     value_name
         What the colours mean: "signed distance to the other body".
+    sides
+        The distance is to either side of a shape: two hues that meet at zero, and no overlap.
     directions
         Camera presets: name and vector from which to look, in S: {"anterior (+x)": (1, 0, 0)}. Keys 1, 2, … in order.
     up
@@ -164,6 +166,7 @@ class Scene:
     thresholds: Sequence[float] = ()
     span: tuple[float, float] = (0.0, 1.0)
     value_name: str = ""
+    sides: bool = False
     directions: Mapping[str, Sequence[float]] = field(default_factory=dict)
     up: Sequence[float] = (0.0, 1.0, 0.0)
     view: Sequence[float] | None = None

@@ -30,7 +30,9 @@ def test_shape_is_drawn_where_it_is_and_colours_are_distances(shape: str) -> Non
     page = fit_page(told, {}, "title")
     scene = next(section for section in page.sections if isinstance(section, Scene))
     shown = scene.bodies[0].distance[0]
-    np.testing.assert_allclose(shown[counted], np.abs(fit.distance(body.vertices)[counted]))
+    np.testing.assert_allclose(shown[counted], fit.distance(body.vertices)[counted])
+    assert scene.sides and scene.span[0] == -scene.span[1]
+    assert sorted(scene.thresholds) == [-scene.threshold, scene.threshold]
     assert np.isinf(shown[~counted]).all()
     assert set(scene.directions) == {"+x", "−x", "+y", "−y", "+z", "−z"}
     assert ("Radius" in dict(page.facts)) == (shape != "plane")
@@ -39,6 +41,23 @@ def test_shape_is_drawn_where_it_is_and_colours_are_distances(shape: str) -> Non
     limits = 1e3 * scene.span[1]
     assert all(each.get_clim() == pytest.approx((-limits, limits)) for each in dots), "figure and page alike"
     assert dots
+
+
+def test_colours_tell_a_bump_from_a_dent() -> None:
+    """A sphere of 20 mm with a corner 1 mm farther out and one 1 mm farther in: the page has both signs."""
+    corners, faces = sphere(20.0, 8)
+    outward = corners / np.linalg.norm(corners, axis=1, keepdims=True)
+    far, near = int(np.argmax(corners[:, 0])), int(np.argmin(corners[:, 0]))
+    corners = corners.copy()
+    corners[far] += outward[far] * np.linalg.norm(corners[far]) / 20.0
+    corners[near] -= outward[near] * np.linalg.norm(corners[near]) / 20.0
+    body = surface((corners, faces), "body")
+    fit = SHAPES["sphere"](body.vertices, True)
+    page = fit_page(Fitting(Patch(body, np.ones(len(faces), bool), True, None, -1), fit, {}, {}), {}, "title")
+    scene = next(section for section in page.sections if isinstance(section, Scene))
+    shown = scene.bodies[0].distance[0]
+    assert shown[far] == pytest.approx(1e-3, rel=0.02) and shown[near] == pytest.approx(-1e-3, rel=0.02)
+    assert "above 0 outside" in scene.value_name
 
 
 def test_profiles_are_drawn_where_they_are_known() -> None:

@@ -10,6 +10,10 @@ const SHALLOW_TO_DEEP = ["#ff9a3c", "#e8590c", "#b3261e", "#6a040f"];
 const LITTLE_TO_MUCH = [
   "#fcffa4", "#f6d746", "#fca50a", "#f37819", "#dd513a", "#bc3754", "#932667", "#6a176e", "#420a68", "#160b39",
 ];
+// RdYlBu (Brewer, Apache 2), below to above: what has its zero in the middle; colour-blind eyes see the two sides
+const BELOW_TO_ABOVE = [
+  "#313695", "#4575b4", "#74add1", "#abd9e9", "#e0f3f8", "#ffffbf", "#fee090", "#fdae61", "#f46d43", "#d73027", "#a50026",
+];
 export const BEYOND = "#c9cdd2";
 export const PLAIN = "#b9bec6";
 
@@ -28,6 +32,9 @@ export function colourOf(distance, [lower, upper]) {
   const from = Math.max(lower, 0);
   return between(NEAR_TO_FAR, (distance - from) / (upper - from));
 }
+
+/** sRGB triple of a distance to either side, colours spread over the span. */
+export const sideColour = (distance, [lower, upper]) => between(BELOW_TO_ABOVE, (distance - lower) / (upper - lower));
 
 /** sRGB triple of an amount, colours spread from nothing to the upper end. */
 export const amountColour = (amount, [, upper]) => between(LITTLE_TO_MUCH, amount / upper);

@@ -28,7 +28,7 @@ uniform sampler2D ramp;
 uniform vec2 span;
 uniform float thresholds[COUNT];
 uniform vec4 section;
-uniform bool sectioned, coloured, amounts;
+uniform bool sectioned, coloured, amounts, sides;
 uniform vec3 grey, plain, inside;
 uniform float opacity, pixel, stepSize;
 in vec3 seen, placed;
@@ -51,8 +51,9 @@ void main() {
   vec3 colour = plain;
   if (coloured) {
     vec3 near = texture(ramp, vec2((value - span.x) / (span.y - span.x), 0.5)).rgb;
-    if (!amounts && value < -2.0 * stepSize && mod(gl_FragCoord.x + gl_FragCoord.y, 7.0 * pixel) < 2.0 * pixel) near *= 0.45;
-    float far = amounts ? 0.0 : smoothstep(-0.5, 0.5, (value - span.y) / slope / pixel);
+    if (!amounts && !sides && value < -2.0 * stepSize && mod(gl_FragCoord.x + gl_FragCoord.y, 7.0 * pixel) < 2.0 * pixel) near *= 0.45;
+    float over = sides ? max(value - span.y, span.x - value) : value - span.y;
+    float far = amounts ? 0.0 : smoothstep(-0.5, 0.5, over / slope / pixel);
     colour = mix(plain, mix(near, grey, max(smoothstep(0.0, 0.7, beyond), far)), solid);
   }
   colour = colour * light + shine;
@@ -77,6 +78,7 @@ export function sharedUniforms(scene) {
     first: { value: 0 },
     stepSize: { value: 1 },
     amounts: { value: false },
+    sides: { value: false },
     section: { value: new Vector4(1, 0, 0, 0) },
     sectioned: { value: false },
     pixel: { value: 1 },
@@ -95,6 +97,7 @@ export function showQuantity(shared, quantity) {
   shared.span.value = quantity.span;
   shared.first.value = quantity.first;
   shared.stepSize.value = quantity.step;
+  shared.sides.value = quantity.sides;
   shared.amounts.value = quantity.map !== null;
 }
 

@@ -6,7 +6,7 @@ import { brief, ticks } from "./ticks.js";
 
 const [LEFT, WIDTH, HIGH] = [24, 234, 14];
 const [BEYOND_AT, ROOM] = [304, 328];
-const overlaps = (scene, of) => of.span[0] < 0 && scene.bodies.some((body) => body.distance && body.signed);
+const overlaps = (scene, of) => of.span[0] < 0 && !of.sides && scene.bodies.some((body) => body.distance && body.signed);
 
 /** Colours of a quantity with ticks; bold marks are the thresholds, hatched is overlap, the box beside is beyond. */
 export function legend(place, scene, of) {

@@ -1,5 +1,5 @@
 // What the colours can mean: amounts on faces first, then the distance of vertices to the other body.
-import { amountColour, colourOf } from "./colours.js";
+import { amountColour, colourOf, sideColour } from "./colours.js";
 
 /** The thresholds with the chosen one first, which is drawn bold. */
 export const boldFirst = (thresholds, chosen) =>
@@ -15,7 +15,8 @@ export function quantitiesOf(scene) {
     first: scene.first,
     step: scene.step,
     thresholds: scene.thresholds,
-    colour: colourOf,
+    sides: scene.sides,
+    colour: scene.sides ? sideColour : colourOf,
   };
   const maps = scene.maps.map(({ name, unit, upper, step }, map) => ({
     map,
@@ -25,6 +26,7 @@ export function quantitiesOf(scene) {
     first: step,
     step,
     thresholds: [],
+    sides: false,
     colour: amountColour,
   }));
   return [...maps, distance];
