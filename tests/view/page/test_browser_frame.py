@@ -220,6 +220,28 @@ def test_a_panel_with_an_axis_of_its_own_is_read_there_alone(opened: Open) -> No
     assert here.tab.locator("#section-0 .key").text_content().endswith("worknow")  # type: ignore[union-attr]
 
 
+def test_one_of_many_curves_is_picked_by_its_name(opened: Open) -> None:
+    """Sixteen markers in one plot: pointing at a name, or pressing it, lets that curve stand out."""
+    time = np.linspace(0.0, 1.0, 9)
+    many = Curves("Error", "mm", [Curve(f"marker {k}", k + time) for k in range(16)])
+    few = Curves("F", "N", [Curve("f", time), Curve("g", -time)])
+    here = opened(Page("a", "", time, "time [s]", sections=[many, few]))
+    clear = here.tab.locator("#section-0 .plot .line:not(.back)")
+    entry = here.tab.locator("#section-0 .key li").nth(3)
+    assert clear.count() == 16
+    entry.hover()
+    assert clear.count() == 1
+    here.tab.mouse.move(1, 1)
+    assert clear.count() == 16
+    entry.press("Enter")
+    assert clear.count() == 1 and entry.get_attribute("aria-pressed") == "true"
+    before = here.frame()
+    entry.press("Space")
+    assert clear.count() == 16 and here.frame() == before, "the space bar plays where no name has the focus"
+    assert here.tab.locator("#section-1 [role=button]").count() == 0, "two curves need no choice"
+    assert here.complaints == []
+
+
 def test_a_picture_is_as_wide_as_its_card(opened: Open) -> None:
     svg = b'<svg xmlns="http://www.w3.org/2000/svg" width="100pt" height="400pt" viewBox="0 0 100 400"></svg>'
     here = opened(Page("a", "", np.zeros(1), "", sections=[Picture("Tall", "words", svg, wide=True)]))

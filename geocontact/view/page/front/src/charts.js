@@ -6,6 +6,7 @@ import { brief, course, decades, extent } from "./ticks.js";
 
 /** Measured values are open marks in ink, unless they have a stroke: circle, square, triangle. */
 const MARKS = ["M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0", "M-3.5-3.5h7v7h-7z", "M0-4.5L4.2 3.2h-8.4z"];
+const MANY = 4; // curves, from which one of them may be picked by its name
 const UNSEEN = 1e-4; // of the axis: less is printed as 0
 const tone = (stroke) => (stroke === null ? "" : ` own ${colour(stroke)}`);
 const mark = (k, stroke, x, y) =>
@@ -21,17 +22,18 @@ export function curves(figure, part, pageTime, pageLabel, { go, plays }) {
   const own = part.curves.flatMap((c) => [...c.values, ...(c.lower ?? []), ...(c.upper ?? [])]);
   const all = [...own, ...part.points.flatMap((p) => p.values), ...part.limits.map((l) => l.value)];
   const values = named.map(() => html("span", "value"));
+  const entries = named.map((c, k) => html("li", "", sample(c.stroke), html("bdi", "", c.name), values[k]));
   const spans = part.spans.filter((span, k) => span.name && part.spans.findIndex((other) => other.name === span.name) === k);
   figure.append(
     html(
       "ul",
       "key",
-      ...named.map((c, k) => html("li", "", sample(c.stroke), html("bdi", "", c.name), values[k])),
+      ...entries,
       ...part.points.flatMap((p, k) => (p.name ? [html("li", "", pointsSample(p, k), html("bdi", "", p.name))] : [])),
       ...spans.map((span) => html("li", "", spanSample(span), html("bdi", "", span.name))),
     ),
   );
-  let [now, begun] = [0, false];
+  let [now, begun, shownAlone] = [0, false, null];
   const y = part.log ? decades(all) : extent(all, part.unit);
   const unseen = part.log ? 0 : UNSEEN * (y[1] - y[0]);
   const plot = axes(figure, {
@@ -51,7 +53,8 @@ export function curves(figure, part, pageTime, pageLabel, { go, plays }) {
       part.curves.forEach((c) => {
         if (c.lower && c.upper) p.frame.append(svg("path", { class: `band ${colour(c.stroke)}`, d: band(p, time, c.lower, c.upper) }));
       });
-      part.curves.forEach((c) => p.frame.append(line(p, c.stroke, time, c.values, c.thin)));
+      p.lines = part.curves.map((c) => line(p, c.stroke, time, c.values, c.thin));
+      p.frame.append(...p.lines);
       for (const { name, value } of part.limits) {
         p.frame.append(svg("line", { class: "limit", x1: p.left, x2: p.right, y1: p.y(value), y2: p.y(value) }));
         p.frame.append(svg("text", { class: "tick limit", x: p.right - 4, y: p.y(value) - 5, "text-anchor": "end" }, name));
@@ -65,8 +68,18 @@ export function curves(figure, part, pageTime, pageLabel, { go, plays }) {
       p.dots = named.map((c) => svg("circle", { class: `dot ${colour(c.stroke)}`, r: 4 }));
       p.frame.append(p.cursor, ...p.dots);
       place(p);
+      pick(p, shownAlone);
     },
   });
+  if (entries.length >= MANY) pickable(entries, (k) => pick(plot, (shownAlone = k)));
+
+  /** One of many curves stands out; the others step back. */
+  function pick(p, k) {
+    if (!p.lines) return; // not drawn yet
+    part.curves.forEach((c, i) => p.lines[i].classList.toggle("back", k !== null && c !== named[k]));
+    p.dots.forEach((dot, i) => dot.classList.toggle("back", k !== null && i !== k));
+    if (k !== null) p.frame.insertBefore(p.lines[part.curves.indexOf(named[k])], p.cursor);
+  }
 
   /** Rounding errors are nothing. */
   const shown = (value) => (value !== null && Math.abs(value) < unseen ? 0 : value);
@@ -104,6 +117,29 @@ export function curves(figure, part, pageTime, pageLabel, { go, plays }) {
   if (!part.over) return move;
   move(peak(named.map((c) => c.values)));
   return () => {};
+}
+
+/** Names of curves that pick one: while pointed at, and until the next press once pressed. */
+function pickable(entries, pick) {
+  let pressed = null;
+  const press = (k) => {
+    pressed = pressed === k ? null : k;
+    entries.forEach((entry, i) => entry.setAttribute("aria-pressed", i === pressed));
+    pick(pressed);
+  };
+  entries.forEach((entry, k) => {
+    entry.classList.add("pick");
+    for (const [name, value] of [["role", "button"], ["tabindex", 0], ["aria-pressed", false]]) entry.setAttribute(name, value);
+    entry.addEventListener("pointerenter", () => pick(k));
+    entry.addEventListener("pointerleave", () => pick(pressed));
+    entry.addEventListener("click", () => press(k));
+    entry.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter" && event.key !== " ") return;
+      event.preventDefault();
+      event.stopPropagation(); // the space bar plays elsewhere
+      press(k);
+    });
+  });
 }
 
 const line = (plot, stroke, xs, ys, thin) =>
