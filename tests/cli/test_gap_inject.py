@@ -30,7 +30,7 @@ def test_the_case_its_diagnosis_and_the_answer_are_written(tmp_path: Path) -> No
     assert inner["options"] == {"case": str(out / "case"), "out": str(out / "diagnosis"), "bare": False}
     assert all(Path(entry["file"]).is_file() for entry in inner["inputs"])
     assert said.out.startswith(
-        "injected damping (damping.b = 12.5 N s/m, damping.exponent = 1 -); it makes a gap of 4.8 times"
+        "injected damping (damping.b = 12.5 N s/m, damping.exponent = 1); it makes a gap of 4.8 times"
     )
 
 

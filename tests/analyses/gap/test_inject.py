@@ -34,9 +34,13 @@ def test_a_planted_effect_is_found(tmp_path: Path) -> None:
     assert row["unit"] == "N s/m"
     assert row["found"] == pytest.approx(planted, rel=0.1) and row["low"] < planted < row["high"]
     words = str(result)
-    assert f"injected damping (damping.b = {planted:.4g} N s/m" in words and "found: damping; damping.b = " in words
+    assert (
+        f"injected damping (damping.b = {planted:.4g} N s/m" in words and "identified: damping; damping.b = " in words
+    )
+    assert f"injected {planted:.4g})" in words, "beside the interval"
+    assert "(95 % " in words and " -," not in words and not words.endswith(" -"), "a number without a unit has none"
     page = result.page(tmp_path / "page.html").read_text(encoding="utf-8")
-    assert "<bdi>What was injected</bdi>" in page and '<p class="answer"><bdi>Found: damping; damping.b = ' in page
+    assert "<bdi>What was injected</bdi>" in page and '<p class="answer"><bdi>Identified: damping; damping.b = ' in page
     out = result.write(tmp_path / "out")
     told = json.loads((out / "planted.json").read_text("utf-8"))
     assert told["named"] and told["parameters"]["damping.b"]["value"] == planted
@@ -51,7 +55,7 @@ def test_what_base_parameters_imitate_is_said_not_to_be_found(tmp_path: Path) ->
     case = damped_elbow(tmp_path / "elbow", damping=0.0)
     with unchecked(), pytest.warns(gc.InputWarning, match="the amplitude is as large as its bounds admit"):
         result = gc.inject(case, effect="sensor_gain.force", bare=True)
-    assert "not found, base parameters imitate it" in str(result)
+    assert "not identified, base parameters imitate it" in str(result)
     assert result.record.results["planted"]["absorbed"] is True
 
 
@@ -97,7 +101,7 @@ def test_an_effect_is_judged_by_the_change_against_the_case_before(
     (said,) = list(sentences(damping, made, after, found))[1:]
     assert ("which excludes the 40.9 injected" in said) == (holds is False)
     assert ("and 0 as well" in said) == (status == "there_before" and holds is True)
-    assert said.startswith("found: damping" if status == "found" else "not found: damping was missing before")
+    assert said.startswith("identified: damping" if status == "found" else "not identified: damping was missing before")
 
 
 @pytest.mark.slow
@@ -107,7 +111,7 @@ def test_what_the_case_lacked_before_is_not_found_for_having_been_injected(tmp_p
     with unchecked():
         result = gc.inject(case, effect="damping", value={"damping.b": 1e-6}, bare=True)
     assert result.judgement.status == "too_small" and result.judgement.before
-    assert "not found: all trials together hold" in str(result)
+    assert "not identified: all trials together hold" in str(result)
     assert "damping is missing from the base model without it, too" in str(result)
 
 

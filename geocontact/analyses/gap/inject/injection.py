@@ -77,7 +77,7 @@ def answer(one: Candidate, made: Injected, d: Diagnosis, found: Judgement) -> di
 
 
 def parameter_rows(one: Candidate, made: Injected, d: Diagnosis) -> list[tuple[object, ...]]:
-    """Name, unit, value put in, value found with its interval; NaN where the diagnosis has no such parameter."""
+    """Name, unit, value put in, value identified with its interval; NaN where the diagnosis has no such parameter."""
     rows: list[tuple[object, ...]] = []
     for p in one.parameters:
         found = d.parameters.get(p.name)
@@ -87,30 +87,40 @@ def parameter_rows(one: Candidate, made: Injected, d: Diagnosis) -> list[tuple[o
 
 
 def sentences(one: Candidate, made: Injected, d: Diagnosis, found: Judgement) -> Iterator[str]:
-    """The effect with its parameters, then whether the diagnosis found it."""
-    values = ", ".join(f"{p.name} = {made.values[p.name]:.4g} {p.unit}" for p in one.parameters)
+    """The effect with its parameters, then whether the diagnosis identifies it."""
+    values = ", ".join(f"{p.name} = {_shown(made.values[p.name], p.unit)}" for p in one.parameters)
     gap = "" if np.isnan(made.size) else f"; it makes a gap of {made.size:.2g} times the noise floor"
     yield f"injected {one.label}{f' ({values})' if values else ''}{gap}"
     yield _outcome(one, made, d, found)
 
 
 def _outcome(one: Candidate, made: Injected, d: Diagnosis, found: Judgement) -> str:
-    told = [(p.name, d.parameters[p.name]) for p in one.parameters if p.name in d.parameters]
-    sizes = ", ".join(f"{name} = {e.value:.4g} [{e.ci95[0]:.4g}, {e.ci95[1]:.4g}] {e.unit}" for name, e in told)
+    estimates = [(p, d.parameters[p.name]) for p in one.parameters if p.name in d.parameters]
+    each = []
+    for p, e in estimates:
+        low, high = e.ci95
+        interval = f"95 % {low:.4g} … {high:.4g}, injected {made.values[p.name]:.4g}"
+        each.append(f"{p.name} = {_shown(e.value, e.unit)} ({interval})")
+    sizes = ", ".join(each)
     if found.status == "too_small":
         also = f"; {one.name} is missing from the base model without it, too" if found.before else ""
         most = f"all trials together hold {made.nats:.2g} nats of evidence for it at most"
-        return f"not found: {most}, {SURE:g} are needed{also}"
+        return f"not identified: {most}, {SURE:g} are needed{also}"
     if found.status == "there_before":
-        return f"not found: {one.name} was missing before{_change_words(one, made, found)}"
+        return f"not identified: {one.name} was missing before{_change_words(one, made, found)}"
     if found.status == "found":
-        what = f"found: {names(d.effects)}{f'; {sizes}' if sizes else ''}"
+        what = f"identified: {names(d.effects)}{f'; {sizes}' if sizes else ''}"
         if found.before:
             return f"{what}; it was missing before{_change_words(one, made, found)}"
         return what if found.holds is not False else f"{what}{_change_words(one, made, found)}"
     if found.status == "possible":
         return f"among what is possible: {names(d.ambiguity, 'or')}"
-    return f"not found{', base parameters imitate it' if found.status == 'imitated' else ''}"
+    return f"not identified{', base parameters imitate it' if found.status == 'imitated' else ''}"
+
+
+def _shown(value: float, unit: str) -> str:
+    """A number with its unit, where it has one."""
+    return f"{value:.4g}" if unit == "-" else f"{value:.4g} {unit}"
 
 
 def _change_words(one: Candidate, made: Injected, found: Judgement) -> str:
@@ -120,5 +130,5 @@ def _change_words(one: Candidate, made: Injected, found: Judgement) -> str:
     p, (low, high) = one.parameters[0], found.change_ci95
     there = "which holds" if found.holds else "which excludes"
     none = ", and 0 as well" if found.before and found.holds and low <= 0.0 <= high else ""
-    by = f"{found.change:.4g} [{low:.4g}, {high:.4g}] {p.unit}"
+    by = f"{_shown(found.change, p.unit)} (95 % {low:.4g} … {high:.4g})"
     return f", and {p.name} changes by {by}, {there} the {made.values[p.name]:.4g} injected{none}"
