@@ -3,15 +3,14 @@ benchmarks.robustness.first_result`.
 
 The repository is cloned, and the packages that `make demo` installs are downloaded, which is not counted. Counted is
 `make demo` in the clone, with no index to ask: a virtual environment, the packages from the files, the kernels
-compiled, the main job on a synthetic knee, figures and page; and the room that the environment takes on the disk. CPU
-seconds are those of all processes. Writes results/first_result.json.
+compiled, the main job on a synthetic knee, figures and page. Writes results/first_result.json. CPU seconds and room on
+the disk are those of `benchmarks.robustness.install_size`.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
-import resource
 import runpy
 import subprocess
 import sys
@@ -23,8 +22,6 @@ from benchmarks.machine import write_results
 
 ROOT = Path(__file__).resolve().parents[2]
 AIM = 90.0  # s
-CPU_AIM = 60.0  # s
-ROOM_AIM = 500.0  # MB
 FIRST = "demo-result/report.html"
 
 
@@ -37,18 +34,6 @@ def done(words: list[str], folder: Path, **more: str) -> float:
     return time.perf_counter() - began
 
 
-def processor_seconds() -> float:
-    """CPU seconds of all processes that were started here and have ended."""
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return usage.ru_utime + usage.ru_stime
-
-
-def room(folder: Path) -> float:
-    """What the files of a folder take on the disk [MB]; one that has several names counts once."""
-    files = {(s.st_dev, s.st_ino): 512 * s.st_blocks for s in map(os.lstat, folder.rglob("*"))}
-    return sum(files.values()) * 1e-6
-
-
 def only_looked_up(clone: Path) -> bytes:
     """Entries of the lock that pip asks for when it works out what the core needs, and that are not installed."""
     part = runpy.run_path(str(clone / ".ci/core_lock.py"))
@@ -57,7 +42,7 @@ def only_looked_up(clone: Path) -> bytes:
 
 
 def measured() -> dict[str, float | bool]:
-    """Seconds of the download and of `make demo`, which ends with a page, and what is then on the disk."""
+    """Seconds of the download and of `make demo`, which ends with a page."""
     with tempfile.TemporaryDirectory() as scratch:
         clone, wheels = Path(scratch) / "geocontact", Path(scratch) / "wheels"
         done(["git", "clone", "--quiet", str(ROOT), str(clone)], Path(scratch))
@@ -67,18 +52,8 @@ def measured() -> dict[str, float | bool]:
         )
         asked = ["--quiet", "--require-hashes", "--no-deps", "-r", str(lock), "-d", str(wheels)]
         loaded = done([sys.executable, "-m", "pip", "download", *asked], clone)
-        before = processor_seconds()
         demo = done(["make", "demo"], clone, PIP_NO_INDEX="1", PIP_FIND_LINKS=str(wheels))
-        return {
-            "download_s": loaded,
-            "demo_s": demo,
-            "aim_s": AIM,
-            "demo_cpu_s": processor_seconds() - before,
-            "aim_cpu_s": CPU_AIM,
-            "environment_mb": room(clone / ".venv"),
-            "aim_mb": ROOM_AIM,
-            "page": (clone / FIRST).exists(),
-        }
+        return {"download_s": loaded, "demo_s": demo, "aim_s": AIM, "page": (clone / FIRST).exists()}
 
 
 def main() -> None:

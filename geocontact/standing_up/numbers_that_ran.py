@@ -24,6 +24,7 @@ from geocontact.standing_up.trials import StandingTrial
 DE_LEVA = "fractions of mass and height for men, both sides: de Leva (1996)"
 OF_BOTH = "of both sides"
 FROM_FILE = "as the file of parameters gives it"
+PERTURBED = "of the file of parameters, times a factor"
 NOISE_UNITS = {
     "length": "m",
     "angle": "rad",

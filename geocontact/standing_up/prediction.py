@@ -14,6 +14,7 @@ from geocontact.dynamics.collocation.solve import Progress, SolverOptions, refin
 from geocontact.standing_up.chain import FOOT_PARAMETERS, Subject
 from geocontact.standing_up.numbers_that_ran import (
     FROM_FILE,
+    PERTURBED,
     Ran,
     end_numbers,
     model_numbers,
@@ -118,10 +119,13 @@ def predicted_trial(
 
 
 def prediction_numbers(predictions: Sequence[PredictedTrial]) -> list[Ran]:
-    """Model, parameters and cost once, which all predictors share; the mesh of each motion."""
+    """Model, parameters and cost once; parameters of a predictor that has others; the mesh of each motion."""
     first = predictions[0]
     rows = model_numbers(first.model) + parameter_numbers(first.phase.parameters, first.p, note=FROM_FILE)
     rows += size_numbers(sizes_of(first.phase)) + end_numbers(first.phase.control)
+    others = {one.name: one for one in predictions if not np.array_equal(one.p, first.p)}
+    for one in others.values():
+        rows += parameter_numbers(one.phase.parameters, one.p, f"{one.name} ", note=PERTURBED)
     for one in predictions:
         rows += search_numbers([one.motion], [one.trial.recorded], f"{one.name} ")
     return rows

@@ -89,6 +89,24 @@ def calibrated(tmp_path_factory: pytest.TempPathFactory) -> tuple[StandingCalibr
     return found, written(found, folder / "out", found.trials)
 
 
+def test_both_phases_are_in_the_form_of_the_study(calibrated: tuple[StandingCalibrateResult, Path]) -> None:
+    """Table II and figures 2 to 5, 8 and 9."""
+    found, folder = calibrated
+    table = pd.read_csv(folder / "rmsd_by_trial.csv")
+    assert list(dict.fromkeys(table["phase"])) == ["A", "B"]
+    errors = found.table("errors").set_index("quantity")["rmsd"]
+    last = table[table["phase"] == "B"].set_index("variable")
+    assert last.loc["strap at the thigh", "mean"] == pytest.approx(errors["strap"])
+    joints = ["ankle", "knee", "hip", "exo_ankle", "exo_knee", "exo_hip"]
+    assert last.loc["angles", "mean"] == pytest.approx(errors[joints].mean())
+    assert last.loc["angles", "sd over channels"] == pytest.approx(errors[joints].std())
+    sheets = found.curves()
+    assert set(sheets) == {"standing_up", "ground", "kinematics", "straps", "moments", "contact_laws"}
+    knee = next(panel for panel in sheets["moments"].panels if panel.title == "knee torque").curves
+    assert [curve.name for curve in knee] == ["T1 recorded", "T1"]
+    np.testing.assert_allclose(np.asarray(knee[1].values)[-1], found.trials[0].model.torque[-1, 1])
+
+
 @pytest.fixture(scope="module")
 def compared(tmp_path_factory: pytest.TempPathFactory) -> tuple[StandingCompareResult, Path]:
     folder = tmp_path_factory.mktemp("compared")

@@ -39,8 +39,9 @@ class StandingCalibrateOptions(StandingSearchOptions):
 
     writes: ClassVar[str] = """
     Writes parameters.csv (value, interval, and whether the trials identify it), errors.csv (error of each channel),
-    certificate.csv (of the motion), correlation.csv, numbers.csv and mesh.csv (all that ran), model.osim, a table over
-    time and a trajectory for OpenSim's Moco for each trial, a figure, report.html and run.json into OUT.
+    rmsd_by_trial.csv (in the form of the study's Table II), certificate.csv (of the motion), correlation.csv,
+    numbers.csv and mesh.csv (all that ran), model.osim, a table over time and a trajectory for OpenSim's Moco for each
+    trial, figures (forces, kinematics, moments, contact laws), report.html and run.json into OUT.
 
     Ctrl-C stops the optimisation and saves its last iterate.
     """

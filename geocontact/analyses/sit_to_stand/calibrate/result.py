@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -31,8 +32,17 @@ from geocontact.analyses.sit_to_stand.calibrate.phases import (
 )
 from geocontact.analyses.sit_to_stand.calibrate.show import calibration_page
 from geocontact.analyses.sit_to_stand.exports import write_motion, write_standing_model, write_strap_case
+from geocontact.analyses.sit_to_stand.rmsd_by_trial import rmsd_by_trial
 from geocontact.analyses.sit_to_stand.show import PARTS, standing_curves
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+from geocontact.analyses.sit_to_stand.study_figures import (
+    GROUND,
+    KINEMATICS,
+    MOMENTS,
+    STRAPS,
+    contact_laws,
+    study_figure,
+)
 from geocontact.analyses.sit_to_stand.trial_tables import (
     errors_table,
     goodness_of_trials,
@@ -101,12 +111,15 @@ class StandingCalibrateResult(Result):
         return by_name(self.errors, ("trial", "quantity"), "rmsd")
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`parameters`, `errors`, `certificate`, `correlation`, `numbers`, `mesh`, `trial_NAME`; `profiles` too."""
+        """`parameters`, `errors`, `rmsd_by_trial`, `certificate`, `correlation`, `numbers`, `mesh`, `trial_NAME`;
+        `profiles` too.
+        """
         noise, tracks = self.given.noise, self.given.tracks
         own = {f"trial_{trial.recorded.name}": trial_table(trial, noise, tracks) for trial in self.trials}
         return {
             "parameters": parameters_table(self.phases, fits=self.fit_outcome != "contradicts"),
             "errors": self.errors,
+            "rmsd_by_trial": rmsd_by_trial("phase", self.by_phase, self.given.trials, noise),
             "certificate": certificate_table(self.phases),
             "correlation": correlation_table(self.phases),
             **({"profiles": profile_table(self.phases)} if self.options.profiles else {}),
@@ -115,9 +128,27 @@ class StandingCalibrateResult(Result):
             **own,
         }
 
+    @cached_property
+    def by_phase(self) -> dict[str, tuple[TrialResult, ...]]:
+        """Channels of the trials by the motions of each phase."""
+        *others, last = self.phases
+        return {one.name: calibrated_trials(one, self.given.trials) for one in others} | {last.name: self.trials}
+
     def curves(self) -> dict[str, CurveSheet]:
-        """`standing_up`: ground reaction and centre of pressure, measured and modelled; residuals and torques."""
-        return {"standing_up": CurveSheet(standing_curves(self.trials), PARTS)}
+        """`standing_up`: ground reaction, centre of pressure, residuals, torques. `ground`, `kinematics`, with an
+        exoskeleton `straps` and `moments`, and `contact_laws`: figures 2 to 5, 8 and 9 of the study.
+        """
+        figures = {"ground": ("A", GROUND), "kinematics": ("A", KINEMATICS)}
+        figures |= {"straps": ("B", STRAPS), "moments": ("B", MOMENTS)} if "B" in self.by_phase else {}
+        last = {n.name: n.value for n in self.phases[0].numbers.numbers}
+        return {
+            "standing_up": CurveSheet(standing_curves(self.trials), PARTS),
+            **{
+                name: study_figure(channels, {one.recorded.name: one for one in self.by_phase[phase]}, self.given.noise)
+                for name, (phase, channels) in figures.items()
+            },
+            "contact_laws": contact_laws(last),
+        }
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Moving chains with forces, curves, parameters."""

@@ -40,6 +40,7 @@ def calibration_page(
         frame_table("Parameters in SI: what these trials identify", tables["parameters"], 3),
         frame_table("Between and beyond the collocation points", tables["certificate"], 3),
         frame_table("Root mean square differences and the stated noise", tables["errors"], 3),
+        frame_table("The same by trial: mean and SD over joints, and SD over trials", tables["rmsd_by_trial"], 3),
     ]
     if len(tables["correlation"]):
         sections.append(frame_table("Correlation of the estimates", tables["correlation"], 2))

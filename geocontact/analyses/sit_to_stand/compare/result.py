@@ -36,7 +36,7 @@ from geocontact.analyses.sit_to_stand.predict.predictions import (
 from geocontact.analyses.sit_to_stand.trial_tables import channels, ran_table
 from geocontact.identify.signals.agreement import agreement
 from geocontact.io.text.results import write_table
-from geocontact.standing_up.prediction import ALL, GIVEN, PredictedTrial, prediction_numbers
+from geocontact.standing_up.prediction import ALL, PredictedTrial, prediction_numbers
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.standing_up.trivial_trials import mean_trial, nearest_trial
 from geocontact.view.page.content import Page
@@ -72,7 +72,7 @@ class StandingCompareResult(Result):
     @property
     def accepted(self) -> bool:
         """Whether every trial is predicted, and every motion certified."""
-        return complete(self.predictions, len(self.given.trials.trials))
+        return complete(self.predictions, self.given)
 
     @property
     def rmsd(self) -> dict[tuple[str, str, str], float]:
@@ -149,12 +149,13 @@ def _rows(
     trial: StandingTrial, model: StandingTrial, predictor: str, given: HeldOutTrials
 ) -> Iterator[dict[str, object]]:
     step = 1.0 / trial.rate
+    tracks = next((one.tracks for one in given.predictors if one.name == predictor), ())
     for each in channels(trial, model, given.trials.noise):
         if each.channel != "rates":
             a = agreement(each.model, each.recorded, step, 0.0)
             off = {name: each.factor * getattr(a, name) for name in ("mae", "rmsd", "bias")}
             told = {"trial": trial.name, "predictor": predictor, "quantity": each.name, "unit": each.unit}
-            known = each.channel in GIVEN.get(predictor, ())
+            known = each.channel in tracks
             yield {**told, "given": "yes" if known else "no", **off, "r2 [-]": a.r2, "noise": each.factor * each.noise}
 
 

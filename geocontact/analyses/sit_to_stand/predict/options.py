@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import KW_ONLY, dataclass
+import math
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
+from geocontact.analyses.frame.marks import Spelled, Typed
 from geocontact.analyses.sit_to_stand.search_options import StandingSearchOptions
+from geocontact.data.errors import InputError
+
+Factors = Annotated[
+    Mapping[str, float],
+    Typed("-", "named_numbers", '{"straps": 1.4}', kind=tuple[str, ...]),
+    Spelled(default=(), each=True),
+]
 
 
 @dataclass(frozen=True)
@@ -21,15 +31,27 @@ class StandingPredictOptions(StandingSearchOptions):
         parameters.csv of a calibration with the exoskeleton.
     against
         Study of the trials of the calibration (.toml), whose mean is the trivial predictor.
+    perturb
+        Factor of a parameter, for a further prediction beside the others; may be repeated: straps=1.4 for the
+        stiffnesses of all straps, or a name of `parameters`.
     """
 
     writes: ClassVar[str] = """
     Writes errors.csv (how far every predictor is off: all given, without ground reaction, without torques, and the mean
-    of the calibration's trials), certificate.csv, numbers.csv and mesh.csv (all that ran), a table over time and a
-    trajectory for OpenSim's Moco for each trial, a figure, report.html and run.json into OUT.
+    of the calibration's trials), rmsd_by_trial.csv (in the form of the study's Table III), certificate.csv, numbers.csv
+    and mesh.csv (all that ran), a table over time and a trajectory for OpenSim's Moco for each trial, figures of the
+    strap, of angles and angular velocities, report.html and run.json into OUT.
     """
 
     study: Path
     _: KW_ONLY
     parameters: Path
     against: Path
+    perturb: Factors = field(default_factory=dict)
+
+    def refuse_impossible(self) -> None:
+        """Factors that are none."""
+        super().refuse_impossible()
+        for name, factor in self.perturb.items():
+            if not (math.isfinite(factor) and factor > 0.0):
+                raise InputError("", "`perturb`", f"{factor:g} is no factor of {name}", "give for example straps=1.4")

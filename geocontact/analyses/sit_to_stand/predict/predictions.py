@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -19,13 +19,35 @@ from geocontact.dynamics.collocation.solve import SolverOptions, stopped_by_ctrl
 from geocontact.io.recordings.spheres import read_contact_parameters
 from geocontact.standing_up.calibrated_phase import INTERRUPTED
 from geocontact.standing_up.exoskeleton import strapped
-from geocontact.standing_up.prediction import GIVEN, PredictedTrial, contact_parameters, predicted_trial
+from geocontact.standing_up.phases import TRACKS_C
+from geocontact.standing_up.prediction import ALL, GIVEN, PredictedTrial, contact_parameters, predicted_trial
 from geocontact.standing_up.standing_model import StandingModel
-from geocontact.standing_up.strap_sites import searched
+from geocontact.standing_up.strap_sites import SPRINGS, searched
 from geocontact.standing_up.trials import StandingTrial, StandingUpTrials
 
 MEAN = "mean of the calibration"
+STRAPS = "straps"
+"""Stiffnesses of all straps together."""
 TOLERANCE = 1e-7
+
+
+@dataclass(frozen=True, eq=False)
+class Predictor:
+    """Phase C with something.
+
+    Parameters
+    ----------
+    name
+        As tables call it.
+    tracks
+        Channels that it is given.
+    p
+        What is searched of all parameters, which are held.
+    """
+
+    name: str
+    tracks: tuple[str, ...]
+    p: Float[np.ndarray, " p"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,11 +60,14 @@ class HeldOutTrials:
         What is searched of all parameters.
     known
         Trials of the calibration, which say where straps are.
+    predictors
+        Whatever predicts each of them.
     """
 
     trials: StandingUpTrials
     p: Float[np.ndarray, " p"]
     known: StandingUpTrials
+    predictors: tuple[Predictor, ...]
 
     @property
     def values(self) -> dict[str, float]:
@@ -70,7 +95,37 @@ def read(o: StandingPredictOptions) -> HeldOutTrials:
     bounds = {each.name: (each.least, each.most) for each in every}
     values = read_contact_parameters(o.parameters, {each.name: each.unit for each in every}, bounds)
     add_input("`parameters`", o.parameters, parameters=len(values))
-    return HeldOutTrials(trials, searched(every, [values[each.name] for each in every]), known)
+    p = searched(every, [values[each.name] for each in every])
+    predictors = [Predictor(name, tracks, p) for name, tracks in GIVEN.items()]
+    if o.perturb:
+        scaled = perturbed(values, o.perturb, [site.names for site in known.sites])
+        name = ", ".join(f"{each} × {factor:g}" for each, factor in o.perturb.items())
+        predictors.append(Predictor(name, TRACKS_C, searched(every, [scaled[each.name] for each in every])))
+    return HeldOutTrials(trials, p, known, tuple(predictors))
+
+
+def perturbed(
+    values: Mapping[str, float], factors: Mapping[str, float], straps: Sequence[Sequence[str]]
+) -> dict[str, float]:
+    """Values of parameters times factors, as phase C2 of the study has those of the straps.
+
+    Deviation from the print, which multiplies "the parameters": `STRAPS` are the stiffnesses of all straps; their
+    places and their damping stay.
+
+    Parameters
+    ----------
+    straps
+        Names of each site's parameters, its `SPRINGS` first.
+    """
+    scaled = dict(values)
+    for name, factor in factors.items():
+        chosen = [each for site in straps for each in site[: len(SPRINGS)]] if name == STRAPS else [name]
+        for each in chosen:
+            if each not in values:
+                names = ", ".join((STRAPS, *values))
+                raise InputError("", "`perturb`", f"there is no parameter {each!r}", f"give one of {names}")
+            scaled[each] *= factor
+    return scaled
 
 
 def warn_of_known(held_out: Sequence[StandingTrial], known: Sequence[StandingTrial]) -> None:
@@ -112,8 +167,8 @@ def predicted(given: HeldOutTrials, o: StandingPredictOptions, keep: Keep) -> tu
     trials, asked = given.trials.trials, _Asked()
     with listener().stages("predicting") as stage, stopped_by_ctrl_c(asked):
         for k, trial in enumerate(trials, 1):
-            for predictor in GIVEN.items():
-                where = f"trial {k} of {len(trials)}, {trial.name} {predictor[0]}"
+            for predictor in given.predictors:
+                where = f"trial {k} of {len(trials)}, {trial.name} {predictor.name}"
                 one = _predicted(model, given, trial, predictor, o, partial(_at, stage, where))
                 predictions.append(one)
                 asked.stop |= one.ending.startswith(INTERRUPTED)
@@ -122,7 +177,7 @@ def predicted(given: HeldOutTrials, o: StandingPredictOptions, keep: Keep) -> tu
             if asked.stop:
                 break
             keep(predictions)
-    _doubt(predictions, len(trials))
+    _doubt(predictions, given)
     return tuple(predictions)
 
 
@@ -130,29 +185,36 @@ def _at(stage: Callable[[str], None], where: str, told: str) -> None:
     stage(f"{where}, {told}")
 
 
-def complete(predictions: Sequence[PredictedTrial], trials: int) -> bool:
-    """Whether so many trials are predicted by every predictor, and every motion is certified."""
-    return len(predictions) == trials * len(GIVEN) and all(one.certified for one in predictions)
+def complete(predictions: Sequence[PredictedTrial], given: HeldOutTrials) -> bool:
+    """Whether every trial is predicted by every predictor, and every motion is certified."""
+    wanted = len(given.trials.trials) * len(given.predictors)
+    return len(predictions) == wanted and all(one.certified for one in predictions)
 
 
-def _doubt(predictions: Sequence[PredictedTrial], trials: int) -> None:
+def shown_alike(predictions: Sequence[PredictedTrial]) -> list[PredictedTrial]:
+    """Predictions that are given everything: by calibrated contacts, and by perturbed ones."""
+    return [one for one in predictions if one.name == ALL or one.name not in GIVEN]
+
+
+def _doubt(predictions: Sequence[PredictedTrial], given: HeldOutTrials) -> None:
+    trials, each = len(given.trials.trials), len(given.predictors)
     for one in predictions:
         place = f"{one.trial.recorded.name} {one.name}"
         if not one.solved:
             reserve(f"{place} did not converge: {one.ending}; this is its last iterate")
         elif one.trial.judged.certificate is not None and not one.trial.judged.certificate.converged:
             reserve(not_certified(place, one.trial.judged.certificate))
-    if len(predictions) < trials * len(GIVEN):
+    if len(predictions) < trials * each:
         last, ended = predictions[-1], [one for one in predictions if not one.ending.startswith(INTERRUPTED)]
         where = f"the last search was {last.trial.recorded.name} {last.name}"
-        reserve(f"interrupted: {len(ended) // len(GIVEN)} of {trials} trials have every predictor; {where}")
+        reserve(f"interrupted: {len(ended) // each} of {trials} trials have every predictor; {where}")
 
 
 def _predicted(
     model: StandingModel,
     given: HeldOutTrials,
     trial: StandingTrial,
-    predictor: tuple[str, tuple[str, ...]],
+    predictor: Predictor,
     o: StandingPredictOptions,
     stage: Callable[[str], None],
 ) -> PredictedTrial:
@@ -161,9 +223,8 @@ def _predicted(
     def tell(iteration: int, objective: float, residual: float) -> None:
         stage(f"iteration {iteration}, objective {objective:.5g}, residual {residual:.2g}")
 
-    name, tracks = predictor
-    known = name, model, given.trials.subject, trial, given.trials.noise, given.p
-    return predicted_trial(*known, options, nodes=o.nodes, tracks=tracks, progress=tell)
+    known = predictor.name, model, given.trials.subject, trial, given.trials.noise, predictor.p
+    return predicted_trial(*known, options, nodes=o.nodes, tracks=predictor.tracks, progress=tell)
 
 
 def predicted_meshes(predictions: Sequence[PredictedTrial]) -> pd.DataFrame:

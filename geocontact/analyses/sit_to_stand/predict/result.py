@@ -32,9 +32,12 @@ from geocontact.analyses.sit_to_stand.predict.predictions import (
     predicted,
     predicted_meshes,
     read,
+    shown_alike,
     trials_begun,
 )
+from geocontact.analyses.sit_to_stand.rmsd_by_trial import rmsd_by_trial
 from geocontact.analyses.sit_to_stand.show import PARTS, motion_page, over_parts, standing_curves, standing_scene
+from geocontact.analyses.sit_to_stand.study_figures import KINEMATICS, STRAPS, study_figure
 from geocontact.analyses.sit_to_stand.trial_tables import (
     DEGREE,
     errors_table,
@@ -93,6 +96,7 @@ def prediction_page(
         *standing_curves(trials),
         *straps.panels,
         frame_table("Root mean square differences", tables["errors"], 3),
+        frame_table("The same by trial: mean and SD over joints, and SD over trials", tables["rmsd_by_trial"], 3),
         frame_table("Between and beyond the collocation points", tables["certificate"], 3),
     ]
     titles = (
@@ -127,7 +131,7 @@ class StandingPredictResult(Result):
     @property
     def accepted(self) -> bool:
         """Whether every trial is predicted, and every motion certified."""
-        return complete(self.predictions, len(self.given.trials.trials))
+        return complete(self.predictions, self.given)
 
     @property
     def errors(self) -> pd.DataFrame:
@@ -173,16 +177,31 @@ class StandingPredictResult(Result):
         return by_name(self.errors, ("trial", "predictor", "quantity"), "rmsd")
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`errors`, `certificate`, `numbers`, `mesh`, and `trial_NAME` by the predictor that is given everything."""
+        """`errors`, `rmsd_by_trial`, `certificate`, `numbers`, `mesh`; `trial_NAME` by what is given everything."""
         own = {
             f"trial_{trial.recorded.name}": trial_table(trial, self.given.trials.noise, COMPARED) for trial in self.best
         }
         ran = {"numbers": ran_table(prediction_numbers(self.predictions)), "mesh": predicted_meshes(self.predictions)}
-        return {"errors": self.errors, "certificate": certificates_table(self.predictions), **ran, **own}
+        found = {"errors": self.errors, "rmsd_by_trial": self.by_trial}
+        return {**found, "certificate": certificates_table(self.predictions), **ran, **own}
+
+    @property
+    def by_trial(self) -> pd.DataFrame:
+        """Root mean square differences by variable and trial, as in Table III of the study."""
+        groups: dict[str, list[TrialResult]] = {}
+        for one in self.predictions:
+            groups.setdefault(one.name, []).append(one.trial)
+        return rmsd_by_trial("predictor", groups, self.given.trials.trials, self.given.trials.noise)
 
     def curves(self) -> dict[str, CurveSheet]:
-        """`strap`: its force by all predictors."""
-        return {"strap": strap_curves([(one.name, one.trial) for one in self.predictions], self.means)}
+        """`strap`: its force by all predictors; `kinematics`, `straps`: figures 6 and 7 of the study."""
+        shown = {f"{one.trial.recorded.name} {one.name}": one.trial for one in shown_alike(self.predictions)}
+        noise = self.given.trials.noise
+        return {
+            "strap": strap_curves([(one.name, one.trial) for one in self.predictions], self.means),
+            "kinematics": study_figure(KINEMATICS, shown, noise),
+            "straps": study_figure(STRAPS, shown, noise),
+        }
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Moving chains with forces, curves, errors by predictor."""
