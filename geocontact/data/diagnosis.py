@@ -150,6 +150,14 @@ class ChannelGap:
 
 
 @dataclass(frozen=True)
+class BudgetPart:
+    """Share of one part in a channel's squared error on held-out trials, and its 95 % interval."""
+
+    share: float
+    ci95: tuple[float, float]
+
+
+@dataclass(frozen=True)
 class Estimate:
     """A parameter's value, its 95 % interval, and whether the trials identify it."""
 
@@ -227,7 +235,8 @@ class Diagnosis:
     effects that predict the same on these trials, that one first, for each that has such; `absorbed` those that would
     be invisible here, `partial` what known effects explain of a gap that is otherwise unknown, `next_experiment` what
     to record so that it can be identified; None where nothing is in question, or nothing that is simulated tells
-    enough.
+    enough. `budget` is what the squared error on held-out trials consists of, by channel and part: `sensor`, `inputs`,
+    `variation`, `effects`, `unexplained`.
     """
 
     case: str
@@ -249,6 +258,7 @@ class Diagnosis:
     behind: Mapping[str, float] = field(default_factory=dict)
     one_law: tuple[tuple[str, ...], ...] = ()
     apart: Mapping[str, float] = field(default_factory=dict)
+    budget: Mapping[str, Mapping[str, BudgetPart]] = field(default_factory=dict)
 
     def as_dict(self) -> dict[str, Any]:
         """Plain dicts, lists, strings, numbers and None, ready for JSON."""
@@ -279,6 +289,10 @@ class Diagnosis:
                     "unexplained": g.unexplained,
                 }
                 for name, g in self.gap.items()
+            },
+            "budget": {
+                channel: {name: {"share": part.share, "ci95": list(part.ci95)} for name, part in parts.items()}
+                for channel, parts in self.budget.items()
             },
             "parameters": {
                 name: {"value": e.value, "ci95": list(e.ci95), "unit": e.unit, "identifiable": e.identifiable}

@@ -36,6 +36,7 @@ from geocontact.gap.identifiability.separability import one_law
 from geocontact.gap.levels import SURE, WORTH_NAMING
 from geocontact.gap.localise.gap_map import gap_map, windows
 from geocontact.gap.localise.on_surface import on_surface
+from geocontact.gap.reduction.error_budget import error_budget
 from geocontact.gap.reduction.error_reduction import (
     TrialGain,
     error_reduction,
@@ -215,6 +216,7 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
         behind=behind(found) if said.effects else {},
         one_law=law.classes,
         apart=law.apart,
+        budget=error_budget(problem, found.clean, errors, chosen, named, case.noise, found.data_error),
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
     return Findings(diagnosis, found, cells, curves, ranking(found, said.probabilities), trials, surface)

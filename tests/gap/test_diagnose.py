@@ -42,8 +42,12 @@ ALL = ("t01", "t02", "t03", "t04", "t05")
 def check(found: Diagnosis) -> None:
     assert sum(found.probabilities.values()) == pytest.approx(1.0)
     assert (found.verdict == "explained") == bool(found.effects)
-    for gap in found.gap.values():
+    for name, gap in found.gap.items():
         assert gap.ci95[0] <= gap.reduction <= gap.ci95[1]
+        parts = found.budget[name]
+        assert sum(part.share for part in parts.values()) == pytest.approx(1.0)
+        assert parts["effects"].share == pytest.approx(1.0 - (gap.rmse_after / gap.rmse_before) ** 2)
+        assert all(part.ci95[0] <= part.share <= part.ci95[1] for part in parts.values())
 
 
 @pytest.fixture(scope="module")

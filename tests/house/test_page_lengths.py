@@ -11,7 +11,7 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 45_700, "how-to": 25_200, "everything": 81_700}
+ALL_WORDS = {"theory, reference": 45_700, "how-to": 25_200, "everything": 82_000}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them."""
 LIMITS = {
@@ -22,7 +22,7 @@ LIMITS = {
     "how-to/elbow_design.md": 950,
     "how-to/figures.md": 440,
     "how-to/fit.md": 640,
-    "how-to/gap.md": 1950,
+    "how-to/gap.md": 1990,
     "how-to/inverse.md": 1250,
     "how-to/knee_chain.md": 1050,
     "how-to/knee_settle.md": 920,
@@ -75,7 +75,7 @@ LIMITS = {
     "theory/elastic_identification.md": 570,
     "theory/elbow_misalignment.md": 1460,
     "theory/fitting.md": 600,
-    "theory/gap_diagnosis.md": 3320,
+    "theory/gap_diagnosis.md": 3420,
     "theory/gap_models.md": 1340,
     "theory/mat_draping.md": 1070,
     "theory/multibody.md": 690,

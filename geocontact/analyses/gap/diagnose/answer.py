@@ -216,11 +216,12 @@ def _likeliest(d: Diagnosis, most: int = 5) -> list[tuple[str, float]]:
 
 
 def diagnosis_tables(findings: Findings) -> dict[str, pd.DataFrame]:
-    """`gap_map`, `ranking`, `held_out`; `trials` where something is named, `surface` where there are cells of a mat."""
+    """`gap_map`, `ranking`, `held_out`, `budget`; with an answer `trials`; with cells of a mat `surface`."""
     found = {
         "gap_map": gap_map_table(findings),
         "ranking": ranking_table(findings),
         "held_out": held_out_table(findings),
+        "budget": budget_table(findings.diagnosis),
     }
     found |= {"trials": trials_table(findings)} if findings.trials else {}
     return found | ({"surface": surface_table(findings)} if findings.surface else {})
@@ -300,6 +301,14 @@ def surface_table(findings: Findings) -> pd.DataFrame:
         for one in findings.surface
     ]
     return pd.concat(parts, ignore_index=True)
+
+
+def budget_table(d: Diagnosis) -> pd.DataFrame:
+    """A row for each channel and part of its squared error on held-out trials: its share, and the interval of that."""
+    rows = [
+        (channel, name, part.share, *part.ci95) for channel, parts in d.budget.items() for name, part in parts.items()
+    ]
+    return pd.DataFrame(rows, columns=["channel", "part", "share [-]", "share_low [-]", "share_high [-]"])
 
 
 def held_out_table(findings: Findings) -> pd.DataFrame:

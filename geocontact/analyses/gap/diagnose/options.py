@@ -26,9 +26,9 @@ class DiagnoseOptions(Options):
 
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
-    Writes diagnosis.json, report.html, gap_map.csv, ranking.csv, held_out.csv, trials.csv where something is named,
-    figures (.png, .svg) and run.json into OUT. With `many` a case that cannot be used is one line on stderr and exit 2;
-    the others are diagnosed all the same.
+    Writes diagnosis.json, report.html, gap_map.csv, budget.csv, ranking.csv, held_out.csv, trials.csv where something
+    is named, figures (.png, .svg) and run.json into OUT. With `many` a case that cannot be used is one line on stderr
+    and exit 2; the others are diagnosed all the same.
     """
 
     case: CaseFolder

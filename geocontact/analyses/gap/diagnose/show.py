@@ -26,6 +26,7 @@ from geocontact.analyses.gap.nats import ODDS
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.diagnose import Findings
+from geocontact.gap.reduction.error_budget import PARTS
 from geocontact.view.curves.gap_map import SIGNIFICANT
 from geocontact.view.curves.sheet import number
 from geocontact.view.page.content import Curves, Page, Picture, Section, Table, Words
@@ -91,6 +92,44 @@ def gap_table(findings: Findings) -> Table:
             window = [f"{percent(w.share)} %", f"{percent(w.phase[0])}–{percent(w.phase[1])} %", f"{w.p_value:.2g}"]
         rows.append((name, quantity.unit, *sizes, f"{percent(g.reduction)} %", interval(g.ci95), rest, *window))
     return Table("How far the gap shrinks, held-out trials (root mean squares)", GAP_HEADER, rows)
+
+
+PART_WORDS = {
+    "sensor": "noise of the sensor",
+    "inputs": "noise of the inputs",
+    "variation": "variation from trial to trial",
+    "effects": "what is named",
+    "unexplained": "unexplained",
+}
+
+
+def budget_shares(findings: Findings) -> Table:
+    """What the squared error of the base model on held-out trials consists of, channel by channel."""
+    d = findings.diagnosis
+    rows = []
+    for name, parts in d.budget.items():
+        quantity, before = quantity_of(findings, name), d.gap[name].rmse_before
+        shown = [
+            f"{percent(part.share)} % [{percent(part.ci95[0])}, {percent(part.ci95[1])}]" for part in parts.values()
+        ]
+        rows.append((name, f"{number(float(quantity.shown(np.array(before))))} {quantity.unit}", *shown))
+    header = ("channel", "error before", *(PART_WORDS[name] for name in PARTS))
+    return Table("What the squared error consists of, held-out trials [95 % interval]", header, rows)
+
+
+def budget_words(findings: Findings) -> list[str]:
+    """The same as root mean squares, in a sentence for each channel."""
+    said = []
+    for name, parts in findings.diagnosis.budget.items():
+        quantity, before = quantity_of(findings, name), findings.diagnosis.gap[name].rmse_before
+        sizes = {
+            part: float(quantity.shown(np.array(before * np.sqrt(max(each.share, 0.0)))))
+            for part, each in parts.items()
+        }
+        each = ", ".join(f"{number(size)} {PART_WORDS[part]}" for part, size in sizes.items() if size > 0.0)
+        whole = number(float(quantity.shown(np.array(before))))
+        said.append(f"{name}: of {whole} {quantity.unit}, {each} (root mean squares; their squares add)")
+    return said
 
 
 def ranking_table(findings: Findings) -> Table:
@@ -161,10 +200,13 @@ def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes], i
     sections += [*further, readout(findings)]
     sections += [Words("What was injected", [_sentence(line) for line in injected])] if injected else []
     sections += [Words("Verdict", [_sentence(line) for line in sentences])]
+    sections += (
+        [Words("What the error consists of", [f"{line}." for line in budget_words(findings)])] if d.budget else []
+    )
     sections += [Words("How to read these numbers", reading(d))]
     surfaces = [drawings[name] for name in surface_names(findings)]
     sections += [Picture("Where on the surface", SURFACE_WORDS, each, wide=True) for each in surfaces]
-    sections += [gap_table(findings), ranking_table(findings)]
+    sections += [gap_table(findings), *([budget_shares(findings)] if d.budget else []), ranking_table(findings)]
     sections += [trials_table(findings)] if findings.trials else []
     sections += [parameters_table(d), cells_table(findings)]
     sections += [_confounded(d), INPUTS, OPTIONS, _limits(case, d, missing)]

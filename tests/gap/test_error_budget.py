@@ -1,0 +1,53 @@
+"""Shares of the squared error: by hand, closed to 1, and noise that never takes what a model misses."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from geocontact.gap.reduction.error_budget import PARTS, ErrorTrial, deviations, shares
+
+
+def trial(before: float, after: float, cleared: float, sensor: float, inputs: float, n: int = 240) -> ErrorTrial:
+    """Errors of constant size, their signs changing from sample to sample."""
+    sign = (-1.0) ** np.arange(n)
+    return ErrorTrial(before * sign, after * sign, cleared * sign, np.full(n, sensor), np.full(n, inputs))
+
+
+def test_parts_by_hand() -> None:
+    """Of 100: effects 100 - 36, variation 36 - 25, sensor 4, inputs 1, and 20 that nothing explains."""
+    found = shares([trial(10.0, 6.0, 5.0, 4.0, 1.0)] * 2)
+    assert list(found) == list(PARTS)
+    expected = {"sensor": 0.04, "inputs": 0.01, "variation": 0.11, "effects": 0.64, "unexplained": 0.20}
+    assert {name: part.share for name, part in found.items()} == pytest.approx(expected)
+    assert sum(part.share for part in found.values()) == pytest.approx(1.0)
+    low, high = found["sensor"].ci95
+    assert low == pytest.approx(0.04 / 1.2 ** (2.0 * 1.96), rel=0.1)
+    assert high == pytest.approx(0.04 * 1.2 ** (2.0 * 1.96), rel=0.1)
+    assert found["effects"].ci95 == pytest.approx((0.64, 0.64)), "all blocks are alike"
+
+
+def test_noise_that_is_more_than_the_error_takes_no_more_than_there_is() -> None:
+    found = shares([trial(2.0, 2.0, 2.0, 12.0, 4.0)])
+    assert found["sensor"].share == pytest.approx(0.75) and found["inputs"].share == pytest.approx(0.25)
+    assert found["unexplained"].share == pytest.approx(0.0, abs=1e-12)
+    assert shares([]) == {} and shares([trial(0.0, 0.0, 0.0, 1.0, 0.0)]) == {}
+
+
+def test_blocks_that_differ_make_an_interval_wide() -> None:
+    """Half of the trial has no error: the sensor's share depends on how many such blocks are drawn."""
+    half, whole = trial(0.0, 0.0, 0.0, 1.0, 0.0, 120), trial(10.0, 10.0, 10.0, 1.0, 0.0, 120)
+    joined = ErrorTrial(*(np.concatenate([getattr(half, name), getattr(whole, name)]) for name in vars(half)))
+    low, high = shares([joined])["unexplained"].ci95
+    share = shares([joined])["unexplained"].share
+    assert share == pytest.approx(1.0 - 2.0 / 100.0) and low < share < high
+    assert 0.0 < high - low < 0.05
+
+
+def test_what_all_trials_deviate_by_alike_is_no_variation() -> None:
+    """Residuals of 3 and 5 usual deviations in two trials: variation is ±1, and the 4 that both have is none."""
+    n = 4000
+    column, there = np.full((n, 1, 1), 0.5), np.ones((n, 1), bool)
+    residuals = [np.full((n, 1), 0.5 * each) for each in (3.0, 5.0)]
+    found = deviations(residuals, [column] * 2, [there] * 2, np.array([0.1]))
+    np.testing.assert_allclose(found[:, 0], [-1.0, 1.0], rtol=1e-3)
