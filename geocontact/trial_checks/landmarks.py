@@ -1,7 +1,7 @@
 """Which landmark of the body a marker's label names, in the sets that gait laboratories use.
 
-Only what checks need: ASIS, PSIS or sacrum, heel, toes, ankle, head and shoulder. A label that is not recognised is no
-landmark, and the checks that need it are silent.
+Only what checks need: ASIS, PSIS or sacrum, knee, heel, toes, ankle, head and shoulder. A label that is not recognised
+is no landmark, and the checks that need it are silent.
 """
 
 from __future__ import annotations
@@ -25,11 +25,19 @@ KINDS = {
     "head": r"(fhd|bhd|head|temple|tophead|hd)",
     "c7": r"(c7|neck)",
     "hip": r"(hip|femur)",
+    "knee": r"(kne|knee(lateral|medial|lat|med)?|tibia)",
 }
 """Patterns of labels without their side, in lower case and with letters and digits only."""
 MIDDLE = {"sacrum", "c7", "head"}
 """Landmarks that may be on no side."""
 FOOT = ("heel", "toe", "ankle")
+SIDES = ("right", "left", "")
+"""Of a foot; "" for the only one, of which nobody says on which side it is."""
+
+
+def the_foot(side: str) -> str:
+    """In words."""
+    return f"the {side} foot" if side else "the foot"
 
 
 def landmark(label: str) -> tuple[str, str]:
@@ -42,6 +50,8 @@ def landmark(label: str) -> tuple[str, str]:
     for kind in MIDDLE:
         if re.fullmatch(KINDS[kind], plain):
             return kind, ""
+    if plain in FOOT:
+        return plain, ""
     for word, side in (("right", "right"), ("left", "left"), ("r", "right"), ("l", "left")):
         for rest in (plain.removeprefix(word), plain.removesuffix(word)):
             if rest == plain:

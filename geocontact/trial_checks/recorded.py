@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from geocontact.data.multibody.force_plate import LOADED, ForcePlate
 from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
 
 UP = np.array([0.0, 1.0, 0.0])
 """Upwards in the model's axes."""
@@ -55,6 +56,49 @@ class FootPlate:
 
 
 @dataclass(frozen=True, eq=False)
+class MovedModel:
+    """A model and its coordinates over time, as a file has them.
+
+    Parameters
+    ----------
+    model
+        Of the person.
+    time
+        [s].
+    values
+        One column for each coordinate [rad, m]; that of one that the file does not have is its default.
+    source
+        The file.
+    """
+
+    model: Multibody
+    time: Float[np.ndarray, " t"]
+    values: Float[np.ndarray, "t n"]
+    source: str
+
+
+@dataclass(frozen=True, eq=False)
+class RecordedChannel:
+    """A channel that is neither marker nor plate: a force, a moment, an angle, an electromyogram.
+
+    Parameters
+    ----------
+    name, unit
+        Its name, and the SI unit of its values.
+    time, values
+        [s], and in that unit; NaN where nothing was measured.
+    source
+        The file.
+    """
+
+    name: str
+    unit: str
+    time: Float[np.ndarray, " t"]
+    values: Float[np.ndarray, " t"]
+    source: str
+
+
+@dataclass(frozen=True, eq=False)
 class TrialInputs:
     """Whatever an analysis was given of a trial, in one set of axes and on one clock.
 
@@ -64,8 +108,8 @@ class TrialInputs:
         Markers of the trial, and of a trial in which the person stands still; None where there are none.
     plates
         Plates that the analysis uses.
-    mass
-        Of the person [kg]; None where it is not given.
+    mass, height
+        Of the person [kg, m]; None where it is not given.
     mass_option
         How the user gave it, for messages: an option or a key of a file.
     stands_at
@@ -76,17 +120,24 @@ class TrialInputs:
         Unit vector upwards.
     turn
         By which the files were turned into these axes; None where they were not.
+    moved
+        A model along the coordinates of a file; None where none are read.
+    channels
+        Whatever else was recorded.
     """
 
     markers: MarkerTrajectories | None = None
     standing: MarkerTrajectories | None = None
     plates: tuple[FootPlate, ...] = ()
     mass: float | None = None
+    height: float | None = None
     mass_option: str = "`mass`"
     stands_at: float | None = None
     floor: float | None = None
     up: Float[np.ndarray, " 3"] = field(default_factory=UP.copy)
     turn: Rotation | None = None
+    moved: MovedModel | None = None
+    channels: tuple[RecordedChannel, ...] = ()
 
     @property
     def recordings(self) -> tuple[MarkerTrajectories, ...]:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import warnings
 
+from geocontact.trial_checks.body_checks import BODY_CHECKS
+from geocontact.trial_checks.channel_checks import CHANNEL_CHECKS
+from geocontact.trial_checks.foot_checks import FOOT_CHECKS
 from geocontact.trial_checks.marker_checks import MARKER_CHECKS
 from geocontact.trial_checks.plate_checks import PLATE_CHECKS
 from geocontact.trial_checks.recorded import Check, Contradiction, TrialInputs
 
-CHECKS: tuple[Check, ...] = (*MARKER_CHECKS, *PLATE_CHECKS)
+CHECKS: tuple[Check, ...] = (*MARKER_CHECKS, *PLATE_CHECKS, *FOOT_CHECKS, *BODY_CHECKS, *CHANNEL_CHECKS)
 """Every check of a recorded trial."""
 
 

@@ -15,10 +15,15 @@ from geocontact.analyses.cop.options import LAW, CopOptions
 from geocontact.analyses.frame.bodies import read_body_motion, warn_of_inner_surfaces
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
+from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
+from geocontact.analyses.motion.markers import turn_of
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.multibody.force_plate import ForcePlate
+from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.plausible import numbers_in
+from geocontact.data.sides import stem_and_side
+from geocontact.geometry.shapes import HalfSpace
 from geocontact.geometry.surface import Surface
 from geocontact.identify.signals.filters import UNEVEN, zero_lag
 from geocontact.io.mesh.meshes import read_mesh
@@ -28,10 +33,11 @@ from geocontact.io.opensim.osim import bodies_at_rest, read_joint
 from geocontact.io.opensim.osim_contact import read_contact_spheres
 from geocontact.io.recordings.spheres import LawFile, SphereTable, read_law, read_spheres
 from geocontact.loads.centre_of_pressure import CentreOfPressure
-from geocontact.loads.ground import Ground, Sheet, ground_of_surface
+from geocontact.loads.ground import Ground, Sheet, Stairs, ground_of_surface
 from geocontact.loads.plate_load import PlateCurves, load_on_plate, same_way_up
 from geocontact.loads.sole_law import law_of_sole
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
+from geocontact.trial_checks.recorded import UP, FootPlate, TrialInputs
 
 
 def smoothed_motion(motion: Motion, cutoff: float | None, file: Path) -> Motion:
@@ -197,11 +203,21 @@ def _check_sizes(o: CopOptions, law: SoleLaw) -> None:
 AXES = "xyz"
 
 
-def chosen_plate(o: CopOptions) -> ForcePlate | None:
-    """The plate to compare with, in our frame; None where none is asked for."""
+def up_of(ground: Ground) -> Float[np.ndarray, " 3"] | None:
+    """Which way is up on a plane, on stairs and on a sheet; None on a closed mesh, which does not say."""
+    if isinstance(ground, HalfSpace):
+        return np.asarray(ground.normal, float)
+    return np.asarray(ground.up, float) if isinstance(ground, Stairs | Sheet) else None
+
+
+def chosen_plate(o: CopOptions, up: Float[np.ndarray, " 3"] | None) -> ForcePlate | None:
+    """The plate to compare with, in our frame, in which `up` is upwards; None where none is asked for."""
     if o.compare is None:
         return None
-    plate = plate_named(read_force_plates(o.compare, o.c3d_unit), o.plate, o.compare, "`plate`")
+    plates = turned_plates(
+        read_force_plates(o.compare, o.c3d_unit), turn_of(o.axes), o.compare, UP if up is None else up
+    )
+    plate = plate_named(plates, o.plate, o.compare, "`plate`")
     add_input("`compare`", o.compare, plate=plate.name)
     if o.plate_pose is None:
         return plate
@@ -272,10 +288,29 @@ def read(o: CopOptions) -> Foot:
     law = sole_law(table, o)
     _require_ground(o)
     motion = smoothed_motion(read_body_motion(o.motion, o), o.motion_cutoff, o.motion)
-    plate = chosen_plate(o)
+    up = up_of(ground)
+    plate = chosen_plate(o, up)
     if plate is not None and o.compare is not None:
+        _check(sole, motion, plate, o, up)
         plate = smoothed_plate(plate, o.force_cutoff, o.compare)
     return Foot(o.spheres.name, sole, law, motion, ground, plate)
+
+
+def _check(
+    sole: SphereSet, motion: Motion, plate: ForcePlate, o: CopOptions, up: Float[np.ndarray, " 3"] | None
+) -> None:
+    """The plate against the foot: heel and toes are the two spheres of the sole that are farthest apart."""
+    apart = np.linalg.norm(sole.centre[:, None] - sole.centre[None], axis=2)
+    ends = np.unravel_index(int(np.argmax(apart)), apart.shape)
+    poses = motion.poses[None] if motion.poses.single else motion.poses
+    places = np.stack([poses.apply(sole.centre[k]) for k in ends], axis=1)
+    foot = MarkerTrajectories(motion.time, places, ("heel", "toe"), str(o.motion))
+    side = stem_and_side(o.body or "")[1]
+    if side:
+        foot = replace(foot, names=tuple(f"{side}{name}" for name in foot.names))
+    on = FootPlate(plate, str(o.compare), side)
+    turn = turn_of(o.axes)
+    check_trial(TrialInputs(foot, plates=(on,), up=plate.normal if up is None else up, turn=turn))
 
 
 def _require_ground(o: CopOptions) -> None:

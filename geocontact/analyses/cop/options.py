@@ -110,6 +110,8 @@ class CopOptions(Options):
         Name or number of the plate; needed when there are several.
     c3d_unit
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
+    axes
+        Which of the plates' axes are ours: x,z,-y where the laboratory's z is up and our y.
     plate_pose
         File with the 4x4 pose of the plates' frame in ours (translation in m), as for a laboratory with z up.
 
@@ -157,7 +159,12 @@ class CopOptions(Options):
     compare: Path | None = None
     plate: Annotated[str | None, Requires("compare", "name the file of force plates")] = None
     c3d_unit: C3dUnit = None
-    plate_pose: Annotated[Path | None, Requires("compare", "name the file of force plates")] = None
+    axes: Annotated[Expression | None, Requires("compare", "name the file of force plates")] = None
+    plate_pose: Annotated[
+        Path | None,
+        Requires("compare", "name the file of force plates"),
+        Excludes("axes", "with `axes` turns the plates twice", "give one of them"),
+    ] = None
     osim: Path | None = None
     joint: str | None = None
     moving_body: Annotated[

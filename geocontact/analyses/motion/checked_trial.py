@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
 from geocontact.analyses.frame.collector import reserve
@@ -32,34 +33,39 @@ def check_trial(trial: TrialInputs) -> frozenset[str]:
     return frozenset(check.name for check, _ in found)
 
 
-def turned_plates(plates: tuple[ForcePlate, ...], turn: Rotation | None, file: Path) -> tuple[ForcePlate, ...]:
-    """Plates in the axes that `axes` turns the markers into.
+def turned_plates(
+    plates: tuple[ForcePlate, ...], turn: Rotation | None, file: Path, up: Float[np.ndarray, " 3"] = UP
+) -> tuple[ForcePlate, ...]:
+    """Plates in the axes that `axes` turns the markers into, in which `up` is upwards.
 
     Where the force under load is upwards before that turn and would not be after it, the file is in the model's axes
     already, y up as OpenSim has it: it is left as it is, with a warning.
     """
     if turn is None:
         return plates
-    after = tuple(_turned(plate, turn) for plate in plates)
-    if _along_up(plates) and not _along_up(after):
-        reserve(f"{file}: its forces are along y under load, which is up: `axes` turns the markers, not these plates")
+    after = tuple(_turned(plate, turn, up) for plate in plates)
+    if _along(up, plates) and not _along(up, after):
+        axis = "xyz"[int(np.argmax(np.abs(up)))]
+        reserve(
+            f"{file}: its forces are along {axis} under load, which is up: `axes` turns the markers, not these plates"
+        )
         return plates
     return after
 
 
-def _turned(plate: ForcePlate, turn: Rotation) -> ForcePlate:
+def _turned(plate: ForcePlate, turn: Rotation, up: Float[np.ndarray, " 3"]) -> ForcePlate:
     """A plate in other axes; the floor of a table, which says nothing of it, is level where its loads act."""
     turned = plate.turned(turn)
     if plate.wrench.frame != OPENSIM_FRAME:
         return turned
     loaded = np.linalg.norm(turned.wrench.force, axis=1) >= LOADED
-    height = float(np.median(turned.wrench.origin[loaded] @ UP)) if loaded.any() else 0.0
-    return replace(turned, point=height * UP, normal=UP.copy())
+    height = float(np.median(turned.wrench.origin[loaded] @ up)) if loaded.any() else 0.0
+    return replace(turned, point=height * up, normal=up.copy())
 
 
-def _along_up(plates: tuple[ForcePlate, ...]) -> bool:
+def _along(up: Float[np.ndarray, " 3"], plates: tuple[ForcePlate, ...]) -> bool:
     """Whether forces under load are upwards, in the median of all plates that carry anything."""
     forces = np.concatenate([np.nan_to_num(plate.wrench.force) for plate in plates])
     size = np.linalg.norm(forces, axis=1)
     loaded = size >= LOADED
-    return bool(loaded.any() and np.median(np.abs(forces[loaded] @ UP) / size[loaded]) > 0.7)
+    return bool(loaded.any() and np.median(np.abs(forces[loaded] @ up) / size[loaded]) > 0.7)

@@ -92,6 +92,7 @@ class LaboratoryFiles:
         own: ForcePlate | None = None,
         other: ForcePlate | None = None,
         floor: float | None = 0.0,
+        height: float | None = None,
     ) -> None:
         """Warn of whatever two of these say differently; InputError where that leaves no result.
 
@@ -105,10 +106,12 @@ class LaboratoryFiles:
             Plates, and of these the one under the prosthesis and the one under the other foot.
         floor
             Height that the floor is taken to have [m]; None where it is not level.
+        height
+            Of the person [m]; None where it is not known.
         """
         feet = ((own, self.side), (other, OTHER[self.side]))
         plates = tuple(FootPlate(plate, fspath(file), side) for plate, side in feet if plate is not None and file)
-        check_trial(TrialInputs(seen, standing, plates, mass, floor=floor, turn=turn_of(self.axes)))
+        check_trial(TrialInputs(seen, standing, plates, mass, height, floor=floor, turn=turn_of(self.axes)))
 
 
 def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableStiffnessFoot:

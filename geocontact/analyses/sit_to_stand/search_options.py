@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import KW_ONLY, dataclass
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.marks import C3dUnit
+from geocontact.analyses.frame.marks import C3dUnit, Expression
 from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import PLAIN, SEARCH, Plausible
@@ -30,6 +30,8 @@ class StandingSearchOptions(Options):
         Largest number of iterations.
     time_limit
         CPU time after which a search ends [s].
+    axes
+        Which of the plates' axes are x (forwards), y (up) and z: x,z,-y where the laboratory's z is up.
     c3d_unit
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     """
@@ -41,6 +43,7 @@ class StandingSearchOptions(Options):
     degree: int = 4
     iterations: int = 300
     time_limit: Annotated[float, SEARCH] = 300.0
+    axes: Expression | None = None
     c3d_unit: C3dUnit = None
 
     def refuse_impossible(self) -> None:

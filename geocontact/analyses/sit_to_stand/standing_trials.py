@@ -8,9 +8,11 @@ from pathlib import Path
 
 import numpy as np
 from jaxtyping import Bool, Float
+from scipy.spatial.transform import Rotation
 
 from geocontact.analyses.frame.collector import add_input
-from geocontact.analyses.motion.checked_trial import check_trial
+from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
+from geocontact.analyses.motion.markers import turn_of
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.model import Multibody
@@ -26,7 +28,7 @@ from geocontact.standing_up.phases import TRACKS, TRACKS_B
 from geocontact.standing_up.strap_sites import strap_sites
 from geocontact.standing_up.trial_forces import chair_load, seat_off, under_the_feet
 from geocontact.standing_up.trials import StandingNoise, StandingTrial, StandingUpTrials, with_chairs
-from geocontact.trial_checks.recorded import FootPlate, TrialInputs
+from geocontact.trial_checks.recorded import FootPlate, MovedModel, RecordedChannel, TrialInputs
 
 FEWEST = 20
 """Samples of a trial."""
@@ -42,11 +44,12 @@ Times = Float[np.ndarray, " t"]
 Table = Float[np.ndarray, "t c"]
 
 
-def standing_trials(file: Path, role: str, c3d_unit: str | None = None) -> StandingUpTrials:
-    """Everything in the study; `c3d_unit` is that of .c3d files that have none."""
+def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: str | None = None) -> StandingUpTrials:
+    """Everything in the study; `c3d_unit` is that of .c3d files that have none, `axes` turns plates into x, y up, z."""
     study = read_standing_study(file)
     add_input(role, file, trials=len(study.trials))
     subject = Subject(study.mass, study.height)
+    check_trial(TrialInputs(mass=study.mass, height=study.height, mass_option=f"mass in {file}"))
     usual = SOUGHT_WORN if study.exoskeleton else SOUGHT
     free = _known(file, "free", study.free, usual, tuple(each.name for each in FOOT_PARAMETERS))
     channels = TRACKS_B if study.exoskeleton else TRACKS
@@ -58,7 +61,10 @@ def standing_trials(file: Path, role: str, c3d_unit: str | None = None) -> Stand
     chain = two_chains(subject) if study.exoskeleton else leg_chain(subject)
     sites = strap_sites(tuple(site for each in study.trials for site in each.elsewhere))
     names = tuple(site.name for site in sites[1:])
-    trials = with_chairs([channels_of(each, chain, tracks, file, names, c3d_unit) for each in study.trials])
+    turn = turn_of(axes)
+    if axes is not None and all(each.plates is None for each in study.trials):
+        raise InputError("", "`axes`", "has no effect without plates", "leave it out")
+    trials = with_chairs([channels_of(each, chain, tracks, file, names, c3d_unit, turn) for each in study.trials])
     return StandingUpTrials(subject, StandingNoise(**study.noise), trials, study.exoskeleton, free, tracks, sites)
 
 
@@ -82,6 +88,7 @@ def channels_of(
     study: Path,
     sites: tuple[str, ...] = (),
     c3d_unit: str | None = None,
+    turn: Rotation | None = None,
 ) -> StandingTrial:
     """The trial; InputError where a channel that is tracked is missing, or where clocks or models are not the same.
 
@@ -91,13 +98,16 @@ def channels_of(
         Names of the further straps that the model has.
     c3d_unit
         Of plates in a .c3d file whose own is empty.
+    turn
+        Of the plates into x forwards, y up.
     """
     place = f"[[trials]] {files.name}"
     _require_tracked(files, tracks, study, place)
     time, q = _motion(files.coordinates, chain, f"{files.name} coordinates")
+    whole = MovedModel(chain, time, q, str(files.coordinates))
     off, feet, chair = time >= time[0], None, None
     if files.plates is not None:
-        plates = read_force_plates(files.plates, c3d_unit)
+        plates = turned_plates(read_force_plates(files.plates, c3d_unit), turn, files.plates)
         add_input(f"{files.name} plates", files.plates, plates=len(plates))
         feet = plate_named(plates, files.feet, files.plates, f"{place} feet")
         _require_one_clock(files.plates, feet, time)
@@ -116,9 +126,6 @@ def channels_of(
     if feet is not None and files.plates is not None:
         with _named(files.plates, feet):
             force, centre = under_the_feet(_wrench(feet, time), time, q[:, 0])
-        if np.abs(q[-1, JOINTS]).max() < UPRIGHT:
-            on, key = (FootPlate(feet, str(files.plates)),), f"mass in {study}"
-            check_trial(TrialInputs(plates=on, mass=chain.mass, mass_option=key, stands_at=float(time[-1])))
     torque, strap, elsewhere = None, None, {}
     if "torque" in tracks and files.torques is not None:
         names = [c.name for c in chain.coordinates[3:]]
@@ -131,6 +138,21 @@ def channels_of(
     if files.sitting and chair is not None and files.plates is not None:
         with _named(files.plates, chair):
             sat_on = chair_load(_wrench(chair, time), time)
+    plates_of = tuple(FootPlate(each, str(files.plates)) for each in (feet, chair) if each is not None)
+    upright = feet is not None and np.abs(q[-1, JOINTS]).max() < UPRIGHT
+    recorded = [("strap", "N", strap)] if strap is not None else []
+    recorded += [(f"torque {k + 1}", "N m", torque[:, k]) for k in range(0 if torque is None else torque.shape[1])]
+    check_trial(
+        TrialInputs(
+            plates=plates_of,
+            mass=chain.mass,
+            mass_option=f"mass in {study}",
+            stands_at=float(time[-1]) if upright else None,
+            turn=turn,
+            moved=whole,
+            channels=tuple(RecordedChannel(name, unit, time, own, str(study)) for name, unit, own in recorded),
+        )
+    )
     return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on, elsewhere)
 
 

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from geocontact.analyses.frame.marks import C3dUnit
+from geocontact.analyses.frame.marks import C3dUnit, Expression
 from geocontact.analyses.frame.options import Options
 
 
@@ -21,6 +21,8 @@ class GatherOptions(Options):
         what was measured with them: <site> = "folder" that `geocontact mat` wrote, for each site;
         plates = "grf.mot" with plate = "name", for a foot; forces = "forces.csv" and areas = "area.csv", for a knee;
         inputs = "ik.mot" and outputs = "id.sto" with a table [columns]; outputs = "logger.csv" with units in its head.
+    axes
+        Which of the plates' axes are the foot's: x,z,-y where the laboratory's z is up.
     c3d_unit
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     """
@@ -35,4 +37,5 @@ class GatherOptions(Options):
 
     settings: Path
     _: KW_ONLY
+    axes: Expression | None = None
     c3d_unit: C3dUnit = None

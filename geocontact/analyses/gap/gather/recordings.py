@@ -13,6 +13,9 @@ from jaxtyping import Float
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.gap.gather.checks import check_gathered
 from geocontact.analyses.gap.gather.options import GatherOptions
+from geocontact.analyses.gap.gather.recorded_trial import check_recorded
+from geocontact.analyses.motion.checked_trial import turned_plates
+from geocontact.analyses.motion.markers import turn_of
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cells import CellChannels, CellTrial
@@ -218,8 +221,12 @@ def read(o: GatherOptions) -> Recordings:
     if plan.settings.mesh:
         raise InputError(path, "mesh", "a case with meshes is not gathered", "add them to the case by hand")
     mats = {site: _mats(path, plan, site) for site in plan.sites}
-    trials = {name: _recording(plan, name, source, o.c3d_unit) for name, source in plan.sources.items()}
+    trials = {name: _recording(plan, name, source, o) for name, source in plan.sources.items()}
     tables = {key: read_side_table(path.parent / file) for key, file in plan.settings.tables.items()}
+    if o.axes is not None and all(one.plate is None for one in trials.values()):
+        raise InputError("", "`axes`", "has no effect without plates", "leave it out")
+    for one in trials.values():
+        check_recorded(one.inputs, one.outputs, one.plate, one.source.plates, tables.get("spheres"), turn_of(o.axes))
     return Recordings(plan, trials, mats, tables)
 
 
@@ -267,11 +274,12 @@ def _mats(path: Path, plan: Gathering, site: str) -> dict[str, MatFolder]:
     return found
 
 
-def _recording(plan: Gathering, name: str, source: Source, c3d_unit: str | None) -> GatheredTrial:
+def _recording(plan: Gathering, name: str, source: Source, o: GatherOptions) -> GatheredTrial:
     inputs, outputs = _inputs_and_outputs(plan, name, source)
     plate = areas = forces = None
     if source.plates is not None:
-        plate = plate_named(read_force_plates(source.plates, c3d_unit), source.plate, source.plates, "plate =")
+        plates = turned_plates(read_force_plates(source.plates, o.c3d_unit), turn_of(o.axes), source.plates)
+        plate = plate_named(plates, source.plate, source.plates, "plate =")
         add_input(f"{name} plates", source.plates, plate=plate.name)
     if source.areas is not None:
         areas = read_area_table([source.areas])

@@ -32,6 +32,8 @@ class JointOptions(Options):
     near
         Markers whose midpoint, projected onto the axis, gives its place: the epicondyles. All markers of both segments
         by default.
+    markers_map
+        Names of recorded markers as they are called here: RASI=R.ASIS, or a file with a pair in each line.
     axes
         Which of the markers' axes are x, y and z of the output: x,z,-y where the laboratory's z is up.
     c3d_unit
@@ -53,6 +55,7 @@ class JointOptions(Options):
     static: Path | None = None
     name: str = "JOINT"
     near: Annotated[str | None, Requires("axis")] = None
+    markers_map: str | None = None
     axes: Expression | None = None
     c3d_unit: C3dUnit = None
     time: TimeSpan | None = None

@@ -11,7 +11,7 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.functional_joint.options import JointOptions
-from geocontact.analyses.motion.markers import markers_given, turn_of
+from geocontact.analyses.motion.markers import markers_given, renamed_as_told, turn_of
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.functional_joint import FEWEST, seen_together, segment_poses
@@ -72,10 +72,11 @@ class MovedPair:
 
 def read(o: JointOptions) -> MovedPair:
     """Everything the options name."""
-    seen = markers_given(o.trial, o.axes, o.time, o.c3d_unit)
+    seen = renamed_as_told(markers_given(o.trial, o.axes, o.time, o.c3d_unit), o.markers_map)
     add_input("trial", o.trial, frames=len(seen), markers=len(seen.names))
-    still = None if o.static is None else markers_given(o.static, o.axes, None, o.c3d_unit)
-    if o.static is not None and still is not None:
+    still = None
+    if o.static is not None:
+        still = renamed_as_told(markers_given(o.static, o.axes, None, o.c3d_unit), o.markers_map)
         add_input("`static`", o.static, frames=len(still), markers=len(still.names))
     check_trial(TrialInputs(markers=seen, standing=still, turn=turn_of(o.axes)))
     first, second = marker_list(o.first), marker_list(o.second)

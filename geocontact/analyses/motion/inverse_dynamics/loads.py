@@ -39,7 +39,7 @@ from geocontact.io.opensim.osim_forces import read_passive_forces
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.trial_checks.landmarks import body_points
-from geocontact.trial_checks.recorded import FootPlate, TrialInputs
+from geocontact.trial_checks.recorded import FootPlate, MovedModel, TrialInputs
 
 UP = 0.9  # smallest cosine between a plate's normal and the way up
 REACH = 1.0  # m from the body's origin to the point that a plate's force acts at
@@ -56,7 +56,10 @@ def loads_on_bodies(
     `values` are the coordinates at those times [rad, m].
     """
     file, loads = _external_loads(o)
+    moved = MovedModel(model, time, values, str(o.coordinates))
+    mass, key = model.mass or None, f"the model's mass (scale it: {o.model})"
     if file is None:
+        check_trial(TrialInputs(mass=mass, mass_option=key, up=model.up, moved=moved))
         return {}
     recorded = read_force_plates(file, o.c3d_unit)
     plates = turned_plates(recorded, turn_of(o.axes), file)
@@ -87,10 +90,11 @@ def loads_on_bodies(
         TrialInputs(
             body_points(model, time, values, str(o.coordinates)),
             plates=tuple(plates_used),
-            mass=model.mass or None,
-            mass_option=f"the model's mass (scale it: {o.model})",
+            mass=mass,
+            mass_option=key,
             up=model.up,
             turn=turn_of(o.axes),
+            moved=moved,
         )
     )
     return found

@@ -61,6 +61,7 @@ def _measured(o: ScaleOptions, model: Multibody, standing: MarkerTrajectories) -
     seen = renamed(markers_given(file, o.axes, time, o.c3d_unit), model, o.markers_map)
     if o.sizes is not None:
         add_input("`sizes`", o.sizes, frames=len(seen), markers=len(seen.names))
+        check_trial(TrialInputs(markers=seen, turn=turn_of(o.axes)))
     return seen
 
 

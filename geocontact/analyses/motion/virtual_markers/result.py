@@ -20,6 +20,7 @@ from jaxtyping import Float
 from geocontact.analyses.frame.collector import add_input, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.virtual_markers.options import MarkersOptions
 from geocontact.analyses.motion.virtual_markers.show import markers_curves, markers_page
 from geocontact.data.errors import InputError
@@ -29,6 +30,7 @@ from geocontact.io.mocap.trc import write_trc
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import TextTable, read_table
+from geocontact.trial_checks.recorded import MovedModel, TrialInputs
 from geocontact.view.curves.drawn import drawn
 
 if TYPE_CHECKING:
@@ -114,6 +116,9 @@ def run(moved: Moved, o: MarkersOptions) -> MarkersResult:
     names = tuple(m.name for m in model.markers)
     values = motion_of(table, model, o.angles)
     places = model.marker_places(values)
+    moved = MovedModel(model, table.time, values, str(o.coordinates))
+    seen = MarkerTrajectories(table.time, places, names, str(o.coordinates))
+    check_trial(TrialInputs(seen, up=model.up, moved=moved))
     results().update(frames=len(table.time), markers=len(names))
     say(f"{len(names)} markers in {len(table.time)} frames")
     markers = MarkerTrajectories(table.time, places, names)

@@ -64,7 +64,7 @@ if TYPE_CHECKING:
 
 def read(o: StandingCalibrateOptions) -> StandingUpTrials:
     """Everything in the study."""
-    return standing_trials(o.study, "study", o.c3d_unit)
+    return standing_trials(o.study, "study", o.c3d_unit, o.axes)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)

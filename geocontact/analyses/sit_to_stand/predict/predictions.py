@@ -78,8 +78,8 @@ class HeldOutTrials:
 
 def read(o: StandingPredictOptions) -> HeldOutTrials:
     """Everything the options name; InputError where trials are not of one model."""
-    trials = standing_trials(o.study, "study", o.c3d_unit)
-    known = standing_trials(o.against, "`against`", o.c3d_unit)
+    trials = standing_trials(o.study, "study", o.c3d_unit, o.axes)
+    known = standing_trials(o.against, "`against`", o.c3d_unit, o.axes)
     for file, study in ((o.study, trials), (o.against, known)):
         if not study.exoskeleton or not {"force", "centre", "torque", "strap"} <= set(study.tracks):
             what = "is not of a person with an exoskeleton, with force, centre, torque and strap"

@@ -1,0 +1,249 @@
+"""A person's coordinates against a model's ranges, mass against height and legs, and weight against the plates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import pi
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.data.multibody.model import GROUND
+from geocontact.identify.signals.agreement import lag_of
+from geocontact.trial_checks.landmarks import body_points, middle, points
+from geocontact.trial_checks.recorded import Check, Contradiction, MovedModel, TrialInputs
+
+SMALL = 0.5
+"""Degrees by which some angle changes; as radians 29 degrees."""
+BEYOND = np.radians(20.0)
+"""Beyond the range of a coordinate: ranges are drawn for the muscles' paths, and not all recordings keep them."""
+FREE = 6
+"""Coordinates of a joint that frees a body of the ground; which way a person faces has no range."""
+BUILD = (14.0, 50.0)
+"""kg/m^2; severe thinness begins below 16, obesity of class III at 40 (World Health Organization, TRS 894, 2000)."""
+LEG, LEG_OFF = 0.491, 0.15
+"""Hip to ankle in parts of the height, thigh 0.245 and shank 0.246 (Drillis and Contini, in Winter, Biomechanics,
+2009, figure 4.1); share of it that may be missing or too much."""
+PARTS = (0.75, 1.45)
+"""Hip to knee in parts of knee to ankle; 0.245/0.246 there, and 422/434 mm in men, 369/432 mm in women (de Leva, J.
+Biomech. 29, 1996)."""
+PELVIS, PELVIS_PARTS = 0.56, (0.8, 1.8)
+"""Height of the front of the pelvis in parts of a person's, and its height above the knee in parts of the knee's above
+the ankle, while standing: 0.275 of the height over 0.246 (Drillis and Contini)."""
+UNEVEN = 0.06
+"""m, between the heights of the two knees while standing."""
+SMOOTH = 0.3
+"""s, over which height and force are smoothed before their lag is sought; 0.5 mm of noise are 0.3 m/s^2 then."""
+LATEST, LATE, ALIKE, CLEARER = 0.4, 0.06, 0.8, 0.03
+"""s, of the lags that are looked at, and from which a clock is doubted; correlation of weight and force at that lag,
+and by how much it is above that without a lag."""
+FEWEST = 30
+"""Frames of a lag."""
+
+
+def angles_in_degrees(trial: TrialInputs) -> Iterator[Contradiction]:
+    """All angles so small that they may be radians that were read as degrees."""
+    if trial.moved is None:
+        return
+    degrees = np.degrees(_angles(trial.moved))
+    if not degrees.size or np.abs(degrees).max() > pi:
+        return
+    most = float(np.ptp(degrees, axis=0).max())
+    if most > SMALL:
+        what = f"no angle is beyond {np.abs(degrees).max():.2g} degrees, and one changes by {most:.2g}"
+        yield Contradiction(trial.moved.source, "", what, "unless the person hardly moves, are they radians?")
+
+
+def _angles(moved: MovedModel) -> Float[np.ndarray, "t n"]:
+    """Rotations that the file has, those of a free root as well [rad]; a column at its default does not count."""
+    kept = [
+        k
+        for k, c in enumerate(moved.model.coordinates)
+        if c.kind == "rotational" and (moved.values[:, k] != c.default).any()
+    ]
+    return moved.values[:, kept]
+
+
+def in_range(trial: TrialInputs) -> Iterator[Contradiction]:
+    """Angles of joints against the ranges that the model states."""
+    moved = trial.moved
+    if moved is None:
+        return
+    free = {
+        c.name
+        for joint in moved.model.joints
+        if joint.parent == GROUND and len(joint.coordinates) == FREE
+        for c in joint.coordinates
+    }
+    beyond = []
+    for k, c in enumerate(moved.model.coordinates):
+        low, high = c.limits
+        values = moved.values[:, k]
+        if c.kind != "rotational" or c.name in free or c.locked or not (values != c.default).any():
+            continue
+        off = float(max(np.nanmax(values) - high, low - np.nanmin(values)))
+        if off > BEYOND:
+            beyond.append((off, c.name, np.degrees(low), np.degrees(high)))
+    if beyond:
+        off, name, low, high = max(beyond)
+        what = f"{name} leaves its range, {low:.0f} to {high:.0f} degrees, by {np.degrees(off):.0f} degrees"
+        more = f", and {len(beyond) - 1} more do" if len(beyond) > 1 else ""
+        remedy = "is its sign that of the model, its unit right, and are the coordinates of this model?"
+        yield Contradiction(moved.source, "", what + more, remedy)
+
+
+def build(trial: TrialInputs) -> Iterator[Contradiction]:
+    """Mass against height, and height against the legs: given, of the model, or of the standing trial's markers."""
+    leg, standing = _leg(trial), _by_pelvis(trial)
+    for height, how in (
+        (trial.height, "the height"),
+        (None if leg is None else leg / LEG, "a height by the model's legs"),
+        (standing, "a height by the pelvis of the standing trial"),
+    ):
+        if trial.mass is None or height is None:
+            continue
+        index = trial.mass / height**2
+        if not BUILD[0] <= index <= BUILD[1]:
+            what = f"is {trial.mass:.4g} kg with {how} of {height:.2f} m, {index:.0f} kg/m²"
+            yield Contradiction("", trial.mass_option, what, "are it and the lengths in kg and m, of one person?")
+        break
+    if trial.height is None:
+        return
+    for length, part, what in ((leg, LEG, "the model's legs"), (standing, 1.0, "the pelvis of the standing trial")):
+        if length is not None and abs(length / part / trial.height - 1.0) > LEG_OFF:
+            line = f"by {what} the height is {length / part:.2f} m, it is said to be {trial.height:.2f} m"
+            yield Contradiction(_source(trial), "", line, "are both of one person, and in m?")
+
+
+def _source(trial: TrialInputs) -> str:
+    seen = trial.standing
+    return trial.moved.source if trial.moved is not None else "" if seen is None else seen.source
+
+
+def _leg(trial: TrialInputs) -> float | None:
+    """Hip to ankle along the bones of a model [m], mean of its legs; None where it has no such joints."""
+    moved = trial.moved
+    if moved is None:
+        return None
+    bones = body_points(moved.model, moved.time[:1], moved.values[:1], moved.source)
+    found = []
+    for side in ("right", "left", ""):
+        hip, knee, ankle = (_mean(bones, kind, side) for kind in ("hip", "knee", "ankle"))
+        if hip is not None and knee is not None and ankle is not None:
+            found.append(float(np.linalg.norm(hip - knee) + np.linalg.norm(knee - ankle)))
+    return float(np.mean(found)) if found else None
+
+
+def _mean(seen: MarkerTrajectories, kind: str, side: str) -> Float[np.ndarray, " 3"] | None:
+    places = points(seen, (kind,), side)
+    return np.asarray(places.mean(axis=(0, 1))) if places.shape[1] else None
+
+
+def _height(seen: MarkerTrajectories, kinds: tuple[str, ...], side: str | None, trial: TrialInputs) -> float:
+    """Median height of landmarks [m]; NaN where there are none."""
+    found = middle(seen, kinds, side)
+    return float("nan") if found is None else float(np.nanmedian(found @ trial.up))
+
+
+def _by_pelvis(trial: TrialInputs) -> float | None:
+    """Height of who stands, by that of the front of the pelvis above the heels and toes [m]."""
+    if trial.standing is None:
+        return None
+    above = _height(trial.standing, ("asis",), None, trial) - _height(trial.standing, ("heel", "toe"), None, trial)
+    return above / PELVIS if above > 0.0 else None
+
+
+def segments(trial: TrialInputs) -> Iterator[Contradiction]:
+    """Thigh against shank, and right against left."""
+    seen = trial.standing
+    if seen is not None:
+        knees = []
+        for side in ("right", "left"):
+            pelvis, knee, ankle = (_height(seen, (kind,), side, trial) for kind in ("asis", "knee", "ankle"))
+            knees.append(knee)
+            share = (pelvis - knee) / (knee - ankle)
+            if not (np.isnan(share) or PELVIS_PARTS[0] <= share <= PELVIS_PARTS[1]):
+                what = f"the {side} thigh is {share:.2f} times the shank: pelvis, knee and ankle are {pelvis:.2f}, "
+                what += f"{knee:.2f} and {ankle:.2f} m high while standing"
+                yield Contradiction(seen.source, "", what, "are the labels right, and does the person stand upright?")
+        if abs(knees[0] - knees[1]) > UNEVEN:
+            what = f"the knees are {knees[0]:.2f} and {knees[1]:.2f} m high while standing"
+            yield Contradiction(seen.source, "", what, "is a marker elsewhere, or a label another one's?")
+    moved = trial.moved
+    if moved is None:
+        return
+    bones = body_points(moved.model, moved.time[:1], moved.values[:1], moved.source)
+    for side in ("right", "left"):
+        hip, knee, ankle = (_mean(bones, kind, side) for kind in ("hip", "knee", "ankle"))
+        if hip is None or knee is None or ankle is None:
+            continue
+        share = float(np.linalg.norm(hip - knee) / np.linalg.norm(knee - ankle))
+        if not PARTS[0] <= share <= PARTS[1]:
+            what = f"the {side} thigh of {moved.model.name} is {share:.2f} times its shank"
+            yield Contradiction(moved.source, "", what, "is the model scaled by the right markers?")
+
+
+def weight_in_time(trial: TrialInputs) -> Iterator[Contradiction]:
+    """Weight and acceleration of a model that rises, m (g + a), against the force of all plates."""
+    moved = trial.moved
+    if moved is None or trial.stands_at is None or not trial.plates or len(moved.time) < FEWEST:
+        return
+    time = moved.time
+    step = float(np.median(np.diff(time)))
+    force = np.sum([np.interp(time, on.plate.time, on.normal, np.nan, np.nan) for on in trial.plates], axis=0)
+    height = _smooth(moved.model.mass_centre(moved.values) @ trial.up, step)
+    expected = np.gradient(np.gradient(height, step), step)
+    force = _smooth(force, step)
+    lag, there = lag_of(expected, force, step, LATEST)
+    _, now = lag_of(expected, force, step, 0.0)
+    if abs(lag) >= LATE and there >= ALIKE and there - now >= CLEARER:
+        when = "before" if lag > 0.0 else "after"
+        on = trial.plates[0]
+        what = f"the force of the plates is {abs(lag):.2f} s {when} weight and acceleration of the body"
+        remedy = "plates and coordinates need one clock: shift one of them"
+        yield Contradiction(on.source, on.plate.name, f"{what} by {moved.source}", remedy)
+
+
+def _smooth(values: Float[np.ndarray, " t"], step: float) -> Float[np.ndarray, " t"]:
+    """Mean over `SMOOTH` with the weights of a Hann window; the ends are repeated."""
+    half = max(round(0.5 * SMOOTH / step), 1)
+    weights = np.hanning(2 * half + 3)[1:-1]
+    return np.convolve(np.pad(values, half, mode="edge"), weights / weights.sum(), "valid")
+
+
+BODY_CHECKS = (
+    Check(
+        "angles in degrees",
+        "largest of all angles, and by how much any changes, with what degrees would be",
+        f"none beyond {pi:.2f} degrees while one changes by {SMALL:g} degrees",
+        angles_in_degrees,
+    ),
+    Check(
+        "range of a coordinate",
+        "angles of joints with the ranges that the model states",
+        f"{np.degrees(BEYOND):.0f} degrees beyond; degrees that were read as radians are refused by the reader",
+        in_range,
+    ),
+    Check(
+        "mass and height",
+        "mass with height, and height with legs of the model or the pelvis of the standing trial",
+        f"{BUILD[0]:g} to {BUILD[1]:g} kg/m² (severe thinness below 16, class III obesity from 40: WHO, TRS 894); "
+        f"{LEG_OFF:.0%} of the height, hip to ankle being {LEG:g} of it (Drillis and Contini)",
+        build,
+    ),
+    Check(
+        "thigh and shank",
+        "thigh with shank and right with left, of the model or while standing",
+        f"{PARTS[0]:g} to {PARTS[1]:g} between joints, 0.97 in men and 0.85 in women (de Leva 1996); "
+        f"{PELVIS_PARTS[0]:g} to {PELVIS_PARTS[1]:g} by markers; knees {1e3 * UNEVEN:.0f} mm apart in height",
+        segments,
+    ),
+    Check(
+        "weight in time",
+        "force of all plates with weight and acceleration of the model's centre of mass, for who stands up",
+        f"{LATE:g} s, where the correlation at that lag is {ALIKE:g} and {CLEARER:g} above that without",
+        weight_in_time,
+    ),
+)
+"""Checks that need a model or a person's size."""

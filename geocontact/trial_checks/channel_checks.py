@@ -1,0 +1,97 @@
+"""How often and how large: rates of sampling, and the size of whatever else was recorded, by its unit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.trial_checks.recorded import Check, Contradiction, TrialInputs
+
+SLOWEST, FASTEST, ENOUGH = 8.0, 50_000.0, 10
+"""Hz, and samples from which a rate is looked at. Cameras take 25 to 500, plates 100 to 5000, electromyographs up to
+4000 (Winter, Biomechanics and Motor Control of Human Movement, 2009, section 3.4)."""
+
+
+@dataclass(frozen=True)
+class Size:
+    """How large the largest value of a channel is.
+
+    Parameters
+    ----------
+    least, most
+        In the SI unit.
+    likely
+        What it may be where it is less, and where it is more.
+    source
+        Where the two are from.
+    """
+
+    least: float
+    most: float
+    likely: tuple[str, str]
+    source: str
+
+
+SIZES = {
+    "N": Size(0.05, 2e4, ("kN", "mN"), "a cuff at rest; 12 times the weight, a jump's landing"),
+    "N m": Size(5e-3, 2e3, ("kN m", "N mm"), "a finger; 10 N m/kg of a jump"),
+    "rad": Size(1e-4, 20.0, ("turns", "degrees"), "sway of who stands; three turns"),
+    "m": Size(1e-5, 50.0, ("km", "mm"), "skin; the length of a hall"),
+    "Pa": Size(10.0, 5e8, ("MPa", "mPa"), "a cell of a mat at rest; strength of bone and metal"),
+    "V": Size(1e-6, 20.0, ("kV", "mV"), "noise of an electromyogram's electrode; an amplifier's supply"),
+}
+"""By unit; what people, their implants and devices do not go beyond."""
+
+
+def _rate(time: Float[np.ndarray, " t"]) -> float:
+    """Samples in a second, by the median step [Hz]; NaN for few."""
+    return 1.0 / float(np.median(np.diff(time))) if len(time) >= ENOUGH else float("nan")
+
+
+def rates(trial: TrialInputs) -> Iterator[Contradiction]:
+    """Samples in a second of markers, plates, coordinates and channels."""
+    clocks = [(seen.source, "", seen.time) for seen in trial.recordings]
+    clocks += [(on.source, on.plate.name, on.plate.time) for on in trial.plates]
+    clocks += [(one.source, one.name, one.time) for one in trial.channels]
+    clocks += [] if trial.moved is None else [(trial.moved.source, "", trial.moved.time)]
+    said: set[tuple[str, float]] = set()
+    for source, place, time in clocks:
+        rate = _rate(time)
+        if np.isfinite(rate) and not SLOWEST <= rate <= FASTEST and (source, rate) not in said:
+            said.add((source, rate))
+            what = f"has {rate:.3g} samples in a second, over {time[-1] - time[0]:.4g} s"
+            yield Contradiction(source, place, what, "is its time in s, not in ms, frames or minutes?")
+
+
+def sizes_of_channels(trial: TrialInputs) -> Iterator[Contradiction]:
+    """Largest value of a channel with what its unit can be."""
+    for one in trial.channels:
+        known = SIZES.get(one.unit)
+        values = np.abs(one.values[np.isfinite(one.values)])
+        if known is None or not values.any():
+            continue
+        largest = float(values.max())
+        if not known.least <= largest <= known.most:
+            likely = known.likely[0 if largest < known.least else 1]
+            what = f"{one.name} reaches {largest:.3g} {one.unit}"
+            yield Contradiction(one.source, "", what, f"is it in {likely}?")
+
+
+CHANNEL_CHECKS = (
+    Check(
+        "sampling",
+        "samples in a second of markers, plates, coordinates and channels with those of measuring devices",
+        f"{SLOWEST:g} to {FASTEST:g} Hz; cameras take 25 to 500, plates 100 to 5000 (Winter, Biomechanics, 2009)",
+        rates,
+    ),
+    Check(
+        "size of a channel",
+        "largest value of every other channel with what its unit can be",
+        "; ".join(f"{one.least:g} to {one.most:g} {unit} ({one.source})" for unit, one in SIZES.items()),
+        sizes_of_channels,
+    ),
+)
+"""Checks of time and of whatever else was recorded."""

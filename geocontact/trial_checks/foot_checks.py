@@ -1,0 +1,166 @@
+"""Force plates against the feet that stand on them: where, how high, and when."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.trial_checks.landmarks import FOOT, SIDES, points, the_foot
+from geocontact.trial_checks.plate_checks import HEAVY, Step, steps, velocity_of_floor
+from geocontact.trial_checks.recorded import Check, Contradiction, TrialInputs
+
+AWAY = 0.3
+"""m, from a foot's heel and toes to the centre of pressure, seen from above, in the median."""
+HEIGHT = (-0.025, 0.075)
+"""m, of the lowest marker of a foot's heel and toes above the plate; in 14 steps of 5 people 0.027 to 0.049."""
+SLOW = 0.5
+"""m/s beside the floor, of the slower one of heel and toes while the foot stands."""
+TOUCH, LEAVE, ALONE = (-0.05, 0.05), (-0.03, 0.07), 0.08
+"""s, of touch-down and of the end of the load after the foot begins and ends to be slow. In 10 steps of 4 people the
+one was -0.013 to 0.016 s, the other -0.014 to 0.058 s: toes move before they leave the floor. A foot that hovers before
+it lands is slow too, so that touch-down alone, where markers end before toe-off, has to be later still."""
+
+
+def under_a_foot(trial: TrialInputs) -> Iterator[Contradiction]:
+    """The centre of pressure against the landmarks of the feet, and against those of the foot that was named."""
+    seen = trial.markers
+    if seen is None:
+        return
+    for on in trial.plates:
+        centre = on.plate.centre_of_pressure()
+        heavy = (on.normal >= max(HEAVY * float(on.normal.max(initial=0.0)), 20.0)) & np.isfinite(centre).all(axis=1)
+        heavy &= (on.plate.time >= seen.time[0]) & (on.plate.time <= seen.time[-1])
+        if not heavy.any():
+            continue
+        time, flat = on.plate.time[heavy], np.eye(3) - np.outer(trial.up, trial.up)
+        away = {side: _distance(seen, side, time, centre[heavy], flat) for side in SIDES}
+        known = {side: d for side, d in away.items() if np.isfinite(d)}
+        if not known:
+            continue
+        nearest = min(known, key=lambda side: known[side])
+        if known[nearest] > AWAY and (len(known) >= 2 or on.side == nearest):
+            what = f"its centre of pressure is {known[nearest]:.2f} m from {the_foot(nearest)} (median)"
+            remedy = "are plates and markers in the same axes and unit, on one clock, and of one trial?"
+            yield Contradiction(on.source, on.plate.name, what, remedy)
+        elif on.side in known and nearest != on.side and known[on.side] > max(AWAY, 2.0 * known[nearest]):
+            what = f"the {nearest} foot stands on it ({known[nearest]:.2f} m), not the {on.side} one"
+            what += f" ({known[on.side]:.2f} m)"
+            yield Contradiction(on.source, on.plate.name, what, "are the plates of the two feet exchanged?")
+
+
+def _distance(
+    seen: MarkerTrajectories,
+    side: str,
+    time: Float[np.ndarray, " n"],
+    centre: Float[np.ndarray, "n 3"],
+    flat: Float[np.ndarray, "3 3"],
+) -> float:
+    """Median distance of a centre of pressure from the nearest landmark of a foot, seen from above [m]."""
+    foot = points(seen, FOOT, side)
+    if not foot.shape[1]:
+        return float("nan")
+    frames = np.clip(np.searchsorted(seen.time, time), 0, len(seen.time) - 1)
+    apart = np.linalg.norm((foot[frames] - centre[:, None]) @ flat, axis=2)
+    apart = apart[np.isfinite(apart).any(axis=1)]
+    return float(np.median(np.nanmin(apart, axis=1))) if len(apart) else float("nan")
+
+
+def clocks(trial: TrialInputs) -> Iterator[Contradiction]:
+    """When a foot stands still against when the plate under it is loaded."""
+    seen = trial.markers
+    if seen is None or len(seen) < 10:
+        return
+    flat = np.eye(3) - np.outer(trial.up, trial.up)
+    for step in steps(trial):
+        if step.time[0] < seen.time[0]:
+            continue
+        there = step.heavy & np.isfinite(step.centre).all(axis=1)
+        away = {s: _distance(seen, s, step.time[there], step.centre[there], flat) for s in SIDES}
+        known = {side: d for side, d in away.items() if np.isfinite(d)}
+        if not known or min(known.values()) > AWAY:
+            continue
+        late = _late(seen, min(known, key=lambda side: known[side]), step)
+        if late:
+            when = "after" if late > 0.0 else "before"
+            what = f"it is loaded about {abs(late):.2f} s {when} the foot on it stands still, at both ends of a step"
+            remedy = "plates and markers need one clock: shift one of them"
+            yield Contradiction(step.on.source, step.on.plate.name, what, remedy)
+
+
+def _late(seen: MarkerTrajectories, side: str, step: Step) -> float:
+    """By how much the load is later than the foot's rest [s]; 0 where touch-down and toe-off do not both say so.
+
+    Speeds are beside that of the foot in the middle of the step, so that a treadmill's belt does not count.
+    """
+    foot = points(seen, ("heel", "toe"), side)
+    if not foot.shape[1]:
+        return 0.0
+    velocity, floor_velocity = np.gradient(foot, seen.time, axis=0), velocity_of_floor(seen, step)
+    slow = np.nan_to_num(np.nanmin(np.linalg.norm(velocity - floor_velocity, axis=2), axis=1), nan=np.inf) < SLOW
+    middle_of = int(np.searchsorted(seen.time, 0.5 * (step.time[0] + step.time[-1])))
+    fast = np.flatnonzero(~slow)
+    before, after = fast[fast < middle_of], fast[fast > middle_of]
+    if middle_of >= len(slow) or not slow[middle_of] or not len(before):
+        return 0.0
+    touch = step.time[0] - float(seen.time[before[-1] + 1])
+    if not len(after):
+        return touch if touch > ALONE else 0.0
+    leave = step.time[-1] - float(seen.time[after[0] - 1])
+    later = touch > TOUCH[1] and leave > LEAVE[1]
+    earlier = touch < TOUCH[0] and leave < LEAVE[0]
+    return 0.5 * (touch + leave) - 0.25 * sum(LEAVE) if later or earlier else 0.0
+
+
+def floor(trial: TrialInputs) -> Iterator[Contradiction]:
+    """The height of the lowest landmark of a foot above the plate that it stands on."""
+    seen = trial.markers
+    if seen is None:
+        return
+    flat = np.eye(3) - np.outer(trial.up, trial.up)
+    for step in steps(trial):
+        there = step.heavy & np.isfinite(step.centre).all(axis=1)
+        there &= (step.time >= seen.time[0]) & (step.time <= seen.time[-1])
+        if not there.any():
+            continue
+        for side in SIDES:
+            if not _distance(seen, side, step.time[there], step.centre[there], flat) < AWAY:
+                continue
+            frames = np.clip(np.searchsorted(seen.time, step.time[there]), 0, len(seen.time) - 1)
+            above = (points(seen, ("heel", "toe"), side)[frames] - step.on.plate.point) @ trial.up
+            if not np.isfinite(above).any():
+                continue
+            height = float(np.nanmedian(np.nanmin(above, axis=1)))
+            if not HEIGHT[0] <= height <= HEIGHT[1]:
+                what = (
+                    f"the lowest marker of {the_foot(side)} is {1e3 * height:.0f} mm above the plate that it stands on"
+                )
+                remedy = "is the floor at the same height in plates and markers?"
+                yield Contradiction(step.on.source, step.on.plate.name, what, remedy)
+            break
+
+
+FOOT_CHECKS = (
+    Check(
+        "foot on plate",
+        "centre of pressure with heel, toes and ankle of the foot that is said to stand there",
+        f"{AWAY:g} m, in the median under load; a foot is 0.2 to 0.3 m long",
+        under_a_foot,
+    ),
+    Check(
+        "floor",
+        "height of the lowest marker of heel and toes with the surface of the plate under the foot",
+        f"{1e3 * HEIGHT[0]:.0f} to {1e3 * HEIGHT[1]:.0f} mm in the median under load; 27 to 49 mm in real recordings",
+        floor,
+    ),
+    Check(
+        "clock",
+        "when a plate is loaded with when heel or toes of the foot on it are slow",
+        f"{TOUCH[1]:g} s at touch-down and {LEAVE[1]:g} s at toe-off (earlier: {-TOUCH[0]:g} and {-LEAVE[0]:g} s); "
+        f"slow is below {SLOW:g} m/s",
+        clocks,
+    ),
+)
+"""Checks that need plates, and markers of the feet on them."""
