@@ -18,6 +18,7 @@ from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.wrench import Wrench
 from geocontact.trial_checks.recorded import FootPlate, TrialInputs
 from geocontact.trial_checks.table import CHECKS, contradictions
+from tests.trial_checks import modelled
 
 RATE, SPEED, STRIDE, DUTY = 100.0, 1.2, 1.2, 0.62
 """Hz, m/s, s of a cycle, share of it with a foot on the floor."""
@@ -168,6 +169,17 @@ def renamed(trial: TrialInputs) -> TrialInputs:
     return replace(trial, standing=None, markers=replace(trial.markers, names=names))
 
 
+def edged(by: float) -> Callable[[ForcePlate], ForcePlate]:
+    """With corners of 0.6 m along the walk, whose middle is elsewhere than that of the step [m]."""
+
+    def change(plate: ForcePlate) -> ForcePlate:
+        middle = np.nanmedian(plate.centre_of_pressure(), axis=0) + np.array([by, 0.0, 0.0])
+        corners = middle + np.array([[0.3, 0.0, 0.2], [0.3, 0.0, -0.2], [-0.3, 0.0, -0.2], [-0.3, 0.0, 0.2]])
+        return replace(plate, corners=corners)
+
+    return change
+
+
 Z_UP = Rotation.from_matrix([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 TURNED = Rotation.from_euler("y", 90.0, degrees=True)
 
@@ -195,6 +207,8 @@ DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
     "force / 2": ("mass", lambda t: plated(t, forced((0.5, 0.5, 0.5)))),
     "force in kN": ("mass", lambda t: plated(t, forced((0.1, 0.1, 0.1)))),
     "90 kg where the plate carries 75": ("standing weight", stood(90.0)),
+    "force on the plate": ("force on the foot", lambda t: plated(t, forced((-1.0, -1.0, -1.0)))),
+    "corners 0.4 m away": ("on the plate", lambda t: plated(t, edged(0.4))),
     "moments in N mm": ("size of shear", lambda t: plated(t, twisted)),
     "shear ten times": ("size of shear", lambda t: plated(t, forced((10.0, 1.0, 10.0)))),
     "sign along the walk": ("braking", lambda t: plated(t, forced((-1.0, 1.0, 1.0)))),
@@ -213,6 +227,7 @@ DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
     "the walk alone 50 mm up": ("floor of both trials", lambda t: moved(t, lambda p: p + np.array([0.0, 0.05, 0.0]))),
     "a plate 0.1 s late": ("clock", lambda t: plated(t, later(0.1))),
     "a plate 0.1 s early": ("clock", lambda t: plated(t, later(-0.1))),
+    **modelled.DAMAGED,
 }
 NEARLY: dict[str, Callable[[TrialInputs], TrialInputs]] = {
     "as it is": lambda t: t,
@@ -227,6 +242,8 @@ NEARLY: dict[str, Callable[[TrialInputs], TrialInputs]] = {
     "half of the braking": lambda t: plated(t, forced((0.5, 1.0, 1.0))),
     "0.03 s late": lambda t: plated(t, later(0.03)),
     "floor 15 mm up": lambda t: moved(t, lambda p: p + np.array([0.0, 0.015, 0.0])),
+    "corners 0.25 m away": lambda t: plated(t, edged(0.25)),
+    **modelled.NEARLY,
     "walking along -x": lambda t: replace(
         plated(t, lambda p: p.turned(Rotation.from_euler("y", 180.0, degrees=True))),
         markers=t.markers.turned(Rotation.from_euler("y", 180.0, degrees=True)),

@@ -1,0 +1,169 @@
+"""Trials with a model, with other channels, and with somebody who stands, for the checks that need them.
+
+The model is two legs and a trunk on a rod that goes up and down, made here of its joints; whoever rises does so by a
+smooth polynomial, and the plate carries m (g + a) in closed form.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.data.multibody.force_plate import ForcePlate
+from geocontact.data.multibody.joint import prismatic, revolute, weld
+from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.data.multibody.model import GROUND, Body, Multibody
+from geocontact.data.wrench import Wrench
+from geocontact.trial_checks.recorded import FootPlate, MovedModel, RecordedChannel, TrialInputs
+
+MASS, GRAVITY, HEIGHT = 75.0, 9.80665, 1.75
+THIGH, SHANK = 0.245 * HEIGHT, 0.246 * HEIGHT
+TIME = np.arange(0.0, 2.0, 0.01)
+RISE, FIRST, LAST = 0.35, 0.4, 1.4
+Change = Callable[[TrialInputs], TrialInputs]
+
+
+def person(thigh: float = THIGH, shank: float = SHANK) -> Multibody:
+    """Trunk with all the mass, and legs without."""
+    bodies = [Body("torso", MASS, np.zeros(3), np.eye(3))]
+    joints = [prismatic("up", GROUND, "torso", (0.0, 1.0, 0.0))]
+    for side, z in (("r", 0.1), ("l", -0.1)):
+        bodies += [Body(f"{name}_{side}", 0.0, np.zeros(3), np.zeros((3, 3))) for name in ("femur", "tibia", "talus")]
+        joints += [
+            revolute(f"hip_{side}", "torso", f"femur_{side}", (0.0, 0.0, 1.0), shifted(0.0, 0.0, z)),
+            revolute(f"knee_{side}", f"femur_{side}", f"tibia_{side}", (0.0, 0.0, 1.0), shifted(0.0, -thigh, 0.0)),
+            weld(f"ankle_{side}", f"tibia_{side}", f"talus_{side}", shifted(0.0, -shank, 0.0)),
+        ]
+    ranged = tuple(
+        replace(
+            joint,
+            coordinates=tuple(replace(c, limits=(-2.1, 0.2)) if "knee" in c.name else c for c in joint.coordinates),
+        )
+        for joint in joints
+    )
+    return Multibody("person", tuple(bodies), ranged, (), np.array([0.0, -GRAVITY, 0.0]))
+
+
+def shifted(*by: float) -> RigidTransform:
+    return RigidTransform.from_translation(by)
+
+
+def rise(time: np.ndarray) -> np.ndarray:
+    """Height [m] of who rises."""
+    s = np.clip((time - FIRST) / (LAST - FIRST), 0.0, 1.0)
+    return 0.6 + RISE * (10.0 * s**3 - 15.0 * s**4 + 6.0 * s**5)
+
+
+def acceleration(time: np.ndarray) -> np.ndarray:
+    """Its second derivative [m/s^2]."""
+    s = np.clip((time - FIRST) / (LAST - FIRST), 0.0, 1.0)
+    return RISE * (60.0 * s - 180.0 * s**2 + 120.0 * s**3) / (LAST - FIRST) ** 2
+
+
+def risen(model: Multibody | None = None) -> TrialInputs:
+    """Somebody who stands up, knees and hips at their angles, on one plate."""
+    model = person() if model is None else model
+    up = rise(TIME)
+    bent = 1.4 * (1.0 - (up - 0.6) / RISE)
+    columns = {"up": up, "hip_r": bent, "hip_l": bent, "knee_r": -bent, "knee_l": -bent}
+    values = np.column_stack([columns[c.name] for c in model.coordinates])
+    force = np.column_stack([0.0 * TIME, MASS * (GRAVITY + acceleration(TIME)), 0.0 * TIME])
+    plate = ForcePlate(
+        "feet", TIME, Wrench(force, 0 * force, 0 * force, "ground"), np.zeros(3), np.array([0.0, 1.0, 0.0])
+    )
+    return TrialInputs(
+        plates=(FootPlate(plate, "plates.mot"),),
+        mass=MASS,
+        height=HEIGHT,
+        stands_at=1.85,
+        moved=MovedModel(model, TIME, values, "rise.mot"),
+    )
+
+
+def angled(change: Callable[[np.ndarray], np.ndarray]) -> Change:
+    """With other angles of hips and knees."""
+
+    def damage(_: TrialInputs) -> TrialInputs:
+        trial = risen()
+        assert trial.moved is not None
+        values = trial.moved.values.copy()
+        values[:, 1:] = change(values[:, 1:])
+        return replace(trial, moved=replace(trial.moved, values=values))
+
+    return damage
+
+
+def later(by: float) -> Change:
+    """With a plate whose clock is late [s]."""
+
+    def damage(_: TrialInputs) -> TrialInputs:
+        trial = risen()
+        on = trial.plates[0]
+        return replace(trial, plates=(replace(on, plate=replace(on.plate, time=on.plate.time + by)),))
+
+    return damage
+
+
+def standing(**heights: float) -> MarkerTrajectories:
+    """Somebody who stands still, heights of landmarks in parts of the body's; `knee_l` for one of a side."""
+    usual = {"ASI": 0.56, "KNE": 0.285, "ANK": 0.039, "HEE": 0.02, "TOE": 0.02} | heights
+    places = {}
+    for side, z in (("R", 0.1), ("L", -0.1)):
+        for name, x in (("ASI", 0.05), ("KNE", 0.0), ("ANK", -0.02), ("HEE", -0.06), ("TOE", 0.15)):
+            up = HEIGHT * usual.get(side + name, usual[name])
+            places[side + name] = np.tile([x, up, z], (20, 1))
+    return MarkerTrajectories(
+        np.arange(20) / 100.0, np.stack(list(places.values()), axis=1), tuple(places), "still.trc"
+    )
+
+
+def stood(**given: float | MarkerTrajectories) -> Change:
+    return lambda _: TrialInputs(**({"standing": standing(), "mass": MASS} | given))  # type: ignore[arg-type]
+
+
+def channel(unit: str, size: float, step: float = 1e-3) -> Change:
+    """A channel whose largest value is so large."""
+    time = step * np.arange(100)
+    values = size * np.sin(np.linspace(0.0, 0.5 * np.pi, 100))
+    return lambda _: TrialInputs(channels=(RecordedChannel("one", unit, time, values, "more.csv"),))
+
+
+DAMAGED: dict[str, tuple[str, Change]] = {
+    "radians as degrees": ("angles in degrees", angled(np.radians)),
+    "sign of all angles": ("range of a coordinate", angled(np.negative)),
+    "a plate 0.1 s late under who rises": ("weight in time", later(0.1)),
+    "a plate 0.1 s early under who rises": ("weight in time", later(-0.1)),
+    "pounds of who rises": ("mass and height", lambda _: replace(risen(), mass=2.2046 * MASS)),
+    "height in feet": ("mass and height", lambda _: replace(risen(), height=5.74)),
+    "legs of a child": ("mass and height", lambda _: risen(person(0.7 * THIGH, 0.7 * SHANK))),
+    "pounds of who stands": ("mass and height", stood(mass=2.2046 * MASS)),
+    "markers 30 % larger": ("mass and height", stood(height=HEIGHT / 1.3)),
+    "thigh and shank exchanged by a scale": ("thigh and shank", lambda _: risen(person(0.6 * THIGH, SHANK / 0.7))),
+    "knees and ankles exchanged": ("thigh and shank", stood(standing=standing(KNE=0.12))),
+    "a knee at the thigh": ("thigh and shank", stood(standing=standing(RKNE=0.33))),
+    "time in ms": ("sampling", channel("N", 100.0, 1.0)),
+    "time in minutes": ("sampling", channel("N", 100.0, 1e-6)),
+    "N mm as N m": ("size of a channel", channel("N m", 60e3)),
+    "mV as V": ("size of a channel", channel("V", 500.0)),
+    "degrees as radians": ("size of a channel", channel("rad", 60.0)),
+    "MPa as Pa": ("size of a channel", channel("Pa", 2.0)),
+    "mN as N": ("size of a channel", channel("N", 5e5)),
+}
+NEARLY: dict[str, Change] = {
+    "who rises": lambda _: risen(),
+    "who hardly moves, in degrees": angled(lambda q: np.radians(0.2) * q / np.abs(q).max()),
+    "knees 8 degrees beyond their range": angled(lambda q: np.full_like(q, np.radians(20.0))),
+    "0.03 s late under who rises": later(0.03),
+    "short legs": lambda _: risen(person(0.9 * THIGH, 0.9 * SHANK)),
+    "thin": stood(mass=50.0),
+    "stout": stood(mass=140.0),
+    "another height": stood(height=1.1 * HEIGHT),
+    "knees 40 mm apart": stood(standing=standing(RKNE=0.307)),
+    "60 Hz": channel("N", 100.0, 1.0 / 60.0),
+    "200 N m": channel("N m", 200.0),
+    "a jump's landing": channel("N", 8e3),
+    "an amplified electromyogram": channel("V", 5.0),
+}
