@@ -14,7 +14,7 @@ from jaxtyping import Bool
 
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.frame import quantities
-from geocontact.analyses.frame.bodies import chosen_faces, read_body_and_outer, refuse_two_spaces
+from geocontact.analyses.frame.bodies import check_surfaces, chosen_faces, read_body_and_outer, refuse_two_spaces
 from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.frame.shared_options import MedialSide, medial_side, refuse_other_axes
 from geocontact.data.errors import InputError
@@ -317,6 +317,7 @@ def read(o: AreaOptions) -> Bodies:
     moving, outer_moving = read_body_and_outer("moving", o.moving, o.unit, o.place_moving, closed["moving"])
     fixed, outer_fixed = read_body_and_outer("fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
     refuse_two_spaces(moving, fixed)
+    check_surfaces(moving, fixed, bodies=o.bodies, layered=o.pressure)
     refuse_zero_without_inside(o.threshold, moving, fixed)
     if split is not None:
         refuse_other_axes(fixed.space, fixed.name, o.side, o.medial)

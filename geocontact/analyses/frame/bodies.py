@@ -31,6 +31,7 @@ from geocontact.io.motion.motion import read_motion
 from geocontact.io.motion.poses import read_pose
 from geocontact.io.opensim.osim_meshes import mesh_placement
 from geocontact.io.text.units import LENGTH
+from geocontact.trial_checks.mesh_checks import SurfacePair, surface_contradictions
 
 
 def confined_modulus(young: float | None, poisson: float | None) -> float:
@@ -216,6 +217,18 @@ def refuse_two_spaces(moving: Surface, fixed: Surface) -> None:
         what = f"is in {moving.space} and {fixed.name} in {fixed.space}: their x and y point opposite ways"
         remedy = "export both from 3D Slicer with the same coordinate system, or turn one by half a turn about z with "
         raise InputError(moving.name, "", what, f"{remedy}`place_moving` (-1 0 0 0 / 0 -1 0 0 / 0 0 1 0 / 0 0 0 1)")
+
+
+def check_surfaces(
+    moving: Surface,
+    fixed: Surface,
+    roles: tuple[str, str] = ("MOVING", "FIXED"),
+    bodies: tuple[str, str] | None = None,
+    layered: bool = False,
+) -> None:
+    """A warning for whatever two surfaces contradict each other in; arguments as of `SurfacePair`."""
+    for one in surface_contradictions(SurfacePair(moving, fixed, roles, bodies, layered)):
+        reserve(str(one))
 
 
 def chosen_faces(

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.frame.bodies import read_input_surface
+from geocontact.analyses.frame.bodies import check_surfaces, read_input_surface
 from geocontact.analyses.frame.collector import add_input, note, reserve, say
 from geocontact.analyses.frame.quantities import centre
 from geocontact.analyses.mat.options import MatOptions
@@ -185,6 +185,7 @@ def read_second_scan(o: MatOptions) -> SecondScan | None:
 def marks_found(scan: Surface, second: SecondScan, frames: PressureFrames, o: MatOptions) -> MatLandmarks:
     """Where the mat's corners lie on the scan, in its frame."""
     try:
+        check_surfaces(second.surface, scan, ("scan with the mat", "scan"))
         compare_boxes(second.surface.vertices, scan.vertices, ("scan with the mat", "scan"))
         found = unguided(second.surface, scan)
         if found.overlap < OVERLAP:

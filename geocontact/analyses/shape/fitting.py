@@ -11,7 +11,7 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.frame import quantities
-from geocontact.analyses.frame.bodies import chosen_faces, read_input_surface
+from geocontact.analyses.frame.bodies import check_surfaces, chosen_faces, read_input_surface
 from geocontact.analyses.frame.collector import add_input, listener, reserve, say
 from geocontact.analyses.frame.json_file import finite
 from geocontact.analyses.frame.shared_options import medial_side, refuse_other_axes
@@ -162,6 +162,7 @@ def _names(surface: Surface, axis: Axis | None, o: ShapeOptions) -> Mapping[str,
         found |= about(surface, quantities.centre(o.centre, o.unit), None, LENGTH[o.unit])
     if o.other is not None:
         other = read_input_surface("other", o.other, o.unit, o.place_other)
+        check_surfaces(surface, other, ("mesh", "`other`"))
         found |= about_other(surface, other, LENGTH[o.unit])
         if not other.closed and o.region is not None and "distance" in o.region:
             reserve(f"{other.name} is open ({other.topology.why_open}): distance to it has no sign")

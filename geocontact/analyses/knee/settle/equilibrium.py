@@ -13,6 +13,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.bodies import (
+    check_surfaces,
     chosen_faces,
     confined_modulus,
     measured_thickness,
@@ -115,6 +116,7 @@ def read(o: SettleOptions) -> SettleInputs:
     moving = read_body("moving", o.moving, o.unit, o.place_moving, closed["moving"])
     fixed = read_body("fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
     refuse_two_spaces(moving, fixed)
+    check_surfaces(moving, fixed, bodies=o.bodies, layered=True)
     if not moving.closed:
         what = f"{moving.name} is open ({moving.topology.why_open}): it has no inside, so there is no depth"
         raise InputError("", "", what, "close it, or see `assume_closed` moving")
