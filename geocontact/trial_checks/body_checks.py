@@ -18,6 +18,8 @@ SMALL = 0.5
 """Degrees by which some angle changes; as radians 29 degrees."""
 BEYOND = np.radians(20.0)
 """Beyond the range of a coordinate: ranges are drawn for the muscles' paths, and not all recordings keep them."""
+FAR = 50.0
+"""m; the length of a hall."""
 FREE = 6
 """Coordinates of a joint that frees a body of the ground; which way a person faces has no range."""
 BUILD = (14.0, 50.0)
@@ -76,6 +78,14 @@ def in_range(trial: TrialInputs) -> Iterator[Contradiction]:
         if joint.parent == GROUND and len(joint.coordinates) == FREE
         for c in joint.coordinates
     }
+    far = [
+        c.name
+        for k, c in enumerate(moved.model.coordinates)
+        if c.kind == "translational" and np.abs(moved.values[:, k]).max(initial=0.0) > FAR
+    ]
+    if far:
+        what = f"{far[0]} is up to {np.abs(moved.values).max():.3g} m from where the model's joint is"
+        yield Contradiction(moved.source, "", what, "is it in m, not in mm?")
     beyond = []
     for k, c in enumerate(moved.model.coordinates):
         low, high = c.limits
@@ -221,8 +231,8 @@ BODY_CHECKS = (
     ),
     Check(
         "range of a coordinate",
-        "angles of joints with the ranges that the model states",
-        f"{np.degrees(BEYOND):.0f} degrees beyond; degrees that were read as radians are refused by the reader",
+        "angles of joints with the ranges that the model states, shifts with the length of a hall",
+        f"{np.degrees(BEYOND):.0f} degrees beyond, {FAR:g} m; degrees read as radians are refused by the reader",
         in_range,
     ),
     Check(
