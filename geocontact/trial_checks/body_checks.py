@@ -12,6 +12,7 @@ from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import GROUND
 from geocontact.identify.signals.agreement import lag_of
 from geocontact.trial_checks.landmarks import body_points, middle, points
+from geocontact.trial_checks.plate_checks import GRAVITY
 from geocontact.trial_checks.recorded import Check, Contradiction, MovedModel, TrialInputs
 
 SMALL = 0.5
@@ -40,6 +41,8 @@ SMOOTH = 0.3
 LATEST, LATE, ALIKE, CLEARER = 0.4, 0.06, 0.8, 0.03
 """s, of the lags that are looked at, and from which a clock is doubted; correlation of weight and force at that lag,
 and by how much it is above that without a lag."""
+OFF, LONG = 0.25, 0.15
+"""Of the weight, and s for which force and weight may differ by more: a hand on a rail carries as much."""
 FEWEST = 30
 """Frames of a lag."""
 
@@ -205,11 +208,21 @@ def weight_in_time(trial: TrialInputs) -> Iterator[Contradiction]:
     height = _smooth(moved.model.mass_centre(moved.values) @ trial.up, step)
     expected = np.gradient(np.gradient(height, step), step)
     force = _smooth(force, step)
+    off = force / (moved.model.mass * GRAVITY) - 1.0 - expected / GRAVITY
+    other = np.flatnonzero(np.abs(off) > OFF)
+    on = trial.plates[0]
+    if moved.model.mass > 0.0 and len(other) * step > LONG:
+        names = " and ".join(each.plate.name for each in trial.plates)
+        at = other[int(np.argmax(np.abs(off[other])))]
+        what = f"carry {force[at]:.0f} N at {time[at]:.2f} s, weight and acceleration by {moved.source} are "
+        what += f"{moved.model.mass * (GRAVITY + expected[at]):.0f} N"
+        yield Contradiction(
+            on.source, names, what, "is a plate missing, of a chair or a foot, or the mass another one?"
+        )
     lag, there = lag_of(expected, force, step, LATEST)
     _, now = lag_of(expected, force, step, 0.0)
     if abs(lag) >= LATE and there >= ALIKE and there - now >= CLEARER:
         when = "before" if lag > 0.0 else "after"
-        on = trial.plates[0]
         what = f"the force of the plates is {abs(lag):.2f} s {when} weight and acceleration of the body"
         remedy = "plates and coordinates need one clock: shift one of them"
         yield Contradiction(on.source, on.plate.name, f"{what} by {moved.source}", remedy)
@@ -252,7 +265,8 @@ BODY_CHECKS = (
     Check(
         "weight in time",
         "force of all plates with weight and acceleration of the model's centre of mass, for who stands up",
-        f"{LATE:g} s, where the correlation at that lag is {ALIKE:g} and {CLEARER:g} above that without",
+        f"{OFF:.0%} of the weight for {LONG:g} s; {LATE:g} s of lag, where the correlation at it is {ALIKE:g} and "
+        f"{CLEARER:g} above that without",
         weight_in_time,
     ),
 )

@@ -25,6 +25,7 @@ KINDS = {
     "head": r"(fhd|bhd|head|temple|tophead|hd)",
     "c7": r"(c7|neck)",
     "hip": r"(hip|femur)",
+    "arm": r"(upa|fra|fin|biceps?|elb(ow)?|wri(st)?|forearm|hand|humerus|radius|ulna)(lateral|medial|lat|med)?",
     "knee": r"(kne|knee(lateral|medial|lat|med)?|tibia)",
 }
 """Patterns of labels without their side, in lower case and with letters and digits only."""

@@ -10,7 +10,7 @@ from jaxtyping import Bool, Float
 
 from geocontact.data.multibody.force_plate import LOADED
 from geocontact.data.multibody.markers import MarkerTrajectories
-from geocontact.trial_checks.landmarks import middle, points
+from geocontact.trial_checks.landmarks import FOOT, landmark, middle, points
 from geocontact.trial_checks.recorded import Check, Contradiction, FootPlate, TrialInputs
 
 GRAVITY = 9.80665
@@ -169,8 +169,15 @@ def on_its_surface(trial: TrialInputs) -> Iterator[Contradiction]:
 
 
 def _velocity(seen: MarkerTrajectories) -> Float[np.ndarray, " 3"] | None:
-    """Mean velocity of the pelvis, else of all markers [m/s]; None for less than 0.3 s."""
+    """Mean velocity of the pelvis, else of all markers [m/s]; None for less than 0.3 s.
+
+    Of a foot alone it is that of its fastest frame, in which it swings.
+    """
     body = middle(seen, ("asis", "psis", "sacrum"))
+    if all(landmark(name)[0] in FOOT for name in seen.names) and len(seen) > 1:
+        rate = np.gradient(seen.positions.mean(axis=1), seen.time, axis=0)
+        size = np.nan_to_num(np.linalg.norm(rate, axis=1))
+        return rate[int(np.argmax(size))]
     body = np.nanmean(seen.positions, axis=1) if body is None else body
     there = np.flatnonzero(np.isfinite(body).all(axis=1))
     if len(there) < 2 or seen.time[there[-1]] - seen.time[there[0]] < 0.3:

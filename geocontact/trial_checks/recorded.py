@@ -124,6 +124,8 @@ class TrialInputs:
         A model along the coordinates of a file; None where none are read.
     channels
         Whatever else was recorded.
+    on_sole
+        Whether heel and toes are points of the sole, and no markers above it.
     """
 
     markers: MarkerTrajectories | None = None
@@ -138,6 +140,7 @@ class TrialInputs:
     turn: Rotation | None = None
     moved: MovedModel | None = None
     channels: tuple[RecordedChannel, ...] = ()
+    on_sole: bool = False
 
     @property
     def recordings(self) -> tuple[MarkerTrajectories, ...]:

@@ -85,7 +85,7 @@ def columns_changed(name: str, change: Callable[[dict[str, np.ndarray]], None]) 
 
     def damage(folder: Path) -> dict[str, Any]:
         file = folder / name
-        head, body = file.read_text().split("endheader\n")
+        head, body = re.split(r"endheader[^\n]*\n", file.read_text())
         names, *rows = body.splitlines()
         values = np.array([[float(cell) for cell in row.split()] for row in rows])
         columns = {each: values[:, k] for k, each in enumerate(names.split("\t"))}

@@ -225,6 +225,7 @@ DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
     "a foot that does not stand flat": ("foot while standing", lambda t: standing_moved(t, 1, 0.07)),
     "a floor 50 mm lower": ("foot while standing", lambda t: standing_moved(replace(t, floor=0.0), None, 0.05)),
     "the walk alone 50 mm up": ("floor of both trials", lambda t: moved(t, lambda p: p + np.array([0.0, 0.05, 0.0]))),
+    "the plate of the other foot": ("at rest under load", lambda t: plated(t, later(0.45))),
     "a plate 0.1 s late": ("clock", lambda t: plated(t, later(0.1))),
     "a plate 0.1 s early": ("clock", lambda t: plated(t, later(-0.1))),
     **modelled.DAMAGED,

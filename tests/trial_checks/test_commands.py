@@ -174,7 +174,7 @@ def foot_files(folder: Path, walk: Path) -> Path:
     np.savetxt(file, table, delimiter=",", comments="", header="time [s],x [m],y [m],z [m],pitch [rad]")
     shutil.copy(walk / "plates.mot", folder / f"{walk.name}.mot")
     length = float(np.nanmedian(np.linalg.norm(toe - heel, axis=1)))
-    spheres = f"px [m],py [m],pz [m],radius [m],zone\n0,0,0,0.02,all\n{length:.4f},0,0,0.02,all\n"
+    spheres = f"px [m],py [m],pz [m],radius [m],zone\n0,0,0,0.005,all\n{length:.4f},0,0,0.005,all\n"
     (folder / "spheres.csv").write_text(spheres)
     return file
 
@@ -420,23 +420,22 @@ PLATED = {
 }  # fmt: skip
 ON_PLATE = PLATED | {
     "the other plate": option(plate="other_force"),
-    "floor +50 mm": rows_changed("foot.csv", moved(2, by=0.06)),
+    "floor +50 mm": rows_changed("foot.csv", moved(2, by=0.05)),
     "the foot elsewhere": rows_changed("foot.csv", moved(1, by=0.8)),
     "a jump of 150 mm": rows_changed("foot.csv", moved(1, by=0.15, rows=slice(50, 53))),
     "decimal comma in the motion": decimal_comma("foot.csv"),
 }
 GATHERED = PLATED | {
     "the other plate": text_changed("gather.toml", lambda t: t.replace("own_force", "other_force", 1)),
-    "floor +50 mm": rows_changed("t01.csv", moved(2, by=0.06)),
+    "floor +50 mm": rows_changed("t01.csv", moved(2, by=0.05)),
     "the foot elsewhere": rows_changed("t01.csv", moved(1, by=0.8)),
     "a jump of 150 mm": rows_changed("t01.csv", moved(1, by=0.15, rows=slice(50, 53))),
     "pitch in degrees, called radians": rows_changed("t01.csv", moved(4, factor=57.3)),
     "x in mm, called m": rows_changed("t01.csv", moved(1, factor=1e3)),
-    "the same files twice": text_changed("gather.toml", lambda t: t.replace("t02.csv", "t01.csv").replace("t02.mot", "plates.mot")),
-    "the same plates twice": text_changed("gather.toml", lambda t: t.replace("t02.mot", "plates.mot")),
-    "another trial's plates": text_changed(
-        "gather.toml", lambda t: t.replace("plates.mot", "X").replace("t02.mot", "plates.mot").replace("X", "t02.mot")
+    "the same files twice": text_changed(
+        "gather.toml", lambda t: t.replace("t02.csv", "t01.csv").replace("t02.mot", "plates.mot")
     ),
+    "the same plates twice": text_changed("gather.toml", lambda t: t.replace("t02.mot", "plates.mot")),
     "inputs 1 s late": rows_changed("t01.csv", moved(0, by=1.0)),
     "inputs 0.1 s late": rows_changed("t01.csv", moved(0, by=0.1)),
     "decimal comma in the inputs": decimal_comma("t01.csv"),
@@ -547,6 +546,8 @@ TURNED = {
     "gap gather": ("plates.mot", "t02.mot"),
     "sit-to-stand calibrate": tuple(f"T{k}_plates.mot" for k in (1, 2, 3)),
 }
+UNKNOWN = ("ik", "scale")
+"""Of the leg's labels no landmark is known; `ik` finds the tilt when it has the pelvis."""
 
 
 @pytest.mark.parametrize("command", TURNED)
@@ -556,3 +557,5 @@ def test_one_option_turns_markers_and_plates(command: str, tmp_path: Path, clean
     laboratory(folder, TURNED[command])
     run = COMMANDS[command][0]
     assert run(folder, axes="-x,z,y") == clean[command]
+    if command not in UNKNOWN:
+        assert run(folder) - clean[command]

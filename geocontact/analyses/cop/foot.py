@@ -299,18 +299,19 @@ def read(o: CopOptions) -> Foot:
 def _check(
     sole: SphereSet, motion: Motion, plate: ForcePlate, o: CopOptions, up: Float[np.ndarray, " 3"] | None
 ) -> None:
-    """The plate against the foot: heel and toes are the two spheres of the sole that are farthest apart."""
+    """The plate against the foot: heel and toes lie below the two spheres of the sole that are farthest apart."""
     apart = np.linalg.norm(sole.centre[:, None] - sole.centre[None], axis=2)
     ends = np.unravel_index(int(np.argmax(apart)), apart.shape)
     poses = motion.poses[None] if motion.poses.single else motion.poses
-    places = np.stack([poses.apply(sole.centre[k]) for k in ends], axis=1)
+    above = plate.normal if up is None else up
+    places = np.stack([poses.apply(sole.centre[k]) - sole.radius[k] * above for k in ends], axis=1)
     foot = MarkerTrajectories(motion.time, places, ("heel", "toe"), str(o.motion))
     side = stem_and_side(o.body or "")[1]
     if side:
         foot = replace(foot, names=tuple(f"{side}{name}" for name in foot.names))
     on = FootPlate(plate, str(o.compare), side)
     turn = turn_of(o.axes)
-    check_trial(TrialInputs(foot, plates=(on,), up=plate.normal if up is None else up, turn=turn))
+    check_trial(TrialInputs(foot, plates=(on,), up=above, turn=turn, on_sole=True))
 
 
 def _require_ground(o: CopOptions) -> None:

@@ -104,7 +104,8 @@ def plan(folder: Path, text: str, name: str = "gather.toml") -> Path:
 
 def test_a_plate_gives_what_the_model_predicts_in_the_foots_frame(foot: Path, tmp_path: Path) -> None:
     """Round trip: forces and centre as simulated, sent through a laboratory with a belt and a plate's own height."""
-    result = gc.gather(plan(foot, FOOT + PLATES))
+    with pytest.warns(gc.InputWarning, match="at the same times"):  # both trials are of one recording
+        result = gc.gather(plan(foot, FOOT + PLATES))
     trial = read_gap_case(result.write(tmp_path / "case")).calibration[0]
     pd.testing.assert_series_equal(
         result.table()["cop_x [m]"], pd.Series(result.case.calibration[0].column("cop_x"), name="cop_x [m]")
@@ -151,7 +152,9 @@ def knee(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_a_knee_gets_areas_and_forces_of_its_sides(knee: Path, tmp_path: Path) -> None:
     """Linear courses are met exactly; forces end before the trial does."""
-    trial = read_gap_case(gc.gather(plan(knee, KNEE + SIDES)).write(tmp_path / "case")).calibration[0]
+    with pytest.warns(gc.InputWarning, match="at the same times"):  # both trials are of one recording
+        gathered = gc.gather(plan(knee, KNEE + SIDES))
+    trial = read_gap_case(gathered.write(tmp_path / "case")).calibration[0]
     np.testing.assert_allclose(trial.column("area_medial"), 120e-6 * TIME, rtol=1e-8)
     np.testing.assert_allclose(trial.column("area_lateral"), 80e-6 * TIME, rtol=1e-8)
     inside = TIME <= 1.7

@@ -34,6 +34,9 @@ MISSED = 0.05
 """Part of the variance that inputs must leave unexplained without a lag, for one to be looked for."""
 CLEARER = 0.5
 """Part of what is unexplained without a lag that may remain at it."""
+SHARED, ALIKE = 0.5, 0.02
+"""Share of a trial's samples within the times of another one, and of the standard deviation of a channel by which the
+two differ, from which it is a copy of that one: no two movements of a person are alike to a fiftieth."""
 STEPS = 40
 """Lags that are tried to either side."""
 
@@ -55,8 +58,28 @@ def check_gathered(case: GapCase, measured: Mapping[str, Sequence[str]], file: P
         what = f"{same.channel} is the same as in [from.{same.first}], sample by sample"
         raise InputError(file, f"[from.{same.second}]", what, "name the files of that trial's own recording")
     require_shares(case, file)
-    for line in (*turned_round(trials, channels), *late(trials, channels)):
+    for line in (*copied(trials, channels), *turned_round(trials, channels), *late(trials, channels)):
         reserve(line)
+
+
+def copied(trials: Sequence[Trial], channels: Sequence[str]) -> list[str]:
+    """Which trials have a channel that at the same times is that of another trial, in words."""
+    found = []
+    for first, second in combinations(trials, 2):
+        start, end = max(first.time[0], second.time[0]), min(first.time[-1], second.time[-1])
+        own = (second.time >= start) & (second.time <= end)
+        if own.mean() < SHARED:
+            continue
+        for name in channels:
+            values = second.column(name)[own]
+            other = np.interp(second.time[own], first.time, first.column(name))
+            both = np.isfinite(values) & np.isfinite(other)
+            spread = float(np.std(values[both])) if both.sum() >= STEPS else 0.0
+            if spread > 0.0 and float(np.sqrt(np.mean((values - other)[both] ** 2))) < ALIKE * spread:
+                what = f"{name} of trial {second.name} is that of trial {first.name} at the same times"
+                found.append(f"{what}; name the files of each trial's own recording")
+                break
+    return found
 
 
 def turned_round(trials: Sequence[Trial], channels: Sequence[str]) -> list[str]:

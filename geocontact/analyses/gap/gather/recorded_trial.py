@@ -39,7 +39,7 @@ def check_recorded(
     channels = tuple(each for table in (inputs, outputs) if table is not None for each in _channels(table))
     on = () if plate is None or file is None else (FootPlate(plate, str(file)),)
     foot = None if plate is None else _foot(inputs, plate, spheres)
-    check_trial(TrialInputs(foot, plates=on, channels=channels, turn=turn))
+    check_trial(TrialInputs(foot, plates=on, channels=channels, turn=turn, on_sole=True))
 
 
 def _channels(table: TrialTable) -> list[RecordedChannel]:
@@ -51,7 +51,10 @@ def _channels(table: TrialTable) -> list[RecordedChannel]:
 
 
 def _foot(inputs: TrialTable, plate: ForcePlate, spheres: pd.DataFrame | None) -> MarkerTrajectories | None:
-    """Rearmost and foremost sphere in the sagittal plane of the plate's load [m]; None for inputs without a pose."""
+    """Lowest points of the rearmost and the foremost sphere, as far aside as the plate's load [m].
+
+    None for inputs without a pose.
+    """
     signals = inputs.signals
     if spheres is None or any(name not in signals.channels for name in POSE):
         return None
@@ -61,8 +64,8 @@ def _foot(inputs: TrialTable, plate: ForcePlate, spheres: pd.DataFrame | None) -
     ends = spheres.iloc[[int(spheres["px [m]"].argmin()), int(spheres["px [m]"].argmax())]]
     places = [
         np.column_stack(
-            [x + a * np.cos(pitch) - b * np.sin(pitch), y + a * np.sin(pitch) + b * np.cos(pitch), 0 * x + beside]
+            [x + a * np.cos(pitch) - b * np.sin(pitch), y + a * np.sin(pitch) + b * np.cos(pitch) - r, 0 * x + beside]
         )
-        for a, b in zip(ends["px [m]"], ends["py [m]"], strict=True)
+        for a, b, r in zip(ends["px [m]"], ends["py [m]"], ends["radius [m]"], strict=True)
     ]
     return MarkerTrajectories(signals.time, np.stack(places, axis=1), ("heel", "toe"), str(inputs.file))

@@ -50,16 +50,21 @@ def loads_on_bodies(
     model: Multibody,
     time: Float[np.ndarray, " t"],
     values: Float[np.ndarray, "t n"],
+    unfiltered: Float[np.ndarray, "t n"] | None = None,
 ) -> dict[str, Wrench]:
     """One wrench on each body that a plate acts on, about the ground's origin; several plates on a body add up.
 
-    `values` are the coordinates at those times [rad, m].
+    Parameters
+    ----------
+    values, unfiltered
+        Coordinates at those times [rad, m], and as the file has them, which checks look at.
     """
     file, loads = _external_loads(o)
-    moved = MovedModel(model, time, values, str(o.coordinates))
+    moved = MovedModel(model, time, values if unfiltered is None else unfiltered, str(o.coordinates))
     mass, key = model.mass or None, f"the model's mass (scale it: {o.model})"
     if file is None:
-        check_trial(TrialInputs(mass=mass, mass_option=key, up=model.up, moved=moved))
+        seen = body_points(model, time, moved.values, moved.source)
+        check_trial(TrialInputs(seen, mass=mass, mass_option=key, up=model.up, moved=moved))
         return {}
     recorded = read_force_plates(file, o.c3d_unit)
     plates = turned_plates(recorded, turn_of(o.axes), file)
@@ -88,7 +93,7 @@ def loads_on_bodies(
         found[load.body] = added(wrench, found[load.body]) if load.body in found else wrench
     check_trial(
         TrialInputs(
-            body_points(model, time, values, str(o.coordinates)),
+            body_points(model, time, moved.values, moved.source),
             plates=tuple(plates_used),
             mass=mass,
             mass_option=key,
@@ -221,7 +226,7 @@ def read(o: IdOptions) -> Loaded:
     values = _filtered(table, unfiltered, o.cutoff)
     shown = _shown(table, o.time)
     time = table.time[shown]
-    loads = loads_on_bodies(o, model, time, values[shown])
+    loads = loads_on_bodies(o, model, time, values[shown], unfiltered[shown])
     strikes = strikes_typed(o.events) or strikes_on_plates(time, loads, model.up, ONSET)
     passive = read_passive_forces(o.model, model, o.exclude)
     return Loaded(model, table.time, unfiltered, values, time, loads, strikes, passive)
