@@ -113,7 +113,7 @@ def _late(seen: MarkerTrajectories, side: str, step: Step) -> float:
         return 0.0
     touch = step.time[0] - float(seen.time[before[-1] + 1])
     if not len(after):
-        return touch if touch > ALONE else 0.0
+        return touch if abs(touch) > ALONE else 0.0
     leave = step.time[-1] - float(seen.time[after[0] - 1])
     later = touch > TOUCH[1] and leave > LEAVE[1]
     earlier = touch < TOUCH[0] and leave < LEAVE[0]
