@@ -1,9 +1,19 @@
-"""Checks of a recorded trial, and tests of fit: docs/reference/trial_checks.md, from the tables that they run by."""
+"""Checks of a recorded trial, of two surfaces and of results: docs/reference/trial_checks.md, from their own tables.
+
+What the battery of the tests holds stands in the tests; the page counts it.
+"""
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Iterable, Sequence
+
+from geocontact.analyses.catalogue import ENTRIES
 from geocontact.identify import goodness_of_fit as fit
+from geocontact.trial_checks.mesh_checks import MESH_CHECKS, MeshCheck
+from geocontact.trial_checks.recorded import Check
 from geocontact.trial_checks.table import CHECKS
+from website.stage import ROOT
 
 PAGE = "docs/reference/trial_checks.md"
 
@@ -11,44 +21,115 @@ HEAD = """# What is checked on the way in and out
 
 ## On the way in: a trial against itself
 
-Whatever reads markers or plates (`ik`, `id`, `scale`, `joint`, `shoulder`, `prosthesis`, `sit-to-stand`) compares the
-inputs of a trial with each other before it computes anything. What cannot be right is refused, exit 2; anything else is
-a warning, which names the likely cause. A check is silent where one of its two inputs is not there. Labels of markers
-are recognised in the sets of Plug-in Gait, Helen Hayes, Cleveland and OpenSim's models.
+{commands} compare the inputs of a trial with each other before they compute anything, and so does each trial of a
+study. What cannot be right is refused, exit 2; anything else is a warning, which names the likely cause. A check is
+silent where one of its two inputs is not there. Labels of markers are recognised in the sets of Plug-in Gait, Helen
+Hayes, Cleveland and OpenSim's models. A limit without a source is ours: beyond what the recordings below hold.
 
-| check | compares | speaks from |
-|---|---|---|
+| check | compares | speaks from | spoken of in the tests |
+|---|---|---|---|
 """
+SURFACES = """
+Surfaces of `area`, `knee settle`, `fit` with `other` and `mat` with a second scan:
 
-OUT = f"""
-Six real recordings pass without a warning but one: in a `.trc` of a published set two markers of the left foot jump by
-43 and 54 mm within one frame, in the file itself. The tests make each check speak, and nearly speak, on a walker in
-closed form, and damage the shipped trials in 68 ways, none of which is silent.
+| check | compares | speaks from | spoken of in the tests |
+|---|---|---|---|
+"""
+BATTERY = """
+Over the commands, the shipped trials are damaged in {count} ways, none of which is silent: {counts}. A real walk is
+damaged in {real} more. {recordings} real recordings, {models} motions of models and {meshes} sets of surfaces pass
+without a warning but two: in a `.trc` of a published set two markers of the left foot jump by 43 and 54 mm within one
+frame, and in a `.c3d` of c3d.org one marker of the shank by 40 mm for one frame, in the files themselves.
 
 `--axes` turns markers and plates alike: forces, moments, points. A table of plates whose forces are upwards before that
 turn and not after it is in the model's axes already: it stays as it is, with a warning.
+
+What no check can see: the plates of another trial of the same person on the same spot, whose steps fall on the same
+times; half of the force where no mass is known, in `cop` and `gap gather`.
 
 ## On the way out: a result against its data
 
 A result that was compared with data says so in `run.json` (`fit`), and in Python as `result.fit_outcome`: `fits`,
 `doubtful`, or `contradicts`. With `contradicts` that is the first sentence, the command ends with 1, no parameter is
-called known and no interval is written. A doubt is a warning. `sit-to-stand calibrate` and `device`, `elbow fit`,
-`prosthesis simulate` and `shoulder simulate` have it; intervals are left out by the first of them only.
+called known. A doubt is a warning. It is in {judged}.
 
-| compares | doubtful | contradicts |
+| check | doubtful | contradicts |
 |---|---|---|
-| residual r with its noise s | z > {fit.SURE:g}, rms > {fit.LARGER:g} s | z > {fit.SURE:g}, rms > {fit.FAR:g} s |
-| a model with the mean of what it describes | | R² < 0 |
-| a parameter with the bounds of its search | on one of them | |
-| an interval with what is physical | | wholly outside |
-| samples outside of what the model describes | any | {fit.MUCH:.0%} or more |
-
-z = (mean r²/s² − 1) / √(2/n (1 + 2 Σρ²)), with ρ the residual's autocorrelation up to its first negative value, which
-makes the excess of a slow residual less sure (Bartlett 1946).
 """
+RESULTS = {
+    "of_residual": (f"z > {fit.SURE:g}, rms > {fit.LARGER:g} s", f"z > {fit.SURE:g}, rms > {fit.FAR:g} s"),
+    "of_r2": ("", "R² < 0"),
+    "of_bounds": ("on one of them", ""),
+    "of_physics": ("", "wholly outside"),
+    "of_range": ("any", f"{fit.MUCH:.0%} or more"),
+}
+"""From where each test of fit doubts and contradicts; what it compares is the first line of its docstring."""
+NOISE = """
+s is the stated noise of a residual r, z = (mean r²/s² − 1) / √(2/n (1 + 2 Σρ²)), with ρ the residual's autocorrelation
+up to its first negative value, which makes the excess of a slow residual less sure (Bartlett 1946).
+"""
+
+
+def listed(names: Sequence[str]) -> str:
+    """Names in backticks with an "and"."""
+    quoted = [f"`{name}`" for name in names]
+    return f"{', '.join(quoted[:-1])} and {quoted[-1]}" if len(quoted) > 1 else "".join(quoted)
+
+
+def _rows(checks: Iterable[Check | MeshCheck], damaged: dict[str, list[str]]) -> str:
+    rows = ""
+    for check in checks:
+        name = check.name
+        cells = (name, check.compares, check.limit, "; ".join(damaged[name]))
+        rows += f"| {' | '.join(cells)} |\n"
+    return rows
+
+
+def _damages(damages: dict[str, tuple[str, object]]) -> dict[str, list[str]]:
+    found: dict[str, list[str]] = {}
+    for words, (check, _) in damages.items():
+        found.setdefault(check, []).append(words)
+    return found
+
+
+def tests_of_fit() -> dict[str, str]:
+    """First lines of the tests of fit, by the name of each."""
+    functions = {name: each for name, each in vars(fit).items() if name.startswith("of_") and inspect.isfunction(each)}
+    return {name: (inspect.getdoc(each) or "").partition("\n")[0] for name, each in functions.items()}
+
+
+def _judged() -> list[str]:
+    """Commands that judge a result, in a file of their own or in one of their group that they import."""
+    found = []
+    for entry in ENTRIES:
+        folder = ROOT.joinpath(*entry.package.split("."))
+        texts = [file.read_text("utf-8") for file in folder.glob("*.py")]
+        shared = [file.stem for file in folder.parent.glob("*.py") if "judge(" in file.read_text("utf-8")]
+        own = any("judge(" in text for text in texts)
+        if entry.command and (own or any(f".{stem} import" in text for stem in shared for text in texts)):
+            found.append(entry.command)
+    return found
 
 
 def trial_checks() -> str:
     """The whole page."""
-    rows = "".join(f"| {check.name} | {check.compares} | {check.limit} |\n" for check in CHECKS)
-    return HEAD + rows + OUT
+    from tests.real import test_real_trial_checks as real
+    from tests.trial_checks import test_checks, test_commands, test_mesh_checks
+
+    trials = HEAD.format(commands=listed(list(test_commands.COMMANDS))) + _rows(CHECKS, _damages(test_checks.DAMAGED))
+    surfaces = SURFACES + _rows(MESH_CHECKS, _damages(test_mesh_checks.DAMAGED))
+    counts = ", ".join(f"`{name}` {len(damages)}" for name, (_, _, damages) in test_commands.COMMANDS.items())
+    battery = BATTERY.format(
+        count=len(test_commands.EACH),
+        counts=counts,
+        real=len(real.DAMAGED),
+        recordings=len(real.TRIALS),
+        models=len(real.MODELS),
+        meshes=len(real.SURFACES),
+        judged=listed(_judged()),
+    )
+    results = ""
+    for name, line in tests_of_fit().items():
+        doubtful, contradicts = RESULTS[name]
+        results += f"| {line.removeprefix('A doubt for ').removesuffix('.')} | {doubtful} | {contradicts} |\n"
+    return trials + surfaces + battery + results + NOISE

@@ -75,6 +75,7 @@ MODELS = {
         for name in ("ABD01", "ABD02", "ABD03", "FLX01", "FLX02", "SHRUG01")
     },
 }
+SURFACES = ("gc4_jw_knee/stl", "gc6_dm_knee/stl", "jma_ankles/Norm_01", "jma_ankles/Norm_03")
 
 
 def recorded(data_dir: Path, name: str, mass: float | None = None) -> TrialInputs:
@@ -117,7 +118,7 @@ def test_real_coordinates_pass(name: str, data_dir: Path) -> None:
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("folder", ["gc4_jw_knee/stl", "gc6_dm_knee/stl", "jma_ankles/Norm_01", "jma_ankles/Norm_03"])
+@pytest.mark.parametrize("folder", SURFACES)
 def test_real_surfaces_pass(folder: str, data_dir: Path) -> None:
     import geocontact as gc
 

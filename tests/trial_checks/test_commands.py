@@ -51,7 +51,8 @@ from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrate
 from geocontact.analyses.sit_to_stand.calibrate.result import read as read_standing
 from geocontact.io.mocap.trc import read_trc, write_trc
 from tests import legs
-from tests.cli.calls import MESHES
+from tests.cli.calls import MESHES, call
+from tests.io.plate_files import CENTRE, channels, plate_file, stance
 from tests.trial_checks.damage import (
     Damage,
     alike,
@@ -559,3 +560,44 @@ def test_one_option_turns_markers_and_plates(command: str, tmp_path: Path, clean
     assert run(folder, axes="-x,z,y") == clean[command]
     if command not in UNKNOWN:
         assert run(folder) - clean[command]
+
+
+def test_a_study_says_what_a_trial_said(tmp_path: Path) -> None:
+    """`cohort` over two motions of the leg, one with a jump: its warning is the study's, in words and in trials.csv."""
+    leg_files(tmp_path)
+    shutil.copy(tmp_path / "swing.mot", tmp_path / "right.mot")
+    SWUNG["a jump of an angle"](tmp_path)
+    (tmp_path / "study.toml").write_text(
+        'analysis = "markers"\n[options]\nmodel = "leg.osim"\n[sweep]\ncoordinates = ["swing.mot", "right.mot"]\n'
+    )
+    done = call(
+        "cohort",
+        tmp_path / "study.toml",
+        "--out",
+        tmp_path / "out",
+        folder=tmp_path / "out",
+    )
+    assert done.code == 0, done.err
+    assert [line for line in done.warnings if "leaves its course" in line]
+    assert sorted(done.table("trials.csv")["warnings [-]"]) != [0, 0]
+
+
+def test_a_c3d_with_plates_simply_works(tmp_path: Path) -> None:
+    """A plate with z up in a .c3d under a foot that stands on it: `axes` is all that `cop` and `gap gather` need."""
+    plate_file(tmp_path / "plates.c3d", channels(stance()))
+    plate_file(tmp_path / "t02.c3d", channels(0.8 * stance() ** 1.5))
+    time = np.arange(0.05, 0.95, 0.01)
+    foot = np.column_stack([time, np.full((len(time), 4), [CENTRE[0] - 0.1, 0.005, -CENTRE[1], 0.0])])
+    head = "time [s],x [m],y [m],z [m],pitch [rad]"
+    for name, by in (("foot", 0.0), ("t01", 0.0), ("t02", 0.02)):
+        foot[:, 1] += by * np.sin(9.0 * time)
+        np.savetxt(tmp_path / f"{name}.csv", foot, delimiter=",", comments="", header=head)
+    (tmp_path / "spheres.csv").write_text(
+        "px [m],py [m],pz [m],radius [m],zone\n0,0,0,0.005,all\n0.2,0,0,0.005,all\n", encoding="utf-8"
+    )
+    plate = {"compare": tmp_path / "plates.c3d", "plate": None, "axes": "x,z,-y"}
+    assert not [line for line in cop(tmp_path, **plate) if "plate" in line or "refused" in line]
+    text = GATHER.replace('plate = "own_force"\n', "").replace(".mot", ".c3d")
+    (tmp_path / "gather.toml").write_text(text, encoding="utf-8")
+    assert gather(tmp_path, axes="x,z,-y") == set()
+    assert "its normal is (" in "".join(gather(tmp_path))

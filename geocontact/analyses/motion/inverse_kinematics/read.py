@@ -18,7 +18,8 @@ from geocontact.identify.signals.gait_cycles import Strikes
 from geocontact.io.mocap.c3d_analogs import read_c3d_analogs
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import TextTable
-from geocontact.trial_checks.recorded import TrialInputs
+from geocontact.io.text.units import si_unit
+from geocontact.trial_checks.recorded import RecordedChannel, TrialInputs
 
 
 @dataclass(frozen=True)
@@ -46,10 +47,23 @@ def read(o: IkOptions) -> KinematicsInputs:
     knees = knees_of(o.knee, model)
     seen = renamed(markers_given(o.markers, o.axes, o.time, o.c3d_unit), model, o.markers_map)
     add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
-    doubts = check_trial(TrialInputs(markers=seen, turn=turn_of(o.axes)))
+    analog = _analog(o)
+    doubts = check_trial(TrialInputs(markers=seen, turn=turn_of(o.axes), channels=_channels(analog)))
     strikes = strikes_typed(o.events) or strikes_marked(o.markers)
     tasks = marker_tasks(model, seen, o.tasks, o.follow, o.weight, o.hold)
-    return KinematicsInputs(model, seen, tasks, knees, strikes, _analog(o), doubts)
+    return KinematicsInputs(model, seen, tasks, knees, strikes, analog, doubts)
+
+
+def _channels(analog: TextTable | None) -> tuple[RecordedChannel, ...]:
+    """Analog channels whose unit is known, in SI."""
+    if analog is None:
+        return ()
+    found = []
+    for name, unit, values in zip(analog.channels, analog.units, analog.values.T, strict=True):
+        known = si_unit(unit)
+        if known is not None:
+            found.append(RecordedChannel(name, known[0], analog.time, known[1] * values, str(analog.file)))
+    return tuple(found)
 
 
 def _analog(o: IkOptions) -> TextTable | None:
