@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.data.multibody.force_plate import LOADED
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.trial_checks.landmarks import FOOT, landmark, middle, points
 from geocontact.trial_checks.recorded import Check, Contradiction, FootPlate, TrialInputs
@@ -148,8 +147,7 @@ def sizes(trial: TrialInputs) -> Iterator[Contradiction]:
 def reaction(trial: TrialInputs) -> Iterator[Contradiction]:
     """The sign of the force under load: out of the floor, on the foot, or into it, on the plate."""
     for on in trial.plates:
-        loaded = on.normal[np.abs(on.normal) >= LOADED]
-        usual = float(np.median(loaded)) if len(loaded) else 0.0
+        usual = on.plate.usual_load(tuple(other.plate for other in trial.plates))
         if usual < 0.0 and (trial.mass is None or -usual > WORN * trial.mass * GRAVITY):
             what = f"its force out of the floor is {usual:.4g} N under load (median): that is the force on the plate"
             remedy = "give the force on the foot: turn the sign of forces and torques"

@@ -86,6 +86,16 @@ class ForcePlate:
         """Moment about the plate's normal through the centre of pressure [N m]; NaN below the gate."""
         return self.wrench.free_moment(self.centre_of_pressure(gate), self.normal)
 
+    def usual_load(self, plates: tuple[ForcePlate, ...] = ()) -> float:
+        """Force out of the floor under load [N], the median: below 0 for the force on the plate.
+
+        0 for a plate that is not loaded, and for a force whose opposite is among `plates`, which acts between bodies.
+        """
+        out = self.wrench.force @ self.normal
+        loaded = out[np.abs(out) >= LOADED]
+        between = any(np.array_equal(other.wrench.force, -self.wrench.force) for other in plates)
+        return float(np.median(loaded)) if len(loaded) and not between else 0.0
+
     def outside(self) -> float:
         """How far the centre of pressure lies beyond the plate's edge under load, in the median, in its lengths.
 

@@ -85,10 +85,8 @@ def plate_named(
 
 def _require_up(plate: ForcePlate, plates: tuple[ForcePlate, ...], path: Path, weight: float) -> None:
     """Check of the usual force under load: InputError where it presses down, a warning where a device may do so."""
-    pushing = plate.wrench.force @ plate.normal
-    loaded = pushing[np.abs(pushing) >= LOADED]
-    usual = float(np.median(loaded)) if len(loaded) else 0.0
-    if usual >= 0.0 or any(np.array_equal(other.wrench.force, -plate.wrench.force) for other in plates):
+    usual = plate.usual_load(plates)
+    if usual >= 0.0:
         return
     up = "xyz"[int(np.argmax(np.abs(plate.normal)))]
     what = f"its force along {up}, which is up, is {usual:.4g} N under load"
