@@ -42,7 +42,7 @@ LATEST, LATE, ALIKE, CLEARER = 0.4, 0.06, 0.8, 0.03
 """s, of the lags that are looked at, and from which a clock is doubted; correlation of weight and force at that lag,
 and by how much it is above that without a lag."""
 OFF, LONG = 0.25, 0.15
-"""Of the weight, and s for which force and weight may differ by more: a hand on a rail carries as much."""
+"""Share of the weight, and s for which force and weight may differ by more: a hand on a rail carries as much."""
 FEWEST = 30
 """Frames of a lag."""
 
@@ -168,27 +168,33 @@ def _by_pelvis(trial: TrialInputs) -> float | None:
 
 
 def segments(trial: TrialInputs) -> Iterator[Contradiction]:
-    """Thigh against shank, and right against left."""
+    """Thigh against shank, and right against left, while standing and in a model."""
+    yield from bones(trial)
     seen = trial.standing
-    if seen is not None:
-        knees = []
-        for side in ("right", "left"):
-            pelvis, knee, ankle = (_height(seen, (kind,), side, trial) for kind in ("asis", "knee", "ankle"))
-            knees.append(knee)
-            share = (pelvis - knee) / (knee - ankle)
-            if not (np.isnan(share) or PELVIS_PARTS[0] <= share <= PELVIS_PARTS[1]):
-                what = f"the {side} thigh is {share:.2f} times the shank: pelvis, knee and ankle are {pelvis:.2f}, "
-                what += f"{knee:.2f} and {ankle:.2f} m high while standing"
-                yield Contradiction(seen.source, "", what, "are the labels right, and does the person stand upright?")
-        if abs(knees[0] - knees[1]) > UNEVEN:
-            what = f"the knees are {knees[0]:.2f} and {knees[1]:.2f} m high while standing"
-            yield Contradiction(seen.source, "", what, "is a marker elsewhere, or a label another one's?")
+    if seen is None:
+        return
+    knees = []
+    for side in ("right", "left"):
+        pelvis, knee, ankle = (_height(seen, (kind,), side, trial) for kind in ("asis", "knee", "ankle"))
+        knees.append(knee)
+        share = (pelvis - knee) / (knee - ankle)
+        if not (np.isnan(share) or PELVIS_PARTS[0] <= share <= PELVIS_PARTS[1]):
+            what = f"the {side} thigh is {share:.2f} times the shank: pelvis, knee and ankle are {pelvis:.2f}, "
+            what += f"{knee:.2f} and {ankle:.2f} m high while standing"
+            yield Contradiction(seen.source, "", what, "are the labels right, and does the person stand upright?")
+    if abs(knees[0] - knees[1]) > UNEVEN:
+        what = f"the knees are {knees[0]:.2f} and {knees[1]:.2f} m high while standing"
+        yield Contradiction(seen.source, "", what, "is a marker elsewhere, or a label another one's?")
+
+
+def bones(trial: TrialInputs) -> Iterator[Contradiction]:
+    """The same between the joints of a model."""
     moved = trial.moved
     if moved is None:
         return
-    bones = body_points(moved.model, moved.time[:1], moved.values[:1], moved.source)
+    places = body_points(moved.model, moved.time[:1], moved.values[:1], moved.source)
     for side in ("right", "left"):
-        hip, knee, ankle = (_mean(bones, kind, side) for kind in ("hip", "knee", "ankle"))
+        hip, knee, ankle = (_mean(places, kind, side) for kind in ("hip", "knee", "ankle"))
         if hip is None or knee is None or ankle is None:
             continue
         share = float(np.linalg.norm(hip - knee) / np.linalg.norm(knee - ankle))

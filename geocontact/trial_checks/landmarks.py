@@ -33,7 +33,7 @@ MIDDLE = {"sacrum", "c7", "head"}
 """Landmarks that may be on no side."""
 FOOT = ("heel", "toe", "ankle")
 SIDES = ("right", "left", "")
-"""Of a foot; "" for the only one, of which nobody says on which side it is."""
+"""Sides of a foot; "" for the only one, of which nobody says on which side it is."""
 
 
 def the_foot(side: str) -> str:

@@ -12,7 +12,7 @@ from geocontact.geometry.surface import Surface
 from geocontact.trial_checks.recorded import Contradiction
 
 SAME = 1e-6
-"""Of an edge's length, in which two copies of one surface differ, whatever their places."""
+"""Share of an edge's length in which two copies of one surface differ, whatever their places."""
 TIMES = 8.0
 """Times that the diagonal of one surface's box may be that of the other; 10 is a unit of length, a femur is 6 times as
 long as a talus."""

@@ -37,7 +37,7 @@ step."""
 WORN = 0.4
 """Share of the weight that a force may press down with: a device that is worn does, as the reader of plates says."""
 EDGE, SAID = 0.05, 0.2
-"""Of a plate's length beyond its edge, 30 mm of 0.6 m; from the second on the reader of the file says so itself."""
+"""Shares of a plate's length beyond its edge, 30 mm of 0.6 m; from the second on the reader of the file says it."""
 
 
 @dataclass(frozen=True)
@@ -175,7 +175,7 @@ def _velocity(seen: MarkerTrajectories) -> Float[np.ndarray, " 3"] | None:
     if all(landmark(name)[0] in FOOT for name in seen.names) and len(seen) > 1:
         rate = np.gradient(seen.positions.mean(axis=1), seen.time, axis=0)
         size = np.nan_to_num(np.linalg.norm(rate, axis=1))
-        return rate[int(np.argmax(size))]
+        return np.asarray(rate[int(np.argmax(size))])
     body = np.nanmean(seen.positions, axis=1) if body is None else body
     there = np.flatnonzero(np.isfinite(body).all(axis=1))
     if len(there) < 2 or seen.time[there[-1]] - seen.time[there[0]] < 0.3:

@@ -302,9 +302,10 @@ def _check(
     """The plate against the foot: heel and toes lie below the two spheres of the sole that are farthest apart."""
     apart = np.linalg.norm(sole.centre[:, None] - sole.centre[None], axis=2)
     ends = np.unravel_index(int(np.argmax(apart)), apart.shape)
-    poses = motion.poses[None] if motion.poses.single else motion.poses
     above = plate.normal if up is None else up
-    places = np.stack([poses.apply(sole.centre[k]) - sole.radius[k] * above for k in ends], axis=1)
+    places = np.stack(
+        [motion.poses.apply(sole.centre[k]).reshape(-1, 3) - sole.radius[k] * above for k in ends], axis=1
+    )
     foot = MarkerTrajectories(motion.time, places, ("heel", "toe"), str(o.motion))
     side = stem_and_side(o.body or "")[1]
     if side:

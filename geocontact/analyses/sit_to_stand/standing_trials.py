@@ -141,7 +141,8 @@ def channels_of(
     plates_of = tuple(FootPlate(each, str(files.plates)) for each in (feet, chair) if each is not None)
     upright = feet is not None and np.abs(q[-1, JOINTS]).max() < UPRIGHT
     recorded = [("strap", "N", strap)] if strap is not None else []
-    recorded += [(f"torque {k + 1}", "N m", torque[:, k]) for k in range(0 if torque is None else torque.shape[1])]
+    if torque is not None:
+        recorded += [(f"torque {k + 1}", "N m", own) for k, own in enumerate(torque.T)]
     check_trial(
         TrialInputs(
             plates=plates_of,
