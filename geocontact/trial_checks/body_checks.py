@@ -41,6 +41,11 @@ SMOOTH = 0.3
 LATEST, LATE, ALIKE, CLEARER = 0.4, 0.06, 0.8, 0.03
 """s, of the lags that are looked at, and from which a clock is doubted; correlation of weight and force at that lag,
 and by how much it is above that without a lag."""
+STANDING, FEET, UNDER = 0.15, 100.0, 0.05
+"""s to either side, N on the feet, and m between centre of pressure and the point below the centre of mass: who stands
+sways by 10 mm (Winter, Gait and Posture 3, 1995), and mass centres are known to 20 mm."""
+MOVES, RATE = (0.1, 0.05), (0.7, 1.4)
+"""rad/s and m/s, root mean square, from which a rate is compared; times the slope that it may be."""
 OFF, LONG = 0.25, 0.15
 """Share of the weight, and s for which force and weight may differ by more: a hand on a rail carries as much."""
 FEWEST = 30
@@ -234,6 +239,53 @@ def weight_in_time(trial: TrialInputs) -> Iterator[Contradiction]:
         yield Contradiction(on.source, on.plate.name, f"{what} by {moved.source}", remedy)
 
 
+def balance(trial: TrialInputs) -> Iterator[Contradiction]:
+    """The centre of pressure of all plates against the centre of mass, while the person stands still."""
+    moved = trial.moved
+    if moved is None or trial.stands_at is None or not trial.plates:
+        return
+    there = np.abs(moved.time - trial.stands_at) <= STANDING
+    time, mass = moved.time[there], moved.model.mass_centre(moved.values[there])
+    if len(time) < 2:
+        return
+    wrenches = [on.plate.at(np.clip(time, on.plate.time[0], on.plate.time[-1])) for on in trial.plates]
+    force = np.nan_to_num(np.sum([np.nan_to_num(each.force) for each in wrenches], axis=0)).mean(axis=0)
+    moment = np.sum([np.nan_to_num(each.moment) for each in wrenches], axis=0).mean(axis=0)
+    if force @ trial.up < FEET:
+        return
+    point = np.cross(trial.up, moment) / (force @ trial.up)
+    off = point - mass.mean(axis=0)
+    off -= (off @ trial.up) * trial.up
+    if np.linalg.norm(off) > UNDER:
+        k = int(np.argmax(np.abs(off)))
+        on = trial.plates[0]
+        what = f"its centre of pressure is {1e3 * abs(off[k]):.0f} mm along {'xyz'[k]} from below the centre of mass"
+        remedy = "do plates and coordinates have one origin and the same axes?"
+        yield Contradiction(on.source, on.plate.name, f"{what} while the person stands", remedy)
+
+
+def differentiated(trial: TrialInputs) -> Iterator[Contradiction]:
+    """Rates that a file has against the slopes of the coordinates."""
+    moved = trial.moved
+    if moved is None or moved.rates is None or len(moved.time) < FEWEST:
+        return
+    there = np.isfinite(moved.rates).all(axis=1)
+    if there.sum() < FEWEST:
+        return
+    step = float(np.median(np.diff(moved.time)))
+    for k, c in enumerate(moved.model.coordinates):
+        slope = np.gradient(_smooth(moved.values[there, k], step), step)
+        rate = _smooth(moved.rates[there, k], step)
+        size = float(np.sqrt(np.mean(slope**2)))
+        if size < MOVES[c.kind != "rotational"]:
+            continue
+        times = float(rate @ slope) / float(slope @ slope)
+        if not RATE[0] <= times <= RATE[1]:
+            what = f"the rate of {c.name} is {times:.3g} times the slope of its values"
+            remedy = "is its sign turned, or is it in degrees and not in radians, or of another trial?"
+            yield Contradiction(moved.source, "", what, remedy)
+
+
 def _smooth(values: Float[np.ndarray, " t"], step: float) -> Float[np.ndarray, " t"]:
     """Mean over `SMOOTH` with the weights of a Hann window; the ends are repeated."""
     half = max(round(0.5 * SMOOTH / step), 1)
@@ -274,6 +326,18 @@ BODY_CHECKS = (
         f"{OFF:.0%} of the weight for {LONG:g} s; {LATE:g} s of lag, where the correlation at it is {ALIKE:g} and "
         f"{CLEARER:g} above that without",
         weight_in_time,
+    ),
+    Check(
+        "balance",
+        "centre of pressure of all plates with the model's centre of mass, while the person stands",
+        f"{1e3 * UNDER:.0f} mm, mean of {2 * STANDING:g} s; who stands sways by 10 mm (Winter 1995)",
+        balance,
+    ),
+    Check(
+        "rates",
+        "rates of a file of their own with slopes of the coordinates",
+        f"{RATE[0]:g} to {RATE[1]:g} times, where a coordinate moves",
+        differentiated,
     ),
 )
 """Checks that need a model or a person's size."""

@@ -111,6 +111,23 @@ def handed(trial: TrialInputs) -> Iterator[Contradiction]:
         yield Contradiction(seen.source, "", what, remedy)
 
 
+def toes_ahead(trial: TrialInputs) -> Iterator[Contradiction]:
+    """Toes before or behind the heel of each foot, by the front of the pelvis."""
+    for seen in trial.recordings:
+        front, back = middle(seen, ("asis",)), middle(seen, ("psis", "sacrum"))
+        for side in ("right", "left"):
+            toe, heel = middle(seen, ("toe",), side), middle(seen, ("heel",), side)
+            if front is None or back is None or toe is None or heel is None:
+                continue
+            foot, body = (each - (each @ trial.up)[:, None] * trial.up for each in (toe - heel, front - back))
+            with np.errstate(invalid="ignore"):
+                size = np.linalg.norm(foot, axis=1) * np.linalg.norm(body, axis=1)
+                cosine = np.sum(foot * body, axis=1) / size
+            if np.isfinite(cosine).any() and np.nanmedian(cosine) < -TURNED:
+                what = f"the toes of the {side} foot are behind its heel, by where the front of the pelvis is"
+                yield Contradiction(seen.source, "", what, "are the labels of heel and toes exchanged?")
+
+
 def _right(seen: MarkerTrajectories) -> Float[np.ndarray, "t 3"] | None:
     """From left to right of the pelvis, else of the shoulders, else of the feet [m]."""
     for kinds in (("asis",), ("psis",), ("hip",), ("shoulder",), FOOT):
@@ -226,6 +243,12 @@ MARKER_CHECKS = (
         "right and left of pelvis, shoulders or feet with front and back",
         f"a cosine below {-TURNED}, in the median of all frames",
         handed,
+    ),
+    Check(
+        "heel and toes",
+        "from heel to toes of each foot with from back to front of the pelvis",
+        f"a cosine below {-TURNED}, in the median of all frames",
+        toes_ahead,
     ),
     Check(
         "standing trial",

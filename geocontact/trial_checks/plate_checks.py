@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
+from geocontact.data.multibody.force_plate import LOADED
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.trial_checks.landmarks import FOOT, landmark, middle, points
 from geocontact.trial_checks.recorded import Check, Contradiction, FootPlate, TrialInputs
@@ -81,10 +82,14 @@ def steps(trial: TrialInputs) -> Iterator[Step]:
 
 def mass(trial: TrialInputs) -> Iterator[Contradiction]:
     """The weight by the plates against the mass."""
+    most = max((float(on.normal.max(initial=0.0)) for on in trial.plates), default=np.inf)
     if trial.mass is None:
+        if 0.0 < most < LOADED and trial.markers is not None:
+            what = f"no plate ever carries more than {most:.3g} N"
+            remedy = "is the force in N, and does anybody stand on it?"
+            yield Contradiction(trial.plates[0].source, trial.plates[0].plate.name, what, remedy)
         return
     weight = trial.mass * GRAVITY
-    most = max((float(on.normal.max(initial=0.0)) for on in trial.plates), default=np.inf)
     if most < LEAST * weight:
         first = trial.plates[0]
         what = f"no plate ever carries more than {most:.3g} N, {most / weight:.1%} of the weight of {trial.mass:.4g} kg"

@@ -69,12 +69,15 @@ class MovedModel:
         One column for each coordinate [rad, m]; that of one that the file does not have is its default.
     source
         The file.
+    rates
+        Of the same coordinates [rad/s, m/s], where a file of its own has them.
     """
 
     model: Multibody
     time: Float[np.ndarray, " t"]
     values: Float[np.ndarray, "t n"]
     source: str
+    rates: Float[np.ndarray, "t n"] | None = None
 
 
 @dataclass(frozen=True, eq=False)

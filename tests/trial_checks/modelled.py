@@ -131,11 +131,39 @@ def channel(unit: str, size: float, step: float = 1e-3) -> Change:
     return lambda _: TrialInputs(channels=(RecordedChannel("one", unit, time, values, "more.csv"),))
 
 
+def rated(factor: float) -> Change:
+    """Rates of the coordinates besides, times a factor."""
+
+    def damage(_: TrialInputs) -> TrialInputs:
+        trial = risen()
+        assert trial.moved is not None
+        rates = factor * np.gradient(trial.moved.values, TIME, axis=0)
+        return replace(trial, moved=replace(trial.moved, rates=rates))
+
+    return damage
+
+
+def aside(by: float) -> Change:
+    """With the plate's load elsewhere [m]."""
+
+    def damage(_: TrialInputs) -> TrialInputs:
+        trial = risen()
+        on = trial.plates[0]
+        origin = on.plate.wrench.origin + np.array([by, 0.0, 0.0])
+        wrench = replace(on.plate.wrench, origin=origin)
+        return replace(trial, plates=(replace(on, plate=replace(on.plate, wrench=wrench)),))
+
+    return damage
+
+
 DAMAGED: dict[str, tuple[str, Change]] = {
     "radians as degrees": ("angles in degrees", angled(np.radians)),
     "sign of all angles": ("range of a coordinate", angled(np.negative)),
     "a plate 0.1 s late under who rises": ("weight in time", later(0.1)),
     "a plate 0.1 s early under who rises": ("weight in time", later(-0.1)),
+    "feet 0.1 m aside": ("balance", aside(0.1)),
+    "sign of the rates": ("rates", rated(-1.0)),
+    "rates in degrees": ("rates", rated(np.degrees(1.0))),
     "pounds of who rises": ("mass and height", lambda _: replace(risen(), mass=2.2046 * MASS)),
     "height in feet": ("mass and height", lambda _: replace(risen(), height=5.74)),
     "legs of a child": ("mass and height", lambda _: risen(person(0.7 * THIGH, 0.7 * SHANK))),
@@ -156,6 +184,9 @@ NEARLY: dict[str, Change] = {
     "who rises": lambda _: risen(),
     "who hardly moves, in degrees": angled(lambda q: np.radians(0.2) * q / np.abs(q).max()),
     "knees 8 degrees beyond their range": angled(lambda q: np.full_like(q, np.radians(20.0))),
+    "feet 30 mm aside": aside(0.03),
+    "rates as they are": rated(1.0),
+    "rates a fifth too large": rated(1.2),
     "0.03 s late under who rises": later(0.03),
     "short legs": lambda _: risen(person(0.9 * THIGH, 0.9 * SHANK)),
     "thin": stood(mass=50.0),

@@ -123,6 +123,12 @@ def swapped(places: np.ndarray) -> np.ndarray:
     return places
 
 
+def heel_for_toe(places: np.ndarray) -> np.ndarray:
+    """Labels of heel and toes exchanged on both feet."""
+    places[:, [0, 1, 5, 6]] = places[:, [1, 0, 6, 5]]
+    return places
+
+
 def later(by: float) -> Callable[[ForcePlate], ForcePlate]:
     """A clock that is late [s]."""
     return lambda plate: replace(plate, time=plate.time + by)
@@ -199,6 +205,8 @@ DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
     "labels exchanged half-way": ("jump", lambda t: moved(t, swapped)),
     "z is up": ("upright", lambda t: replace(t, markers=t.markers.turned(Z_UP), plates=())),
     "right called left": ("right and left", renamed),
+    "heel and toes exchanged": ("heel and toes", lambda t: moved(replace(t, standing=None), heel_for_toe)),
+    "plates 0.15 m aside": ("foot on plate", lambda t: moved(t, lambda p: p + np.array([0.0, 0.0, 0.15]))),
     "an axis mirrored": ("right and left", lambda t: moved(t, lambda p: p * np.array([1.0, 1.0, -1.0]))),
     "a marker that was moved": ("standing trial", lambda t: moved(t, aside(0.04))),
     "the standing trial of somebody else": ("standing trial", lambda t: moved(t, lambda p: 1.25 * p)),
@@ -243,6 +251,7 @@ NEARLY: dict[str, Callable[[TrialInputs], TrialInputs]] = {
     "half of the braking": lambda t: plated(t, forced((0.5, 1.0, 1.0))),
     "0.03 s late": lambda t: plated(t, later(0.03)),
     "floor 15 mm up": lambda t: moved(t, lambda p: p + np.array([0.0, 0.015, 0.0])),
+    "plates 40 mm aside": lambda t: moved(t, lambda p: p + np.array([0.0, 0.0, 0.04])),
     "corners 0.25 m away": lambda t: plated(t, edged(0.25)),
     **modelled.NEARLY,
     "walking along -x": lambda t: replace(

@@ -108,6 +108,9 @@ WALKED = {
     "centre of pressure in mm": plates_changed(alike(times(1e3, "_px"), times(1e3, "_pz"))),
     "the other plate": option(plate="other_force"),
     "axes of the plates exchanged": plates_changed(alike(swapped("_vx", "_vy"), swapped("_px", "_py"))),
+    "plates 0.2 m aside": plates_changed(lambda c: c.update(own_force_px=c["own_force_px"] + 0.2)),
+    "plates mirrored": plates_changed(alike(times(-1.0, "_vz"), times(-1.0, "_pz"))),
+    "a clock that runs twice as fast": plates_changed(lambda c: c.update(time=2.0 * c["time"])),
     "the plates' time in ms": plates_changed(lambda c: c.update(time=1e3 * c["time"])),
     "a free moment in N mm": plates_changed(lambda c: c.update(own_torque_y=0.02e3 * c["own_force_vy"])),
     "decimal comma in the plates": decimal_comma("plates.mot"),
@@ -378,6 +381,12 @@ STOOD_UP = {f"mass x {factor:g}": body_mass(factor) for factor in (0.7, 1.2857, 
     "height in feet": text_changed("study.toml", lambda t: t.replace("value = 1.75", "value = 5.74")),
     "a child's height": text_changed("study.toml", lambda t: t.replace("value = 1.75", "value = 1.1")),
     "decimal comma": decimal_comma("T1_plates.mot"),
+    "plates 0.1 m aside": columns_changed("T1_plates.mot", lambda c: c.update(feet_force_px=c["feet_force_px"] + 0.1)),
+    "sign of the rates": columns_changed("T1_rates.sto", lambda c: c.update({k: -c[k] for k in c if k != "time"})),
+    "rates in degrees, called radians": columns_changed(
+        "T1_rates.sto", lambda c: c.update({k: 57.3 * c[k] for k in ("ankle", "knee", "hip")})
+    ),
+    "one trial twice": text_changed("study.toml", lambda t: t.replace("T2_", "T1_")),
 }
 LEG = {
     "a jump of 150 mm": markers_changed("walk.trc", jumping("foot_r1")),
@@ -415,6 +424,7 @@ PLATED = {
     name: WALKED[name]
     for name in (
         "sign of the force along the walk", "sign of all forces", "plates 0.1 s late", "plates 0.1 s early",
+        "plates 0.2 m aside", "a clock that runs twice as fast", "force in kN",
         "centre of pressure in mm", "axes of the plates exchanged", "the plates' time in ms", "a free moment in N mm",
         "decimal comma in the plates",
     )

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial.transform import Rotation
 
-from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.markers import turn_of
 from geocontact.data.errors import InputError
@@ -61,11 +63,22 @@ def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: st
     chain = two_chains(subject) if study.exoskeleton else leg_chain(subject)
     sites = strap_sites(tuple(site for each in study.trials for site in each.elsewhere))
     names = tuple(site.name for site in sites[1:])
+    _warn_of_copies(study.trials)
     turn = turn_of(axes)
     if axes is not None and all(each.plates is None for each in study.trials):
         raise InputError("", "`axes`", "has no effect without plates", "leave it out")
     trials = with_chairs([channels_of(each, chain, tracks, file, names, c3d_unit, turn) for each in study.trials])
     return StandingUpTrials(subject, StandingNoise(**study.noise), trials, study.exoskeleton, free, tracks, sites)
+
+
+def _warn_of_copies(trials: Sequence[StandingTrialFiles]) -> None:
+    """A warning for two trials of one recording, whose weight is doubled."""
+    for one, other in combinations(trials, 2):
+        ours, theirs = ((each.coordinates.resolve(), each.start, each.end) for each in (one, other))
+        if ours == theirs:
+            reserve(
+                f"{other.name}: its coordinates are those of {one.name}; name the files of each trial's own recording"
+            )
 
 
 def _known(
@@ -122,6 +135,10 @@ def channels_of(
         raise InputError(study, place, what, f"{FEWEST} are needed: check start, end and chair")
     time, q = time[used], q[used]
     u = np.zeros_like(q) if files.rates is None else _rates(files.rates, chain, files.name, time)
+    if files.rates is not None:
+        rates = np.full_like(whole.values, np.nan)
+        rates[used] = u
+        whole = replace(whole, rates=rates)
     force, centre = np.zeros((len(time), 2)), np.zeros(len(time))
     if feet is not None and files.plates is not None:
         with _named(files.plates, feet):
