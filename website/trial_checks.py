@@ -45,7 +45,8 @@ frame, and in a `.c3d` of c3d.org one marker of the shank by 40 mm for one frame
 turn and not after it is in the model's axes already: it stays as it is, with a warning.
 
 What no check can see: the plates of another trial of the same person on the same spot, whose steps fall on the same
-times; half of the force where no mass is known, in `cop` and `gap gather`.
+times; half of the force where no mass is known, in `cop` and `gap gather`; 60 N that a plate shows with nobody on it in
+a table; a mirrored force along the floor of who stands up.
 
 ## On the way out: a result against its data
 
