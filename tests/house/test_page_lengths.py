@@ -11,10 +11,10 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 45_700, "how-to": 25_200, "everything": 83_200}
+ALL_WORDS = {"theory, reference": 45_700, "how-to": 25_200, "everything": 82_900}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them. Everything was 82 000 before the tables of checks, which are made
-from their entries, had 13 more rows and named what the tests hold of each."""
+from their entries, had 16 more rows and named what the tests hold of each."""
 LIMITS = {
     "how-to/cohort.md": 950,
     "how-to/compare.md": 240,
