@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import pandas as pd
 
@@ -69,6 +69,8 @@ class StandingCalibrateResult(Result):
         Channels by the last of them.
     """
 
+    claims: ClassVar[frozenset[str]] = frozenset({"sd with the trials"})
+
     options: StandingCalibrateOptions
     given: StandingUpTrials
     phases: tuple[CalibratedPhase, ...]
@@ -105,7 +107,7 @@ class StandingCalibrateResult(Result):
         noise, tracks = self.given.noise, self.given.tracks
         own = {f"trial_{trial.recorded.name}": trial_table(trial, noise, tracks) for trial in self.trials}
         return {
-            "parameters": parameters_table(self.phases, fits=self.fit_outcome != "contradicts"),
+            "parameters": parameters_table(self.phases),
             "errors": self.errors,
             "certificate": certificate_table(self.phases),
             "correlation": correlation_table(self.phases),
