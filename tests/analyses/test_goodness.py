@@ -1,0 +1,123 @@
+"""Every analysis that fits something: an input that its result contradicts, and a right one that fits.
+
+What contradicts is known from outside: another subject's size, no joint at all, a force upside down.
+"""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.data.multibody.markers import MarkerTrajectories
+from tests import legs
+
+Run = Callable[[Path], Result]
+SURE = re.compile(r"\b(known|certified|best|explained|explains|standard error|95 %)", re.IGNORECASE)
+"""What is not said of a result that contradicts its data."""
+
+
+@dataclass(frozen=True)
+class Pair:
+    """An analysis on an input that its result contradicts, with words of the reason, and on a right one."""
+
+    wrong: Run
+    why: str
+    right: Run
+
+
+def _leg(folder: Path, size: float = 1.0) -> Path:
+    """Markers of the synthetic leg in motion, of a subject that is so many times larger than the model."""
+    _, model, time, values = legs.planted(folder, amplitude=2.5)
+    places = legs.markers_of(model, time, values)
+    return legs.trc_file(folder, MarkerTrajectories(places.time, size * places.positions, places.names))
+
+
+def _ik(size: float) -> Run:
+    return lambda folder: gc.inverse_kinematics(_leg(folder, size), model=folder / "leg.osim")
+
+
+def _scale(size: float) -> Run:
+    def run(folder: Path) -> Result:
+        _, model, time, values = legs.planted(folder)
+        places = size * model.marker_places(np.zeros_like(values))
+        names = tuple(m.name for m in model.markers)
+        return gc.scale(legs.trc_file(folder, MarkerTrajectories(time, places, names)), model=folder / "leg.osim")
+
+    return run
+
+
+def _id(times: float) -> Run:
+    """A leg at rest over a force so many times its weight, under its mass centre: of once Newton leaves nothing."""
+
+    def run(folder: Path) -> Result:
+        _, model, time, _ = legs.planted(folder)
+        still = legs.motion(model, amplitude=0.0)[1]
+        centre = model.mass_centre(still[:1])[0]
+        loads = legs.plate_files(folder, time, (0.0, times * model.weight, 0.0), (centre[0], 0.0, centre[2]))
+        return gc.inverse_dynamics(legs.mot_file(folder, model, time, still), model=folder / "leg.osim", loads=loads)
+
+    return run
+
+
+def _joint(apart: float) -> Run:
+    """Pelvis and thigh; the thigh is carried away from its hip by so many metres and back, as no joint lets it."""
+
+    def run(folder: Path) -> Result:
+        _, model, time, values = legs.planted(folder, amplitude=2.5)
+        places = legs.markers_of(model, time, values)
+        thigh = [k for k, name in enumerate(places.names) if name.startswith("femur")]
+        places.positions[:, thigh] += apart * np.sin(2.0 * np.pi * 3.0 * time)[:, None, None]
+        first, second = (",".join(f"{body}{k}" for k in range(4)) for body in ("pelvis", "femur_r"))
+        return gc.functional_joint(legs.trc_file(folder, places), first=first, second=second)
+
+    return run
+
+
+PAIRS = {
+    "ik": Pair(_ik(1.4), "mm from the model", _ik(1.0)),
+    "scale": Pair(_scale(1.4), "mm from the model", _scale(1.0)),
+    "id": Pair(_id(0.5), "third of the weight", _id(1.0)),
+    "joint": Pair(_joint(0.3), "residual between the segments", _joint(0.0)),
+}
+
+
+@pytest.fixture(autouse=True)
+def _quiet() -> object:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_a_wrong_input_contradicts_and_nothing_is_said_to_be_sure(name: str, tmp_path: Path) -> None:
+    result = PAIRS[name].wrong(tmp_path)
+    assert (result.fit_outcome, result.exit_code) == ("contradicts", 1)
+    assert result.sentences[0].startswith("the result contradicts its data") and PAIRS[name].why in result.sentences[0]
+    for line in result.sentences[1:]:
+        assert not SURE.search(line), line
+    page = _headline(result.page(tmp_path / REPORT))
+    assert page.startswith("The result contradicts its data")
+    assert not SURE.search(page.replace("not known", "")), page
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_a_right_input_fits(name: str, tmp_path: Path) -> None:
+    result = PAIRS[name].right(tmp_path)
+    assert (result.fit_outcome, result.exit_code) == ("fits", 0), result.record.fit
+    assert not any("contradicts" in line for line in result.sentences)
+
+
+def _headline(page: Path) -> str:
+    """Text of the page's answer, its first sentences and numbers."""
+    text = page.read_text(encoding="utf-8")
+    found = re.search(r'<(\w+) class="answer[^"]*">(.*?)</\1>', text, re.DOTALL)
+    assert found is not None
+    return re.sub(r"<[^>]+>", " ", found[2]).strip()
