@@ -18,6 +18,7 @@ import geocontact as gc
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.data.multibody.markers import MarkerTrajectories
 from tests import legs
+from tests.cli.calls import MESHES
 
 Run = Callable[[Path], Result]
 SURE = re.compile(r"\b(known|certified|best|explained|explains|standard error|95 %)", re.IGNORECASE)
@@ -81,7 +82,21 @@ def _joint(apart: float) -> Run:
     return run
 
 
+def _tube(_: Path) -> Result:
+    """The mantle of a cylinder, without its ends."""
+    return gc.fit_shape(
+        MESHES / "cylinder_r15_l40.stl", shape="cylinder", unit="mm", region="abs(z) < 19.9 and abs(nz) < 0.5"
+    )
+
+
+def _shape(mesh: str, shape: str) -> Run:
+    return lambda _: gc.fit_shape(MESHES / mesh, shape=shape, unit="mm")
+
+
 PAIRS = {
+    "fit a sphere": Pair(_shape("thigh.stl", "sphere"), "of the radius", _shape("sphere_r20.stl", "sphere")),
+    "fit a cylinder": Pair(_shape("torus_r25_r8.stl", "cylinder"), "a plane is as near", _tube),
+    "fit a plane": Pair(_shape("sphere_r20.stl", "plane"), "from the plane", _shape("plate_80x80x12.stl", "plane")),
     "ik": Pair(_ik(1.4), "mm from the model", _ik(1.0)),
     "scale": Pair(_scale(1.4), "mm from the model", _scale(1.0)),
     "id": Pair(_id(0.5), "third of the weight", _id(1.0)),
