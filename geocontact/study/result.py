@@ -33,6 +33,7 @@ from geocontact.analyses.frame.folder import Scratch, is_kept
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import factor_of
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.frame.several import CONTRADICTS, doubt_columns, judge_several, reserve_of_several
 from geocontact.analyses.frame.words import counted
 from geocontact.data.errors import InputError
 from geocontact.data.trial import mean_and_sd
@@ -40,7 +41,6 @@ from geocontact.io.text.units import split_header
 from geocontact.study.address import Digests, address_of, options_of
 from geocontact.study.curves import STEPS, StudyCurves, curves_of, require_summary
 from geocontact.study.description import StudyFile, read_study_file
-from geocontact.study.doubts import CONTRADICTS, doubt_columns, judge_trials, reserve_of_trials
 from geocontact.study.options import CohortOptions
 from geocontact.study.show import study_curves, study_page
 from geocontact.study.store import RESULTS, Store
@@ -76,6 +76,7 @@ PRINTED = ("values", "agreement")
 """Tables that are written as LaTeX too."""
 WRONG_CODE, FAILED_CODE = 2, 1
 LEVEL = 0.05
+LEAVE_OUT = "their numbers are in tables and means: mend them, or name them in `[[leave_out]]`"
 
 
 @dataclass(frozen=True)
@@ -193,10 +194,11 @@ class CohortResult(Result):
                 **{name: one.trial.factors.get(name, "") for name in names},
                 "state": one.outcome.state,
                 "folder": f"{RESULTS}/{one.address}" if one.outcome.state == DONE else "",
-                **doubt_columns(self.store.told(one.address) if one.outcome.state == DONE else {}),
+                **doubt_columns(told.get("fit", ""), told.get("warnings", ())),
                 "words": one.outcome.line,
             }
             for one in self.trials
+            for told in [self.store.told(one.address) if one.outcome.state == DONE else {}]
         ]
         return pd.DataFrame(rows)
 
@@ -288,8 +290,8 @@ def _looked_at(
     all_of_them = f"{len(done)} of {counted(len(trials), 'trial')} of {planned.file.analysis}"
     say(f"{all_of_them} have results, {new} of them new")
     told = [(one.trial.name, store.told(one.address)) for one in done]
-    judge_trials(told)
-    reserve_of_trials(told)
+    judge_several([(name, each.get("fit", "")) for name, each in told], LEAVE_OUT)
+    reserve_of_several([(name, each["warnings"]) for name, each in told])
     curves = curves_of(planned.file, [(one.trial, one.address) for one in done], store)
     surface = surface_values(planned.file, [(one.trial, one.address) for one in done], store)
     for line in means_by_condition(curves):

@@ -98,7 +98,7 @@ class Result(ABC):
         """
         super().__init_subclass__(**options)
         if "pages" in vars(cls):
-            cls.pages = _recorded(vars(cls)["pages"])
+            setattr(cls, "pages", _recorded(vars(cls)["pages"]))
         for name, withhold in (("tables", _without_claims), ("curves", _without_bands)):
             if name in vars(cls):
                 setattr(cls, name, _if_it_fits(vars(cls)[name], withhold))
