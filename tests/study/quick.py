@@ -68,7 +68,7 @@ def read(o: QuickOptions) -> tuple[float, str]:
     return float(words[0]), words[1] if len(words) > 1 else ""
 
 
-def run(inputs: tuple[float, str], o: QuickOptions) -> QuickResult:
+def run(inputs: tuple[float, str], o: QuickOptions) -> QuickResult:  # noqa: C901
     number, wrong = inputs
     match wrong:
         case "wrong":

@@ -69,7 +69,7 @@ class StandingCalibrateResult(Result):
         Channels by the last of them.
     """
 
-    claims: ClassVar[frozenset[str]] = frozenset({"sd with the trials"})
+    claims: ClassVar[frozenset[str]] = frozenset({"certified", "sd with the trials"})
 
     options: StandingCalibrateOptions
     given: StandingUpTrials
