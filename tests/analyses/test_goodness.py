@@ -15,6 +15,7 @@ from tempfile import TemporaryDirectory
 from unittest import mock
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import geocontact as gc
@@ -29,7 +30,8 @@ from geocontact.standing_up.chain import COORDINATES
 from geocontact.standing_up.phases import TRACKS_C
 from geocontact.standing_up.prediction import ALL
 from tests import legs
-from tests.cli.calls import MESHES
+from tests.analyses.mat import samples
+from tests.cli.calls import MESHES, PLATE, SPHERE, poses
 from tests.cli.gap_cases import damped_elbow, diagnosed_elbow
 from tests.unchecked import unchecked
 
@@ -137,6 +139,43 @@ def _design(turned: float) -> Run:
     return run
 
 
+def _mat(exchanged: bool) -> Run:
+    """Four landmarks of a flat scan, the same of the body; or two of them exchanged, 40 mm by 150 mm apart."""
+
+    def run(folder: Path) -> Result:
+        places = np.array([[20.0, 30.0], [60.0, 30.0], [20.0, 180.0], [60.0, 180.0]])
+        on_body = places[[2, 1, 0, 3]] if exchanged else places
+        head = "id, x [mm], y [mm], z [mm], body_x [mm], body_y [mm], body_z [mm]"
+        rows = [f"{k},{x},{y},0,{a},{b},0" for k, ((x, y), (a, b)) in enumerate(zip(places, on_body, strict=True))]
+        pairs = folder / "pairs.csv"
+        pairs.write_text("\n".join([head, *rows]) + "\n", encoding="utf-8")
+        return samples.shipped(body_landmarks=pairs)
+
+    return run
+
+
+def _cells(sign: float) -> Run:
+    """Load cells that are pressed by 300 N each, or pulled."""
+
+    def run(folder: Path) -> Result:
+        time = np.linspace(0.0, 1.0, 101)
+        cells = {name: sign * 300.0 * np.sin(np.pi * time) for name in ("PM [N]", "AM [N]", "AL [N]", "PL [N]")}
+        pd.DataFrame({"time [s]": time} | cells).to_csv(folder / "cells.csv", index=False)
+        return gc.load_cells(folder / "cells.csv")
+
+    return run
+
+
+def _area(threshold: float) -> Run:
+    """A ball of 40 mm on a plate: within 1 mm it touches, within 50 mm all of it does."""
+
+    def run(folder: Path) -> Result:
+        motion = poses(folder, (0, -30.0, 0), (0, -31.0, 0))
+        return gc.area(SPHERE, PLATE, unit="mm", motion=motion, threshold=(threshold,))
+
+    return run
+
+
 def _shape(mesh: str, shape: str) -> Run:
     return lambda _: gc.fit_shape(MESHES / mesh, shape=shape, unit="mm")
 
@@ -157,6 +196,9 @@ PAIRS = {
     ),
     "sit-to-stand compare": Pair(lambda _: _compared("100000"), "ankle torque: residual", lambda _: _compared("4500")),
     "sit-to-stand design": Pair(_design(10.0), "knee: residual", _design(0.0)),
+    "mat": Pair(_mat(True), "landmarks of scan and body", _mat(False)),
+    "loadcells": Pair(_cells(-1.0), "pulls on its tray", _cells(1.0)),
+    "area": Pair(_area(gc.mm(50)), "that of all its faces", _area(gc.mm(1))),
     "fit a sphere": Pair(_shape("thigh.stl", "sphere"), "of the radius", _shape("sphere_r20.stl", "sphere")),
     "fit a cylinder": Pair(_shape("torus_r25_r8.stl", "cylinder"), "a plane is as near", _tube),
     "fit a plane": Pair(_shape("sphere_r20.stl", "plane"), "from the plane", _shape("plate_80x80x12.stl", "plane")),
