@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from geocontact.analyses.mat.goodness import LOST, PALPATED
+from geocontact.analyses.motion.goodness import SLIDING
+from geocontact.analyses.motion.marker_tasks import FAR
+from geocontact.analyses.shape.goodness import POOR
+from geocontact.gap.levels import LEFT_OVER
 from geocontact.identify import goodness_of_fit as fit
 from geocontact.trial_checks.table import CHECKS
 
@@ -32,8 +37,8 @@ turn and not after it is in the model's axes already: it stays as it is, with a 
 
 A result that was compared with data says so in `run.json` (`fit`), and in Python as `result.fit_outcome`: `fits`,
 `doubtful`, or `contradicts`. With `contradicts` that is the first sentence, the command ends with 1, no parameter is
-called known and no interval is written. A doubt is a warning. `sit-to-stand calibrate` and `device`, `elbow fit`,
-`prosthesis simulate` and `shoulder simulate` have it; intervals are left out by the first of them only.
+called known and no interval is written. A doubt is a warning. What is fitted, or simulated beside a recording, has it;
+`cohort` and `gap diagnose --many` list it for every trial.
 
 | compares | doubtful | contradicts |
 |---|---|---|
@@ -42,6 +47,13 @@ called known and no interval is written. A doubt is a warning. `sit-to-stand cal
 | a parameter with the bounds of its search | on one of them | |
 | an interval with what is physical | | wholly outside |
 | samples outside of what the model describes | any | {fit.MUCH:.0%} or more |
+| markers with the model, `ik` and `scale` | beyond what OpenSim advises | rms > {1e3 * FAR:g} mm |
+| residual force of `id` | beyond Hicks et al. | > 1/3 of the weight, {fit.MUCH:.0%} of the time |
+| load of `id` with the foot under it | | nearer to the other foot |
+| joint of one segment with that of the other | rms > {2e3 * SLIDING:g} mm | rms > {1e3 * FAR:g} mm |
+| cylinder or sphere with a plane, `fit` | rms > {POOR:.0%} of the radius | the plane is as near |
+| what `gap diagnose` names with held-out trials | {LEFT_OVER:.0%} of the squared error stay | {fit.MUCH:.0%} stay |
+| landmarks of `mat` | rms > {1e3 * PALPATED:g} mm | rms > {1e3 * LOST:g} mm |
 
 z = (mean r²/s² − 1) / √(2/n (1 + 2 Σρ²)), with ρ the residual's autocorrelation up to its first negative value, which
 makes the excess of a slow residual less sure (Bartlett 1946).
