@@ -9,6 +9,11 @@ import inspect
 from collections.abc import Iterable, Sequence
 
 from geocontact.analyses.catalogue import ENTRIES
+from geocontact.analyses.mat.goodness import LOST, PALPATED
+from geocontact.analyses.motion.goodness import SLIDING
+from geocontact.analyses.motion.marker_tasks import FAR
+from geocontact.analyses.shape.goodness import POOR
+from geocontact.gap.levels import LEFT_OVER
 from geocontact.identify import goodness_of_fit as fit
 from geocontact.trial_checks.mesh_checks import MESH_CHECKS, MeshCheck
 from geocontact.trial_checks.recorded import Check
@@ -52,7 +57,8 @@ a table; a mirrored force along the floor of who stands up.
 
 A result that was compared with data says so in `run.json` (`fit`), and in Python as `result.fit_outcome`: `fits`,
 `doubtful`, or `contradicts`. With `contradicts` that is the first sentence, the command ends with 1, no parameter is
-called known. A doubt is a warning. It is in {judged}.
+called known and no interval is written. A doubt is a warning. It is in {judged}; studies and `gap diagnose --many` list
+it for every trial.
 
 | check | doubtful | contradicts |
 |---|---|---|
@@ -61,10 +67,22 @@ RESULTS = {
     "of_residual": (f"z > {fit.SURE:g}, rms > {fit.LARGER:g} s", f"z > {fit.SURE:g}, rms > {fit.FAR:g} s"),
     "of_r2": ("", "R² < 0"),
     "of_bounds": ("on one of them", ""),
-    "of_physics": ("", "wholly outside"),
     "of_range": ("any", f"{fit.MUCH:.0%} or more"),
+    "of_many_r2": ("R² < 0 in one", f"R² < 0 in {fit.MUCH:.0%} of them"),
+    "of_low_r2": (f"R² < {fit.DESCRIBES:g}", "R² < 0"),
+    "of_size": ("beyond what is usual", "beyond what is possible"),
+    "of_verdict": ("its interval reaches that", ""),
 }
 """From where each test of fit doubts and contradicts; what it compares is the first line of its docstring."""
+OWN = f"""| markers with the model, `ik` and `scale` | beyond what OpenSim advises | rms > {1e3 * FAR:g} mm |
+| residual force of `id` | beyond Hicks et al. | > 1/3 of the weight, {fit.MUCH:.0%} of the time |
+| load of `id` with the foot under it | | nearer to the other foot |
+| joint of one segment with that of the other | rms > {2e3 * SLIDING:g} mm | rms > {1e3 * FAR:g} mm |
+| cylinder or sphere with a plane, `fit` | rms > {POOR:.0%} of the radius | the plane is as near |
+| what `gap diagnose` names with held-out trials | {LEFT_OVER:.0%} of the squared error stay | {fit.MUCH:.0%} stay |
+| landmarks of `mat` | rms > {1e3 * PALPATED:g} mm | rms > {1e3 * LOST:g} mm |
+"""
+"""Those that one analysis has for itself."""
 NOISE = """
 s is the stated noise of a residual r, z = (mean r²/s² − 1) / √(2/n (1 + 2 Σρ²)), with ρ the residual's autocorrelation
 up to its first negative value, which makes the excess of a slow residual less sure (Bartlett 1946).
@@ -133,4 +151,4 @@ def trial_checks() -> str:
     for name, line in tests_of_fit().items():
         doubtful, contradicts = RESULTS[name]
         results += f"| {line.removeprefix('A doubt for ').removesuffix('.')} | {doubtful} | {contradicts} |\n"
-    return trials + surfaces + battery + results + NOISE
+    return trials + surfaces + battery + results + OWN + NOISE

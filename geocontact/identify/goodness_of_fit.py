@@ -196,7 +196,7 @@ def of_many_r2(name: str, values: Mapping[str, float]) -> Iterable[Doubt]:
 
 
 def of_low_r2(name: str, r2: float) -> Iterable[Doubt]:
-    """`of_r2`, and a doubt for a model that describes less than half of a channel's course."""
+    """A doubt for a model that describes less than half of a channel's course, or worse than its mean does."""
     yield from of_r2(name, r2)
     if 0.0 <= r2 < DESCRIBES:
         yield Doubt(f"{name}: R² is {r2:.2f}, the model leaves more of its course than it describes", False)

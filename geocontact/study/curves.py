@@ -69,16 +69,36 @@ def curves_of(study: StudyFile, done: Sequence[tuple[CohortTrial, str]], store: 
     there = [trial for trial, _ in done if files[trial.name].is_file()]
     if not there:
         raise InputError(study.path, "[summary] table", f"no trial has a table {name!r}", "see the folder tables")
-    first = pd.read_parquet(files[there[0].name])
+    columns = _required(study, files[there[0].name], name)
+    values = np.array([_curves(study, files[trial.name], columns) for trial in there])
+    subjects, conditions = subjects_of(study, there), conditions_of(study, there)
+    names = tuple(trial.name for trial in there)
+    return tuple(StudyCurves(column, names, subjects, conditions, values[:, k]) for k, column in enumerate(columns))
+
+
+def require_summary(study: StudyFile, one: tuple[CohortTrial, str], store: Store, *, alike: bool) -> None:
+    """InputError where a trial that is done does not have what `[summary]` names.
+
+    `alike`: all trials have the same options, so that a table that this one lacks none has.
+    """
+    name = study.summary.table or _first_over_time([one], store)
+    file = store.place(one[1]) / f"{name}.parquet"
+    if name and file.is_file():
+        _required(study, file, name)
+    elif name and alike:
+        known = ", ".join(store.told(one[1])["tables"])
+        raise InputError(study.path, "[summary] table", f"no trial has a table {name!r}", f"there are {known}")
+
+
+def _required(study: StudyFile, file: Path, name: str) -> tuple[str, ...]:
+    """Columns that the summary is about; InputError where the table does not have one of them."""
+    asked, first = study.summary, pd.read_parquet(file)
     columns = asked.columns or _columns(first, asked.over)
     missing = next((each for each in (*columns, asked.over, *asked.where) if each not in first.columns), None)
     if missing is not None:
         known = ", ".join(map(str, first.columns))
         raise InputError(study.path, "[summary]", f"table {name!r} has no column {missing!r}", f"there are {known}")
-    values = np.array([_curves(study, files[trial.name], columns) for trial in there])
-    subjects, conditions = subjects_of(study, there), conditions_of(study, there)
-    names = tuple(trial.name for trial in there)
-    return tuple(StudyCurves(column, names, subjects, conditions, values[:, k]) for k, column in enumerate(columns))
+    return columns
 
 
 def _first_over_time(done: Sequence[tuple[CohortTrial, str]], store: Store) -> str:

@@ -48,7 +48,7 @@ from geocontact.io.text.units import LENGTH
 
 LARGEST = 4_000_000
 """Bytes of a description."""
-RESERVED = ("name", "file", "state", "folder", "words")
+RESERVED = ("name", "file", "state", "folder", "words", "fit", "warnings")
 """Names of columns that every study has, and of what a pattern of files gives."""
 
 

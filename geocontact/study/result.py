@@ -15,8 +15,8 @@ import errno
 import secrets
 import shutil
 import time
-from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, chdir
+from collections.abc import Generator, Mapping
+from contextlib import ExitStack, chdir, closing
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -33,12 +33,13 @@ from geocontact.analyses.frame.folder import Scratch, is_kept
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import factor_of
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.frame.several import CONTRADICTS, doubt_columns, judge_several, reserve_of_several
 from geocontact.analyses.frame.words import counted
 from geocontact.data.errors import InputError
 from geocontact.data.trial import mean_and_sd
 from geocontact.io.text.units import split_header
 from geocontact.study.address import Digests, address_of, options_of
-from geocontact.study.curves import STEPS, StudyCurves, curves_of
+from geocontact.study.curves import STEPS, StudyCurves, curves_of, require_summary
 from geocontact.study.description import StudyFile, read_study_file
 from geocontact.study.options import CohortOptions
 from geocontact.study.show import study_curves, study_page
@@ -75,6 +76,7 @@ PRINTED = ("values", "agreement")
 """Tables that are written as LaTeX too."""
 WRONG_CODE, FAILED_CODE = 2, 1
 LEVEL = 0.05
+LEAVE_OUT = "their numbers are in tables and means: mend them, or name them in `[[leave_out]]`"
 
 
 @dataclass(frozen=True)
@@ -145,8 +147,10 @@ class CohortResult(Result):
 
     @property
     def exit_code(self) -> int:
-        """1 where a trial failed, 2 where none did but one had a mistake in its input."""
+        """1 where a trial failed or contradicts its data, 2 where none did but one had a mistake in its input."""
         states = {one.outcome.state for one in self.trials}
+        if any(self.store.told(one.address).get("fit") == CONTRADICTS for one in self.done):
+            return FAILED_CODE
         return 0 if states == {DONE} else WRONG_CODE if states <= {DONE, WRONG} else FAILED_CODE
 
     @property
@@ -190,10 +194,11 @@ class CohortResult(Result):
                 **{name: one.trial.factors.get(name, "") for name in names},
                 "state": one.outcome.state,
                 "folder": f"{RESULTS}/{one.address}" if one.outcome.state == DONE else "",
-                "warnings [-]": len(self.store.told(one.address)["warnings"]) if one.outcome.state == DONE else 0,
+                **doubt_columns(told.get("fit", ""), told.get("warnings", ())),
                 "words": one.outcome.line,
             }
             for one in self.trials
+            for told in [self.store.told(one.address) if one.outcome.state == DONE else {}]
         ]
         return pd.DataFrame(rows)
 
@@ -284,9 +289,9 @@ def _looked_at(
     note("trials", {"all": len(trials), "done": len(done)})
     all_of_them = f"{len(done)} of {counted(len(trials), 'trial')} of {planned.file.analysis}"
     say(f"{all_of_them} have results, {new} of them new")
-    for one in done:
-        for line in store.told(one.address)["warnings"]:
-            reserve(f"{one.trial.name}: {line}")
+    told = [(one.trial.name, store.told(one.address)) for one in done]
+    judge_several([(name, each.get("fit", "")) for name, each in told], LEAVE_OUT)
+    reserve_of_several([(name, each["warnings"]) for name, each in told])
     curves = curves_of(planned.file, [(one.trial, one.address) for one in done], store)
     surface = surface_values(planned.file, [(one.trial, one.address) for one in done], store)
     for line in means_by_condition(curves):
@@ -354,11 +359,21 @@ def _evaluated(planned: PlannedStudy, plan: list[_Planned], store: Store, o: Coh
         TrialTask(planned.file.analysis, trial.options, planned.file.home, store, address, sources, run_id)
         for address, trial in missing.items()
     ]
-    became = dict(_outcomes(tasks, o))
+    alike = len({frozenset(one.trial.options) for one in plan}) == 1
+    known = [(one.trial, one.address) for one in plan if one.known is not None and one.known.state == DONE]
+    for one in known[:1]:
+        require_summary(planned.file, one, store, alike=alike)
+    became: dict[str, TrialOutcome] = {}
+    with closing(_outcomes(tasks, o)) as ended:
+        for address, outcome in ended:
+            became[address] = outcome
+            if outcome.state == DONE and not known:
+                known.append((missing[address], address))
+                require_summary(planned.file, known[0], store, alike=alike)
     return [one.known or became[one.address] for one in plan]
 
 
-def _outcomes(tasks: list[TrialTask], o: CohortOptions) -> Iterator[tuple[str, TrialOutcome]]:
+def _outcomes(tasks: list[TrialTask], o: CohortOptions) -> Generator[tuple[str, TrialOutcome]]:
     if not tasks:
         return
     with workers_of(o) as client, listener().progress("trials", len(tasks)) as step:

@@ -125,6 +125,7 @@ def _evaluate(task: TrialTask, out: Path) -> None:
         "sentences": list(result.sentences),
         "warnings": list(result.warnings),
         "accepted": result.accepted,
+        "fit": result.fit_outcome or "",
     }
     draft = out / f"{TOLD}.part"
     draft.write_text(json.dumps(told, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

@@ -15,11 +15,12 @@ from typing import Any, ClassVar
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.frame.collector import add_input, say
+from geocontact.analyses.frame.collector import add_input, judge, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.result import Result
 from geocontact.data.errors import InputError
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit
 from geocontact.io.text.results import write_table
 
 
@@ -67,7 +68,7 @@ def read(o: QuickOptions) -> tuple[float, str]:
     return float(words[0]), words[1] if len(words) > 1 else ""
 
 
-def run(inputs: tuple[float, str], o: QuickOptions) -> QuickResult:
+def run(inputs: tuple[float, str], o: QuickOptions) -> QuickResult:  # noqa: C901
     number, wrong = inputs
     match wrong:
         case "wrong":
@@ -81,6 +82,10 @@ def run(inputs: tuple[float, str], o: QuickOptions) -> QuickResult:
         case "holds":  # compiled code that keeps the interpreter to itself
             o.file.with_suffix(".begun").touch()
             ctypes.PyDLL(None).sleep(60)
+        case "warns":
+            reserve(f"rms {number:g} mm, {2.0 * number:g} mm at most")
+        case "contradicts":
+            judge(GoodnessOfFit((Doubt("force: a line describes it better", True),), ("force",)))
         case "slow":
             time.sleep(0.3)
         case "hungry":

@@ -261,5 +261,37 @@ def test_warnings_of_trials_are_those_of_the_study(tmp_path: Path, scheduler: st
     done = cohort(tmp_path / "study.toml", tmp_path / "out", scheduler)
     kept = json.loads((tmp_path / "out" / "run.json").read_text("utf-8"))["warnings"]
     manifest = done.table("trials.csv")
-    assert manifest["warnings [-]"].sum() == len(kept) > 0
-    assert len(done.warnings) < len(kept)
+    assert manifest["warnings [-]"].sum() == 2 and len(kept) == 1  # that of the other trial is in trials.csv in words
+    assert "mm" in manifest["warnings"][1] and kept[0].endswith("(and alike in 1 other trial)")
+    assert done.warnings == kept
+
+
+def test_warnings_and_fits_of_trials_travel(tmp_path: Path, scheduler: str) -> None:
+    """Two warn of two numbers each, one contradicts its data: a line for each kind, and the trials in words."""
+    numbers = {"A": "1", "B": "2 contradicts", "C": "3 warns", "D": "4 warns"}
+    done = cohort(study(tmp_path, numbers), tmp_path / "out", scheduler)
+    manifest = pd.read_csv(tmp_path / "out" / "trials.csv", keep_default_na=False).set_index("name")
+    assert list(manifest["fit"]) == ["", "contradicts", "", ""] and list(manifest["warnings [-]"]) == [0, 0, 1, 1]
+    assert manifest["warnings"]["D"] == "rms 4 mm, 8 mm at most"
+    said = "C: rms 3 mm, 6 mm at most (and alike in 1 other trial)"
+    contradict = "1 of 1 trials contradict their data: B"
+    record = done.record()
+    assert record["warnings"][-1] == said and record["fit"]["outcome"] == "contradicts"
+    assert done.code == 1 and said in done.warnings and done.out.startswith("the result contradicts its data")
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert said in page and contradict in page
+
+
+def test_a_summary_that_no_trial_has_is_refused_after_the_first(tmp_path: Path, scheduler: str) -> None:
+    """Of thirty trials of 0.3 s each hardly one more than there are workers is evaluated."""
+    numbers = {f"S{k:02d}": f"{k} slow" for k in range(30)}
+    for line, said in (
+        ('columns = ["forze [N]"]', "has no column 'forze [N]'"),
+        ('table = "sinus"', "no trial has a table 'sinus'"),
+    ):
+        out = tmp_path / line[:5]
+        done = cohort(study(tmp_path, numbers, "[summary]", line), out, scheduler)
+        assert done.code == 2 and said in done.err
+        assert len(list(out.glob("results/*/trial.json"))) < 15
+        again = cohort(tmp_path / "study.toml", out, scheduler)
+        assert again.code == 2 and len(list(out.glob("results/*/trial.json"))) < 15

@@ -45,10 +45,11 @@ from geocontact.analyses.area.contact import (
 )
 from geocontact.analyses.area.distance_file import FILE, write_maps
 from geocontact.analyses.area.figure import area_figure, colour_span, write_paraview, write_stills
+from geocontact.analyses.area.goodness import goodness_of_areas
 from geocontact.analyses.area.options import AreaOptions, PressureOptions
 from geocontact.analyses.area.page import FRAMES, thinned_page
 from geocontact.analyses.area.pressure_page import shown_pressures
-from geocontact.analyses.frame.collector import current, listener, note, reserve, say
+from geocontact.analyses.frame.collector import current, judge, listener, note, reserve, say
 from geocontact.analyses.frame.contact_pressures import PressureMap, pressure_figure, write_contact_loads
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import Thinned
@@ -331,9 +332,20 @@ def _evaluated(bodies: Bodies, o: AreaOptions, name: str, motion: Motion) -> tup
     warn_of_lift_off(evolution, motion, name)
     warn_of_overlap(evolution, motion, name)
     _warn_of_doubts(evolution, bodies.settings, o.bounds is not None)
+    _judge(bodies, evolution, name)
     _summarise(evolution, name)
     say(least_distance(evolution, motion, name))
     return evolution, maps
+
+
+def _judge(bodies: Bodies, e: AreaEvolution, name: str) -> None:
+    """A doubt where an area is that of all faces that count."""
+    s = bodies.settings
+    sides = (
+        ("FIXED", bodies.fixed, s.fixed_faces, e.fixed.area),
+        ("MOVING", bodies.moving, s.moving_faces, e.moving.area),
+    )
+    judge(goodness_of_areas(name, sides, np.asarray(e.thresholds)))
 
 
 def _uncertain(

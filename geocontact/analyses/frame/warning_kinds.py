@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 WORD = re.compile(r"[^\s,;()\"'`–…]+")
 NUMBER = re.compile(r"[-−+]?\d+(\.\d+)?([eE][-−+]?\d+)?%?")
@@ -31,6 +31,35 @@ def merged(lines: Sequence[str]) -> list[str]:
         words, skeleton = _parted(line)
         kinds.setdefault(skeleton, []).append(words)
     return [line for skeleton, rows in kinds.items() for line in _lines(skeleton, rows)]
+
+
+def first_of_each_kind(trials: Iterable[tuple[str, Sequence[str]]], noun: str = "trial") -> list[str]:
+    """The first warning of each kind with the name of its trial, and of how many further ones it is.
+
+    Parameters
+    ----------
+    trials
+        Names with their warnings.
+    noun
+        What they are.
+
+    Unlike `merged` numbers and names may differ in any way: a study of hundreds of trials has a line for each kind.
+
+    >>> first_of_each_kind([("P1", ["rms 20 mm, 40 mm at most"]), ("P2", ["rms 22 mm, 50 mm at most"])])
+    ['P1: rms 20 mm, 40 mm at most (and alike in 1 other trial)']
+    """
+    firsts: dict[str, str] = {}
+    where: dict[str, dict[str, None]] = {}
+    for name, lines in trials:
+        for line in lines:
+            kind = _parted(line)[1]
+            firsts.setdefault(kind, f"{name}: {line}")
+            where.setdefault(kind, {})[name] = None
+    return [f"{line}{_others(len(where[kind]) - 1, noun)}" for kind, line in firsts.items()]
+
+
+def _others(count: int, noun: str) -> str:
+    return f" (and alike in {count} other {noun}{'' if count == 1 else 's'})" if count else ""
 
 
 def _parted(line: str) -> tuple[list[str], str]:

@@ -11,8 +11,9 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.frame import quantities
-from geocontact.analyses.frame.collector import add_input, note, reserve, say
+from geocontact.analyses.frame.collector import add_input, judge, note, reserve, say
 from geocontact.analyses.frame.words import counted
+from geocontact.analyses.loadcells.goodness import SLIGHT, goodness_of_cells
 from geocontact.analyses.loadcells.options import FOUND, STANCE, STRIDE, LoadcellOptions
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.errors import InputError
@@ -250,7 +251,6 @@ def shift_table(cuts: list[Cut]) -> pd.DataFrame:
 
 
 LITTLE = 500.0  # N; a knee under body weight bears more at some time
-SLIGHT = 0.01  # of the largest total; less tension than that is an offset not worth a word
 SHOWN = 3  # gaps that are named
 WHOLE = 1e-6  # how far the two weights of a cell may be from 1 together
 
@@ -262,6 +262,8 @@ def recorded_forces(given: LoadCellInputs, o: LoadcellOptions) -> tuple[Recorded
         RecordedCells(path, o.folders[path], r.forces, compartment_forces(r.time, r.forces, given.regression))
         for path, r in given.recordings.items()
     )
+    for each in recorded:
+        judge(goodness_of_cells(each.file.name, each.forces.total, each.by_cell(given.regression)))
     for each in recorded:
         _summarise(each, given.regression)
     return recorded

@@ -9,8 +9,9 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.frame.bodies import check_surfaces, read_input_surface
-from geocontact.analyses.frame.collector import add_input, note, reserve, say
+from geocontact.analyses.frame.collector import add_input, judge, note, reserve, say
 from geocontact.analyses.frame.quantities import centre
+from geocontact.analyses.mat.goodness import goodness_of_registration
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
@@ -110,9 +111,11 @@ def registered(
         found = fit_landmarks(model.on_scan, model.on_body, names=model.names)
         if guard.warning:
             reserve(guard.warning)
+        judge(goodness_of_registration("landmarks", found))
         _report_fit("landmarks", found)
         if model.surface is not None:
             engine, found = _by_shape(scan, model.surface, found, o)
+            judge(goodness_of_registration("shape", found), warned=not found.converged)
             _report_fit("shape", found, engine=engine)
             if not found.converged:
                 reserve("the registration by shape did not converge; look at registration.csv")

@@ -13,7 +13,8 @@ from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.bodies import read_body_motion
-from geocontact.analyses.frame.collector import add_input, note, reserve, say
+from geocontact.analyses.frame.collector import add_input, judge, note, reserve, say
+from geocontact.analyses.mat.goodness import goodness_of_cells
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
@@ -259,6 +260,7 @@ def _smooth(read: PressureFrames, pressure: Float[np.ndarray, "t r c"], o: MatOp
 
 def _reserve_oddities(seen: PreparedFrames, o: MatOptions) -> None:
     frames, clipping = seen.frames, seen.saturated
+    judge(goodness_of_cells(frames, clipping), warned=True)
     if clipping.any():
         cells, share = int(clipping.any(axis=0).sum()), clipping.any(axis=(1, 2)).mean()
         reserve(

@@ -21,10 +21,11 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import listener, note, reserve, say
+from geocontact.analyses.frame.collector import as_it_fits, if_it_fits, judge, listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.shape.fitting import ShapeInputs, describe, fit_table, profile_table, read, sagittal_about
+from geocontact.analyses.shape.goodness import FEW, POOR, goodness_of_shape, unsaid
 from geocontact.analyses.shape.options import ShapeOptions
 from geocontact.analyses.shape.show import fit_figure, fit_page, profile_curves
 from geocontact.data.errors import InputError
@@ -124,7 +125,7 @@ class ShapeResult(Result):
     def write_files(self, folder: Path) -> None:
         """fit.json besides, and residuals for ParaView."""
         f = self.fitting
-        text = json.dumps(describe(f, self.options), indent=2, ensure_ascii=False, allow_nan=False)
+        text = json.dumps(as_it_fits(describe(f, self.options)), indent=2, ensure_ascii=False, allow_nan=False)
         (folder / "fit.json").write_text(text + "\n", encoding="utf-8")
         if self.options.paraview:
             s = f.patch.surface
@@ -134,7 +135,6 @@ class ShapeResult(Result):
 
 FLATTEST = np.radians(60.0)  # arc below which a radius is hardly determined
 WINDOW = np.radians(30.0)
-POOR = 0.1  # of the radius, that the rms of the points may be
 
 
 def run(given: ShapeInputs, o: ShapeOptions) -> ShapeResult:
@@ -149,6 +149,10 @@ def run(given: ShapeInputs, o: ShapeOptions) -> ShapeResult:
             at(f"{o.shape} through the {name} points")
             own = patch.points[plane.height(patch.points) * side >= 0.0]
             sides[name] = _fitted(name, own, whole.axis, o)
+            judge(goodness_of_shape(name, sides[name], own), warned=True)
+        judge(goodness_of_shape(patch.surface.name, whole, patch.points), warned=True)
+        for name, fit in {patch.surface.name: whole, **sides}.items():
+            _report(name, fit)
         fitting = Fitting(patch, whole, sides, _profiles(patch, given.axis, whole, o, at))
     note("fit", describe(fitting, o))
     return ShapeResult(options=o, fitting=fitting)
@@ -166,11 +170,17 @@ def _fitted(
     except ValueError as error:
         raise InputError("", f"`shape` {o.shape}", f"{name}: {error}", "choose more faces with `region`") from error
     _warn_of_doubts(name, fit)
-    q = fit.quality
-    radius = "" if fit.radius is None else f"radius {fit.radius * 1e3:.3f} mm{_interval(fit)}, "
-    rms = f"rms {fit.rms * 1e3:.3f} mm"
-    say(f"{name}: {o.shape}, {radius}{rms} over {len(points)} points, {int(q.inlier.sum())} of them inliers")
+    for doubt in unsaid(name, fit, points):
+        reserve(doubt.what)
     return fit
+
+
+def _report(name: str, fit: ShapeFit) -> None:
+    q = fit.quality
+    radius = "" if fit.radius is None else f"radius {fit.radius * 1e3:.3f} mm{if_it_fits(_interval(fit))}, "
+    rms = f"rms {fit.rms * 1e3:.3f} mm"
+    count = len(q.residual)
+    say(f"{name}: {fit.shape}, {radius}{rms} over {count} points, {int(q.inlier.sum())} of them inliers")
 
 
 def _interval(fit: ShapeFit) -> str:
@@ -200,7 +210,7 @@ def _warn_of_doubts(name: str, fit: ShapeFit) -> None:
             "root mean square over all: no interval of the radius, because it fits a part only; choose that part with "
             "`region`"
         )
-    if share < 0.7:
+    if share < FEW:
         reserve(f"{name}: {1.0 - share:.0%} of the points are outliers; is it a {fit.shape}, and the right patch?")
 
 

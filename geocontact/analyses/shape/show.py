@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.analyses.frame.collector import if_it_fits
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.data.motion import Course
@@ -238,7 +239,7 @@ def _facts(fit: ShapeFit) -> list[tuple[str, str]]:
     if fit.radius is not None:
         interval = fit.radius_interval
         known = "" if interval is None else f" (95 % interval {interval[0] * MM:.3f} … {interval[1] * MM:.3f} mm)"
-        lines.append(("Radius", f"{fit.radius * MM:.3f} mm{known}"))
+        lines.append(("Radius", f"{fit.radius * MM:.3f} mm{if_it_fits(known)}"))
     q = fit.quality
     lines += [
         ("Distance of the points", f"rms {fit.rms * MM:.3f} mm, mean {fit.mean_abs * MM:.3f} mm"),

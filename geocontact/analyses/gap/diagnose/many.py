@@ -11,7 +11,7 @@ import shutil
 import traceback
 import uuid
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -23,7 +23,6 @@ from geocontact.analyses.frame.collector import (
     current,
     listener,
     note,
-    reserve,
     results,
     results_place,
     say,
@@ -34,6 +33,7 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.rerun import read_run, results_of
 from geocontact.analyses.frame.result import Part, Result
+from geocontact.analyses.frame.several import CONTRADICTS, doubt_columns, judge_several, reserve_of_several
 from geocontact.analyses.frame.source_digest import digest as sources_digest
 from geocontact.analyses.frame.table_forms import TableForms
 from geocontact.analyses.frame.words import counted
@@ -66,6 +66,8 @@ class Outcome:
         Reservations.
     row
         Of the summary.
+    fit
+        Whether the answer agrees with the trials that were held out; "" where nothing was compared.
     """
 
     name: str
@@ -73,6 +75,12 @@ class Outcome:
     line: str
     warnings: tuple[str, ...] = ()
     row: tuple[tuple[str, str | float], ...] = ()
+    fit: str = ""
+
+    @property
+    def told(self) -> dict[str, str | float]:
+        """The row with the outcome of the fit and each kind of warning in words."""
+        return dict(self.row) | doubt_columns(self.fit, self.warnings)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -103,9 +111,9 @@ class ManyResult(Result):
 
     @property
     def exit_code(self) -> int:
-        """That of the worst case."""
+        """That of the worst case; 1 where an answer contradicts its data."""
         codes = {one.code for one in self.outcomes}
-        return FAILED if FAILED in codes else max(codes)
+        return FAILED if FAILED in codes or any(one.fit == CONTRADICTS for one in self.outcomes) else max(codes)
 
     @property
     def title(self) -> str:
@@ -119,7 +127,7 @@ class ManyResult(Result):
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`summary`: a row for each case that could be diagnosed."""
-        return {SUMMARY: pd.DataFrame([dict(one.row) for one in self.done])}
+        return {SUMMARY: pd.DataFrame([one.told for one in self.done])}
 
     def write_files(self, folder: Path) -> None:
         """Also all results of each case in a sub-folder of its name."""
@@ -149,7 +157,8 @@ def kept(case: Path, folder: Path, o: ManyOptions, sources: str) -> Outcome | No
         if any(digest(folder / name) != known for name, known in results_of(folder).items()):
             return None
         answer = json.loads((folder / ANSWER).read_bytes())
-        return Outcome(case.name, 0, told["results"][SAID], tuple(told["warnings"]), row(answer))
+        fit = told.get("fit", {}).get("outcome", "")
+        return Outcome(case.name, 0, told["results"][SAID], tuple(told["warnings"]), row(answer), fit)
     except (InputError, OSError, KeyError, TypeError, AttributeError, ValueError):
         return None  # nothing there, or not of this make
 
@@ -188,9 +197,9 @@ def run_many(folders: list[Path], o: ManyOptions) -> ManyResult:
     note("run", uuid.uuid4().hex)
     scratch = Scratch()
     outcomes = _all(folders, scratch.folder, o)
+    judge_several([(one.name, one.fit) for one in outcomes], "nothing is named in them", "case")
+    reserve_of_several([(one.name, one.warnings) for one in outcomes], "case")
     for one in outcomes:
-        for line in one.warnings:
-            reserve(line)
         if one.code:
             listener().fail(one.line)
     result = ManyResult(options=o, outcomes=tuple(outcomes), scratch=scratch)
@@ -243,7 +252,7 @@ def _keep(done: Path, place: Path) -> None:
 
 def _outcome_of(folder: Path, became: Outcome | BaseException, draft: Path) -> Outcome:
     if isinstance(became, Outcome):
-        return Outcome(became.name, became.code, spelled(became.line), became.warnings, became.row)
+        return replace(became, line=spelled(became.line))
     shutil.rmtree(draft / folder.name, ignore_errors=True)  # a process that was killed leaves what it had written
     return Outcome(folder.name, FAILED, f"{folder}: {type(became).__name__}: {became}")
 
@@ -288,7 +297,8 @@ def outcome(
     except Exception as error:  # the others shall be diagnosed all the same
         last = traceback.extract_tb(error.__traceback__)[-1]
         return failed(FAILED, f"{folder}: {type(error).__name__}: {error} ({Path(last.filename).name} {last.lineno})")
-    return Outcome(folder.name, 0, result.sentences[0], result.warnings, row(result.diagnosis.as_dict()))
+    said = result.sentences[0], result.warnings, row(result.diagnosis.as_dict()), result.fit_outcome or ""
+    return Outcome(folder.name, 0, *said)
 
 
 diagnose_many = Job("gap diagnose", ManyOptions, read_folders, run_many)

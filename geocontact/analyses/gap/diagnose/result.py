@@ -21,13 +21,13 @@ removes 93 % of the error (2.92 → 0.21 N m, noise floor 0.21); 0 % stays unexp
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.frame.collector import listener, note, reserve, say
+from geocontact.analyses.frame.collector import as_it_fits, contradicted, judge, listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.result import PARTS, REPORT, Part, Result
@@ -41,6 +41,7 @@ from geocontact.data.gap_case import GapCase
 from geocontact.data.version import VERSION
 from geocontact.gap.diagnose import Findings
 from geocontact.gap.diagnose import diagnose as findings_of
+from geocontact.gap.held_out_fit import goodness_of_diagnosis, without_claims
 from geocontact.io.text.results import CASES
 
 if TYPE_CHECKING:
@@ -121,7 +122,7 @@ class DiagnoseResult(Result):
     def write_files(self, folder: Path) -> None:
         """Also the answer."""
         super().write_files(folder)
-        write_json(folder / "diagnosis.json", self.diagnosis.as_dict())
+        write_json(folder / "diagnosis.json", as_it_fits(self.diagnosis.as_dict()))
 
 
 def read(o: DiagnoseOptions) -> CaseWithModel:
@@ -132,7 +133,7 @@ def read(o: DiagnoseOptions) -> CaseWithModel:
 def run(given: CaseWithModel, o: DiagnoseOptions) -> DiagnoseResult:
     """Diagnosis, and what is found in words."""
     with listener().stages(o.case.resolve().name) as at:
-        findings = findings_of(given.case, given.system, VERSION, at)
+        findings = _held_to(findings_of(given.case, given.system, VERSION, at))
     note(
         "diagnosis",
         {
@@ -147,6 +148,17 @@ def run(given: CaseWithModel, o: DiagnoseOptions) -> DiagnoseResult:
     if untried is not None:
         reserve(untried)
     return DiagnoseResult(options=o, case=given.case, findings=findings)
+
+
+def _held_to(findings: Findings) -> Findings:
+    """The findings beside their own errors on held-out trials: what those contradict is not named."""
+    fit = goodness_of_diagnosis(findings.diagnosis)
+    judge(fit, warned=not findings.diagnosis.effects)  # an unknown gap says so by itself
+    if not contradicted():
+        return findings
+    first = max((doubt for doubt in fit.doubts if doubt.contradicts), key=lambda doubt: doubt.size)
+    curves = tuple(replace(trial, named=None) for trial in findings.held_out)
+    return replace(findings, diagnosis=without_claims(findings.diagnosis, first.what), held_out=curves, trials=())
 
 
 diagnose = Job("gap diagnose", DiagnoseOptions, read, run)

@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from geocontact.analyses.frame.collector import collecting, current, listener, note, reserve, say
+from geocontact.analyses.frame.collector import collecting, current, judge, listener, note, reserve, say
 from geocontact.analyses.frame.folder import Scratch
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
@@ -163,6 +163,8 @@ def run(given: CaseWithModel, o: InjectOptions) -> InjectResult:
     if given.case.cells:
         reserve("cells of mats are left as they were: they do not show the effect")
     found = _diagnosed(scratch.folder / CASE, o)
+    if found.record.fit is not None:
+        judge(found.record.fit, warned=True)
     judgement = judged(one, made, before, found.diagnosis)
     said = tuple(sentences(one, made, found.diagnosis, judgement))
     found = replace(found, injected=said)

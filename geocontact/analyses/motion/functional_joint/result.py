@@ -10,7 +10,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,13 +18,14 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import reserve, results, say
+from geocontact.analyses.frame.collector import contradicted, judge, reserve, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import finite, plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.functional_joint.options import JointOptions
 from geocontact.analyses.motion.functional_joint.read import MovedPair, Segment, marker_list, means_of, read
 from geocontact.analyses.motion.functional_joint.show import joint_curves, joint_page
+from geocontact.analyses.motion.goodness import goodness_of_joint
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.functional_joint import JointPoints, apart_in_halves, axis_points, centre_points, segment_poses
@@ -97,7 +98,8 @@ class JointResult(Result):
     def facts(self) -> list[tuple[str, str]]:
         """The few numbers that belong to the answer, each with its name."""
         s, first = self.summary, self.summary["first"]
-        told = [("place in the first segment", ", ".join(f"{value:.1f}" for value in first["point_mm"]) + " mm")]
+        place = ", ".join(f"{value:.1f}" for value in first["point_mm"]) + " mm"
+        told = [] if self.fit_outcome == "contradicts" else [("place in the first segment", place)]
         if "point_sd_mm" in first:
             told.append(("largest standard error", f"{max(first['point_sd_mm']):.2f} mm"))
         if "direction" in first:
@@ -134,6 +136,9 @@ def run(pair: MovedPair, o: JointOptions) -> JointResult:
     except ValueError as error:
         raise InputError(o.trial, "", str(error), MOVE if o.axis else f"{MOVE}; for a hinge give `axis`") from error
     halves = apart_in_halves(*poses, near)
+    judge(goodness_of_joint(points, _spread(pair), pair.off, halves), warned=True)
+    if contradicted():  # without standard errors: they are those of a joint that is there
+        points = replace(points, first_sd=None, second_sd=None)
     summary = _summary(o, pair, points, halves)
     results().update(plain(summary))
     _warn(o, pair, points)
@@ -151,6 +156,12 @@ def turned(pair: MovedPair) -> float:
     """Largest turn of the second segment in the first from where it is first seen [rad]."""
     relative = pair.first_poses.rotation.inv() * pair.second_poses.rotation
     return float((relative[0].inv() * relative).magnitude().max())
+
+
+def _spread(pair: MovedPair) -> float:
+    """Root mean square by which the origins of the segments move against each other in the laboratory [m]."""
+    away = pair.second_poses.translation - pair.first_poses.translation
+    return float(np.sqrt(np.mean(np.sum((away - away.mean(axis=0)) ** 2, axis=1))))
 
 
 def _summary(o: JointOptions, pair: MovedPair, points: JointPoints, halves: float) -> dict[str, object]:
@@ -188,6 +199,9 @@ def _warn(o: JointOptions, pair: MovedPair, points: JointPoints) -> None:
         if off > SKIN:
             what = f"{', '.join(segment.names)} are {1e3 * off:.0f} mm from a rigid segment, root mean square"
             reserve(f"{option}: {what}: skin that slides, or names exchanged")
+    if points.rms > APART:
+        what = f"the joint of one segment is {1e3 * points.rms:.0f} mm from that of the other, root mean square"
+        reserve(f"{o.trial}: {what}: are these two neighbouring segments?")
     if points.looseness is not None and points.looseness > LOOSE:
         reserve(f"{o.trial}: a point fits as well as an axis (looseness {points.looseness:.2f}): is it a hinge?")
 

@@ -22,6 +22,7 @@ from geocontact.data.sides import stem_and_side
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.inverse_dynamics import SMOOTH
 from geocontact.dynamics.loads_on_bodies import (
+    MisplacedLoad,
     added,
     farthest_line,
     from_bodies,
@@ -173,13 +174,17 @@ def _warn_of_far_points(file: Path, load: ExternalLoad, wrench: Wrench, origin: 
         reserve(f"{file}: {load.plate}: {what}: exchanged plates, or a higher `threshold`?")
 
 
-def warn_of_other_feet(model: Multibody, values: Float[np.ndarray, "t c"], loads: Mapping[str, Wrench]) -> None:
-    """A reservation for each load that passes nearer another loaded body than its own, in most of the frames."""
-    for load in misplaced_loads(model, values, loads):
+def warn_of_other_feet(
+    model: Multibody, values: Float[np.ndarray, "t c"], loads: Mapping[str, Wrench]
+) -> list[MisplacedLoad]:
+    """A reservation for each load that passes nearer another loaded body than its own, in most of the frames; those."""
+    misplaced = misplaced_loads(model, values, loads)
+    for load in misplaced:
         reserve(
             f"the load on {load.body} acts {load.distance:.2f} m from it and {load.nearest_distance:.2f} m from "
             f"{load.nearest} (median over its frames): are the loads of the two exchanged?"
         )
+    return misplaced
 
 
 @dataclass(frozen=True)

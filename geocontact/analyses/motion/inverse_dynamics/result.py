@@ -18,11 +18,12 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import reserve, results, say
+from geocontact.analyses.frame.collector import contradicted, judge, reserve, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.gait_cycles import cycles_table
+from geocontact.analyses.motion.goodness import goodness_of_loads
 from geocontact.analyses.motion.inverse_dynamics.forces import warn_of_residuals, words, write_setup
 from geocontact.analyses.motion.inverse_dynamics.loads import Loaded, read, warn_of_other_feet
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
@@ -125,7 +126,9 @@ def run(given: Loaded, o: IdOptions) -> IdResult:
     single = tuple(name for name in o.exclude if name in passive.excluded)
     if single:
         reserve(f"OpenSim leaves out groups of forces only: with setup_id.xml it lets {listed(single)} act")
-    warn_of_other_feet(given.model, given.shown, given.loads)
+    misplaced = warn_of_other_feet(given.model, given.shown, given.loads)
+    if forces.at_ground.any() and forces.peak > 0.0:
+        judge(goodness_of_loads(forces, words(forces), misplaced), warned=True)
     _report(forces)
     return IdResult(
         options=o,
@@ -186,7 +189,9 @@ def _report(forces: GeneralisedForces) -> None:
     frame, largest = forces.largest(~forces.at_ground)
     name = forces.names[largest]
     unit = "N m" if name.endswith("_moment") else "N"
-    said = f"{len(forces.time)} frames; largest at {name}, {abs(np.asarray(forces.values)[frame, largest]):.4g} {unit}"
+    said = f"{len(forces.time)} frames"
+    if not contradicted():
+        said += f"; largest at {name}, {abs(np.asarray(forces.values)[frame, largest]):.4g} {unit}"
     say("; ".join(each for each in (said, words(forces)) if each))
 
 

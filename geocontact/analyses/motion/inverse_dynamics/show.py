@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from geocontact.analyses.frame.collector import contradicted
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.gait_cycles import cycles_curves
@@ -83,8 +84,8 @@ def forces_curves(forces: GeneralisedForces) -> CurveSheet:
 
 
 def answer(forces: GeneralisedForces, turning: Bool[np.ndarray, " n"]) -> list[str]:
-    """The largest moment, and what is left over at the ground; nothing where no joint turns."""
-    if not turning.any():
+    """The largest moment and the residuals at the ground; nothing where no joint turns or the loads contradict it."""
+    if contradicted() or not turning.any():
         return []
     frame, which = forces.largest(turning)
     name, size = forces.model.coordinates[which].name, abs(forces.values[frame, which])
@@ -102,7 +103,7 @@ def _start(forces: GeneralisedForces, turning: Bool[np.ndarray, " n"], shown: In
 
 def _facts(forces: GeneralisedForces, turning: Bool[np.ndarray, " n"]) -> list[tuple[str, str]]:
     told = []
-    if turning.any():
+    if turning.any() and not contradicted():
         frame, which = forces.largest(turning)
         where = f"{forces.model.coordinates[which].name} at {forces.time[frame]:.3g} s"
         told.append(("Largest moment", f"{abs(forces.values[frame, which]):.1f} N m, {where}"))

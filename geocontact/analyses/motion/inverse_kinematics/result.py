@@ -22,11 +22,12 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import listener, reserve, results, say
+from geocontact.analyses.frame.collector import judge, listener, reserve, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.motion.gait_cycles import cycles_table
+from geocontact.analyses.motion.goodness import goodness_of_poses, of_ends
 from geocontact.analyses.motion.inverse_kinematics.knees import knee_table
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.inverse_kinematics.read import KinematicsInputs, read
@@ -125,7 +126,8 @@ class IkResult(Result):
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Coordinates over time, and how far each marker is from the model."""
         title, seen = f"Inverse kinematics of {self.options.markers.name}", self.seen
-        return {REPORT: kinematics_page(title, seen.model, self.poses, seen.markers, self.cycles, self.sentences)}
+        said = self.sentences[1:] if self.fit_outcome == "contradicts" else self.sentences
+        return {REPORT: kinematics_page(title, seen.model, self.poses, seen.markers, self.cycles, said)}
 
     def write_files(self, folder: Path) -> None:
         """ik.mot for OpenSim, its set-up with the markers as read and ik.json besides; analog.sto if asked for."""
@@ -180,6 +182,9 @@ def run(seen: KinematicsInputs, o: IkOptions) -> IkResult:
     if exchanged is None and "upright" not in seen.doubts:
         warn_of_tilt(seen.model, found.values, o.axes)
     _warn(found)
+    for end in of_ends(found, seen.model):
+        reserve(f"{end.what}: the markers ask for an angle beyond it")
+    judge(goodness_of_poses(found, seen.model, MOVING), warned=True)
     told = "" if (free := _never(found)) <= UNTOLD * len(found.names) else f"{free} of {len(found.names)} coordinates "
     told = told and f"{told}are not determined; "
     say(f"{told}{len(found.time)} frames, {len(found.markers)} markers: {errors.words(MOVING)}")

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.analyses.frame.collector import contradicted
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.gait_cycles import cycles_curves
@@ -69,8 +70,9 @@ def answer(found: Poses) -> list[str]:
     """How well the markers fit and where worst; before it how many coordinates no frame determines, if any."""
     errors, free = MarkerErrors.of(found), int((~found.determined.any(axis=0)).sum())
     said = [f"{free} of {len(found.names)} coordinates are not determined."] if free else []
+    fit = "are off by" if contradicted() else "fit within"
     said.append(
-        f"Markers fit within {1e3 * errors.rms:.1f} mm RMS; worst {errors.marker}, {1e3 * errors.largest:.1f} mm at "
+        f"Markers {fit} {1e3 * errors.rms:.1f} mm RMS; worst {errors.marker}, {1e3 * errors.largest:.1f} mm at "
         f"{errors.time:.3g} s."
     )
     return said

@@ -23,10 +23,11 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import reserve, results, say
+from geocontact.analyses.frame.collector import judge, reserve, results, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.motion.goodness import goodness_of_poses
 from geocontact.analyses.motion.marker_tasks import STANDING, MarkerErrors
 from geocontact.analyses.motion.panels import printed
 from geocontact.analyses.motion.scale.factors import Standing, labelled, read
@@ -148,6 +149,7 @@ def run(given: Standing, o: ScaleOptions) -> ScaleResult:
     moved = made if o.keep_markers else _placed(made, given.markers, pose)
     summary = _summary(given, pose, moved)
     results().update(plain(summary))
+    judge(goodness_of_poses(pose, made, STANDING), warned=True)
     _report(given, pose)
     which = [[m.name for m in made.markers].index(name) for name in pose.markers]
     return ScaleResult(

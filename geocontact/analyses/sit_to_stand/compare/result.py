@@ -11,11 +11,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import pandas as pd
 
-from geocontact.analyses.frame.collector import note, results_place, say
+from geocontact.analyses.frame.collector import contradicted, if_it_fits, judge, note, results_place, say
 from geocontact.analyses.frame.folder import written_whole
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import by_name
@@ -23,6 +23,7 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.compare.options import StandingCompareOptions
 from geocontact.analyses.sit_to_stand.compare.show import compared_curves, compared_page
+from geocontact.analyses.sit_to_stand.goodness import goodness_of_predictions
 from geocontact.analyses.sit_to_stand.predict.predictions import (
     MEAN,
     HeldOutTrials,
@@ -63,6 +64,8 @@ class StandingCompareResult(Result):
         One row for each trial, predictor and channel.
     """
 
+    claims: ClassVar[frozenset[str]] = frozenset(("certified",))
+
     options: StandingCompareOptions
     given: HeldOutTrials
     predictions: tuple[PredictedTrial, ...]
@@ -98,7 +101,7 @@ class StandingCompareResult(Result):
         """Moving chains, curves, errors by predictor."""
         best = [one.trial for one in self.predictions if one.name == ALL]
         subject, predicted = self.given.trials.subject, self.curves()["comparison"]
-        tiles = compared_tiles(self.errors)
+        tiles = compared_tiles(self.errors) if self.fits else []
         return {REPORT: compared_page(self.sentences, tiles, subject, best, predicted, self.tables())}
 
 
@@ -115,6 +118,7 @@ def run(given: HeldOutTrials, o: StandingCompareOptions) -> StandingCompareResul
     trivial = _trivial(given, predictions)
     errors = _compared(given, predictions, trivial)
     result = StandingCompareResult(options=o, given=given, predictions=predictions, trivial=trivial, errors=errors)
+    judge(goodness_of_predictions(predictions, given.trials.noise))
     _report(result)
     for trial in trials_begun(predictions):
         near = nearest_trial(given.known.trials, trial)
@@ -161,15 +165,17 @@ def _rows(
 
 def _report(r: StandingCompareResult) -> None:
     errors = r.errors
-    won, channels_free = nearer_than_both(errors)
-    say(f"the prediction is nearer than both baselines on {won} of {channels_free} channels that are not given")
-    note("better than both", [won, channels_free])
+    if not contradicted():
+        won, channels_free = nearer_than_both(errors)
+        say(f"the prediction is nearer than both baselines on {won} of {channels_free} channels that are not given")
+        note("better than both", [won, channels_free])
     for quantity in ("strap", "knee"):
         own = errors[errors["quantity"] == quantity]
         each = own.groupby("predictor", sort=False)["rmsd"].max()
         unit = str(own["unit"].iloc[0]).replace("deg", "°")
         words = ", ".join(f"{name} {value:.3g} {unit}" for name, value in each.items())
-        say(f"{quantity}, largest RMSD of {counted(len(r.trivial), 'trial')}: {words}; {_verdict(each)}")
+        verdict = if_it_fits(f"; {_verdict(each)}")
+        say(f"{quantity}, largest RMSD of {counted(len(r.trivial), 'trial')}: {words}{verdict}")
         note(quantity, {str(name): float(value) for name, value in each.items()})
 
 

@@ -13,12 +13,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.frame.collector import listener, note, reserve, say
+from geocontact.analyses.frame.collector import contradicted, judge, listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
@@ -37,6 +37,7 @@ from geocontact.analyses.sit_to_stand.design.designs import (
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
 from geocontact.analyses.sit_to_stand.design.show import choice_page, design_curves
 from geocontact.analyses.sit_to_stand.exports import write_motion, write_standing_model
+from geocontact.analyses.sit_to_stand.goodness import goodness_of_movement
 from geocontact.analyses.sit_to_stand.trial_tables import mesh_table, not_certified, ran_table
 from geocontact.data.errors import InputError
 from geocontact.dynamics.collocation.solve import SolverOptions, stopped_by_ctrl_c
@@ -81,6 +82,8 @@ class StandingDesignResult(Result):
     draws
         What the gain is with drawn parameters.
     """
+
+    claims: ClassVar[frozenset[str]] = frozenset(("certified",))
 
     options: StandingDesignOptions
     given: TrialsToHelp
@@ -149,8 +152,8 @@ class StandingDesignResult(Result):
         subject, curves = self.given.trials.subject, self.curves()["design"]
         what, unit = AIMS[self.options.aim][0], UNITS[self.options.aim]
         known = self.answered(self.designs)
-        said = [*answer(what, unit, known, self.answered(self.front)), *self.sentences]
-        facts = tiles(what, unit, known, in_units(self.best))
+        said = [*(answer(what, unit, known, self.answered(self.front)) if self.fits else ()), *self.sentences]
+        facts = tiles(what, unit, known, in_units(self.best)) if self.fits else []
         return {REPORT: choice_page(said, facts, subject, self.designs, curves, self.tables())}
 
     def answered(self, designs: Sequence[CertifiedDesign]) -> list[AnsweredDesign]:
@@ -196,6 +199,7 @@ def run(given: TrialsToHelp, o: StandingDesignOptions) -> StandingDesignResult:
         options=o, given=given, model=search.model, designs=tuple(designs), front=front, draws=draws
     )
     doubt(result, stopped=search.stop)
+    judge(goodness_of_movement(result.designs[0].trials, given.trials.noise))
     _report(result, search.movements.solved, search.movements.seconds)
     return result
 
@@ -247,17 +251,9 @@ def _report(r: StandingDesignResult, solved: int, seconds: float) -> None:
         each = ", ".join(f"{name} {getattr(of, sizes)[aim]:.3g} {unit}" for name, of in asked.items())
         say(f"{what}, {how}: {each}")
     say(_of_knee(r))
-    for line in answer(what, unit, r.answered(r.designs), r.answered(r.front))[1:]:
-        say(line)
-    numbers = ", ".join(f"{name} {value:.3g} {PARTS.get(name, of)}" for name, value, of in in_units(r.best))
-    say(f"{r.best.name}: {numbers}")
-    gain, (low, high) = r.gain, gain_interval(r.draws)
-    also = f", {low:.0%} to {high:.0%} over {counted(len(r.draws), 'draw')}" if np.isfinite(low) else ""
-    both = f"{gain:.0%} ({sought}{also}), {r.true_gain:.0%} ({beside})"
-    say(f"gain over {r.reference.name}: {both}; shear of the strap is predicted, a mat cannot measure it")
-    seen = [trial for one in (*r.designs, *r.front) for trial in one.trials]
-    passed = sum(t.judged.certificate is not None and t.judged.certificate.converged for t in seen)
-    say(f"{passed} of {counted(len(seen), 'motion')} certified; {counted(solved, 'movement')} in {seconds:.0f} s")
+    interval = gain_interval(r.draws)
+    if not contradicted():
+        _say_choice(r, solved, seconds)
     note(
         "design",
         {
@@ -268,12 +264,28 @@ def _report(r: StandingDesignResult, solved: int, seconds: float) -> None:
             "largest": {name: dict(zip(MEASURES, of.largest.tolist(), strict=True)) for name, of in asked.items()},
             "chosen": {name: value for name, value, _ in in_units(r.best)},
             "price": None if r.best.design is None else r.best.design.price,
-            "gain": gain,
-            "gain_interval": None if not np.isfinite(low) else [low, high],
+            "gain": r.gain,
+            "gain_interval": [*interval] if np.isfinite(interval[0]) else None,
             "movements": solved,
             "cpu_seconds": round(seconds, 3),
         },
     )
+
+
+def _say_choice(r: StandingDesignResult, solved: int, seconds: float) -> None:
+    """What was chosen, the gain over not choosing it, and how many motions are certified."""
+    what, sought, beside = AIMS[r.options.aim]
+    for line in answer(what, UNITS[r.options.aim], r.answered(r.designs), r.answered(r.front))[1:]:
+        say(line)
+    numbers = ", ".join(f"{name} {value:.3g} {PARTS.get(name, of)}" for name, value, of in in_units(r.best))
+    say(f"{r.best.name}: {numbers}")
+    gain, (low, high) = r.gain, gain_interval(r.draws)
+    also = f", {low:.0%} to {high:.0%} over {counted(len(r.draws), 'draw')}" if np.isfinite(low) else ""
+    both = f"{gain:.0%} ({sought}{also}), {r.true_gain:.0%} ({beside})"
+    say(f"gain over {r.reference.name}: {both}; shear of the strap is predicted, a mat cannot measure it")
+    seen = [trial for one in (*r.designs, *r.front) for trial in one.trials]
+    passed = sum(t.judged.certificate is not None and t.judged.certificate.converged for t in seen)
+    say(f"{passed} of {counted(len(seen), 'motion')} certified; {counted(solved, 'movement')} in {seconds:.0f} s")
 
 
 def _of_knee(r: StandingDesignResult) -> str:

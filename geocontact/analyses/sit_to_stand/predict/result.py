@@ -12,17 +12,19 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.frame.collector import note, results_place, say
+from geocontact.analyses.frame.collector import contradicted, judge, note, results_place, say
 from geocontact.analyses.frame.folder import written_whole
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.exports import write_motion
+from geocontact.analyses.sit_to_stand.goodness import goodness_of_predictions
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.predict.predictions import (
     MEAN,
@@ -117,6 +119,8 @@ class StandingPredictResult(Result):
     means
         The trivial predictor, by trial.
     """
+
+    claims: ClassVar[frozenset[str]] = frozenset(("certified",))
 
     options: StandingPredictOptions
     given: HeldOutTrials
@@ -238,6 +242,7 @@ def run(given: HeldOutTrials, o: StandingPredictOptions) -> StandingPredictResul
                 result_of(predictions).write_numbers(draft)
 
     result = result_of(predicted(given, o, keep))
+    judge(goodness_of_predictions(result.predictions, given.trials.noise))
     _report(result)
     return result
 
@@ -255,7 +260,8 @@ def _report(r: StandingPredictResult) -> None:
     say(f"for comparison: {'; '.join(others)}")
     seen = [one.trial.judged.certificate for one in r.predictions]
     passed = sum(each is not None and each.converged for each in seen)
-    say(f"{passed} of {counted(len(seen), 'motion')} certified")
+    if not contradicted():
+        say(f"{passed} of {counted(len(seen), 'motion')} certified")
     note(
         "predict",
         {

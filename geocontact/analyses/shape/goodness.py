@@ -1,0 +1,67 @@
+"""Whether a cylinder, sphere or plane describes the points that it was fitted to.
+
+No noise of a surface is stated: a shape is compared with what is simpler, a curved one with the flat one, a flat one
+with the spread of the points along it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.geometry.fit.found import ShapeFit
+from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit
+
+POOR, NONE = 0.1, 0.3
+"""Of the radius: root mean square of the points from which on it is doubtful; of the inliers that contradicts."""
+MEANS = 0.1
+"""Least share of the squared distances from the best plane that a curved shape explains."""
+THICK, ROUND = 0.3, 0.8
+"""Distance of the points from a plane beside their spread along it, root mean squares: doubtful; no plane at all."""
+FEW = 0.7
+"""Share of inliers below which the patch may be another one."""
+
+
+def goodness_of_shape(name: str, fit: ShapeFit, points: Float[np.ndarray, "n 3"]) -> GoodnessOfFit:
+    """The points beside the shape; `name` is that of the patch."""
+    doubts = [*unsaid(name, fit, points)]
+    if fit.radius is not None:
+        doubts += _of_curved(name, fit, fit.radius, points)
+    share = float(fit.quality.inlier.mean())
+    if fit.exact_in_part or share < FEW:
+        said = f"{name}: {1.0 - share:.0%} of the points are off the {fit.shape}"
+        doubts.append(Doubt(said, share < MUCH and not fit.exact_in_part, 1.0 - share))
+    if not fit.quality.converged:
+        doubts.append(Doubt(f"{name}: the search did not converge", False))
+    return GoodnessOfFit(tuple(doubts), (name,))
+
+
+def unsaid(name: str, fit: ShapeFit, points: Float[np.ndarray, "n 3"]) -> Iterable[Doubt]:
+    """What no other warning says: points that are thick beside a plane, a radius that the points do not determine."""
+    if fit.radius is None:
+        yield from _of_plane(name, fit, points)
+    elif fit.radius_interval is not None and fit.radius_interval[0] <= 0.0:
+        yield Doubt(f"{name}: the interval of the radius reaches zero and below", False)
+
+
+def _of_curved(name: str, fit: ShapeFit, radius: float, points: Float[np.ndarray, "n 3"]) -> Iterable[Doubt]:
+    if fit.rms > POOR * radius:
+        said = f"{name}: rms {1e3 * fit.rms:.2f} mm is {fit.rms / radius:.0%} of the radius"
+        yield Doubt(said, fit.rms_inliers > NONE * radius, fit.rms / radius)
+    explained = 1.0 - (fit.rms_inliers / max(_spreads(points[fit.quality.inlier])[0], 1e-300)) ** 2
+    if explained < MEANS:
+        yield Doubt(f"{name}: a plane is as near to the points as this {fit.shape}", True, 1.0 - explained)
+
+
+def _of_plane(name: str, fit: ShapeFit, points: Float[np.ndarray, "n 3"]) -> Iterable[Doubt]:
+    along = float(_spreads(points[fit.quality.inlier])[1])
+    if fit.rms > THICK * along:
+        said = f"{name}: rms {1e3 * fit.rms:.2f} mm from the plane beside {1e3 * along:.2f} mm along it"
+        yield Doubt(said, fit.rms_inliers > ROUND * along, fit.rms / along)
+
+
+def _spreads(points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " 3"]:
+    """Root mean squares of the points about their middle along their principal axes, the least first [m]."""
+    return np.asarray(np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[::-1] / np.sqrt(len(points)))
