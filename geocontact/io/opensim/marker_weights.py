@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from os import PathLike, fspath
+from os.path import realpath
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
@@ -34,7 +35,7 @@ def read_marker_weights(path: str | PathLike[str]) -> MarkerTasks:
 def tasks_file(path: str | PathLike[str]) -> Path:
     """The file that holds the tasks: the one given, or the one that its task set names, from the folder it is in."""
     file = Path(fspath(path))
-    passed = {file.resolve()}
+    passed = {realpath(file)}
     while named := next(
         (e.get("file", "").strip() for e in read_document(file).iter("IKTaskSet") if e.get("file")), ""
     ):
@@ -42,11 +43,11 @@ def tasks_file(path: str | PathLike[str]) -> Path:
         if not further.is_file():
             what = f"names '{named[:80]}', which is not there"
             raise InputError(file, "<IKTaskSet file=…>", what, "put that file there, or give it instead of this one")
-        if further.resolve() in passed:
+        if realpath(further) in passed:
             raise InputError(
                 file, "<IKTaskSet file=…>", f"leads back to '{named[:80]}'", "give the file with the tasks"
             )
-        passed.add(further.resolve())
+        passed.add(realpath(further))
         file = further
     return file
 
