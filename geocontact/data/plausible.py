@@ -18,11 +18,13 @@ PLAIN = Unit("", "1", 1.0)
 N, HZ, S, KG = Unit("N", "N", 1.0), Unit("Hz", "Hz", 1.0), Unit("s", "s", 1.0), Unit("kg", "kg", 1.0)
 RAD, PA, M_PER_S = Unit("rad", "rad", 1.0), Unit("Pa", "Pa", 1.0), Unit("m/s", "m/s", 1.0)
 N_PER_M, N_PER_MM = Unit("N/m", "N/m", 1.0), Unit("N/mm", "N/m", 1e3)
+N_M, N_MM, N_M_PER_DEG = Unit("N m", "N m", 1.0), Unit("N mm", "N m", 1e-3), Unit("N m/deg", "N m/rad", math.degrees(1))
+AMPERE, MILLIAMPERE = Unit("A", "A", 1.0), Unit("mA", "A", 1e-3)
 N_S_PER_M, N_S_PER_MM = Unit("N s/m", "N s/m", 1.0), Unit("N s/mm", "N s/m", 1e3)
 J_PER_M2 = Unit("J/m^2", "J/m^2", 1.0)
 KHZ, G, TONNE = Unit("kHz", "Hz", 1e3), Unit("g", "kg", 1e-3), Unit("t", "kg", 1e3)
 OF_SI = (N, HZ, S, KG, RAD, PA, M_PER_S, N_PER_M, N_S_PER_M, J_PER_M2, PLAIN)
-KNOWN: tuple[Unit, ...] = (*UNITS, *OF_SI, N_PER_MM, N_S_PER_MM, KHZ, G, TONNE)
+KNOWN: tuple[Unit, ...] = (*UNITS, *OF_SI, N_PER_MM, N_S_PER_MM, N_M, N_MM, AMPERE, MILLIAMPERE, KHZ, G, TONNE)
 """Units that a number may have been meant in."""
 
 ROUNDING = 1e-9
@@ -168,6 +170,8 @@ DEPTH = Plausible("a depth of contact", mm, (1e-3, 200.0), (0.05, 30.0))
 SHIFT = Plausible("how far things are off", mm, (0.0, 500.0), (0.0, 50.0))
 
 YOUNG = Plausible("Young's modulus", MPa, (1e-3, 2e6), (5e-3, 5e5))
+SOFTER = Plausible("Young's modulus of the softer body", MPa, (1e-3, 2e6), (5e-3, 5e4))
+"""Bone has 20 GPa; metal and ceramics, of which the harder body is, 100 and more."""
 TOUCH = Plausible("the pressure of a touch", kPa, (1e-3, 1e4), (0.05, 100.0))
 CUFF = Plausible("the pressure of a cuff", mmHg, (1.0, 2000.0), (5.0, 300.0), or_zero=True)
 LAYER_RATIO = Plausible("Poisson's ratio of a layer, below 0.5", PLAIN, (0.0, 0.4999))
@@ -187,6 +191,9 @@ SPEED = Plausible("a speed of sliding", M_PER_S, (1e-6, 20.0), (1e-4, 2.0))
 FRICTION = Plausible("a coefficient of friction", PLAIN, (0.0, 10.0), (0.0, 2.0))
 MASS = Plausible("the mass of a person", KG, (0.1, 1000.0), (3.0, 300.0))
 
+MOTOR = Plausible("the largest torque of a motor that is worn", N_M, (0.0, 1e6), (0.01, 500.0), or_zero=True)
+TOOL = Plausible("the largest current of a hand tool", AMPERE, (0.0, 1e6), (0.02, 100.0), or_zero=True)
+
 CUTOFF = Plausible("a cut-off frequency", HZ, (0.0, 2000.0), (0.5, 100.0), or_zero=True)
 BAND = Plausible("a frequency of movement", HZ, (1e-6, 1000.0), (1e-3, 20.0))
 RATE = Plausible("a sampling rate", HZ, (5.0, 1e4))
@@ -202,4 +209,9 @@ SHARE = Plausible("a share", percent, (1e-10, 100.0))
 DIFFERENCE = Plausible("a relative difference", percent, (1e-7, 1e5))
 
 DISPLACEMENT = ByPlace((SHIFT, TILT))
-POSE = ByPlace((SHIFT, SHIFT, SHIFT, TILT, TILT, TILT))
+SD_OF_PLACE = Plausible("the standard deviation of a place", mm, (0.0, 500.0), (1e-3, 20.0), or_zero=True)
+SD_OF_TURN = Plausible("the standard deviation of a turn", deg, (0.0, 90.0), (1e-3, 20.0), or_zero=True)
+POSE = ByPlace((SD_OF_PLACE,) * 3 + (SD_OF_TURN,) * 3)
+SPRING = Plausible("the stiffness of a knee", N_PER_MM, (0.0, 1e6), (0.1, 2000.0), or_zero=True)
+TURNED_SPRING = Plausible("the stiffness of a knee that turns", N_M_PER_DEG, (0.0, 1e4), (1e-3, 50.0), or_zero=True)
+"""Simulators of knee wear have tens of N/mm and tenths of N m/deg (ISO 14243-1)."""

@@ -28,7 +28,9 @@ def read_marker_weights(path: str | PathLike[str]) -> MarkerTasks:
     followed = {e.get("name", ""): weight for e, weight, kind in held if kind == FROM_FILE}
     coordinates = {e.get("name", ""): (weight, _wanted(file, e, kind)) for e, weight, kind in held if kind != FROM_FILE}
     if not markers and not weighed:
-        raise InputError(file, "", "holds no IKMarkerTask", "give OpenSim's setup of inverse kinematics")
+        raise InputError(
+            file, "", "holds no IKMarkerTask", "give OpenSim's setup of inverse kinematics or of scaling that has some"
+        )
     return MarkerTasks(markers, coordinates, followed)
 
 

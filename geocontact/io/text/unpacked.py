@@ -37,7 +37,7 @@ def refuse_unpacked(path: str | PathLike[str], most_bytes: int) -> None:
     if whole > most_bytes or whole > max(HARMLESS, MOST_TIMES * packed):
         what = f"unpacks to {whole / 1e6:.0f} MB, {whole / packed:.0f} times its size"
         limit = f"{most_bytes / 1e6:.0f} MB and, from {HARMLESS / 1e6:.0f} MB on, {MOST_TIMES} times"
-        raise InputError(fspath(path), "", f"{what} (read are {limit})", "is it damaged, or made to fill memory?")
+        raise InputError(fspath(path), "", f"{what} (read are {limit})", "is the file damaged?")
 
 
 def refuse_far_cells(path: str | PathLike[str], most_cells: int) -> None:
