@@ -170,7 +170,7 @@ DEPTH = Plausible("a depth of contact", mm, (1e-3, 200.0), (0.05, 30.0))
 SHIFT = Plausible("how far things are off", mm, (0.0, 500.0), (0.0, 50.0))
 
 YOUNG = Plausible("Young's modulus", MPa, (1e-3, 2e6), (5e-3, 5e5))
-SOFTER = Plausible("Young's modulus of the softer body", MPa, (1e-3, 2e6), (5e-3, 5e4))
+SOFTER = Plausible("Young's modulus", MPa, (1e-3, 2e6), (5e-3, 5e4))
 """Bone has 20 GPa; metal and ceramics, of which the harder body is, 100 and more."""
 TOUCH = Plausible("the pressure of a touch", kPa, (1e-3, 1e4), (0.05, 100.0))
 CUFF = Plausible("the pressure of a cuff", mmHg, (1.0, 2000.0), (5.0, 300.0), or_zero=True)

@@ -56,12 +56,14 @@ def designed(*words: object) -> Attempt:
     )
 
 
-def compared_elbow(pick: Callable[[Path], tuple[Path, ...]], spoil: Callable[[Path, Path], Path]) -> Attempt:
+def compared_elbow(
+    pick: Callable[[Path], tuple[Path, ...]], spoil: Callable[[Path, Path], Path], **slide: Any
+) -> Attempt:
     """Elbow compare of a recording beside the true law."""
 
     def attempt(folder: Path) -> Lines:
         first = pick(recorded(folder, stroke=STROKE))[0]
-        return heard(gc.misalignment.compare, (spoil(first, folder),), fit=law(folder), stroke=STROKE)
+        return heard(gc.misalignment.compare, (spoil(first, folder),), fit=law(folder), **slide)
 
     return attempt
 
