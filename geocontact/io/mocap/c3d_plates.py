@@ -248,10 +248,10 @@ def read_apart(path: str | PathLike[str], module: str, analogs: bool = True) -> 
 def _refuse_short(data: bytes, file: str) -> None:
     """InputError where the header declares more than the bytes behind it hold, whatever the rest of the file says."""
     points, samples, begin = (int.from_bytes(data[at : at + 2], "little") for at in (2, 4, 16))
-    frames, frame = _frames_declared(data), SMALLEST_VALUE * (4 * points + samples)
+    declared, size = _frames_declared(data), SMALLEST_VALUE * (4 * points + samples)
     there = len(data) - (begin - 1) * 512
-    if begin and frames * frame > there:
-        what = f"declares {frames} frames of {points} points and {samples} samples, and has {max(there, 0)} bytes"
+    if begin and declared * size > there:
+        what = f"holds {max(there, 0) // size} of the {declared} frames it declares"
         raise InputError(file, "", what, "is it complete?")
 
 

@@ -91,8 +91,11 @@ RAISED = np.radians(60.0)
 
 def _doubt_upright(o: ShoulderSimulateOptions, arms: tuple[ArmMotion, ...]) -> None:
     """A warning where an arm is raised in the span that is to be an upright stance."""
-    for arm in arms if o.upright is not None else ():
-        within = (arm.time >= o.upright[0] - 1e-6) & (arm.time <= o.upright[1] + 1e-6)
+    if o.upright is None:
+        return
+    start, stop = o.upright
+    for arm in arms:
+        within = (arm.time >= start - 1e-6) & (arm.time <= stop + 1e-6)
         raised = float(np.median(arm.elevation[within])) if within.any() else 0.0
         if raised > RAISED:
             what = f"the {arm.side} arm is {np.degrees(raised):.0f} degrees up then"
