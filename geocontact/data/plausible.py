@@ -18,14 +18,16 @@ PLAIN = Unit("", "1", 1.0)
 N, HZ, S, KG = Unit("N", "N", 1.0), Unit("Hz", "Hz", 1.0), Unit("s", "s", 1.0), Unit("kg", "kg", 1.0)
 RAD, PA, M_PER_S = Unit("rad", "rad", 1.0), Unit("Pa", "Pa", 1.0), Unit("m/s", "m/s", 1.0)
 N_PER_M, N_PER_MM = Unit("N/m", "N/m", 1.0), Unit("N/mm", "N/m", 1e3)
+N_M, N_MM, N_M_PER_DEG = Unit("N m", "N m", 1.0), Unit("N mm", "N m", 1e-3), Unit("N m/deg", "N m/rad", math.degrees(1))
+AMPERE, MILLIAMPERE = Unit("A", "A", 1.0), Unit("mA", "A", 1e-3)
 N_S_PER_M, N_S_PER_MM = Unit("N s/m", "N s/m", 1.0), Unit("N s/mm", "N s/m", 1e3)
-N_M, N_M_S = Unit("N m", "N m", 1.0), Unit("N m s/rad", "N m s/rad", 1.0)
+N_M_S = Unit("N m s/rad", "N m s/rad", 1.0)
 KG_M, KG_M2 = Unit("kg m", "kg m", 1.0), Unit("kg m^2", "kg m^2", 1.0)
-N_MM, N_MM_S = Unit("N mm", "N m", 1e-3), Unit("N mm s/rad", "N m s/rad", 1e-3)
+N_MM_S = Unit("N mm s/rad", "N m s/rad", 1e-3)
 J_PER_M2 = Unit("J/m^2", "J/m^2", 1.0)
 KHZ, G, TONNE = Unit("kHz", "Hz", 1e3), Unit("g", "kg", 1e-3), Unit("t", "kg", 1e3)
 OF_SI = (N, HZ, S, KG, RAD, PA, M_PER_S, N_PER_M, N_S_PER_M, J_PER_M2, PLAIN)
-KNOWN: tuple[Unit, ...] = (*UNITS, *OF_SI, N_PER_MM, N_S_PER_MM, N_MM, N_MM_S, KHZ, G, TONNE)
+KNOWN: tuple[Unit, ...] = (*UNITS, *OF_SI, N_PER_MM, N_S_PER_MM, N_M, N_MM, N_MM_S, AMPERE, MILLIAMPERE, KHZ, G, TONNE)
 """Units that a number may have been meant in."""
 
 ROUNDING = 1e-9
@@ -178,9 +180,9 @@ BORDER = Plausible("the border of a mat", mm, (0.0, 500.0), (0.0, 100.0))
 DEPTH = Plausible("a depth of contact", mm, (1e-3, 200.0), (0.05, 30.0))
 SHIFT = Plausible("how far things are off", mm, (0.0, 500.0), (0.0, 50.0))
 
-YOUNG = Plausible(
-    "Young's modulus", MPa, (1e-3, 2e6), (5e-3, 3e4), why="gels to cortical bone"
-)  # of a layer that gives way
+YOUNG = Plausible("Young's modulus", MPa, (1e-3, 2e6), (5e-3, 5e5), why="gels to ceramics")
+SOFTER = Plausible("Young's modulus", MPa, (1e-3, 2e6), (5e-3, 5e4), why="gels to cortical bone")
+"""Bone has 20 GPa; metal and ceramics, of which the harder body is, 100 and more."""
 CONTACT = Plausible("a modulus of contact", MPa, (1e-3, 1e6), (5e-3, 3e5), why="gels to ceramic on ceramic")
 TOUCH = Plausible("the pressure of a touch", kPa, (1e-3, 1e4), (0.05, 100.0))
 CUFF = Plausible("the pressure of a cuff", mmHg, (1.0, 2000.0), (5.0, 300.0), or_zero=True)
@@ -207,6 +209,8 @@ COULOMB = Plausible("the Coulomb friction of a hinge of a device", N_M, (0.0, 50
 FIRST_MOMENT = Plausible("the first moment of a part of a device", KG_M, (-50.0, 50.0), (-10.0, 10.0), why=DEVICE)
 INERTIA = Plausible("the moment of inertia of a part of a device", KG_M2, (0.0, 50.0), (1e-3, 5.0), why=DEVICE)
 PART = Plausible("the mass of a part of a device", KG, (0.0, 100.0), (0.05, 20.0), why=DEVICE)
+MOTOR = Plausible("the largest torque of a motor that is worn", N_M, (0.0, 1e6), (0.01, 500.0), or_zero=True)
+TOOL = Plausible("the largest current of a hand tool", AMPERE, (0.0, 1e6), (0.02, 100.0), or_zero=True)
 
 CUTOFF = Plausible("a cut-off frequency", HZ, (0.0, 2000.0), (0.5, 100.0), or_zero=True)
 BAND = Plausible("a frequency of movement", HZ, (1e-6, 1000.0), (1e-3, 20.0))
@@ -223,4 +227,9 @@ SHARE = Plausible("a share", percent, (1e-10, 100.0))
 DIFFERENCE = Plausible("a relative difference", percent, (1e-7, 1e5))
 
 DISPLACEMENT = ByPlace((SHIFT, TILT))
-POSE = ByPlace((SHIFT, SHIFT, SHIFT, TILT, TILT, TILT))
+SD_OF_PLACE = Plausible("the standard deviation of a place", mm, (0.0, 500.0), (1e-3, 20.0), or_zero=True)
+SD_OF_TURN = Plausible("the standard deviation of a turn", deg, (0.0, 90.0), (1e-3, 20.0), or_zero=True)
+POSE = ByPlace((SD_OF_PLACE,) * 3 + (SD_OF_TURN,) * 3)
+SPRING = Plausible("the stiffness of a knee", N_PER_MM, (0.0, 1e6), (0.1, 2000.0), or_zero=True)
+TURNED_SPRING = Plausible("the stiffness of a knee that turns", N_M_PER_DEG, (0.0, 1e4), (1e-3, 50.0), or_zero=True)
+"""Simulators of knee wear have tens of N/mm and tenths of N m/deg (ISO 14243-1)."""

@@ -25,6 +25,7 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from datetime import date
+from os.path import isfile, lexists
 from pathlib import Path
 from typing import Annotated, Any, TypeGuard, TypeVar, get_args, get_origin
 
@@ -46,6 +47,7 @@ from pydantic_core import CoreSchema, ErrorDetails, PydanticCustomError, core_sc
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import Plausible
 from geocontact.io.text.column_names import near_names
+from geocontact.io.text.file_preflight import regular_file
 from geocontact.io.text.toml_text import toml_of
 from geocontact.io.text.units import si_unit
 
@@ -312,8 +314,13 @@ def _beside(named: object, info: Any) -> Path:
 
 def _file(named: object, info: Any) -> Path:
     file = _beside(named, info)
-    if not file.is_file():
+    if not lexists(file):
         raise refusal(f"there is no file {named!s:.200}", "give its path from the study's folder")
+    if not isfile(file):  # what is in a file is for its reader
+        try:
+            regular_file(file)
+        except InputError as error:
+            raise refusal(f"{named!s:.200}: {error.what}", error.remedy) from error
     return file
 
 

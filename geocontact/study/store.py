@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import errno
-import json
 import os
 import platform
 import shutil
@@ -14,8 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from geocontact.analyses.frame.folder import RUN
+from geocontact.analyses.frame.folder import RUN, is_inside
 from geocontact.data.errors import InputError
+from geocontact.io.text.file_preflight import read_json
 from geocontact.study.address import Digests
 
 LOCK = ".lock"
@@ -108,8 +108,16 @@ class Store:
         return self.folder / address
 
     def told(self, address: str) -> dict[str, Any]:
-        """What a trial says of itself: its tables, sentences and reservations."""
-        found: dict[str, Any] = json.loads((self.place(address) / TOLD).read_bytes())
+        """What a trial says of itself: its tables, sentences and reservations.
+
+        InputError where the name of a table leads out of the trial's folder: results may come from others.
+        """
+        file = self.place(address) / TOLD
+        found: dict[str, Any] = read_json(file)
+        for name in found["tables"]:
+            if not is_inside(file.parent, f"{name}.parquet"):
+                what = f"the table {str(name)[:80]!r} is not in its folder"
+                raise InputError(file, "tables", what, "remove that folder: the trial is evaluated anew")
         return found
 
     def holds(self, address: str, home: Path, digests: Digests) -> bool:
@@ -118,7 +126,7 @@ class Store:
         if not (place / TOLD).is_file():
             return False
         try:
-            inputs = json.loads((place / RUN).read_bytes())["inputs"]
+            inputs = read_json(place / RUN)["inputs"]
             return all(
                 digests.of(home / each["file"]) == each["sha256"]
                 for each in inputs

@@ -142,10 +142,10 @@ def _late(seen: MarkerTrajectories, side: str, step: Step) -> float:
     before, after = fast[fast < middle_of], fast[fast > middle_of]
     if middle_of >= len(slow) or not slow[middle_of] or not len(before):
         return 0.0
-    touch = step.time[0] - float(seen.time[before[-1] + 1])
+    touch = float(step.time[0]) - float(seen.time[before[-1] + 1])
     if not len(after):
         return touch if abs(touch) > ALONE else 0.0
-    leave = step.time[-1] - float(seen.time[after[0] - 1])
+    leave = float(step.time[-1]) - float(seen.time[after[0] - 1])
     far = max(touch, leave, key=abs)
     if abs(far) > LONE:
         return far

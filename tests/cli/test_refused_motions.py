@@ -35,7 +35,7 @@ FAR = edited("-0.0306176748938", "-0.1306176748938", frames=(0,))
 
 MOTIONS: Cases = {
     "missing file": ({"--motion": "nowhere.csv"}, ("nowhere.csv", "there is no such file", "check the path")),
-    "folder": ({"--motion": made("poses.csv")}, ("poses.csv", "irectory", "check the path")),
+    "folder": ({"--motion": made("poses.csv")}, ("poses.csv", "is a folder", "name a file")),
     "unknown format": (
         motion(HEAD + "0,0,20,0,1,0,0,0\n", "poses.trc"),
         ("poses.trc", ".csv, .xlsx, .mot, .sto, .txt"),

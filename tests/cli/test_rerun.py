@@ -68,7 +68,7 @@ def test_the_time_a_run_took_is_no_difference(tmp_path: Path) -> None:
 
 
 REFUSED = {
-    "no file": ("", "cannot be read"),
+    "no file": ("", "there is no such file"),
     "no JSON": ("area", "is not JSON; name the run.json that a command or `Result.write` left"),
     "other JSON": ('{"a": 1}', "is not a run.json of geocontact"),
     "unknown command": ('{"command": "aera", "options": {}, "inputs": []}', "'aera' is not a command here"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
 from geocontact.io.cases import trial_table
 from geocontact.io.cases.gap_case import read_gap_case
-from geocontact.io.text import csv_text, side_table
+from geocontact.io.text import side_table
 from tests.io.gap_case_files import CASE, TRIAL, case_in
 
 SETTINGS = CASE["case.toml"]
@@ -396,10 +397,9 @@ def test_large_files_are_refused_before_they_are_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, largest: int
 ) -> None:
     home = case_in(tmp_path)
-    read = csv_text.read_bytes
-    monkeypatch.setattr(csv_text, "read_bytes", lambda path: b"" if path == home / name else read(path))
-    with (home / name).open("r+b") as stream:
-        stream.truncate(largest + 1)  # a hole: takes no room
+    os.truncate(home / name, largest + 1)  # a hole: takes no room
+    opened = Path.open
+    monkeypatch.setattr(Path, "open", lambda path, *how, **more: None if path == home / name else opened(path, *how))
     expected = (
         f"{name}: {largest / 1e6:.1f} MB is more than the {largest / 1e6:.0f} MB that are read; cut or resample it"
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from os.path import lexists
 from pathlib import Path
 from zipfile import BadZipFile
 
@@ -13,6 +14,8 @@ from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.surface import Surface
+from geocontact.io.text.file_preflight import MAX_BYTES, open_file
+from geocontact.io.text.unpacked import refuse_arrays_that_lie, refuse_unpacked
 from geocontact.view.surfaces.scene import ContactSeries, MappedBody
 
 FILE = "distances.npz"
@@ -46,10 +49,12 @@ def write_maps(
 def read_series(result: Path) -> ContactSeries:
     """Bodies, motion and distances from the folder of a result (or the file itself)."""
     file = result / FILE if result.is_dir() else result
-    if not file.is_file():
+    if not lexists(file):
         raise InputError(file, "", "is not there", "run the analysis again with `save_map`")
     try:
-        with file.open("rb") as stream, np.load(stream, allow_pickle=False) as maps:
+        refuse_unpacked(file, MAX_BYTES)
+        refuse_arrays_that_lie(file)
+        with open_file(file) as stream, np.load(stream, allow_pickle=False) as maps:
             fixed, moving = (
                 MappedBody(*(maps[f"{body}_{what}"] for what in ("vertices", "faces", "distance")))
                 for body in ("fixed", "moving")
@@ -63,6 +68,8 @@ def read_series(result: Path) -> ContactSeries:
                 signed=str(maps["signed"]),
                 time_unit=str(maps["time_unit"]),
             )
+    except InputError as error:
+        raise InputError(file, "", error.what, "run the analysis again with `save_map`") from error
     except (OSError, ValueError, KeyError, EOFError, BadZipFile) as error:
         what = f"is not what `save_map` writes ({' '.join(str(error).split())})"
         raise InputError(file, "", what, "run the analysis again with `save_map`") from error

@@ -7,7 +7,6 @@ whatever somebody else put there, or changed, stays, and a list that lies remove
 from __future__ import annotations
 
 import hashlib
-import json
 import os
 import secrets
 import shutil
@@ -62,8 +61,10 @@ def left_over(out: Path, draft: Path) -> list[Path]:
 def _written_record(folder: Path) -> dict[str, object]:
     """Content of the folder's run.json; empty when there is none that can be read."""
     try:
-        content = json.loads((folder / RUN).read_bytes())
-    except (OSError, ValueError, RecursionError):
+        from geocontact.io.text.file_preflight import read_json  # with numpy: not for --help
+
+        content = read_json(folder / RUN)
+    except (ValueError, RecursionError):  # InputError is one
         return {}
     return content if isinstance(content, dict) else {}
 
@@ -73,11 +74,13 @@ def _files(told: dict[str, object], place: Path) -> list[Path]:
     listed = told.get("sha256")
     if not isinstance(listed, dict):
         return []
-    found = [place / name for name, known in listed.items() if _inside(place, name) and _untouched(place / name, known)]
+    found = [
+        place / name for name, known in listed.items() if is_inside(place, name) and _untouched(place / name, known)
+    ]
     return [*found, place / RUN]
 
 
-def _inside(place: Path, name: str) -> bool:
+def is_inside(place: Path, name: str) -> bool:
     """Whether a name leads to something below the folder it is said of, links followed."""
     path = PurePosixPath(name)
     if not path.parts or path.is_absolute() or ".." in path.parts or "\\" in name:

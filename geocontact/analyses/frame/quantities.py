@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from collections.abc import Iterable
+from os.path import lexists
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -23,10 +23,17 @@ if TYPE_CHECKING:  # numbers are read before anything heavy is imported
 _NUMBER_AND_UNIT = re.compile(r"(?P<number>[-+0-9.eE]+?)\s*(?P<unit>[a-zA-Z][a-zA-Z/^0-9]*)")
 
 
+LONGEST_AXIS = 10_000
+"""Bytes of a file with six numbers."""
+
+
 def named_file(text: str) -> Path | None:
-    """The file of that name, None when the text is something else (an expression, a list of numbers)."""
+    """The file of that name, None when the text is something else (an expression, a list of numbers).
+
+    A pipe, a device or a broken link of that name is what the user meant too: who reads it refuses it.
+    """
     try:
-        return Path(text) if Path(text).is_file() else None
+        return Path(text) if lexists(text) and not Path(text).is_dir() else None
     except (OSError, ValueError):  # too long or impossible for a file name
         return None
 
@@ -229,7 +236,9 @@ def axis(text: str, unit: str) -> Axis:
     if file is not None:
         if file.suffix.lower() == ".json":
             return _axis_of_fit(file)
-        source = file.read_text(encoding="utf-8", errors="replace")[:10_000]
+        from geocontact.io.text.file_preflight import read_bytes
+
+        source = read_bytes(file, LONGEST_AXIS, "give six numbers").decode("utf-8-sig", errors="replace")
     parts = source.replace(",", " ").split()
     if len(parts) != 6:
         raise InputError("", "`axis`", f"{text!r} is neither a file nor six numbers", "write x,y,z,dx,dy,dz")
@@ -247,15 +256,19 @@ def _axis_of_fit(file: Path) -> Axis:
 
 def _fit(file: Path, shape: str) -> dict[str, list[float]]:
     """A fit.json of that shape, with three finite numbers wherever it says where."""
+    from geocontact.io.text.file_preflight import read_json  # with numpy: not for --help
+
     keys = ("point_mm", "axis") if shape == "cylinder" else ("point_mm",)
     try:
-        fit = json.loads(file.read_text(encoding="utf-8", errors="replace")[:1_000_000])
+        fit = read_json(file)
         if fit.get("shape", shape) != shape:
             raise KeyError(shape)
         found = {key: [float(value) for value in fit[key]] for key in keys}
         for values in found.values():
             if any(not abs(value) <= LARGEST_MEANT for value in _three(values)):
                 raise ValueError("a number is not finite or too large")
+    except InputError:
+        raise
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         what = f"holds no {' and '.join(reversed(keys))} of a {shape}"
         raise InputError(file, "", what, f"give the fit.json of a {shape} fit") from error

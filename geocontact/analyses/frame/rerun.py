@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from typing import Any
 
 from geocontact.analyses.frame.folder import RUN, digest
 from geocontact.data.errors import InputError
+from geocontact.io.text.file_preflight import read_json
 
 REMEDY = f"name the {RUN} that a command or `Result.write` left with its results"
 SECONDS = "seconds"
@@ -99,9 +99,9 @@ def _alike(old: Path, new: Path) -> bool:
 
 def _content(file: Path) -> dict[str, Any]:
     try:
-        told = json.loads(file.read_bytes())
-    except OSError as error:
-        raise InputError(file, "", f"cannot be read ({error.strerror})", REMEDY) from error
+        told = read_json(file)
+    except InputError:
+        raise
     except (ValueError, RecursionError) as error:
         raise InputError(file, "", "is not JSON", REMEDY) from error
     if not isinstance(told, dict):

@@ -21,7 +21,7 @@ from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.plate_checks import require_weight
 from geocontact.below_knee_prosthesis.simulate import GATE
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.force_plate import ForcePlate
+from geocontact.data.multibody.force_plate import LOADED, ForcePlate
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.io.recordings.spheres import read_law
@@ -79,6 +79,7 @@ class LaboratoryFiles:
 
     def stance(self, plate: ForcePlate, file: Path) -> PlateStance:
         """Force and centre of pressure of one plate, as of a right prosthesis."""
+        refuse_gaps(plate, file)
         force = of_side(np.nan_to_num(plate.wrench.force), self.side)
         centre = of_side(plate.centre_of_pressure(GATE), self.side)
         return PlateStance(plate.time, force, centre, plate.name, fspath(file))
@@ -112,6 +113,22 @@ class LaboratoryFiles:
         feet = ((own, self.side), (other, OTHER[self.side]))
         plates = tuple(FootPlate(plate, fspath(file), side) for plate, side in feet if plate is not None and file)
         check_trial(TrialInputs(seen, standing, plates, mass, height, floor=floor, turn=turn_of(self.axes)))
+
+
+SHORTEST_SWING = 0.25
+"""s; for less a foot does not leave the floor while walking: a force that is missing for so long is a gap."""
+
+
+def refuse_gaps(plate: ForcePlate, file: Path) -> None:
+    """InputError for a force that is missing while somebody stands on the plate; unloaded ones may be left out."""
+    missing = ~np.isfinite(plate.wrench.force).all(axis=1)
+    loaded = ~missing & (np.linalg.norm(np.nan_to_num(plate.wrench.force), axis=1) >= LOADED)
+    edges = np.diff(np.concatenate([[0], missing.astype(int), [0]]))
+    for first, behind in zip(np.flatnonzero(edges == 1), np.flatnonzero(edges == -1), strict=True):
+        within = first > 0 and behind < len(missing) and loaded[first - 1] and loaded[behind]
+        if within and plate.time[behind] - plate.time[first - 1] < SHORTEST_SWING:
+            what = f"its force is missing from {plate.time[first]:g} to {plate.time[behind - 1]:g} s, under load"
+            raise InputError(file, plate.name, what, "fill the gap, or leave that step out with `time`")
 
 
 def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableStiffnessFoot:

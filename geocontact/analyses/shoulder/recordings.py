@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.marks import AngleUnit, ForceUnit
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import TOOL
 from geocontact.io.recordings.load_cells import column_in_newtons
 from geocontact.io.text.columns import angles_of, parse_map, resolve
 from geocontact.io.text.tables import TextTable, listed, read_table
@@ -87,6 +88,8 @@ def tool_runs(file: Path, threshold: float, time: Float[np.ndarray, " t"]) -> Bo
         Current from which the tool counts as running [A], for a file with a column `current [A]`.
     """
     table, current, binary = _current(file)
+    if not binary and (doubt := TOOL.doubt(float(np.nanmax(np.abs(current), initial=0.0)))):
+        reserve(f"{file} `tool`: {doubt}")
     on = current > (0.5 if binary else threshold)
     add_input("`tool`", file, samples=len(table.time))
     if not on.any():

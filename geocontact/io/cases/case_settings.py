@@ -17,6 +17,7 @@ from geocontact.data.gap_case import COMMAND, LISTED_SYSTEMS
 from geocontact.data.parameter import Parameter
 from geocontact.data.text import cannot_be_named, same_place
 from geocontact.io.text.csv_text import LONGEST_NAME
+from geocontact.io.text.file_preflight import regular_file
 from geocontact.io.text.tables import listed
 from geocontact.io.text.toml_text import toml_of
 
@@ -71,7 +72,7 @@ def check_trial_files(home: Path, settings: CaseSettings) -> None:
         raise InputError(home, "", f"no folder '{TRIALS}' in it", f"put the trials there, as {TRIALS}/<id>.csv")
     try:
         present = {entry.stem: entry for entry in sorted(folder.iterdir()) if entry.suffix == ".csv"}
-        size = sum(present[name].stat().st_size for name in settings.trials if name in present)
+        size = sum(regular_file(present[name]) for name in settings.trials if name in present)
     except OSError as error:
         raise InputError(folder, "", f"cannot be read: {error.strerror or error}", "check its permissions") from error
     for place, ids in (("calibration", settings.calibration), ("evaluation", settings.evaluation)):

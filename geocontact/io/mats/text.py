@@ -57,14 +57,7 @@ class MatText:
 def read_mat_text(path: Path) -> MatText:
     """Content of an export: text in UTF-8 or, as older programs write their `²`, in Windows-1252."""
     file = fspath(path)
-    try:
-        size = path.stat().st_size if path.is_file() else 0
-    except (OSError, ValueError):  # `read_bytes` says why
-        size = 0
-    if size > LARGEST_RECORDING:
-        what = f"{size / 1e6:.0f} MB is more than the {LARGEST_RECORDING / 1e6:.0f} MB that are read"
-        raise InputError(file, "", what, "export it in parts")
-    data = read_bytes(path).removeprefix(BYTE_ORDER_MARK)
+    data = read_bytes(path, LARGEST_RECORDING, "export it in parts").removeprefix(BYTE_ORDER_MARK)
     if not data.strip():
         raise InputError(file, "", "the file is empty", "export it again")
     what, _ = looks_like(data)

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Int
 
 from geocontact.data.errors import InputError
-from geocontact.io.text.file_preflight import BYTE_ORDER_MARK, integer, lines, read_bytes, shown
+from geocontact.io.text.file_preflight import BYTE_ORDER_MARK, integer, lines, read_text_bytes, shown
 
 
 def read_face_indices(path: str | PathLike[str], count: int) -> Int[np.ndarray, " k"]:
@@ -19,7 +19,7 @@ def read_face_indices(path: str | PathLike[str], count: int) -> Int[np.ndarray, 
     was there before. A file without any number is refused too.
     """
     name = Path(fspath(path)).name
-    data = read_bytes(path).removeprefix(BYTE_ORDER_MARK)
+    data = read_text_bytes(path).removeprefix(BYTE_ORDER_MARK)
     seen: dict[int, int] = {}
     for number, line in enumerate(lines(data), start=1):
         for word in line.partition(b"#")[0].replace(b",", b" ").split():

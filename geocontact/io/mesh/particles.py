@@ -15,7 +15,7 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError
 from geocontact.data.magnitude import too_large
 from geocontact.data.plausible import TOO_LARGE
-from geocontact.io.text.file_preflight import BYTE_ORDER_MARK, is_number, lines, read_bytes, shown
+from geocontact.io.text.file_preflight import BYTE_ORDER_MARK, is_number, lines, read_text_bytes, shown
 from geocontact.io.text.units import LENGTH
 
 
@@ -24,7 +24,7 @@ def read_particles(path: str | PathLike[str], unit: str) -> Float[np.ndarray, "n
     file = fspath(path)
     if unit not in LENGTH:
         raise InputError(file, "", f"unit {unit!r} is none of length", f"expected one of {', '.join(LENGTH)}")
-    text = read_bytes(path).removeprefix(BYTE_ORDER_MARK).rstrip()
+    text = read_text_bytes(path).removeprefix(BYTE_ORDER_MARK).rstrip()
     if not text:
         raise InputError(file, "", "holds no particles", "expected x y z in each line")
     points = np.array([_point(line, number, file) for number, line in enumerate(lines(text), 1)])

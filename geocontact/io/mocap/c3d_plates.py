@@ -193,6 +193,9 @@ PATIENCE = 8.0, 2e-7
 LARGEST = 500_000_000
 """Bytes; ten plates at 2 kHz with a hundred markers for an hour."""
 
+SMALLEST_VALUE = 2
+"""Bytes of a value in a .c3d file; real ones have 4."""
+
 Arrays = dict[str, np.ndarray]
 
 
@@ -220,13 +223,12 @@ def read_apart(path: str | PathLike[str], module: str, analogs: bool = True) -> 
     `analogs` says whether analog channels are among them.
     """
     file = fspath(path)
-    data = read_bytes(path)
+    data = read_bytes(path, LARGEST, "cut it")
     if len(data) < 512 or data[1] != 0x50:
         raise InputError(file, "", "is not a .c3d file although its name says so", "export or download it again")
-    if len(data) > LARGEST:
-        raise InputError(file, "", f"{len(data) / 1e6:.0f} MB is more than the {LARGEST / 1e6:.0f} MB limit", "cut it")
     patience = (PATIENCE[0] + PATIENCE[1] * len(data)) * _waiting()
     digestible = _digestible(data, file, analogs)
+    _refuse_short(digestible, file)
     if digestible is data:
         arrays = _run(file, module, file, patience)
     else:
@@ -241,6 +243,16 @@ def read_apart(path: str | PathLike[str], module: str, analogs: bool = True) -> 
         if values.dtype.kind == "f" and too_large(values).any():
             raise InputError(file, "", f"holds a number in {name.partition('_')[0]} that {TOO_LARGE}", "is it damaged?")
     return arrays
+
+
+def _refuse_short(data: bytes, file: str) -> None:
+    """InputError where the header declares more than the bytes behind it hold, whatever the rest of the file says."""
+    points, samples, begin = (int.from_bytes(data[at : at + 2], "little") for at in (2, 4, 16))
+    declared, size = _frames_declared(data), SMALLEST_VALUE * (4 * points + samples)
+    there = len(data) - (begin - 1) * 512
+    if begin and declared * size > there:
+        what = f"holds {max(there, 0) // size} of the {declared} frames it declares"
+        raise InputError(file, "", what, "is it complete?")
 
 
 def _digestible(data: bytes, file: str, analogs: bool) -> bytes:

@@ -14,11 +14,13 @@ from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.c3d_markers import read_c3d_markers
 from geocontact.io.mocap.trc import read_trc
-from geocontact.io.text.file_preflight import read_bytes
+from geocontact.io.text.file_preflight import read_text_bytes
 from geocontact.io.text.tables import read_table
 from geocontact.io.text.units import LENGTH, length_unit
 
 EXAMPLE = "RHEE=R.Heel"
+LARGEST_MAP = 1_000_000
+"""Bytes."""
 HEAD = ("recorded", "lab", "label")
 """First cells that begin a head of two columns."""
 
@@ -30,7 +32,7 @@ def read_marker_map(path: str | PathLike[str]) -> dict[str, str]:
     """
     file = fspath(path)
     found: dict[str, str] = {}
-    for number, line in enumerate(read_bytes(path).decode("utf-8-sig", errors="replace").splitlines(), 1):
+    for number, line in enumerate(_text(path).splitlines(), 1):
         text = line.strip().rstrip(",;")
         if not text or text.startswith("#"):
             continue
@@ -44,6 +46,10 @@ def read_marker_map(path: str | PathLike[str]) -> dict[str, str]:
     if not found:
         raise InputError(file, "", "holds no pair of markers", f"write {EXAMPLE} in each line")
     return found
+
+
+def _text(path: str | PathLike[str]) -> str:
+    return read_text_bytes(path, LARGEST_MAP, "is it a map of names?").decode("utf-8-sig", errors="replace")
 
 
 def marker_map_typed(text: str, option: str) -> dict[str, str]:

@@ -21,7 +21,7 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.text import seconds
-from geocontact.io.text.file_preflight import decoded, read_bytes
+from geocontact.io.text.file_preflight import decoded, read_text_bytes
 from geocontact.io.text.tables import read_rows
 from geocontact.io.text.units import LENGTH, length_unit
 
@@ -32,6 +32,8 @@ def without_subject(labels: Sequence[str]) -> list[str]:
     return short if len(set(short)) == len(set(labels)) else list(labels)
 
 
+LARGEST_TRC = 512_000_000
+"""Bytes; 100 markers at 100 Hz for half an hour."""
 _HEAD = 5
 _ROUNDED = 0.51e-3
 """s that a time may be off the even one by rounding."""
@@ -43,7 +45,7 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
     A count of frames that does not fit is a warning: OpenSim reads on.
     """
     file = fspath(path)
-    lines = decoded(read_bytes(path), path).splitlines()
+    lines = decoded(read_text_bytes(path, LARGEST_TRC, "cut it"), path).splitlines()
     if len(lines) <= _HEAD or not lines[0].startswith("PathFileType"):
         raise InputError(file, "line 1", "does not begin with 'PathFileType'", "is it a complete .trc file?")
     declared = _declared(lines[1], lines[2])

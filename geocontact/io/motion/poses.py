@@ -10,7 +10,6 @@ import re
 import warnings
 from collections.abc import Sequence
 from os import PathLike, fspath
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
@@ -23,6 +22,7 @@ from geocontact.data.multibody.knee_angles import SIGN, tibia_in_femur
 from geocontact.data.plausible import LARGEST_MEANT
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of, warn_of_defaults
 from geocontact.io.text.columns import angles_of, lengths, mapped, parse_map
+from geocontact.io.text.file_preflight import open_text, read_text_bytes
 from geocontact.io.text.tables import LARGEST_FILE, TextTable, listed, read_table
 from geocontact.io.text.units import LENGTH
 
@@ -85,11 +85,8 @@ _COMMENT = "#"
 
 def is_pose_rows(path: str | PathLike[str]) -> bool:
     """Whether the first row of a text file is a matrix: 16 or 12 numbers and no header."""
-    try:
-        with open(path, encoding="utf-8-sig", errors="replace") as stream:
-            first = next((line for line in stream if line.strip() and not line.lstrip().startswith(_COMMENT)), "")
-    except OSError:
-        return False  # told by who reads it
+    with open_text(path, errors="replace", most_bytes=LARGEST_FILE) as stream:
+        first = next((line for line in stream if line.strip() and not line.lstrip().startswith(_COMMENT)), "")
     cells = _cells(first)
     return len(cells) in SIZES and all(map(_is_number, cells))
 
@@ -164,10 +161,7 @@ def rotations(matrices: Float[np.ndarray, "t 4 4"], file: str, places: Sequence[
 def _read(file: str) -> tuple[Float[np.ndarray, "t c"], list[int]]:
     rows: list[list[float]] = []
     lines: list[int] = []
-    size = Path(file).stat().st_size
-    if size > LARGEST_FILE:
-        raise InputError(file, "", f"{size / 1e6:.0f} MB is more than the {LARGEST_FILE / 1e6:.0f} MB limit", "cut it")
-    with open(file, encoding="utf-8-sig", errors="replace") as stream:
+    with open_text(file, errors="replace", most_bytes=LARGEST_FILE) as stream:
         for number, line in enumerate(stream, 1):
             if line.strip() and not line.lstrip().startswith(_COMMENT):
                 rows.append(_row(line, file, number, len(rows[0]) if rows else 0))
@@ -289,12 +283,7 @@ def read_pose(path: str | PathLike[str], unit: str = "m") -> RigidTransform:
     file = fspath(path)
     if unit not in LENGTH:
         raise InputError(file, "", f"'{unit}' is not a unit of length here", f"give one of {', '.join(LENGTH)}")
-    try:
-        if Path(file).stat().st_size > _LARGEST_POSE:
-            raise InputError(file, "", "too long for a 4x4 matrix", "give 4 rows of 4 numbers")
-        text = Path(file).read_text(encoding="utf-8-sig", errors="replace")
-    except OSError as error:
-        raise InputError(file, "", f"cannot be read ({error.strerror})", "check the path") from error
+    text = read_text_bytes(file, _LARGEST_POSE, "give 4 rows of 4 numbers").decode("utf-8-sig", errors="replace")
     rows = [line.replace(",", " ").split() for line in text.splitlines() if line.strip() and line.strip()[0] != "#"]
     try:
         matrix = np.array([[float(cell) for cell in row] for row in rows], dtype=float)

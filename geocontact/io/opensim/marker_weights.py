@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from os import PathLike, fspath
+from os.path import realpath
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
@@ -27,14 +28,16 @@ def read_marker_weights(path: str | PathLike[str]) -> MarkerTasks:
     followed = {e.get("name", ""): weight for e, weight, kind in held if kind == FROM_FILE}
     coordinates = {e.get("name", ""): (weight, _wanted(file, e, kind)) for e, weight, kind in held if kind != FROM_FILE}
     if not markers and not weighed:
-        raise InputError(file, "", "holds no IKMarkerTask", "give OpenSim's setup of inverse kinematics")
+        raise InputError(
+            file, "", "holds no IKMarkerTask", "give OpenSim's setup of inverse kinematics or of scaling that has some"
+        )
     return MarkerTasks(markers, coordinates, followed)
 
 
 def tasks_file(path: str | PathLike[str]) -> Path:
     """The file that holds the tasks: the one given, or the one that its task set names, from the folder it is in."""
     file = Path(fspath(path))
-    passed = {file.resolve()}
+    passed = {realpath(file)}
     while named := next(
         (e.get("file", "").strip() for e in read_document(file).iter("IKTaskSet") if e.get("file")), ""
     ):
@@ -42,11 +45,11 @@ def tasks_file(path: str | PathLike[str]) -> Path:
         if not further.is_file():
             what = f"names '{named[:80]}', which is not there"
             raise InputError(file, "<IKTaskSet file=…>", what, "put that file there, or give it instead of this one")
-        if further.resolve() in passed:
+        if realpath(further) in passed:
             raise InputError(
                 file, "<IKTaskSet file=…>", f"leads back to '{named[:80]}'", "give the file with the tasks"
             )
-        passed.add(further.resolve())
+        passed.add(realpath(further))
         file = further
     return file
 

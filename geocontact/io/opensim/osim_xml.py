@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from os import PathLike, fspath
-from pathlib import Path
 from posixpath import join, normpath
 from xml.etree.ElementTree import Element, ParseError, SubElement
 
@@ -16,7 +15,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import LARGEST_MEANT
-from geocontact.io.text.file_preflight import decoded
+from geocontact.io.text.file_preflight import decoded, read_text_bytes
 
 LARGEST_MODEL = 32_000_000
 """Bytes of an .osim file; full-body models are below 10 MB."""
@@ -87,12 +86,7 @@ def read_document(path: str | PathLike[str], kind: str = "OpenSim document") -> 
     """Root of one of OpenSim's XML files. External entities and entity expansion are refused."""
     file = fspath(path)
     try:
-        size = Path(file).stat().st_size
-        if size > LARGEST_MODEL:
-            raise InputError(file, "", f"{size / 1e6:.0f} MB is more than the {LARGEST_MODEL / 1e6:.0f} MB limit")
-        root = _parsed(_readable(Path(file).read_bytes(), file))
-    except OSError as error:
-        raise InputError(file, "", f"cannot be read ({error.strerror})", "check the path") from error
+        root = _parsed(_readable(read_text_bytes(file, LARGEST_MODEL, "is it a model?"), file))
     except InputError:
         raise
     except (ParseError, ValueError, LookupError) as error:

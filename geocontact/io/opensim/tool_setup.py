@@ -94,7 +94,10 @@ def _scale(file: str, tool: Element) -> ToolSetup:
     mass = float(numbers_of(file, tool, "mass", 1, (-1.0,))[0])
     if scales and mass > 0.0:
         options.append(("mass", str(mass)))
-    sizes, lost = _of_bodies(_sizes(file, scaler) if scales else [], dict(options).get("model", ""))
+    wanted = _sizes(file, scaler) if scales else []
+    sizes, lost = _of_bodies(wanted, dict(options).get("model", ""))
+    if scales and not wanted and (order := text_of(scaler, "scaling_order")):
+        lost = (f"scaling_order {order[:40]}, of which the set-up has nothing, so that no body is scaled,",)
     options += [("scale", text) for text in sizes]
     places = placer.find("apply") is None or is_true(file, placer, "apply")
     recording = _needed(file, placer if places or _assigned(placer, "marker_file") else scaler, "marker_file")

@@ -22,7 +22,7 @@ from geocontact.data.magnitude import too_large
 from geocontact.data.plausible import LARGEST_MEANT, TOO_LARGE
 from geocontact.io.text.column_names import spelled_as
 from geocontact.io.text.csv_text import text_of
-from geocontact.io.text.file_preflight import read_bytes
+from geocontact.io.text.file_preflight import read_text_bytes
 from geocontact.io.text.plain_table import is_sheet, open_plain
 from geocontact.io.text.tables import unequal
 from geocontact.io.text.toml_text import toml_of
@@ -168,9 +168,7 @@ def _table_text(path: str | PathLike[str]) -> str:
 
 
 def _text(path: str | PathLike[str]) -> str:
-    data = read_bytes(path)
-    if len(data) > LARGEST_TABLE:
-        raise InputError(path, "", f"{len(data) / 1e6:.0f} MB is more than the {LARGEST_TABLE / 1e6:.0f} MB limit")
+    data = read_text_bytes(path, LARGEST_TABLE, "cut it")
     if b"\0" in data or data.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
         raise InputError(path, "", "is not a text table", "give a file of comma-separated columns (UTF-8)")
     return data.decode("utf-8-sig", errors="replace")

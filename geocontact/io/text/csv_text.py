@@ -45,8 +45,7 @@ class Column:
 def text_of(path: Path, most_bytes: int, kind: str = "a CSV table") -> bytes:
     """Content of a file of at most `most_bytes` that is UTF-8 text; the byte order mark is taken off."""
     file = fspath(path)
-    _refuse_large(path, most_bytes)
-    data = read_bytes(path).removeprefix(BYTE_ORDER_MARK)
+    data = read_bytes(path, most_bytes, "cut or resample it").removeprefix(BYTE_ORDER_MARK)
     if not data.strip():
         raise InputError(file, "", "the file is empty", "export or copy it again")
     what, _ = looks_like(data)
@@ -63,16 +62,6 @@ def text_of(path: Path, most_bytes: int, kind: str = "a CSV table") -> bytes:
             file, f"line {line}", f"byte 0x{data[error.start]:02x} is not UTF-8", "save it as UTF-8"
         ) from None
     return data
-
-
-def _refuse_large(path: Path, most_bytes: int) -> None:
-    try:
-        size = path.stat().st_size if path.is_file() else 0
-    except (OSError, ValueError):  # `read_bytes` says why
-        return
-    if size > most_bytes:
-        what = f"{size / 1e6:.1f} MB is more than the {most_bytes / 1e6:.0f} MB that are read"
-        raise InputError(path, "", what, "cut or resample it")
 
 
 @contextmanager

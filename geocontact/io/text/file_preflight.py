@@ -1,15 +1,25 @@
-"""Before a file is parsed: regular, readable, not empty, its encoding, and its lines a block at a time."""
+"""Before a file is parsed: regular, readable, not empty, its size, its encoding, and its lines a block at a time.
+
+Every file that a user names is opened by `open_file`, or looked at by `regular_file` before another library opens it:
+pipes and devices, which have no end, are refused unopened, and so is what is larger than its reader takes.
+`tests/house/test_one_preflight.py` keeps it so.
+"""
 
 from __future__ import annotations
 
+import errno
+import json
 import re
 import stat
 import warnings
 from array import array
 from codecs import getincrementaldecoder
 from collections.abc import Iterator
+from io import TextIOWrapper
 from os import PathLike, fspath
+from os.path import islink
 from pathlib import Path
+from typing import Any, BinaryIO
 
 import numpy as np
 from jaxtyping import Int
@@ -23,7 +33,7 @@ PIECE = 1 << 20
 def encoding_of(path: str | PathLike[str]) -> str:
     """UTF-8 where the whole file is that; else Latin-1, with a warning that names the first byte that is not."""
     decoder, before = getincrementaldecoder("utf-8")(), 0
-    with Path(path).open("rb") as stream:
+    with open_file(path) as stream:
         while piece := stream.read(PIECE):
             try:
                 decoder.decode(piece)
@@ -51,11 +61,14 @@ def _warn(path: str | PathLike[str], byte: int) -> None:
 MAX_BYTES = 4 * 2**30
 """Largest file that is read [bytes]."""
 
-_LOOKS = (
+_PACKED = (
     (rb"\x1f\x8b", "a gzip archive", "unpack it first"),
     (rb"PK\x03\x04|7z\xbc\xaf|BZh|\xfd7zXZ", "an archive (zip, 7z, bz2 or xz)", "unpack it first"),
     (rb"\xff\xfe|\xfe\xff", "UTF-16 text", "save it as plain ASCII or UTF-8"),
     (rb"version https://git-lfs", "a Git LFS pointer", "fetch the file itself with `git lfs pull`"),
+)
+_LOOKS = (
+    *_PACKED,
     (rb"(?i)\s*(?:<!--.*?-->\s*)?(?:<!doctype\s+html|<html)", "an HTML page", "download the file itself, not its page"),
     (rb"(?s)\s*(?:<\?xml.*?\?>\s*)?<VTKFile", "a VTK XML file", "name it .vtp if it holds PolyData"),
     (rb"\s*<", "XML", "export the surface again"),
@@ -68,33 +81,128 @@ _LOOKS = (
     (rb"[\t\n\r\x20-\x7e]{1,512}\Z", "plain text", "export the surface again"),
 )
 
+_NO_TEXT = (
+    *_PACKED,
+    (rb"%PDF", "a PDF document", "export it as text"),
+    (rb"\x89PNG|\xff\xd8\xff|GIF8", "a picture", "export it as text"),
+)
+
 UNKNOWN = ("something else", "export the surface again")
 
 
-def read_bytes(path: str | PathLike[str]) -> bytes:
-    """Content of a regular, non-empty file of at most `MAX_BYTES`; nothing else is opened, so nothing hangs."""
-    shown = fspath(path)
+EMPTY = "the file is empty"
+_NO_FILE = (
+    (stat.S_ISDIR, "a folder", "name a file"),
+    (stat.S_ISFIFO, "a named pipe, not a regular file", "write what comes out of it to a file, and name that"),
+    (stat.S_ISCHR, "a device, not a regular file", "name a file"),
+    (stat.S_ISBLK, "a device, not a regular file", "name a file"),
+    (stat.S_ISSOCK, "a socket, not a regular file", "name a file"),
+)
+
+
+def regular_file(path: str | PathLike[str], most_bytes: int | None = None, remedy: str = "cut or resample it") -> int:
+    """Size of a file that may be opened [bytes]; InputError for any other. It is not opened, so nothing hangs.
+
+    Parameters
+    ----------
+    most_bytes
+        Largest size that its reader takes; `MAX_BYTES` where it has no limit of its own.
+    remedy
+        What to do with a larger one.
+    """
+    shown, most = fspath(path), MAX_BYTES if most_bytes is None else most_bytes
     try:
         status = Path(path).stat()
-        if not stat.S_ISREG(status.st_mode):
-            kind = "a folder" if stat.S_ISDIR(status.st_mode) else "not a regular file"
-            raise InputError(shown, "", f"is {kind}", "name a file")
-        if status.st_size > MAX_BYTES:
-            what = f"{status.st_size} bytes, more than the {MAX_BYTES} that are read"
-            raise InputError(shown, "", what, "decimate the mesh first")
-        with Path(path).open("rb") as stream:
-            data = stream.read(status.st_size + 1)
-    except FileNotFoundError:
-        raise InputError(shown, "", "there is no such file", "check the path") from None
     except OSError as error:
-        raise InputError(shown, "", f"cannot be read: {error.strerror or error}", "check its permissions") from error
-    except ValueError as error:  # a NUL in the path; InputError is a ValueError too
-        if isinstance(error, InputError):
-            raise
+        raise _refusal(path, error) from error
+    except ValueError as error:  # a NUL in the path
         raise InputError(shown, "", f"is not a usable path: {error}", "check the path") from error
-    if not data:
-        raise InputError(shown, "", "the file is empty", "export or download it again")
+    if not stat.S_ISREG(status.st_mode):
+        kinds = ((what, remedy) for is_it, what, remedy in _NO_FILE if is_it(status.st_mode))
+        what, instead = next(kinds, ("not a regular file", "name a file"))
+        raise InputError(shown, "", f"is {what}", instead)
+    if status.st_size > most:
+        raise InputError(shown, "", f"{_sized(status.st_size)} is more than the {_sized(most)} that are read", remedy)
+    if not status.st_size:
+        raise InputError(shown, "", EMPTY, "export or download it again")
+    return status.st_size
+
+
+def _sized(size: int) -> str:
+    """A number of bytes, in MB from 0.1 MB on."""
+    if size < 100_000:
+        return f"{size} bytes"
+    return f"{size / 1e6:.{0 if size % 1_000_000 == 0 else 1}f} MB"
+
+
+def _refusal(path: str | PathLike[str], error: OSError) -> InputError:
+    """What cannot be looked at or opened, in one line."""
+    shown, link = fspath(path), islink(path)
+    if isinstance(error, (FileNotFoundError, NotADirectoryError)):
+        what = "is a link to a file that is not there" if link else "there is no such file"
+        return InputError(shown, "", what, "mend the link" if link else "check the path")
+    if error.errno == errno.ELOOP:
+        return InputError(shown, "", "cannot be read: its links lead in a circle", "name the file itself")
+    remedy = "check its permissions" if isinstance(error, PermissionError) else "check the path"
+    return InputError(shown, "", f"cannot be read: {error.strerror or error}", remedy)
+
+
+def open_file(path: str | PathLike[str], most_bytes: int | None = None, remedy: str = "cut or resample it") -> BinaryIO:
+    """A `regular_file`, open for reading."""
+    regular_file(path, most_bytes, remedy)
+    try:
+        return Path(path).open("rb")
+    except OSError as error:
+        raise _refusal(path, error) from error
+
+
+def open_text(
+    path: str | PathLike[str], encoding: str = UTF8, errors: str = "strict", most_bytes: int | None = None
+) -> TextIOWrapper:
+    """The same as text; what is packed, a picture or in UTF-16 is refused."""
+    stream = open_file(path, most_bytes)
+    try:
+        refuse_no_text(stream.read(512), path)
+        stream.seek(0)
+    except BaseException:
+        stream.close()
+        raise
+    return TextIOWrapper(stream, encoding=encoding, errors=errors)
+
+
+def read_bytes(
+    path: str | PathLike[str], most_bytes: int | None = None, remedy: str = "decimate the mesh first"
+) -> bytes:
+    """Content of a `regular_file`."""
+    with open_file(path, most_bytes, remedy) as stream:
+        try:
+            return stream.read()
+        except OSError as error:
+            raise _refusal(path, error) from error
+
+
+def read_text_bytes(
+    path: str | PathLike[str], most_bytes: int | None = None, remedy: str = "cut or resample it"
+) -> bytes:
+    """Content of a `regular_file` that may be text; what is packed, a picture or in UTF-16 is refused."""
+    data = read_bytes(path, most_bytes, remedy)
+    refuse_no_text(data, path)
     return data
+
+
+def refuse_no_text(data: bytes, path: str | PathLike[str]) -> None:
+    """InputError for what begins as an archive, UTF-16, a Git LFS pointer, a PDF document or a picture does."""
+    for what, instead in (each[1:] for each in _NO_TEXT if re.match(each[0], data[:512])):
+        raise InputError(fspath(path), "", f"is not a text file: it looks like {what}", instead)
+
+
+LARGEST_JSON = 64_000_000
+"""Bytes; a run.json of a study of thousands of files has a few MB."""
+
+
+def read_json(path: str | PathLike[str]) -> Any:
+    """Content of a JSON file; ValueError or RecursionError where it is none, InputError where it cannot be read."""
+    return json.loads(read_bytes(path, LARGEST_JSON, "name the file itself"))
 
 
 def looks_like(data: bytes) -> tuple[str, str]:

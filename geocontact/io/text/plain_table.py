@@ -16,11 +16,17 @@ from os import PathLike, fspath
 from pathlib import Path
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.io.text.file_preflight import open_file, open_text, regular_file
 from geocontact.io.text.storage_header import LONGEST_LINE
+from geocontact.io.text.unpacked import refuse_far_cells, refuse_unpacked
 
 SHEET = ".xlsx"
 LARGEST_SHEET = 64_000_000
 """Bytes; a million rows of ten numbers."""
+MOST_XML = 800_000_000
+"""Bytes that a workbook may unpack to: the same million rows have about 40 bytes of XML for each number."""
+MOST_CELLS = 20_000_000
+"""In a sheet, from A1 to the last row and the last column that hold anything: twice the same."""
 
 
 def is_sheet(path: str | PathLike[str]) -> bool:
@@ -39,16 +45,17 @@ def sheet_text(path: str | PathLike[str]) -> str:
     except ImportError as error:
         remedy = "pip install openpyxl, or save the sheet as .csv"
         raise InputError(file, "", "reading .xlsx needs openpyxl", remedy) from error
-    if Path(path).is_file() and Path(path).stat().st_size > LARGEST_SHEET:
-        raise InputError(file, "", f"is larger than the {LARGEST_SHEET / 1e6:.0f} MB that are read", "cut it")
+    regular_file(path, LARGEST_SHEET)
     import pandas as pd
 
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of styles and validations, which hold no numbers
+            refuse_unpacked(path, MOST_XML)
+            refuse_far_cells(path, MOST_CELLS)
             sheets = pd.read_excel(path, sheet_name=None, header=None, dtype=object, engine="openpyxl")
-    except FileNotFoundError:
-        raise InputError(file, "", "there is no such file", "check the path") from None
+    except InputError:
+        raise
     except Exception as error:  # whatever openpyxl meets in a damaged file: there is no common base
         raise InputError(file, "", f"cannot be read as a workbook ({error})", "save it again, or as .csv") from error
     filled = {name: sheet for name, sheet in sheets.items() if not sheet.empty}
@@ -95,7 +102,7 @@ def open_plain(path: str | PathLike[str], errors: str = "strict", encoding: str 
     if is_sheet(path):
         yield StringIO(_EMPTY_ROWS.sub("\n", sheet_text(path)))
         return
-    with Path(path).open(encoding=encoding, errors=errors) as stream:
+    with open_text(path, encoding, errors) as stream:
         separated = _separated_by_semicolons(stream)
         stream.seek(0)
         if separated:
@@ -116,7 +123,7 @@ def _separated_by_semicolons(stream: TextIOBase) -> bool:
 
 
 def _ends_in_empty_rows(path: Path) -> bool:
-    with path.open("rb") as raw:
+    with open_file(path) as raw:
         raw.seek(max(0, path.stat().st_size - _TAIL))
         return _EMPTY_END.search(raw.read()) is not None
 

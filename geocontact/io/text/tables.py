@@ -19,7 +19,7 @@ from geocontact.data.magnitude import too_large
 from geocontact.data.motion import Signals
 from geocontact.data.plausible import TOO_LARGE
 from geocontact.io.text.column_names import ColumnNames
-from geocontact.io.text.file_preflight import UTF8, encoding_of
+from geocontact.io.text.file_preflight import EMPTY, UTF8, encoding_of, open_file, open_text, refuse_no_text
 from geocontact.io.text.plain_table import SHEET, open_plain
 from geocontact.io.text.storage_header import LONGEST_LINE, AngleEvidence, StorageHeader, read_storage_header
 from geocontact.io.text.units import split_header
@@ -181,21 +181,16 @@ def read_table(path: str | PathLike[str], leave_words: bool = False) -> TextTabl
     if suffix in CELLS:
         with open_plain(file, encoding=encoding) as stream:
             return _read_csv(stream, file, leave_words)
-    with open(file, encoding=encoding) as stream:
+    with open_text(file, encoding) as stream:
         return _read_storage(stream, file)
 
 
 def _preflight(file: str) -> None:
-    try:
-        size = Path(file).stat().st_size
-        with open(file, "rb") as raw:
-            head = raw.read(4096)
-    except OSError as error:
-        raise InputError(file, "", f"cannot be read ({error.strerror})", "check the path") from error
-    if size > LARGEST_FILE:
-        raise InputError(file, "", f"{size / 1e6:.0f} MB is more than the {LARGEST_FILE / 1e6:.0f} MB limit", "cut it")
+    with open_file(file, LARGEST_FILE) as raw:
+        head = raw.read(4096)
+    refuse_no_text(head, file)
     if not head.strip():
-        raise InputError(file, "", "the file is empty")
+        raise InputError(file, "", EMPTY, "export it again")
     if b"\0" in head:
         raise InputError(file, "", "binary content, not a text table", "export it as text (UTF-8)")
     if head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):

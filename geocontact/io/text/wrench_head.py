@@ -5,7 +5,6 @@ Lines are `# point_mm = x, y, z` and `# frame = name`: they are written by hand,
 
 from __future__ import annotations
 
-import json
 import re
 from dataclasses import dataclass
 from itertools import takewhile
@@ -15,6 +14,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
+from geocontact.io.text.file_preflight import read_json
 from geocontact.io.text.plain_table import open_plain
 from geocontact.io.text.storage_header import LONGEST_LINE
 
@@ -58,9 +58,9 @@ def _of_run(path: Path) -> WrenchHead:
     """What the run that wrote the table says; nothing where there is none, or where it says nothing of this table."""
     run = path.with_name(RUN)
     try:
-        told = json.loads(run.read_text(encoding="utf-8"))["tables"][path.name]
+        told = read_json(run)["tables"][path.name]
         point, frame = told.get("point_mm"), told.get("frame")
-    except (OSError, ValueError, LookupError, TypeError, AttributeError):
+    except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
         return WrenchHead()
     named = frame if isinstance(frame, str) and frame else None
     return WrenchHead(None if point is None else _point(",".join(map(str, point)), run, "tables"), named)

@@ -58,8 +58,10 @@ def test_fields_are_what_the_tables_show(tmp_path: Path) -> None:
 def test_the_result_says_what_was_found(tmp_path: Path) -> None:
     result = flat(tmp_path, uniform(), layout=LAYOUT + "saturation_kPa = 10.0\n")
     assert str(result).splitlines() == [
-        "the result contradicts its data, and its numbers must not be used: "
-        "cells clip on 100% of the area under the largest force",  # every cell is at its end: what presses is unknown
+        (
+            "the result contradicts its data, and its numbers must not be used: "
+            "cells clip on 100% of the area under the largest force"
+        ),  # every cell is at its end: what presses is unknown
         "force up to 12.0 N at 0 s (sum of pressure × area), pressure up to 10.0 kPa, area up to 12 cm²",
         "warning: 12 cells clip at 10 kPa, in 100% of the frames: forces are too low",
         "warning: the mat never reads less than 12 N: if it was unloaded at some time, give this time as `unloaded`",

@@ -8,6 +8,7 @@ import time
 import traceback
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
+from os.path import lexists
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,7 @@ from geocontact.gap_benchmark.drawing import Lot, SyntheticCase, drawn
 from geocontact.gap_benchmark.residual_regression import residual_regression
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.gap_case_writer import write_gap_case
+from geocontact.io.text.file_preflight import read_text_bytes
 from geocontact.systems.catalogue import system_of
 
 OTHER_UNITS = {"rad": "deg", "N": "kN", "m": "mm"}
@@ -214,7 +216,8 @@ class Journal:
 
     def __init__(self, path: Path) -> None:
         self.path, here = path, digest()
-        lines = path.read_text(encoding="utf-8").splitlines(keepends=True) if path.is_file() else []
+        begun = lexists(path) and not (path.is_file() and path.stat().st_size == 0)
+        lines = read_text_bytes(path).decode("utf-8").splitlines(keepends=True) if begun else []
         whole = [json.loads(line) for line in lines if line.endswith("\n")]  # one that was cut off is no case
         if whole and whole[0] != {"sources": here}:
             what = f"was written by sources {whole[0].get('sources')}, these are {here}"

@@ -6,7 +6,6 @@ the results are those of one call per case. Each is written as it is done: a run
 
 from __future__ import annotations
 
-import json
 import shutil
 import traceback
 import uuid
@@ -43,6 +42,7 @@ from geocontact.analyses.gap.diagnose.result import read, run
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
 from geocontact.io.cases.gap_case import gap_case_folders
+from geocontact.io.text.file_preflight import read_json
 
 SUMMARY = "summary"
 FAILED = 1
@@ -150,13 +150,13 @@ def kept(case: Path, folder: Path, o: ManyOptions, sources: str) -> Outcome | No
         before = read_run(folder)
         if before.command != "gap diagnose" or before.version != VERSION or case / "case.toml" not in before.inputs:
             return None
-        told = json.loads((folder / RUN).read_bytes())
+        told = read_json(folder / RUN)
         alike = all(told["options_si"].get(name) == getattr(o, name) for name in ("bare", "run_simulator"))
         if not alike or told["results"][SOURCES] != sources or before.changed():
             return None
         if any(digest(folder / name) != known for name, known in results_of(folder).items()):
             return None
-        answer = json.loads((folder / ANSWER).read_bytes())
+        answer = read_json(folder / ANSWER)
         fit = told.get("fit", {}).get("outcome", "")
         return Outcome(case.name, 0, told["results"][SAID], tuple(told["warnings"]), row(answer), fit)
     except (InputError, OSError, KeyError, TypeError, AttributeError, ValueError):
@@ -165,7 +165,7 @@ def kept(case: Path, folder: Path, o: ManyOptions, sources: str) -> Outcome | No
 
 def run_of(folder: Path) -> str:
     """Mark of the run that results are of."""
-    return str(json.loads((folder / RUN).read_bytes())["results"]["run"])
+    return str(read_json(folder / RUN)["results"]["run"])
 
 
 def row(d: Mapping[str, Any]) -> tuple[tuple[str, str | float], ...]:

@@ -120,6 +120,7 @@ def read(o: SettleOptions) -> SettleInputs:
     if not moving.closed:
         what = f"{moving.name} is open ({moving.topology.why_open}): it has no inside, so there is no depth"
         raise InputError("", "", what, "close it, or see `assume_closed` moving")
+    _doubt_bodies(o)
     recorded = None if o.motion is None else _motion(o, o.motion)
     bed = Bed(layer_of(fixed, o), moving, corner_normals(moving), _point(o, moving))
     motion = _swept(bed, fixed, o) if recorded is None else recorded
@@ -128,6 +129,18 @@ def read(o: SettleOptions) -> SettleInputs:
     side = medial_side(o.split, o.side, None)
     medial = side.sign * np.eye(3)["xyz".index(side.axis)]
     return SettleInputs(fixed, bed, motion, _load(o, motion), springs, free, medial)
+
+
+def _doubt_bodies(o: SettleOptions) -> None:
+    """A warning where each of the two `bodies` is in the name of the other one's file, and neither in its own's."""
+    if o.bodies is None:
+        return
+    files = o.moving.stem.lower(), o.fixed.stem.lower()
+    own = [name.lower() in file for name, file in zip(o.bodies, files, strict=True)]
+    other = [name.lower() in file for name, file in zip(o.bodies, files[::-1], strict=True)]
+    if not any(own) and any(other):
+        names = f"{o.bodies[0]} of {o.moving.name} and {o.bodies[1]} of {o.fixed.name}"
+        reserve(f"`bodies`: {names}: are they exchanged? MOVING's comes first")
 
 
 def layer_of(fixed: Surface, o: SettleOptions) -> Layer:
@@ -213,7 +226,7 @@ def _load(o: SettleOptions, motion: Motion) -> Float[np.ndarray, " t"]:
     if refusal := LOAD.refusal(largest):
         raise InputError(o.forces, "total", *refusal)
     if doubt := LOAD.doubt(largest):
-        reserve(f"{o.forces.name}: {doubt}")
+        reserve(f"{o.forces}: its largest force, {doubt}")
     return np.asarray(load)
 
 

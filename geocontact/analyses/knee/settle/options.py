@@ -11,7 +11,7 @@ from geocontact.analyses.frame.marks import AngleUnit, Excludes, Expression, Len
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import BodyPair, Side, Sweep, Thickness
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import LAYER_RATIO, PIECE, YOUNG, N, Plausible
+from geocontact.data.plausible import LAYER_RATIO, PIECE, SOFTER, SPRING, TURNED_SPRING, ByName, N, Plausible
 
 MAY_SETTLE = ("adduction", "anterior", "mediolateral", "rotation")
 """Coordinates besides the axial one, which always settles, and flexion, which never does."""
@@ -26,6 +26,14 @@ Free = Annotated[
 Springs = Annotated[
     Mapping[str, float],
     Typed("-", "knee.settle.equilibrium:springs", '{"anterior": 30e3, "rotation": 20.6}'),
+    ByName(
+        (
+            ("anterior", SPRING),
+            ("mediolateral", SPRING),
+            ("rotation", TURNED_SPRING),
+            ("adduction", TURNED_SPRING),
+        )
+    ),
 ]
 
 
@@ -128,7 +136,7 @@ class SettleOptions(Options):
     _: KW_ONLY
     unit: MeshUnit
     side: Side
-    modulus: Annotated[Pressure, YOUNG]
+    modulus: Annotated[Pressure, SOFTER]
     poisson: Annotated[float, LAYER_RATIO]
     load: Annotated[float | None, LOAD] = None
     forces: Annotated[Path | None, Excludes("load", "says the load again", "give one"), READS_NO_FILE] = None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,6 +23,7 @@ from geocontact.data.plausible import LARGEST_MEANT
 from geocontact.identify.signals.agreement import Agreement, agreement
 from geocontact.identify.signals.angle_bins import angle_bins, edges_over
 from geocontact.identify.signals.filters import at_times, even_times
+from geocontact.io.text.file_preflight import read_json
 from geocontact.view.curves.quantity import Quantity
 
 QUANTITIES = {"force": CONSTRAINT, "displacement": Quantity("displacement of the joint", "mm", 1e3)}
@@ -81,13 +81,15 @@ def read(o: CompareOptions) -> Both:
 def _law(file: Path) -> ComparedLaw:
     """The law in an elbow.json."""
     try:
-        content = json.loads(file.read_text(encoding="utf-8"))
+        content = read_json(file)
         told, centre = content["numbers"], content["pressure_mmHg"] or 0.0
         told = {key_of("c"): 0.0, **told}  # files of version 0.1 have a rigid fixation
         numbers = {name: float(told[key_of(name)]) / PER_SI[name] for name in NAMES}
         if not (np.abs([*numbers.values(), float(centre)]) <= LARGEST_MEANT).all():
             raise ValueError("a number is not finite or too large")
-    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
+    except InputError:
+        raise
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise InputError(file, "", f"holds no law of an elbow ({error})", "give elbow.json of elbow fit") from error
     return ComparedLaw(numbers, float(centre) * MMHG)
 

@@ -25,6 +25,7 @@ from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.errors import InputError
+from geocontact.io.text.file_preflight import open_text
 
 COLUMNS = ("number", "value", "lower", "upper", "verdict")
 
@@ -82,7 +83,10 @@ def read(o: ProsthesisDesignOptions) -> FootAndTrial:
 def _known(file: Path, zones: ZoneParameters) -> Float[np.ndarray, " p"]:
     """From intervals of known numbers; any other keeps its prior."""
     try:
-        table = pd.read_csv(file)
+        with open_text(file) as stream:
+            table = pd.read_csv(stream)
+    except InputError:
+        raise
     except (OSError, ValueError) as error:
         raise InputError(file, "", "cannot be read as a table", "give numbers.csv of prosthesis calibrate") from error
     missing = [name for name in COLUMNS if name not in table.columns]

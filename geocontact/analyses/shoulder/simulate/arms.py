@@ -79,9 +79,27 @@ def worn_along(o: ShoulderSimulateOptions, wearer: Wearer) -> Worn:
     found = smoothed_arms(seen, settings, None if o.cutoff == 0.0 else o.cutoff, o.side)
     for line in found.notes:
         reserve(line)
+    _doubt_upright(o, found.arms)
     time = found.arms[0].time
     tool = None if o.tool is None else tool_runs(o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
     return Worn(found.arms, found.frame, found.markers, device, wearer, tool, controllers(o, time))
+
+
+RAISED = np.radians(60.0)
+"""Elevation from which an arm does not hang beside a person who stands upright and waits."""
+
+
+def _doubt_upright(o: ShoulderSimulateOptions, arms: tuple[ArmMotion, ...]) -> None:
+    """A warning where an arm is raised in the span that is to be an upright stance."""
+    if o.upright is None:
+        return
+    start, stop = o.upright
+    for arm in arms:
+        within = (arm.time >= start - 1e-6) & (arm.time <= stop + 1e-6)
+        raised = float(np.median(arm.elevation[within])) if within.any() else 0.0
+        if raised > RAISED:
+            what = f"the {arm.side} arm is {np.degrees(raised):.0f} degrees up then"
+            reserve(f"`upright`: {what}: is that a stance, and not the middle of the work?")
 
 
 def controllers(o: ShoulderSimulateOptions, time: Float[np.ndarray, " t"]) -> Mapping[Side, Controller] | None:

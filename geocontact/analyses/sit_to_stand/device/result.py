@@ -26,7 +26,7 @@ from geocontact.analyses.sit_to_stand.show import motion_page
 from geocontact.analyses.sit_to_stand.trial_tables import ran_table
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
-from geocontact.data.plausible import COULOMB, FIRST_MOMENT, INERTIA, PART, VISCOUS
+from geocontact.data.plausible import COULOMB, FIRST_MOMENT, INERTIA, MOTOR, PART, VISCOUS
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_size
 from geocontact.identify.signals.filters import ORDER, UNEVEN
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of
@@ -117,6 +117,8 @@ def _motion(angles: tuple[Path, str], motors: tuple[Path, str], subject: Subject
         what = f"{len(time)} frames that are not {step:g} s apart everywhere"
         raise InputError(file, "", what, f"give at least {FEWEST} evenly spaced ones")
     torque = _columns(motors, list(EXO_JOINTS), time)
+    if doubt := MOTOR.doubt(float(np.abs(torque).max())):
+        reserve(f"{motors[0]} `{motors[1]}`: {doubt}")
     try:
         return DeviceMotion.smoothed(time, raw, torque, cutoff)
     except ValueError as error:
