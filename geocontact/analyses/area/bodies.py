@@ -12,7 +12,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Bool
 
-from geocontact.analyses.area.options import AreaOptions
+from geocontact.analyses.area.literature import Flexions, flexions_of
+from geocontact.analyses.area.options import LITERATURE, AreaOptions
 from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.bodies import chosen_faces, read_body_and_outer, refuse_two_spaces
 from geocontact.analyses.frame.collector import add_input, reserve, say
@@ -282,6 +283,8 @@ class Bodies:
         By which poses may be off; None without.
     inner
         Outer surfaces of bodies whose file holds closed surfaces inside or across others, where these count.
+    flexions
+        Flexion of the frames by motion, as far as it is known; None unless published areas are asked for.
     """
 
     moving: Surface
@@ -291,6 +294,7 @@ class Bodies:
     reference: Reference | None
     error: PoseError | None = None
     inner: Mapping[Literal["moving", "fixed"], UnitedSurface] = field(default_factory=dict)
+    flexions: Flexions | None = None
 
     @property
     def title(self) -> str:
@@ -306,7 +310,7 @@ def read(o: AreaOptions) -> Bodies:
     if o.split is not None:
         split = quantities.splitting_plane(o.split, o.unit), medial_side(o.split, o.side, o.medial)
     reference = None
-    if o.compare is not None:
+    if o.compare is not None and o.compare != LITERATURE:
         table = read_reference(o.compare)
         reference = Reference(o.compare, table, TOLERANCE if o.tolerance is None else o.tolerance)
         add_input("`compare`", o.compare)
@@ -324,7 +328,9 @@ def read(o: AreaOptions) -> Bodies:
     if o.split is not None and split is not None:
         refuse_plane_beside(o.split, split[0], fixed, settings.fixed_faces, o.unit)
         say(f"medial is {split[1].words} of {fixed.name}")
-    bodies = Bodies(moving, fixed, settings, tuple(motions_given(o, moving)), reference, error)
+    motions = tuple(motions_given(o, moving))
+    flexions = flexions_of(o, _expanded(o.motion or ()), motions)
+    bodies = Bodies(moving, fixed, settings, motions, reference, error, flexions=flexions)
     return _outer(o, bodies, {"moving": outer_moving, "fixed": outer_fixed})
 
 

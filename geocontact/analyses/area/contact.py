@@ -213,6 +213,8 @@ class MotionResult:
         How alike the surfaces are curved in contact; None unless asked for.
     reservations
         What is to be doubted about this motion, each one line.
+    published
+        Published areas beside these; None unless asked for.
     """
 
     name: str
@@ -224,15 +226,18 @@ class MotionResult:
     uncertainty: AreaUncertainty | None
     congruence: CongruenceEvolution | None
     reservations: tuple[str, ...]
+    published: pd.DataFrame | None = None
 
 
 def tables_of(one: MotionResult, o: AreaOptions) -> dict[str, pd.DataFrame]:
-    """`area`, and `pressure`, `comparison` and `pose_error` where they were asked for."""
+    """`area`, and `pressure`, `comparison`, `literature` and `pose_error` where they were asked for."""
     found = {"area": area_table(one, o)}
     if one.pressure is not None:
         found["pressure"] = one.pressure.table(one.motion.time)
     if one.comparison is not None:
         found["comparison"] = one.comparison
+    if one.published is not None:
+        found["literature"] = one.published
     if one.uncertainty is not None:
         found["pose_error"] = one.uncertainty.table(one.motion.time, one.evolution.thresholds)
     return found

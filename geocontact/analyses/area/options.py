@@ -41,6 +41,8 @@ from geocontact.data.plausible import (
 )
 
 FLAT = "flat"
+LITERATURE = Path("literature")
+"""In place of a table: published areas of knees."""
 
 READS_NO_FILE = Excludes("sweep", "has no effect with `sweep`, which reads no motion file")
 OF_LAYER = Requires("pressure")
@@ -158,9 +160,13 @@ class AreaOptions(Options):
     Comparison with measured areas
     ------------------------------
     compare
-        Table of your own measured areas; the result is not accepted (exit 1) beyond the tolerance.
+        Table of your own measured areas; the result is not accepted (exit 1) beyond the tolerance. literature instead:
+        published areas of knees, each with its source (literature.csv); other implants accept or refuse nothing.
     tolerance
         Largest relative difference from the areas compared; 2% by default.
+    flexion
+        Column of the motion's file that is knee flexion, for published areas: -knee_flexion turns the sign. Known
+        without it for `sweep` flexion and for `convention`.
 
     Results
     -------
@@ -268,6 +274,7 @@ class AreaOptions(Options):
     tolerance: Annotated[
         Fraction | None, Requires("compare", "give your measured areas too, or leave it out"), DIFFERENCE
     ] = None
+    flexion: Annotated[Expression | None, READS_NO_FILE, Requires("compare", "leave it out")] = None
     save_map: bool = False
     paraview: bool = False
     stills: bool = False
@@ -288,7 +295,7 @@ class AreaOptions(Options):
 
     def paths(self) -> Iterator[tuple[Path, Missing]]:
         """Those of files, and of motions that are no patterns."""
-        yield from super().paths()
+        yield from (each for each in super().paths() if each[0] != LITERATURE)
         for name in (*(self.motion or ()), *(self.motion_fixed or ())):
             if not has_magic(name):
                 yield Path(name), Missing()
@@ -303,6 +310,7 @@ class AreaOptions(Options):
         if self.workers is not None and self.workers < 1:
             raise InputError("", "`workers`", f"{self.workers} is less than one thread", "give 1 or more")
         self._refuse_sides()
+        self._refuse_comparison()
         self._refuse_thresholds()
         self._refuse_errors()
         if self.adduction is not None and self.adduction[0] not in ("x", "y", "z"):
@@ -313,6 +321,13 @@ class AreaOptions(Options):
             medial_side(self.split, self.side, self.medial)
         if self.medial is not None and self.side is not None and self.convention is None:
             raise InputError("", "`side`", "has no effect with `medial`, which says what is medial", "give one")
+
+    def _refuse_comparison(self) -> None:
+        if self.compare == LITERATURE and self.tolerance is not None:
+            what = "has no effect with `compare` literature: areas of other implants accept or refuse nothing"
+            raise InputError("", "`tolerance`", what, "leave it out")
+        if self.flexion is not None and self.compare != LITERATURE:
+            raise InputError("", "`flexion`", "has no effect on your own table", "give `compare` literature")
 
     def _refuse_errors(self) -> None:
         if self.pose_sd is None and self.markers is None:

@@ -45,6 +45,7 @@ from geocontact.analyses.area.contact import (
 )
 from geocontact.analyses.area.distance_file import FILE, write_maps
 from geocontact.analyses.area.figure import area_figure, colour_span, write_paraview, write_stills
+from geocontact.analyses.area.literature import beside_literature
 from geocontact.analyses.area.options import AreaOptions, PressureOptions
 from geocontact.analyses.area.page import FRAMES, thinned_page
 from geocontact.analyses.area.pressure_page import shown_pressures
@@ -152,6 +153,7 @@ def page_of(bodies: Bodies, one: MotionResult) -> Thinned:
         compared,
         one.uncertainty,
         one.congruence,
+        one.published,
     )
 
 
@@ -244,7 +246,7 @@ class AreaResult(Result):
         return loads
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`area`, `pressure` and `comparison`; of several motions "name/area" and so on.
+        """`area`, `pressure`, `comparison` and `literature`; of several motions "name/area" and so on.
 
         The main table is `pressure` where the analysis was called for that.
         """
@@ -312,8 +314,13 @@ def _over(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, shared: tup
     comparison = None if bodies.reference is None else _compared(evolution, bodies.reference)
     uncertainty = _uncertain(bodies, o, name, motion, evolution)
     alike = None if o.congruence is None else congruence_of(bodies, o.congruence, name, motion)
+    published = None
+    if bodies.flexions is not None:
+        published = beside_literature(bodies.flexions, motion, evolution, pressure, name)
     reservations = (*shared, *current().warnings[before:])
-    return MotionResult(name, motion, evolution, maps, pressure, comparison, uncertainty, alike, reservations)
+    return MotionResult(
+        name, motion, evolution, maps, pressure, comparison, uncertainty, alike, reservations, published
+    )
 
 
 def _evaluated(bodies: Bodies, o: AreaOptions, name: str, motion: Motion) -> tuple[AreaEvolution, DistanceMaps]:

@@ -110,6 +110,8 @@ class SettleOptions(Options):
 
     Results
     -------
+    compare
+        literature: contact areas measured on knee implants beside these, each with its source (literature.csv).
     bodies
         OpenSim bodies of MOVING and FIXED, femur_r,tibia_r: contact forces are written as external loads of these.
     paraview
@@ -155,6 +157,7 @@ class SettleOptions(Options):
     region: Expression | None = None
     split: str = "z"
     piece: Annotated[Length | None, PIECE] = None
+    compare: Literal["literature"] | None = None
     bodies: BodyPair | None = None
     paraview: bool = False
 
