@@ -11,6 +11,7 @@ from math import inf, radians
 from typing import Literal
 
 Knee = Literal["total knee implant", "half knee implant", "natural knee"]
+Part = Literal["total", "medial", "lateral"]
 Basis = Literal["measured under load", "computed under load", "within a distance"]
 
 
@@ -50,7 +51,7 @@ class PublishedArea:
     knee: Knee
     basis: Basis
     method: str
-    side: Literal["total", "medial", "lateral"]
+    side: Part
     flexion: tuple[float, float] | None
     load: float | None
     least: float
@@ -95,6 +96,10 @@ AVERAGE = "Fuji film at 37 °C; the load over the average stress of {}"
 def _loaded(stress: float) -> float:
     """Area on which the films' load has this average stress [Pa]."""
     return FORCE / stress
+
+
+CARTILAGE: tuple[tuple[Part, float, float], ...] = (("medial", 701.0, 89.0), ("lateral", 617.0, 63.0))
+"""Mean and SD of each side of the finite elements [mm^2]."""
 
 
 PUBLISHED_AREAS: tuple[PublishedArea, ...] = (
@@ -191,7 +196,7 @@ PUBLISHED_AREAS: tuple[PublishedArea, ...] = (
             "abstract, https://openbiomedicalengineeringjournal.com/VOLUME/14/PAGE/74/FULLTEXT/",
             sd=sd * MM2,
         )
-        for side, area, sd in (("medial", 701.0, 89.0), ("lateral", 617.0, 63.0))
+        for side, area, sd in CARTILAGE
     ),
     PublishedArea(
         "JW 2015, peak of five walks",

@@ -18,6 +18,8 @@ from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.bodies import chosen_faces, read_body_and_outer, refuse_two_spaces
 from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.frame.shared_options import MedialSide, medial_side, refuse_other_axes
+from geocontact.analyses.motion.gait_cycles import cutting_of
+from geocontact.analyses.motion.styles import Cutting
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import MM2
 from geocontact.data.motion import Motion
@@ -285,6 +287,10 @@ class Bodies:
         Outer surfaces of bodies whose file holds closed surfaces inside or across others, where these count.
     flexions
         Flexion of the frames by motion, as far as it is known; None unless published areas are asked for.
+    cutting
+        Events that cut the motions into cycles; None without.
+    stems
+        Names of the motions' files.
     """
 
     moving: Surface
@@ -295,6 +301,8 @@ class Bodies:
     error: PoseError | None = None
     inner: Mapping[Literal["moving", "fixed"], UnitedSurface] = field(default_factory=dict)
     flexions: Flexions | None = None
+    cutting: Cutting | None = None
+    stems: tuple[str, ...] = ()
 
     @property
     def title(self) -> str:
@@ -330,7 +338,9 @@ def read(o: AreaOptions) -> Bodies:
         say(f"medial is {split[1].words} of {fixed.name}")
     motions = tuple(motions_given(o, moving))
     flexions = flexions_of(o, _expanded(o.motion or ()), motions)
-    bodies = Bodies(moving, fixed, settings, motions, reference, error, flexions=flexions)
+    cutting = cutting_of(o.events, o.cycle_side, o.part)
+    stems = tuple(path.stem for path in _expanded(o.motion or ()))
+    bodies = Bodies(moving, fixed, settings, motions, reference, error, flexions=flexions, cutting=cutting, stems=stems)
     return _outer(o, bodies, {"moving": outer_moving, "fixed": outer_fixed})
 
 

@@ -24,7 +24,7 @@ from geocontact.analyses.frame.marks import (
     Typed,
 )
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.frame.shared_options import BodyPair, Medial, Side, Sweep, Thickness, medial_side
+from geocontact.analyses.frame.shared_options import BodyPair, CyclePart, Medial, Side, Sweep, Thickness, medial_side
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import (
     DIFFERENCE,
@@ -157,6 +157,16 @@ class AreaOptions(Options):
     seed
         Seed of the draws; 1 by default.
 
+    Gait cycles
+    -----------
+    events
+        Table side, event, time [s] (heel strike, toe off), with recording and style where there are several, or a .c3d
+        of the same clock: areas over the cycle (cycles.csv), and how styles differ (shifts.csv).
+    cycle_side
+        Side of the joint, where the events are of both.
+    part
+        Use only this first part of each cycle: 60%, or stance, which ends at the toe off.
+
     Comparison with measured areas
     ------------------------------
     compare
@@ -270,6 +280,9 @@ class AreaOptions(Options):
     marker_sd: Annotated[Length | None, Requires("markers"), SHIFT] = None
     draws: Annotated[int | None, Requires("pose_sd", alternative="markers")] = None
     seed: Annotated[int | None, Requires("pose_sd", alternative="markers")] = None
+    events: Annotated[Path | None, READS_NO_FILE] = None
+    cycle_side: Annotated[Side | None, Requires("events")] = None
+    part: Annotated[CyclePart | None, Requires("events")] = None
     compare: Path | None = None
     tolerance: Annotated[
         Fraction | None, Requires("compare", "give your measured areas too, or leave it out"), DIFFERENCE

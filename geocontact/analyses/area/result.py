@@ -43,6 +43,7 @@ from geocontact.analyses.area.contact import (
     warn_of_no_contact,
     warn_of_overlap,
 )
+from geocontact.analyses.area.cycles import area_trials
 from geocontact.analyses.area.distance_file import FILE, write_maps
 from geocontact.analyses.area.figure import area_figure, colour_span, write_paraview, write_stills
 from geocontact.analyses.area.literature import beside_literature
@@ -54,6 +55,7 @@ from geocontact.analyses.frame.contact_pressures import PressureMap, pressure_fi
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import Thinned
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.motion.styles import Trials, cycle_tables
 from geocontact.data.evolution import MM2, AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import REFINED
@@ -169,12 +171,15 @@ class AreaResult(Result):
         What was found over each motion.
     notes
         What is to be said of the pictures of a motion, by its name, once they are drawn.
+    trials
+        Quantities over the gait cycles of all motions; empty without events.
     """
 
     options: AreaOptions
     bodies: Bodies
     motions: tuple[MotionResult, ...]
     notes: dict[str, list[str]] = field(default_factory=dict)
+    trials: Trials = field(default_factory=dict)
 
     @property
     def accepted(self) -> bool:
@@ -253,6 +258,8 @@ class AreaResult(Result):
         found = {
             _named(one, name): table for one in self.motions for name, table in tables_of(one, self.options).items()
         }
+        if self.trials:
+            found |= cycle_tables(self.trials)
         if not isinstance(self.options, PressureOptions):
             return found
         return dict(sorted(found.items(), key=lambda item: not item[0].endswith("pressure")))
@@ -302,7 +309,8 @@ def run(bodies: Bodies, o: AreaOptions) -> AreaResult:
         warm_up()
     shared = tuple(current().warnings)
     motions = tuple(_over(bodies, o, name, motion, shared) for name, motion in bodies.motions)
-    return AreaResult(options=o, bodies=bodies, motions=motions)
+    trials = {} if bodies.cutting is None else area_trials(bodies.cutting, motions, bodies.stems)
+    return AreaResult(options=o, bodies=bodies, motions=motions, trials=trials)
 
 
 def _over(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, shared: tuple[str, ...]) -> MotionResult:

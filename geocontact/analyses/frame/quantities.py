@@ -171,6 +171,11 @@ def thickness(text: str, option: str) -> float | Literal["rays"]:
     return "rays" if text.strip() == "rays" else length(text, option)
 
 
+def cycle_part(text: str, option: str) -> float | Literal["stance"]:
+    """ "60%" or "0.6" to 0.6; "stance" stays."""
+    return "stance" if text.strip() == "stance" else fraction(text, option)
+
+
 def turn(text: str, option: str) -> tuple[str, float]:
     """ "x=2" to a coordinate axis and an angle [rad]; degrees are typed."""
     axis, _, angle = text.partition("=")

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from geocontact.analyses.frame.marks import Spelled, Typed
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import JOINT_ANGLE, LAYER
+from geocontact.data.plausible import JOINT_ANGLE, LAYER, SHARE
 
 Sweep = Annotated[
     tuple[str, float, float, float],
@@ -26,6 +26,9 @@ RAYS = "rays"
 
 Thickness = Annotated[float | Literal["rays"], Typed("m", "thickness", "gc.mm(8)"), LAYER]
 
+
+CyclePart = Annotated[float | Literal["stance"], Typed("-", "cycle_part", "0.6"), SHARE]
+"""First part of each cycle, or up to its toe off."""
 
 Side = Literal["right", "left"]
 Medial = Annotated[Literal["-", "+"], Spelled(dashed=True)]

@@ -7,7 +7,7 @@ as a published one is reported for every row: it is what a calibration of the th
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -64,9 +64,8 @@ def beside_published(run: KneeRun, rows: Sequence[PublishedArea] = PUBLISHED_ARE
     DataFrame
         The publication; "ours [mm^2]", the mean over the frames that are comparable, or the peak where the published
         number is one; "difference [mm^2]" and "relative [-]" from the nearest end of the published range, 0 within it;
-        "comparable" and "why" not; "threshold_least [mm]" and "threshold_most [mm]", within which the area of the frames
-        at that flexion is as large as the ends of the range, least and most of these frames. Empty where there is no
-        number.
+        "comparable" and "why" not; "threshold_least [mm]" and "threshold_most [mm]", within which the area of frames at
+        that flexion is as large as the ends of the range, least and most of these frames. Empty without a number.
     """
     return pd.DataFrame([_row(run, row) for row in rows])
 
@@ -205,7 +204,7 @@ def published_sentences(rows: pd.DataFrame) -> list[str]:
     return said
 
 
-def _published(row: Mapping[str, object]) -> str:
+def _published(row: Mapping[Hashable, object]) -> str:
     least, most = (float(str(row[f"area_{end} [mm^2]"])) for end in ("least", "most"))
     if np.isnan(most):
         return f"{least:.0f} or more"

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.motion.checked_trial import check_trial
-from geocontact.analyses.motion.gait_cycles import strikes_marked, strikes_typed
+from geocontact.analyses.motion.gait_cycles import events_given, strikes_and_offs
 from geocontact.analyses.motion.inverse_kinematics.knees import Knee, knees_of
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.marker_tasks import marker_tasks, renamed
@@ -23,7 +23,7 @@ from geocontact.trial_checks.recorded import TrialInputs
 
 @dataclass(frozen=True)
 class KinematicsInputs:
-    """A model, its markers as seen, what each counts, knees whose clinical angles are wanted, heel strikes.
+    """A model, its markers as seen, what each counts, knees whose clinical angles are wanted, heel strikes, toe offs.
 
     `analog` are the channels of a .c3d that belong to no force plate, where they are asked for; `doubts` the checks of
     the recording that warned.
@@ -34,6 +34,7 @@ class KinematicsInputs:
     tasks: MarkerTasks
     knees: list[Knee]
     strikes: Strikes
+    offs: Strikes
     analog: TextTable | None = None
     doubts: frozenset[str] = frozenset()
 
@@ -47,9 +48,9 @@ def read(o: IkOptions) -> KinematicsInputs:
     seen = renamed(markers_given(o.markers, o.axes, o.time, o.c3d_unit), model, o.markers_map)
     add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     doubts = check_trial(TrialInputs(markers=seen, turn=turn_of(o.axes)))
-    strikes = strikes_typed(o.events) or strikes_marked(o.markers)
+    strikes, offs = strikes_and_offs(events_given(o.events, o.markers), o.markers.stem)
     tasks = marker_tasks(model, seen, o.tasks, o.follow, o.weight, o.hold)
-    return KinematicsInputs(model, seen, tasks, knees, strikes, _analog(o), doubts)
+    return KinematicsInputs(model, seen, tasks, knees, strikes, offs, _analog(o), doubts)
 
 
 def _analog(o: IkOptions) -> TextTable | None:

@@ -35,6 +35,7 @@ from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
 from geocontact.analyses.motion.markers import exchange_question, warn_of_tilt
 from geocontact.analyses.motion.panels import printed
 from geocontact.data.errors import InputError
+from geocontact.data.gait_events import STANCE
 from geocontact.dynamics.exchanged_markers import exchanged_markers
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics as kinematics_of
@@ -169,7 +170,7 @@ def run(seen: KinematicsInputs, o: IkOptions) -> IkResult:
         except ValueError as error:
             raise InputError(o.markers, "", str(error), "is it the right file?") from error
     summary = _summary(found, time.perf_counter() - began)
-    cycles = _cycles(seen, found)
+    cycles = _cycles(seen, found, o)
     if cycles:
         summary["gait_cycles"] = cycles.counts
     result = IkResult(options=o, seen=seen, poses=found, cycles=cycles, summary=summary)
@@ -191,10 +192,17 @@ def _never(found: Poses) -> int:
     return int((~found.determined.any(axis=0)).sum())
 
 
-def _cycles(seen: KinematicsInputs, found: Poses) -> GaitCycles:
+def _cycles(seen: KinematicsInputs, found: Poses, o: IkOptions) -> GaitCycles:
     coordinates = seen.model.coordinates
     units = ["deg" if c.kind == "rotational" else "m" for c in coordinates]
-    return gait_cycles(found.time, found.names, units, printed(coordinates, found.values), seen.strikes)
+    values = printed(coordinates, found.values)
+    cycles = gait_cycles(found.time, found.names, units, values, seen.strikes, seen.offs, o.part)
+    if o.part is not None and not cycles:
+        what = (
+            "has no effect: no cycle with a toe off" if o.part == STANCE else "has no effect without two heel strikes"
+        )
+        raise InputError("", "`part`", what, "give `events`, or leave it out")
+    return cycles
 
 
 def _summary(found: Poses, seconds: float) -> dict[str, object]:
