@@ -14,8 +14,6 @@ from geocontact.data.errors import InputError
 from geocontact.data.gait_events import GaitEvent, cycles_between
 from geocontact.identify.signals.gait_cycles import gait_cycles
 from geocontact.io.recordings.gait_events import read_gait_events
-from tests.analyses.area.calls import area
-from tests.cli.calls import PLATE, SPHERE
 
 HEAD = "recording, side, event, time [s], style\n"
 TABLE = HEAD + (
@@ -86,27 +84,6 @@ def test_whose_cycles_count_is_asked_for(tmp_path: Path) -> None:
     assert len(Cutting(cutting.file, cutting.events, "left", None).cycles_of("normal")) == 1
     with pytest.raises(InputError, match="no cycle of the left side in recording 'other'"):
         Cutting(cutting.file, cutting.events, "left", None).cycles_of("other")
-
-
-def test_areas_are_cut_at_the_same_events(tmp_path: Path) -> None:
-    """A ball that comes down to 20 mm and goes up again, twice; one cycle each of two styles."""
-    times = np.linspace(0.0, 2.0, 9)
-    heights = 20.5 - 0.5 * np.sin(np.pi * times) ** 2 * np.where(times < 1.0, 0.5, 1.0)
-    rows = [f"{t},0,{h},0,1,0,0,0" for t, h in zip(times, heights, strict=True)]
-    motion = tmp_path / "normal.csv"
-    motion.write_text("time [s],tx [mm],ty [mm],tz [mm],qw,qx,qy,qz\n" + "\n".join(rows) + "\n")
-    found = area(SPHERE, PLATE, motion, rule="clip", events=table(tmp_path), cycle_side="right", threshold=(1e-3,))
-    cycles = found.table("cycles")
-    own = cycles[cycles["quantity"] == "area_fixed at 1 mm"].set_index(["style", "cycle [%]"])["mean"]
-    assert own["slow", 50.0] == pytest.approx(1e6 * found.area[2, 0]) and own["fast", 50.0] > own["slow", 50.0]
-    shifts = found.table("shifts").set_index("quantity").loc["area_fixed at 1 mm"]
-    swing = 1e6 * (np.ptp(found.area[4:, 0]) - np.ptp(found.area[:5, 0]))
-    assert shifts["peak_to_peak_difference"] == pytest.approx(swing) and shifts["reference"] == "slow"
-    stance = area(
-        SPHERE, PLATE, motion, rule="clip", events=table(tmp_path), cycle_side="right", part="stance", threshold=(1e-3,)
-    )
-    half = stance.table("cycles").set_index(["quantity", "style", "cycle [%]"])["mean"]
-    assert half["area_fixed at 1 mm", "slow", 100.0] == pytest.approx(1e6 * np.interp(0.6, times, found.area[:, 0]))
 
 
 def test_load_cells_are_cut_at_the_same_events(tmp_path: Path) -> None:

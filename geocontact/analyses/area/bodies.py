@@ -36,7 +36,7 @@ from geocontact.geometry.union import UnitedSurface
 from geocontact.io.motion.motion import read_motion
 from geocontact.io.text.results import read_frame
 from geocontact.io.text.side_table import read_side_table
-from geocontact.io.text.units import ANGLE, LENGTH
+from geocontact.io.text.units import LENGTH
 from geocontact.view.surfaces.vtp_series import require_pyvista
 
 DIRECTIONS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -220,21 +220,6 @@ def refuse_zero_without_inside(thresholds: tuple[float, ...], moving: Surface, f
     if 0.0 in thresholds and not moving.closed and not fixed.closed:
         what = f"0 counts what is inside the other body, and neither {moving.name} nor {fixed.name} is closed"
         raise InputError("", "`threshold`", what, "give a length, or say `assume_closed`")
-
-
-def pose_sd(text: str, option: str) -> tuple[float, ...]:
-    """ "t=0.5,r=1" or "tx=0.5,rz=2" (mm, degrees) to three lengths [m] and three angles [rad]; 0 where not named."""
-    names, found = ("tx", "ty", "tz", "rx", "ry", "rz"), dict[str, float]()
-    for part in text.split(","):
-        name, _, value = (piece.strip() for piece in part.partition("="))
-        meant = [each for each in names if each == name or each[0] == name]
-        if not meant or not value or any(each in found for each in meant):
-            raise InputError("", option, f"{part.strip()!r} is not a standard deviation", f"write {option} t=0.5,r=1")
-        size = quantities.number(value, option, "t=0.5,r=1")
-        found |= {each: size * (LENGTH["mm"] if each[0] == "t" else ANGLE["deg"]) for each in meant}
-    if min(found.values()) < 0.0:
-        raise InputError("", option, f"{text!r} is negative", "a standard deviation is not")
-    return tuple(found.get(each, 0.0) for each in names)
 
 
 DRAWS, SEED = 400, 1

@@ -24,7 +24,17 @@ from geocontact.analyses.frame.marks import (
     Typed,
 )
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.frame.shared_options import BodyPair, CyclePart, Medial, Side, Sweep, Thickness, medial_side
+from geocontact.analyses.frame.shared_options import (
+    BodyPair,
+    CyclePart,
+    Medial,
+    PoseSd,
+    Side,
+    Sweep,
+    Thickness,
+    medial_side,
+    refuse_pose_sd,
+)
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import (
     DIFFERENCE,
@@ -32,7 +42,6 @@ from geocontact.data.plausible import (
     FRAME_RATE,
     LAYER_RATIO,
     PIECE,
-    POSE,
     SHARE,
     SHIFT,
     THRESHOLD,
@@ -49,11 +58,6 @@ OF_LAYER = Requires("pressure")
 OF_SECOND = Requires("modulus_moving")
 
 Turn = Annotated[tuple[str, float], Typed("rad", "turn", '("x", gc.deg(2))'), TURN]
-PoseSd = Annotated[
-    tuple[float, ...],
-    Typed("m, rad", "area.bodies:pose_sd", "(5e-4, 5e-4, 5e-4, *gc.deg(1, 1, 1))"),
-    POSE,
-]
 
 
 @dataclass(frozen=True)
@@ -145,7 +149,8 @@ class AreaOptions(Options):
     ------------------
     pose_sd
         Standard deviations of the poses, typed t=0.5,r=1 or tx=0.5,ty=0.5,tz=1,rx=1,ry=1,rz=2 (mm, degrees; 0 unless
-        named): the area of FIXED gets intervals, by draws and to first order (pose_error.csv).
+        named): the area of FIXED gets intervals, by draws and to first order (pose_error.csv; pose_draws.npz for E* by
+        `modulus`); so do pressures, forces and the medial share (pressure_error.csv).
     pose_axes
         Axes of these: those of fixed (the default) or moving. Turns are about MOVING's origin.
     markers
@@ -153,7 +158,7 @@ class AreaOptions(Options):
     marker_sd
         Standard deviation of each coordinate of a marker.
     draws
-        How many; 400 by default.
+        How many; 400 by default, of which pressures take the first 100.
     seed
         Seed of the draws; 1 by default.
 
@@ -351,8 +356,7 @@ class AreaOptions(Options):
             raise InputError("", "`threshold`", "0 has no error of poses", "give a threshold above 0")
         if self.draws is not None and not 20 <= self.draws <= 1_000_000:
             raise InputError("", "`draws`", f"{self.draws} is not between 20 and 1000000", "give for example 400")
-        if self.pose_sd is not None and (len(self.pose_sd) != 6 or not max(self.pose_sd) > 0.0):
-            raise InputError("", "`pose_sd`", "needs three shifts and three turns, one above 0", "give t=0.5,r=1")
+        refuse_pose_sd(self.pose_sd)
         if self.seed is not None and self.seed < 0:
             raise InputError("", "`seed`", f"{self.seed} is negative", "give 0 or more")
 

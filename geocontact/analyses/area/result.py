@@ -35,6 +35,7 @@ from geocontact.analyses.area.contact import (
     MotionResult,
     congruence_of,
     least_distance,
+    pressure_error_of,
     pressures_of,
     refuse_strangers,
     say_inner_area,
@@ -65,6 +66,7 @@ from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.contact_area.pose_error import ENDS, AreaUncertainty, area_uncertainty
 from geocontact.geometry.contact_area.warm_up import warm_up
 from geocontact.geometry.surface import Surface
+from geocontact.io.recordings.pose_draws import POSE_DRAWS, PoseDraws
 from geocontact.loads.pressure_evolution import PressureEvolution
 
 if TYPE_CHECKING:
@@ -83,8 +85,16 @@ def write_further(o: AreaOptions, bodies: Bodies, one: MotionResult, folder: Pat
     if one.pressure is not None and o.bodies is not None:
         loads = one.pressure.parts or {"total": one.pressure.loads}
         write_contact_loads(folder, one.motion.time, loads, *o.bodies)
+    if one.uncertainty is not None:
+        _write_draws(one, one.uncertainty, folder / POSE_DRAWS)
     _write_maps(o, bodies, one, folder)
     return write_stills(folder, bodies, one, heading(bodies, one)) if o.stills else []
+
+
+def _write_draws(one: MotionResult, u: AreaUncertainty, file: Path) -> None:
+    thresholds = np.asarray(one.evolution.thresholds)
+    areas = np.stack([u.drawn(k) for k in range(len(thresholds))], axis=1)
+    PoseDraws(one.motion.time, thresholds, areas).written(file)
 
 
 def heading(bodies: Bodies, one: MotionResult) -> str:
@@ -322,12 +332,13 @@ def _over(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, shared: tup
     comparison = None if bodies.reference is None else _compared(evolution, bodies.reference)
     uncertainty = _uncertain(bodies, o, name, motion, evolution)
     alike = None if o.congruence is None else congruence_of(bodies, o.congruence, name, motion)
+    pressed = pressure_error_of(bodies, o, name, motion, pressure)
     published = None
     if bodies.flexions is not None:
         published = beside_literature(bodies.flexions, motion, evolution, pressure, name)
     reservations = (*shared, *current().warnings[before:])
     return MotionResult(
-        name, motion, evolution, maps, pressure, comparison, uncertainty, alike, reservations, published
+        name, motion, evolution, maps, pressure, comparison, uncertainty, alike, reservations, published, pressed
     )
 
 

@@ -138,7 +138,7 @@ class LoadcellResult(Result):
             return None
         part = self.options.part
         along = "cycle" if part is None else STANCE
-        if part is not None and part != STANCE:
+        if isinstance(part, float):
             along = f"first {100.0 * part:g}% of the cycle"
         return ensemble_curves(sides, along, unit.name, unit.per_newton)
 

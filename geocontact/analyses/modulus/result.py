@@ -27,6 +27,7 @@ from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.modulus.identified import (
     Identified,
+    PoseModuli,
     curve_table,
     describe,
     modulus_table,
@@ -124,7 +125,8 @@ def run(inputs: ModulusInputs, o: ModulusOptions) -> ModulusResult:
     others = unknowns(o, inputs, threshold)
     _doubt(inputs)
     sides = _sides(inputs, threshold, others, o)
-    found = Identified(sides, sensitivity(sides), calibration, predictions(inputs, sides), o.poisson)
+    poses = None if inputs.draws is None else PoseModuli.of(sides["total"], inputs.draws)
+    found = Identified(sides, sensitivity(sides), calibration, predictions(inputs, sides), o.poisson, poses)
     note("modulus", describe(found))
     _report(found)
     return ModulusResult(options=o, found=found)
@@ -220,6 +222,11 @@ def _report(found: Identified) -> None:
         span = f"{p.lower * 1e-6:.4g} … {p.upper * 1e-6:.4g}"
         sticks = "" if each.model.adhesion is None else f", {each.model.adhesion.words}"
         say(f"{side}: E* {each.modulus * 1e-6:.4g} MPa (95 % {span}), RMSE {rmse:.0f} N, R² {r2:.2f}{sticks}")
+    if found.poses is not None:
+        alone, both = (
+            " … ".join(f"{end * 1e-6:.4g}" for end in ends) for ends in (found.poses.interval, found.poses.both)
+        )
+        say(f"error of the pose: E* {alone} MPa (95 % of {len(found.poses.drawn)} draws), with the forces' {both} MPa")
     if why := reason(found):
         say(why)
     say("E and ν are one number here: area and force identify E* = E/(1 - ν²), and E only for a stated ν")

@@ -31,10 +31,12 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.shared_options import medial_side
 from geocontact.analyses.knee.settle.equilibrium import SIDES, Settled, SettleInputs, read
 from geocontact.analyses.knee.settle.options import SettleOptions
+from geocontact.analyses.knee.settle.pose_error import settle_error
 from geocontact.analyses.knee.settle.show import thinned_page
 from geocontact.data.errors import InputError
 from geocontact.geometry.contact_area.published import KneeRun
 from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.loads.pressure_pose_error import PressureUncertainty
 from geocontact.loads.settling import EnergyBalance, Frame, energy_balance, not_held, settle_along
 from geocontact.loads.settling_potential import NAMES, coordinates_of
 from geocontact.view.surfaces.vtp_series import PressureSeries, write_pressure_series
@@ -94,12 +96,15 @@ class SettleResult(Result):
         Work of the load and stored energy in the frame with the largest load; None where that was not found.
     published
         Published areas beside these; None unless asked for.
+    pose_error
+        What the error of the poses does; None without one.
     """
 
     options: SettleOptions
     settled: Settled
     balance: EnergyBalance | None
     published: pd.DataFrame | None = None
+    pose_error: PressureUncertainty | None = None
 
     @property
     def force(self) -> dict[str, Float[np.ndarray, " t"]]:
@@ -119,6 +124,8 @@ class SettleResult(Result):
     def tables(self) -> dict[str, pd.DataFrame]:
         """`settle`, a row per frame, `poses` of those at rest, and `literature` where it was asked for."""
         found = {"settle": settle_table(self.settled), "poses": pose_table(self.settled)}
+        if self.pose_error is not None:
+            found["settle_error"] = self.pose_error.table(self.settled.inputs.motion.time)
         return found if self.published is None else {**found, "literature": self.published}
 
     def figures(self) -> dict[str, Figure]:
@@ -184,7 +191,8 @@ def run(i: SettleInputs, o: SettleOptions) -> SettleResult:
     _summarise(i, settled, balance)
     say(f"medial is {medial_side(o.split, o.side, None).words} of {i.fixed.name}")
     published = None if o.compare is None else beside_published_areas(_knee_run(settled))
-    return SettleResult(options=o, settled=settled, balance=balance, published=published)
+    error = settle_error(i, o, heaviest)
+    return SettleResult(options=o, settled=settled, balance=balance, published=published, pose_error=error)
 
 
 def _knee_run(s: Settled) -> KneeRun:

@@ -59,9 +59,9 @@ class IkOptions(Options):
 
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
-    Writes ik.mot (degrees and metres, for OpenSim), markers.csv (distance of each marker from the model), knees.csv
-    with `knee`, cycles.csv where heel strikes are known, ik.json, report.html (a moving skeleton) and run.json into
-    OUT.
+    Writes ik.mot (degrees and metres, for OpenSim), markers.csv (distance of each marker from the model),
+    MARKERS_ik_marker_errors.sto (squared error, RMS and largest of each frame, as OpenSim has them), knees.csv with
+    `knee`, cycles.csv where heel strikes are known, ik.json, report.html (a moving skeleton) and run.json into OUT.
     """
 
     markers: Path
