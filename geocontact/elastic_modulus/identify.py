@@ -104,6 +104,24 @@ class Identification:
         return tuple(name for name, p in self.profiles.items() if p.lower_open or p.upper_open)
 
 
+def moduli_of_poses(each: Identification, areas: Float[np.ndarray, "t k n"]) -> Float[np.ndarray, " n"]:
+    """E* [Pa] with the area of each drawn pose instead, by least squares; other free parameters as identified.
+
+    Parameters
+    ----------
+    areas
+        Of each draw at the times and thresholds of the model's evolution [m^2].
+    """
+    found = np.empty(areas.shape[2])
+    for k in range(len(found)):
+        evolution = replace(each.model.evolution, area=np.ascontiguousarray(areas[:, :, k]))
+        model = replace(each.model, evolution=evolution)
+        found[k] = np.nan
+        if model.per_modulus(each.fit.values).any():
+            found[k] = model.refit(each.measured[None], each.fit.values, (WEAKEST, STRONGEST))[0, 0]
+    return found
+
+
 def agreement(measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"]) -> tuple[float, float]:
     """Root mean square error, and R^2 about the mean of what was measured; below 0 a constant would do better."""
     off, varied = measured - predicted, measured - measured.mean()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.motion.styles import Cutting
 from geocontact.data.errors import InputError
 from geocontact.io.results import coordinates_of, over_time
 from geocontact.study.description import StudyFile
@@ -59,8 +60,13 @@ class StudyCurves:
         return {subject: self.matrix[own].mean(axis=0) for subject, own in places.items()}
 
 
-def curves_of(study: StudyFile, done: Sequence[tuple[CohortTrial, str]], store: Store) -> tuple[StudyCurves, ...]:
-    """Curves of the columns that [summary] names, or of the first few; none where no table is over time."""
+def curves_of(
+    study: StudyFile, done: Sequence[tuple[CohortTrial, str]], store: Store, cutting: Cutting | None = None
+) -> tuple[StudyCurves, ...]:
+    """Curves of the columns that [summary] names, or of the first few; none where no table is over time.
+
+    With events a curve is the mean over the gait cycles of its trial, else it is over the whole span.
+    """
     asked = study.summary
     name = asked.table or _first_over_time(done, store)
     if not name:
@@ -70,7 +76,8 @@ def curves_of(study: StudyFile, done: Sequence[tuple[CohortTrial, str]], store: 
     if not there:
         raise InputError(study.path, "[summary] table", f"no trial has a table {name!r}", "see the folder tables")
     columns = _required(study, files[there[0].name], name)
-    values = np.array([_curves(study, files[trial.name], columns) for trial in there])
+    recorded = set() if cutting is None else {each.recording for each in cutting.events}
+    values = np.array([_curves(study, files[one.name], columns, cutting, recording_of(one, recorded)) for one in there])
     subjects, conditions = subjects_of(study, there), conditions_of(study, there)
     names = tuple(trial.name for trial in there)
     return tuple(StudyCurves(column, names, subjects, conditions, values[:, k]) for k, column in enumerate(columns))
@@ -117,8 +124,18 @@ def _columns(table: pd.DataFrame, over: str) -> tuple[str, ...]:
     return tuple(name for name in numbers if len(set(table[name])) > 1)[:MOST]
 
 
-def _curves(study: StudyFile, file: Path, columns: Sequence[str]) -> Float[np.ndarray, "c 101"]:
-    """Curves of one trial: rows that are chosen, over their span."""
+def recording_of(trial: CohortTrial, known: Collection[str]) -> str:
+    """What a table of events calls the recording of a trial: its recording, its name, or one of its files."""
+    named = (str(trial.factors[name]) for name in ("recording",) if name in trial.factors)
+    texts = (str(value) for value in trial.options.values())
+    names = [*named, trial.name, *(Path(text).stem for text in texts)]
+    return next((name for name in names if name in known), names[0])
+
+
+def _curves(
+    study: StudyFile, file: Path, columns: Sequence[str], cutting: Cutting | None, recording: str
+) -> Float[np.ndarray, "c 101"]:
+    """Curves of one trial: rows that are chosen, over their span or over the gait cycle."""
     asked = study.summary
     table = pd.read_parquet(file)
     missing = next((name for name in (*columns, asked.over, *asked.where) if name not in table.columns), None)
@@ -130,6 +147,9 @@ def _curves(study: StudyFile, file: Path, columns: Sequence[str]) -> Float[np.nd
     at = table[asked.over].to_numpy(float)
     if len(at) < 2 or not (np.diff(at) > 0.0).all():
         return np.full((len(columns), len(STEPS)), np.nan)
+    if cutting is not None:
+        trials = cutting.trials_of(recording, at, {name: table[name].to_numpy(float) for name in columns})
+        return np.array([np.vstack(list(trials[name].values())).mean(axis=0) for name in columns])
     share = 100.0 * (at - at[0]) / (at[-1] - at[0])
     return np.array([np.interp(STEPS, share, table[name].to_numpy(float)) for name in columns])
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
+from geocontact.analyses.frame.marks import Requires
 from geocontact.analyses.frame.options import Options
+from geocontact.analyses.frame.shared_options import CyclePart, Side
 from geocontact.data.errors import InputError
 
 LOCAL = "local"
@@ -22,6 +24,16 @@ class CohortOptions(Options):
     ----------
     study
         Description of the study (.toml): the analysis, its options, and the differences between its trials.
+
+    Gait cycles
+    -----------
+    events
+        Table side, event, time [s] (heel strike, toe off), with recording (the trial's, or its file's name): each curve
+        is the mean over the cycles of its trial, and shifts.csv says how conditions differ.
+    cycle_side
+        Side whose cycles count, where the events are of both.
+    part
+        Use only this first part of each cycle: 60%, or stance, which ends at the toe off.
 
     Work
     ----
@@ -41,6 +53,9 @@ class CohortOptions(Options):
 
     study: Path
     _: KW_ONLY
+    events: Path | None = None
+    cycle_side: Annotated[Side | None, Requires("events")] = None
+    part: Annotated[CyclePart | None, Requires("events")] = None
     scheduler: str = LOCAL
     workers: int | None = None
     memory: str | None = None

@@ -35,6 +35,8 @@ from geocontact.analyses.frame.main_numbers import factor_of
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.several import CONTRADICTS, doubt_columns, judge_several, reserve_of_several
 from geocontact.analyses.frame.words import counted
+from geocontact.analyses.motion.gait_cycles import cutting_of
+from geocontact.analyses.motion.styles import Cutting, Trials, shifts_between
 from geocontact.data.errors import InputError
 from geocontact.data.trial import mean_and_sd
 from geocontact.io.text.units import split_header
@@ -85,6 +87,7 @@ class PlannedStudy:
 
     file: StudyFile
     trials: tuple[CohortTrial, ...]
+    cutting: Cutting | None = None
 
 
 def read(o: CohortOptions) -> PlannedStudy:
@@ -93,7 +96,7 @@ def read(o: CohortOptions) -> PlannedStudy:
     add_input("study", o.study, analysis=study.analysis)
     if study.table:
         add_input("table", o.study.parent / study.table)
-    return PlannedStudy(study, tuple(trials_of(study)))
+    return PlannedStudy(study, tuple(trials_of(study)), cutting_of(o.events, o.cycle_side, o.part))
 
 
 @dataclass(frozen=True)
@@ -170,6 +173,16 @@ class CohortResult(Result):
         """
         return dict(self._tables)
 
+    @property
+    def _trials(self) -> Trials:
+        """Curves by quantity and condition, a row for each subject that has a whole one."""
+        groups = {one.column: one.groups for one in self.ensembles}
+        whole = {
+            name: {each: rows[np.isfinite(rows).all(axis=1)] for each, rows in conditions.items()}
+            for name, conditions in groups.items()
+        }
+        return {name: {each: rows for each, rows in own.items() if len(rows)} for name, own in whole.items()}
+
     @cached_property
     def _tables(self) -> dict[str, pd.DataFrame]:
         """The same, made once: tests of differences take their time."""
@@ -181,6 +194,8 @@ class CohortResult(Result):
             "agreement": agreement_table(self.ensembles),
             "outliers": outlier_table(self.ensembles),
         }
+        if self.planned.cutting is not None:
+            found["shifts"] = shifts_between(self._trials)
         if self.surface is not None:
             found["surface"] = surface_table(self.surface)
             found["surface_differences"] = surface_difference_table(self.surface)
@@ -292,7 +307,7 @@ def _looked_at(
     told = [(one.trial.name, store.told(one.address)) for one in done]
     judge_several([(name, each.get("fit", "")) for name, each in told], LEAVE_OUT)
     reserve_of_several([(name, each["warnings"]) for name, each in told])
-    curves = curves_of(planned.file, [(one.trial, one.address) for one in done], store)
+    curves = curves_of(planned.file, [(one.trial, one.address) for one in done], store, planned.cutting)
     surface = surface_values(planned.file, [(one.trial, one.address) for one in done], store)
     for line in means_by_condition(curves):
         say(line)

@@ -11,7 +11,8 @@ import geocontact as gc
 from geocontact.analyses.motion.gait_cycles import (
     cycles_curves,
     cycles_table,
-    strikes_marked,
+    events_given,
+    strikes_and_offs,
     strikes_typed,
 )
 from geocontact.data.errors import InputError
@@ -61,10 +62,11 @@ def test_strikes_that_a_c3d_file_marks(tmp_path: Path) -> None:
     content.add_parameter("EVENT", "LABELS", ["Foot Strike", "Foot Strike", "Foot Off", "Foot Strike"])
     content.add_parameter("EVENT", "TIMES", np.array([[0.0, 0.0, 0.0, 1.0], [1.25, 1.8, 1.9, 2.5]]))
     content.write(str(tmp_path / "walk.c3d"))
-    found = strikes_marked(tmp_path / "walk.c3d")
+    found, offs = strikes_and_offs(events_given((), tmp_path / "walk.c3d"), "walk")
     np.testing.assert_allclose(found["right"], [1.25, 62.5], atol=1e-5)
     np.testing.assert_allclose(found["left"], [1.8], atol=1e-5)
-    assert strikes_marked(tmp_path / "walk.trc") == {}
+    np.testing.assert_allclose(offs["right"], [1.9], atol=1e-5)
+    assert events_given((), tmp_path / "walk.trc") == ()
 
 
 @pytest.mark.slow

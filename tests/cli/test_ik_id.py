@@ -65,7 +65,7 @@ def test_a_planted_motion_comes_back(tmp_path: Path) -> None:
         np.testing.assert_allclose(found.column(coordinate.name), wanted, atol=1e-4 if angular else 1e-7)
     told = result.record()["results"]
     assert told["frames"] == len(time) and told["unsettled_frames"] == 0 and told["rms_mm"] < 1e-4
-    for_opensim = {"seen.trc", "setup_ik.xml"}
+    for_opensim = {"seen.trc", "setup_ik.xml", "walk_ik_marker_errors.sto"}
     written = {"ik.mot", "ik.json", "markers.csv", "report.html", "run.json"}
     assert written | for_opensim == set(result.record()["files"])
     assert result.table("markers.csv").shape == (len(time), 1 + 16)

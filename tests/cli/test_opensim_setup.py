@@ -140,6 +140,13 @@ def test_the_set_ups_written_give_opensim_the_same_angles_and_moments(tmp_path: 
     assert ours.time[0] == pytest.approx(0.1) and "ankle" in ours.channels
     for c in model.coordinates:
         np.testing.assert_allclose(ours.column(c.name), theirs.column(c.name), atol=0.03, err_msg=c.name)
+    (of_opensim,) = (
+        file for file in (tmp_path / "ik").glob("*_ik_marker_errors.sto") if not file.stem.startswith("z_up")
+    )
+    ours, theirs = (read_table(each) for each in (tmp_path / "ik" / "z_up_ik_marker_errors.sto", of_opensim))
+    assert ours.channels == theirs.channels == ("total_squared_error", "marker_error_RMS", "marker_error_max")
+    for name in ours.channels:  # both solve to a part of what markers are off
+        np.testing.assert_allclose(ours.column(name), theirs.column(name), rtol=0.02, atol=1e-9, err_msg=name)
     options = ("--loads", tmp_path / "loads.xml", "--cutoff", "12", "--time", "0.1:0.5", "--exclude", "stops")
     walk = tmp_path / "walk.mot"
     done(call("id", walk, "--model", tmp_path / "leg.osim", *options, "--threshold", "30", "--out", tmp_path / "id"))

@@ -17,6 +17,7 @@ import pandas as pd
 import pytest
 from scipy.io import netcdf_file
 
+import geocontact as gc
 from geocontact.study.curves import StudyCurves
 from geocontact.study.result import CohortResult
 from geocontact.study.show import study_curves, study_page
@@ -295,3 +296,24 @@ def test_a_summary_that_no_trial_has_is_refused_after_the_first(tmp_path: Path, 
         assert len(list(out.glob("results/*/trial.json"))) < 15
         again = cohort(tmp_path / "study.toml", out, scheduler)
         assert again.code == 2 and len(list(out.glob("results/*/trial.json"))) < 15
+
+
+def test_curves_are_over_the_gait_cycles_of_a_table_of_events(tmp_path: Path, scheduler: str) -> None:
+    """Two cycles of each trial, 0 to 0.5 and 0.5 to 1 s: at their ends the mean of two sines, times the number."""
+    file = compared(tmp_path)
+    names = [one.stem for one in tmp_path.glob("*_*_*.txt")]
+    rows = [f"{name},right,heel strike,{at}" for name in names for at in (0.0, 0.5, 1.0)]
+    events = tmp_path / "events.csv"
+    events.write_text("recording,side,event,time [s]\n" + "\n".join(rows) + "\n", encoding="utf-8")
+    with pytest.warns(gc.InputWarning, match="F fast 2 lies apart"):
+        found = gc.cohort(file, scheduler=scheduler, events=events)
+    with pytest.warns(gc.InputWarning, match="F fast 2 lies apart"):
+        part = gc.cohort(file, scheduler=scheduler, events=events, part="60%").table("ensemble")
+    ensemble = found.table("ensemble").set_index(["condition", "cycle [%]"])["mean"]
+    number = 21.0  # mean of 20, 21 and 22, twice
+    assert ensemble["slow", 100.0] == pytest.approx(number * 0.5 * (np.sin(0.5) + np.sin(1.0)), rel=5e-3)
+    (row,) = found.table("shifts").to_dict(orient="records")
+    assert {row["style"], row["reference"]} == {"slow", "fast"} and row["cycles [-]"] == 6
+    assert np.isfinite(row["peak_difference_lower"]) and row["rmse"] > 1.0
+    shorter = part.set_index(["condition", "cycle [%]"])["mean"]["slow", 100.0]
+    assert shorter == pytest.approx(number * 0.5 * (np.sin(0.3) + np.sin(0.8)), rel=5e-3)

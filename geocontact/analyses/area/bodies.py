@@ -12,11 +12,14 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Bool
 
-from geocontact.analyses.area.options import AreaOptions
+from geocontact.analyses.area.literature import Flexions, flexions_of
+from geocontact.analyses.area.options import LITERATURE, AreaOptions
 from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.bodies import check_surfaces, chosen_faces, read_body_and_outer, refuse_two_spaces
 from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.frame.shared_options import MedialSide, medial_side, refuse_other_axes
+from geocontact.analyses.motion.gait_cycles import cutting_of
+from geocontact.analyses.motion.styles import Cutting
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import MM2
 from geocontact.data.motion import Motion
@@ -33,7 +36,7 @@ from geocontact.geometry.union import UnitedSurface
 from geocontact.io.motion.motion import read_motion
 from geocontact.io.text.results import read_frame
 from geocontact.io.text.side_table import read_side_table
-from geocontact.io.text.units import ANGLE, LENGTH
+from geocontact.io.text.units import LENGTH
 from geocontact.view.surfaces.vtp_series import require_pyvista
 
 DIRECTIONS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -219,21 +222,6 @@ def refuse_zero_without_inside(thresholds: tuple[float, ...], moving: Surface, f
         raise InputError("", "`threshold`", what, "give a length, or say `assume_closed`")
 
 
-def pose_sd(text: str, option: str) -> tuple[float, ...]:
-    """ "t=0.5,r=1" or "tx=0.5,rz=2" (mm, degrees) to three lengths [m] and three angles [rad]; 0 where not named."""
-    names, found = ("tx", "ty", "tz", "rx", "ry", "rz"), dict[str, float]()
-    for part in text.split(","):
-        name, _, value = (piece.strip() for piece in part.partition("="))
-        meant = [each for each in names if each == name or each[0] == name]
-        if not meant or not value or any(each in found for each in meant):
-            raise InputError("", option, f"{part.strip()!r} is not a standard deviation", f"write {option} t=0.5,r=1")
-        size = quantities.number(value, option, "t=0.5,r=1")
-        found |= {each: size * (LENGTH["mm"] if each[0] == "t" else ANGLE["deg"]) for each in meant}
-    if min(found.values()) < 0.0:
-        raise InputError("", option, f"{text!r} is negative", "a standard deviation is not")
-    return tuple(found.get(each, 0.0) for each in names)
-
-
 DRAWS, SEED = 400, 1
 COLUMNS = ["x [m]", "y [m]", "z [m]"]
 
@@ -282,6 +270,12 @@ class Bodies:
         By which poses may be off; None without.
     inner
         Outer surfaces of bodies whose file holds closed surfaces inside or across others, where these count.
+    flexions
+        Flexion of the frames by motion, as far as it is known; None unless published areas are asked for.
+    cutting
+        Events that cut the motions into cycles; None without.
+    stems
+        Names of the motions' files.
     """
 
     moving: Surface
@@ -291,6 +285,9 @@ class Bodies:
     reference: Reference | None
     error: PoseError | None = None
     inner: Mapping[Literal["moving", "fixed"], UnitedSurface] = field(default_factory=dict)
+    flexions: Flexions | None = None
+    cutting: Cutting | None = None
+    stems: tuple[str, ...] = ()
 
     @property
     def title(self) -> str:
@@ -306,7 +303,7 @@ def read(o: AreaOptions) -> Bodies:
     if o.split is not None:
         split = quantities.splitting_plane(o.split, o.unit), medial_side(o.split, o.side, o.medial)
     reference = None
-    if o.compare is not None:
+    if o.compare is not None and o.compare != LITERATURE:
         table = read_reference(o.compare)
         reference = Reference(o.compare, table, TOLERANCE if o.tolerance is None else o.tolerance)
         add_input("`compare`", o.compare)
@@ -325,7 +322,11 @@ def read(o: AreaOptions) -> Bodies:
     if o.split is not None and split is not None:
         refuse_plane_beside(o.split, split[0], fixed, settings.fixed_faces, o.unit)
         say(f"medial is {split[1].words} of {fixed.name}")
-    bodies = Bodies(moving, fixed, settings, tuple(motions_given(o, moving)), reference, error)
+    motions = tuple(motions_given(o, moving))
+    flexions = flexions_of(o, _expanded(o.motion or ()), motions)
+    cutting = cutting_of(o.events, o.cycle_side, o.part)
+    stems = tuple(path.stem for path in _expanded(o.motion or ()))
+    bodies = Bodies(moving, fixed, settings, motions, reference, error, flexions=flexions, cutting=cutting, stems=stems)
     return _outer(o, bodies, {"moving": outer_moving, "fixed": outer_fixed})
 
 

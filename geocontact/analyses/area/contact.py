@@ -32,6 +32,7 @@ from geocontact.geometry.surface import Surface
 from geocontact.geometry.surface_quadrature import surface_quadrature
 from geocontact.loads.foundation import Layer, Skin, layer_on
 from geocontact.loads.pressure_evolution import PressureEvolution, pressure_evolution
+from geocontact.loads.pressure_pose_error import PressureUncertainty, pressure_uncertainty
 
 FEW = 0.9
 """Share of the contact area that has both curvatures, below which a warning says so."""
@@ -137,6 +138,31 @@ def pressures_of(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, kept
     return found
 
 
+PRESSED = 100
+"""Draws of the pose whose pressures are computed by default."""
+
+
+def pressure_error_of(
+    bodies: Bodies, o: AreaOptions, name: str, motion: Motion, e: PressureEvolution | None
+) -> PressureUncertainty | None:
+    """Loads of drawn poses, and what is to be said of them; None without pressures or an error of the pose."""
+    if bodies.error is None or e is None:
+        return None
+    count = min(o.draws or PRESSED, len(bodies.error.draws))
+    with listener().progress(f"{name or 'frames'}, pressures with the error of the pose", len(motion)) as step:
+        found = pressure_uncertainty(e.layer, bodies.moving, motion, e.skin, bodies.error, count, o.workers, step)
+    low, high = found.largest_force
+    share = found.share_where(e.heaviest)
+    summary: dict[str, object] = {"draws": count, "largest_force_ci95_N": [low, high]}
+    medial = ""
+    if share is not None:
+        summary["medial_share_at_largest_force_ci95"] = list(share)
+        medial = f", {100.0 * share[0]:.0f} … {100.0 * share[1]:.0f} % of it medial where the force is largest"
+    note(f"{name} pressure_error".lstrip(), summary)
+    say(f"error of the pose: largest force {low:.4g} … {high:.4g} N (95 % of {count} draws){medial}")
+    return found
+
+
 def _layer(bodies: Bodies, faces: Bool[np.ndarray, " f"] | None, o: AreaOptions, edge: float) -> Layer:
     """FIXED's layer in pieces of at most `edge` [m]."""
     fixed, split = bodies.fixed, bodies.settings.split
@@ -213,6 +239,10 @@ class MotionResult:
         How alike the surfaces are curved in contact; None unless asked for.
     reservations
         What is to be doubted about this motion, each one line.
+    published
+        Published areas beside these; None unless asked for.
+    pressure_error
+        Error of the poses carried into the loads; None unless both were asked for.
     """
 
     name: str
@@ -224,15 +254,21 @@ class MotionResult:
     uncertainty: AreaUncertainty | None
     congruence: CongruenceEvolution | None
     reservations: tuple[str, ...]
+    published: pd.DataFrame | None = None
+    pressure_error: PressureUncertainty | None = None
 
 
 def tables_of(one: MotionResult, o: AreaOptions) -> dict[str, pd.DataFrame]:
-    """`area`, and `pressure`, `comparison` and `pose_error` where they were asked for."""
+    """`area`, and `pressure`, `comparison`, `literature` and `pose_error` where they were asked for."""
     found = {"area": area_table(one, o)}
     if one.pressure is not None:
         found["pressure"] = one.pressure.table(one.motion.time)
+    if one.pressure_error is not None:
+        found["pressure_error"] = one.pressure_error.table(one.motion.time)
     if one.comparison is not None:
         found["comparison"] = one.comparison
+    if one.published is not None:
+        found["literature"] = one.published
     if one.uncertainty is not None:
         found["pose_error"] = one.uncertainty.table(one.motion.time, one.evolution.thresholds)
     return found

@@ -24,7 +24,17 @@ from geocontact.analyses.frame.marks import (
     Typed,
 )
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.frame.shared_options import BodyPair, Medial, Side, Sweep, Thickness, medial_side
+from geocontact.analyses.frame.shared_options import (
+    BodyPair,
+    CyclePart,
+    Medial,
+    PoseSd,
+    Side,
+    Sweep,
+    Thickness,
+    medial_side,
+    refuse_pose_sd,
+)
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import (
     DIFFERENCE,
@@ -32,7 +42,6 @@ from geocontact.data.plausible import (
     FRAME_RATE,
     LAYER_RATIO,
     PIECE,
-    POSE,
     SHARE,
     SHIFT,
     THRESHOLD,
@@ -41,17 +50,14 @@ from geocontact.data.plausible import (
 )
 
 FLAT = "flat"
+LITERATURE = Path("literature")
+"""In place of a table: published areas of knees."""
 
 READS_NO_FILE = Excludes("sweep", "has no effect with `sweep`, which reads no motion file")
 OF_LAYER = Requires("pressure")
 OF_SECOND = Requires("modulus_moving")
 
 Turn = Annotated[tuple[str, float], Typed("rad", "turn", '("x", gc.deg(2))'), TURN]
-PoseSd = Annotated[
-    tuple[float, ...],
-    Typed("m, rad", "area.bodies:pose_sd", "(5e-4, 5e-4, 5e-4, *gc.deg(1, 1, 1))"),
-    POSE,
-]
 
 
 @dataclass(frozen=True)
@@ -143,7 +149,8 @@ class AreaOptions(Options):
     ------------------
     pose_sd
         Standard deviations of the poses, typed t=0.5,r=1 or tx=0.5,ty=0.5,tz=1,rx=1,ry=1,rz=2 (mm, degrees; 0 unless
-        named): the area of FIXED gets intervals, by draws and to first order (pose_error.csv).
+        named): the area of FIXED gets intervals, by draws and to first order (pose_error.csv; pose_draws.npz for E* by
+        `modulus`); so do pressures, forces and the medial share (pressure_error.csv).
     pose_axes
         Axes of these: those of fixed (the default) or moving. Turns are about MOVING's origin.
     markers
@@ -151,16 +158,30 @@ class AreaOptions(Options):
     marker_sd
         Standard deviation of each coordinate of a marker.
     draws
-        How many; 400 by default.
+        How many; 400 by default, of which pressures take the first 100.
     seed
         Seed of the draws; 1 by default.
+
+    Gait cycles
+    -----------
+    events
+        Table side, event, time [s] (heel strike, toe off), with recording and style where there are several, or a .c3d
+        of the same clock: areas over the cycle (cycles.csv), and how styles differ (shifts.csv).
+    cycle_side
+        Side of the joint, where the events are of both.
+    part
+        Use only this first part of each cycle: 60%, or stance, which ends at the toe off.
 
     Comparison with measured areas
     ------------------------------
     compare
-        Table of your own measured areas; the result is not accepted (exit 1) beyond the tolerance.
+        Table of your own measured areas; the result is not accepted (exit 1) beyond the tolerance. literature instead:
+        published areas of knees, each with its source (literature.csv); other implants accept or refuse nothing.
     tolerance
         Largest relative difference from the areas compared; 2% by default.
+    flexion
+        Column of the motion's file that is knee flexion, for published areas: -knee_flexion turns the sign. Known
+        without it for `sweep` flexion and for `convention`.
 
     Results
     -------
@@ -264,10 +285,14 @@ class AreaOptions(Options):
     marker_sd: Annotated[Length | None, Requires("markers"), SHIFT] = None
     draws: Annotated[int | None, Requires("pose_sd", alternative="markers")] = None
     seed: Annotated[int | None, Requires("pose_sd", alternative="markers")] = None
+    events: Annotated[Path | None, READS_NO_FILE] = None
+    cycle_side: Annotated[Side | None, Requires("events")] = None
+    part: Annotated[CyclePart | None, Requires("events")] = None
     compare: Path | None = None
     tolerance: Annotated[
         Fraction | None, Requires("compare", "give your measured areas too, or leave it out"), DIFFERENCE
     ] = None
+    flexion: Annotated[Expression | None, READS_NO_FILE, Requires("compare", "leave it out")] = None
     save_map: bool = False
     paraview: bool = False
     stills: bool = False
@@ -288,7 +313,7 @@ class AreaOptions(Options):
 
     def paths(self) -> Iterator[tuple[Path, Missing]]:
         """Those of files, and of motions that are no patterns."""
-        yield from super().paths()
+        yield from (each for each in super().paths() if each[0] != LITERATURE)
         for name in (*(self.motion or ()), *(self.motion_fixed or ())):
             if not has_magic(name):
                 yield Path(name), Missing()
@@ -303,6 +328,7 @@ class AreaOptions(Options):
         if self.workers is not None and self.workers < 1:
             raise InputError("", "`workers`", f"{self.workers} is less than one thread", "give 1 or more")
         self._refuse_sides()
+        self._refuse_comparison()
         self._refuse_thresholds()
         self._refuse_errors()
         if self.adduction is not None and self.adduction[0] not in ("x", "y", "z"):
@@ -314,6 +340,13 @@ class AreaOptions(Options):
         if self.medial is not None and self.side is not None and self.convention is None:
             raise InputError("", "`side`", "has no effect with `medial`, which says what is medial", "give one")
 
+    def _refuse_comparison(self) -> None:
+        if self.compare == LITERATURE and self.tolerance is not None:
+            what = "has no effect with `compare` literature: areas of other implants accept or refuse nothing"
+            raise InputError("", "`tolerance`", what, "leave it out")
+        if self.flexion is not None and self.compare != LITERATURE:
+            raise InputError("", "`flexion`", "has no effect on your own table", "give `compare` literature")
+
     def _refuse_errors(self) -> None:
         if self.pose_sd is None and self.markers is None:
             return
@@ -323,8 +356,7 @@ class AreaOptions(Options):
             raise InputError("", "`threshold`", "0 has no error of poses", "give a threshold above 0")
         if self.draws is not None and not 20 <= self.draws <= 1_000_000:
             raise InputError("", "`draws`", f"{self.draws} is not between 20 and 1000000", "give for example 400")
-        if self.pose_sd is not None and (len(self.pose_sd) != 6 or not max(self.pose_sd) > 0.0):
-            raise InputError("", "`pose_sd`", "needs three shifts and three turns, one above 0", "give t=0.5,r=1")
+        refuse_pose_sd(self.pose_sd)
         if self.seed is not None and self.seed < 0:
             raise InputError("", "`seed`", f"{self.seed} is negative", "give 0 or more")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import pandas as pd
 from jaxtyping import Int
 
 from geocontact.analyses.area import pressure_page as pressure
@@ -265,6 +266,7 @@ def thinned_page(
     compared: Compared | None = None,
     uncertainty: AreaUncertainty | None = None,
     congruence: CongruenceEvolution | None = None,
+    published: pd.DataFrame | None = None,
 ) -> Thinned:
     """The page of one contact-area analysis, of as many frames as its file holds.
 
@@ -286,15 +288,16 @@ def thinned_page(
         Error of the poses carried into the area.
     congruence
         How alike the surfaces are curved in contact; read out in each frame.
+    published
+        Published areas beside these.
     """
     if not maps.frames:
         raise ValueError("the distance maps hold no frame; gather them with area_evolution(..., each=maps.add)")
 
     def of(most: int) -> Page:
         shown = shown_frames(maps, most, () if pressures is None else (pressures.heaviest,))
-        told = Told(
-            moving, fixed, motion, settings, evolution, maps, shown, pressures, compared, uncertainty, congruence
-        )
+        further = pressures, compared, uncertainty, congruence, published
+        told = Told(moving, fixed, motion, settings, evolution, maps, shown, *further)
         return contact_page(told, title)
 
     return Thinned(of, FRAMES)
@@ -344,7 +347,7 @@ def contact_page(told: Told, title: str) -> Page:
     return Page(
         title=title or f"{told.moving.name} on {told.fixed.name}",
         subtitle=_subtitle(told),
-        time=course.values[frames],
+        time=course.values[frames],  # noqa: PD011
         time_label=course.label,
         headline=headline(told, main),
         facts=facts(told, main),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import pandas as pd
 from jaxtyping import Bool, Float, Int
 
 from geocontact.analyses.area.figure import area_curves, colour_span
@@ -63,6 +64,7 @@ class Told:
     compared: Compared | None = None
     uncertainty: AreaUncertainty | None = None
     congruence: CongruenceEvolution | None = None
+    published: pd.DataFrame | None = None
 
     @property
     def frames(self) -> Int[np.ndarray, " k"]:
@@ -207,7 +209,7 @@ def _measured(told: Told, k: int) -> list[Points]:
         return []
     rows = told.compared.rows
     rows = rows[np.isclose(rows["threshold [mm]"], told.evolution.thresholds[k] * MM)]
-    course = told.motion.course.values
+    course = told.motion.course.values  # noqa: PD011
     return [
         Points(
             f"measured, {MEASURED.get(str(quantity), str(quantity))}",
@@ -219,12 +221,28 @@ def _measured(told: Told, k: int) -> list[Points]:
 
 
 def comparison_tables(told: Told) -> list[Table]:
-    """Every measured area beside ours."""
+    """Every measured area beside ours; published ones besides."""
+    published = [] if told.published is None else [published_table(told.published)]
     if told.compared is None:
-        return []
+        return published
     rows = told.compared.rows
     texts = rows.map(lambda value: f"{value:.6g}" if isinstance(value, float) else str(value))
-    return [Table("Compared with the measured areas", tuple(map(str, rows.columns)), texts.to_numpy().tolist())]
+    return [
+        Table("Compared with the measured areas", tuple(map(str, rows.columns)), texts.to_numpy().tolist()),
+        *published,
+    ]
+
+
+SHOWN = ("published", "flexion [deg]", "load [N]", "area_least [mm^2]", "area_most [mm^2]", "ours [mm^2]", "why")
+"""Columns of literature.csv that a page has room for."""
+
+
+def published_table(rows: pd.DataFrame) -> Table:
+    """Published areas, what this run has beside them, and why not."""
+    texts = rows[list(SHOWN)].map(
+        lambda value: "" if value != value else f"{value:.4g}" if isinstance(value, float) else value
+    )
+    return Table("Beside published areas (sources in literature.csv)", SHOWN, texts.to_numpy().tolist())
 
 
 def strip(told: Told) -> Strip:

@@ -35,6 +35,7 @@ from geocontact.analyses.area.contact import (
     MotionResult,
     congruence_of,
     least_distance,
+    pressure_error_of,
     pressures_of,
     refuse_strangers,
     say_inner_area,
@@ -43,9 +44,11 @@ from geocontact.analyses.area.contact import (
     warn_of_no_contact,
     warn_of_overlap,
 )
+from geocontact.analyses.area.cycles import area_trials
 from geocontact.analyses.area.distance_file import FILE, write_maps
 from geocontact.analyses.area.figure import area_figure, colour_span, write_paraview, write_stills
 from geocontact.analyses.area.goodness import goodness_of_areas
+from geocontact.analyses.area.literature import beside_literature
 from geocontact.analyses.area.options import AreaOptions, PressureOptions
 from geocontact.analyses.area.page import FRAMES, thinned_page
 from geocontact.analyses.area.pressure_page import shown_pressures
@@ -54,6 +57,7 @@ from geocontact.analyses.frame.contact_pressures import PressureMap, pressure_fi
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import Thinned
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.motion.styles import Trials, cycle_tables
 from geocontact.data.evolution import MM2, AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import REFINED
@@ -63,6 +67,7 @@ from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.contact_area.pose_error import ENDS, AreaUncertainty, area_uncertainty
 from geocontact.geometry.contact_area.warm_up import warm_up
 from geocontact.geometry.surface import Surface
+from geocontact.io.recordings.pose_draws import POSE_DRAWS, PoseDraws
 from geocontact.loads.pressure_evolution import PressureEvolution
 
 if TYPE_CHECKING:
@@ -81,8 +86,16 @@ def write_further(o: AreaOptions, bodies: Bodies, one: MotionResult, folder: Pat
     if one.pressure is not None and o.bodies is not None:
         loads = one.pressure.parts or {"total": one.pressure.loads}
         write_contact_loads(folder, one.motion.time, loads, *o.bodies)
+    if one.uncertainty is not None:
+        _write_draws(one, one.uncertainty, folder / POSE_DRAWS)
     _write_maps(o, bodies, one, folder)
     return write_stills(folder, bodies, one, heading(bodies, one)) if o.stills else []
+
+
+def _write_draws(one: MotionResult, u: AreaUncertainty, file: Path) -> None:
+    thresholds = np.asarray(one.evolution.thresholds)
+    areas = np.stack([u.drawn(k) for k in range(len(thresholds))], axis=1)
+    PoseDraws(one.motion.time, thresholds, areas).written(file)
 
 
 def heading(bodies: Bodies, one: MotionResult) -> str:
@@ -153,6 +166,7 @@ def page_of(bodies: Bodies, one: MotionResult) -> Thinned:
         compared,
         one.uncertainty,
         one.congruence,
+        one.published,
     )
 
 
@@ -168,12 +182,15 @@ class AreaResult(Result):
         What was found over each motion.
     notes
         What is to be said of the pictures of a motion, by its name, once they are drawn.
+    trials
+        Quantities over the gait cycles of all motions; empty without events.
     """
 
     options: AreaOptions
     bodies: Bodies
     motions: tuple[MotionResult, ...]
     notes: dict[str, list[str]] = field(default_factory=dict)
+    trials: Trials = field(default_factory=dict)
 
     @property
     def accepted(self) -> bool:
@@ -245,13 +262,15 @@ class AreaResult(Result):
         return loads
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`area`, `pressure` and `comparison`; of several motions "name/area" and so on.
+        """`area`, `pressure`, `comparison` and `literature`; of several motions "name/area" and so on.
 
         The main table is `pressure` where the analysis was called for that.
         """
         found = {
             _named(one, name): table for one in self.motions for name, table in tables_of(one, self.options).items()
         }
+        if self.trials:
+            found |= cycle_tables(self.trials)
         if not isinstance(self.options, PressureOptions):
             return found
         return dict(sorted(found.items(), key=lambda item: not item[0].endswith("pressure")))
@@ -301,7 +320,8 @@ def run(bodies: Bodies, o: AreaOptions) -> AreaResult:
         warm_up()
     shared = tuple(current().warnings)
     motions = tuple(_over(bodies, o, name, motion, shared) for name, motion in bodies.motions)
-    return AreaResult(options=o, bodies=bodies, motions=motions)
+    trials = {} if bodies.cutting is None else area_trials(bodies.cutting, motions, bodies.stems)
+    return AreaResult(options=o, bodies=bodies, motions=motions, trials=trials)
 
 
 def _over(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, shared: tuple[str, ...]) -> MotionResult:
@@ -313,8 +333,14 @@ def _over(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, shared: tup
     comparison = None if bodies.reference is None else _compared(evolution, bodies.reference)
     uncertainty = _uncertain(bodies, o, name, motion, evolution)
     alike = None if o.congruence is None else congruence_of(bodies, o.congruence, name, motion)
+    pressed = pressure_error_of(bodies, o, name, motion, pressure)
+    published = None
+    if bodies.flexions is not None:
+        published = beside_literature(bodies.flexions, motion, evolution, pressure, name)
     reservations = (*shared, *current().warnings[before:])
-    return MotionResult(name, motion, evolution, maps, pressure, comparison, uncertainty, alike, reservations)
+    return MotionResult(
+        name, motion, evolution, maps, pressure, comparison, uncertainty, alike, reservations, published, pressed
+    )
 
 
 def _evaluated(bodies: Bodies, o: AreaOptions, name: str, motion: Motion) -> tuple[AreaEvolution, DistanceMaps]:

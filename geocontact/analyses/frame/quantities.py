@@ -178,6 +178,26 @@ def thickness(text: str, option: str) -> float | Literal["rays"]:
     return "rays" if text.strip() == "rays" else length(text, option)
 
 
+def pose_sd(text: str, option: str) -> tuple[float, ...]:
+    """ "t=0.5,r=1" or "tx=0.5,rz=2" (mm, degrees) to three lengths [m] and three angles [rad]; 0 where not named."""
+    names, found = ("tx", "ty", "tz", "rx", "ry", "rz"), dict[str, float]()
+    for part in text.split(","):
+        name, _, value = (piece.strip() for piece in part.partition("="))
+        meant = [each for each in names if each == name or each[0] == name]
+        if not meant or not value or any(each in found for each in meant):
+            raise InputError("", option, f"{part.strip()!r} is not a standard deviation", f"write {option} t=0.5,r=1")
+        size = number(value, option, "t=0.5,r=1")
+        found |= {each: size * (LENGTH["mm"] if each[0] == "t" else ANGLE["deg"]) for each in meant}
+    if min(found.values()) < 0.0:
+        raise InputError("", option, f"{text!r} is negative", "a standard deviation is not")
+    return tuple(found.get(each, 0.0) for each in names)
+
+
+def cycle_part(text: str, option: str) -> float | Literal["stance"]:
+    """ "60%" or "0.6" to 0.6; "stance" stays."""
+    return "stance" if text.strip() == "stance" else fraction(text, option)
+
+
 def turn(text: str, option: str) -> tuple[str, float]:
     """ "x=2" to a coordinate axis and an angle [rad]; degrees are typed."""
     axis, _, angle = text.partition("=")

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from geocontact.analyses.frame.marks import Spelled, Typed
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import JOINT_ANGLE, LAYER
+from geocontact.data.plausible import JOINT_ANGLE, LAYER, POSE, SHARE
 
 Sweep = Annotated[
     tuple[str, float, float, float],
@@ -25,6 +25,19 @@ RAYS = "rays"
 """Said of a thickness that is measured along the normal."""
 
 Thickness = Annotated[float | Literal["rays"], Typed("m", "thickness", "gc.mm(8)"), LAYER]
+
+
+CyclePart = Annotated[float | Literal["stance"], Typed("-", "cycle_part", "0.6"), SHARE]
+"""First part of each cycle, or up to its toe off."""
+
+PoseSd = Annotated[tuple[float, ...], Typed("m, rad", "pose_sd", "(5e-4, 5e-4, 5e-4, *gc.deg(1, 1, 1))"), POSE]
+"""Standard deviations of three shifts and three turns of a pose."""
+
+
+def refuse_pose_sd(sd: tuple[float, ...] | None) -> None:
+    """InputError unless there are six, one above 0."""
+    if sd is not None and (len(sd) != 6 or not max(sd) > 0.0):
+        raise InputError("", "`pose_sd`", "needs three shifts and three turns, one above 0", "give t=0.5,r=1")
 
 
 Side = Literal["right", "left"]

@@ -15,6 +15,7 @@ from geocontact.analyses.frame.collector import add_input, judge, note, reserve,
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.loadcells.goodness import SLIGHT, goodness_of_cells
 from geocontact.analyses.loadcells.options import FOUND, STANCE, STRIDE, LoadcellOptions
+from geocontact.analyses.motion.gait_cycles import cutting_of
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.errors import InputError
 from geocontact.data.text import seconds
@@ -55,6 +56,10 @@ def read(o: LoadcellOptions) -> LoadCellInputs:
 
 
 def _named_cycles(o: LoadcellOptions) -> list[GivenCycle] | None:
+    cutting = cutting_of(o.events, o.cycle_side, o.part)
+    if cutting is not None:
+        cycles = [(path, each) for path in o.recordings for each in cutting.cycles_of(path.stem)]
+        return [(each.style, path, Span(each.start, each.end)) for path, each in cycles]
     asked = (o.cycles or "").strip()
     if o.cycles is None or asked in FOUND:
         return None
@@ -145,13 +150,13 @@ def cuts_asked_for(
 
     Cycles across a gap of a recording are left out and told.
     """
-    if o.cycles is None:
+    if o.cycles is None and given is None:
         return []
     cycles = _cycles_of(forces, o) if given is None else given
     if not cycles:
         what = f"finds no complete {o.cycles} in {', '.join(path.name for path in forces)}"
         raise InputError("", "`cycles`", what, "see `level`, or name the times: 1.7:2.8,2.8:3.9")
-    cuts = [_cut(forces[path], style, path, span, o.part or 1.0) for style, path, span in cycles]
+    cuts = [_cut(forces[path], style, path, span, _share(o)) for style, path, span in cycles]
     missing = {path.stem: gaps(f.time) for path, f in forces.items()}
     whole = [cut for cut in cuts if not _across(cut.span, missing[cut.recording])]
     if not whole:
@@ -159,6 +164,11 @@ def cuts_asked_for(
     if len(whole) < len(cuts):
         reserve(f"{len(cuts) - len(whole)} of {len(cuts)} cycles contain gaps of a recording and are left out")
     return whole
+
+
+def _share(o: LoadcellOptions) -> float:
+    """First part of the cycles' spans; those of events end where the part does."""
+    return 1.0 if o.part is None or o.part == STANCE or o.events is not None else float(o.part)
 
 
 def _across(span: Span, missing: list[Span]) -> bool:

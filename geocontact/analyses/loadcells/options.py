@@ -6,10 +6,11 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.marks import Expression, ForceUnit, Fraction, Requires
+from geocontact.analyses.frame.marks import Excludes, Expression, ForceUnit, Requires
 from geocontact.analyses.frame.options import Options
+from geocontact.analyses.frame.shared_options import CyclePart, Side
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import MASS, SHARE, N, Plausible
+from geocontact.data.plausible import MASS, N, Plausible
 from geocontact.data.text import cannot_be_named, same_place
 
 STRIDE, STANCE = "stride", "stance"
@@ -38,8 +39,14 @@ class LoadcellOptions(Options):
     cycles
         stride (onset of load to onset), stance (onset to end of load), 1.7:2.8,2.8:3.9 in seconds, or a table
         style, recording, start [s], end [s].
+    events
+        Instead of `cycles`: a table side, event, time [s] (heel strike, toe off), with recording and style where there
+        are several, or a .c3d of the same clock; cycles from heel strike to heel strike.
+    cycle_side
+        Side of the tray, where the events are of both.
     part
-        Use only this first part of each cycle: 60% is the stance of a gait cycle.
+        Use only this first part of each cycle: 60% is the stance of a gait cycle. stance, with `events`: up to the toe
+        off.
     level
         Total force [N] at which the load begins, for stride and stance; a quarter of the largest by default.
     body_mass
@@ -58,7 +65,9 @@ class LoadcellOptions(Options):
     map: Expression | None = None
     matrix: Path | None = None
     cycles: Expression | None = None
-    part: Annotated[Fraction | None, Cycles, SHARE] = None
+    events: Annotated[Path | None, Excludes("cycles", "says the cycles again", "give one")] = None
+    cycle_side: Annotated[Side | None, Requires("events")] = None
+    part: Annotated[CyclePart | None, Requires("cycles", "say what a cycle is", alternative="events")] = None
     level: Annotated[float | None, Cycles, LEVEL] = None
     body_mass: Annotated[float | None, MASS] = None
 
@@ -66,6 +75,8 @@ class LoadcellOptions(Options):
         """A level that no cycle needs, sub-folders of one name."""
         if self.level is not None and str(self.cycles).strip() not in FOUND:
             raise InputError("", "`level`", "has no effect here: the cycles are given", "leave it out")
+        if self.part == STANCE and self.events is None:
+            raise InputError("", "`part`", "stance needs toe offs", "give `events`, or `cycles` stance")
         self._refuse_names()
 
     @property

@@ -37,7 +37,7 @@ from geocontact.analyses.loadcells.forces import (
     stacked,
     style_table,
 )
-from geocontact.analyses.loadcells.options import LoadcellOptions
+from geocontact.analyses.loadcells.options import STANCE, LoadcellOptions
 from geocontact.analyses.loadcells.show import (
     CYCLES,
     NEWTON,
@@ -137,7 +137,9 @@ class LoadcellResult(Result):
         if not 0 < len(sides[SIDES[0]]) <= SERIES:
             return None
         part = self.options.part
-        along = "cycle" if part is None else f"first {100.0 * part:g}% of the cycle"
+        along = "cycle" if part is None else STANCE
+        if isinstance(part, float):
+            along = f"first {100.0 * part:g}% of the cycle"
         return ensemble_curves(sides, along, unit.name, unit.per_newton)
 
 

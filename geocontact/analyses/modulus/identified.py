@@ -15,12 +15,14 @@ from geocontact.analyses.frame.json_file import finite, plain
 from geocontact.analyses.modulus.inputs import BOTH, HALVES, ModulusInputs, OtherTrial
 from geocontact.data.errors import InputError
 from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, MODULUS, SLOPE, THRESHOLD, ThresholdAreas
-from geocontact.elastic_modulus.identify import Identification, agreement
+from geocontact.elastic_modulus.identify import Identification, agreement, moduli_of_poses
 from geocontact.elastic_modulus.prediction import Prediction, predicted_force
 from geocontact.elastic_modulus.sensitivity import SensitivityRow, confounded
 from geocontact.elastic_modulus.threshold_calibration import Calibration
+from geocontact.geometry.contact_area.pose_error import ENDS
 from geocontact.identify.identifiability import Identifiability
 from geocontact.io.recordings.area_table import FEWEST, AreaTable
+from geocontact.io.recordings.pose_draws import PoseDraws
 
 
 def predictions(inputs: ModulusInputs, sides: Mapping[str, Identification]) -> list[Prediction]:
@@ -80,6 +82,40 @@ RADII = "of R the forces identify only how it changes with flexion (slope): its 
 
 
 @dataclass(frozen=True, eq=False)
+class PoseModuli:
+    """E* of the total [Pa] with the area of each drawn pose; those without contact are left out.
+
+    The interval of both adds that of the forces, as far as each end is from E*, in squares: the two are independent.
+    """
+
+    modulus: float
+    forces: tuple[float, float]
+    drawn: Float[np.ndarray, " n"]
+
+    @classmethod
+    def of(cls, each: Identification, draws: PoseDraws) -> PoseModuli:
+        """Those of one side."""
+        drawn = moduli_of_poses(each, draws.area)
+        star = each.profiles[MODULUS]
+        return cls(each.modulus, (star.lower, star.upper), drawn[np.isfinite(drawn)])
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """95 % of the draws [Pa]."""
+        low, high = np.quantile(self.drawn, ENDS)
+        return float(low), float(high)
+
+    @property
+    def both(self) -> tuple[float, float]:
+        """95 % with the error of the poses and of the forces [Pa]."""
+        low, high = (
+            math.hypot(self.modulus - drawn, self.modulus - given)
+            for drawn, given in zip(self.interval, self.forces, strict=True)
+        )
+        return max(self.modulus - low, 0.0), self.modulus + high
+
+
+@dataclass(frozen=True, eq=False)
 class ForcePair:
     """Measured and predicted force [N] over time [s]."""
 
@@ -104,6 +140,8 @@ class Identified:
         Of a trial that was not used.
     poisson
         Ratios that E is told for.
+    poses
+        E* of the total with drawn poses; None without draws.
     """
 
     sides: dict[str, Identification]
@@ -111,6 +149,7 @@ class Identified:
     calibration: Calibration | None
     predictions: list[Prediction]
     poisson: tuple[float, ...]
+    poses: PoseModuli | None = None
 
     @property
     def first(self) -> Identification:
@@ -214,6 +253,15 @@ def describe(found: Identified) -> dict[str, Any]:
             for row in sensitivity_table(found).to_dict(orient="records")
         ],
     }
+    if found.poses is not None:
+        p = found.poses
+        content["pose_error"] = {
+            "side": "total",
+            "draws": len(p.drawn),
+            "E_star_sd_Pa": float(p.drawn.std(ddof=1)),
+            "E_star_ci95_Pa": list(p.interval),
+            "E_star_ci95_with_forces_Pa": list(p.both),
+        }
     if found.calibration is not None:
         c = found.calibration
         content["calibration"] = {
@@ -252,6 +300,10 @@ def _numbers(side: str, each: Identification, found: Identified) -> dict[str, An
         "residual_correlation_time_s": each.memory.typical,
         "bootstrap": _bootstrap(each),
         "starts": {"count": len(each.fit.costs), "costs": list(each.fit.costs)},
+        "searches": [
+            {"iterations": len(one.calls) - 1, "calls": list(one.calls), "costs": list(one.costs), "end": one.message}
+            for one in each.fit.record
+        ],
         "identifiability": {name: _group(group) for name, group in each.told_apart.items()},
     }
 

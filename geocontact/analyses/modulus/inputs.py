@@ -28,6 +28,7 @@ from geocontact.io.recordings.area_table import (
     read_force_curves,
     read_radius_profile,
 )
+from geocontact.io.recordings.pose_draws import PoseDraws, read_pose_draws
 from geocontact.io.text.columns import angles_of, parse_map
 from geocontact.io.text.tables import read_table
 
@@ -64,6 +65,7 @@ class ModulusInputs:
     sides: tuple[str, ...]
     measured_areas: MeasuredAreas | None
     other: OtherTrial | None
+    draws: PoseDraws | None = None
 
 
 def read(o: ModulusOptions) -> ModulusInputs:
@@ -79,7 +81,26 @@ def read(o: ModulusOptions) -> ModulusInputs:
     measured = _measured_areas(o, table)
     lag = 0.0 if o.lag is None else o.lag
     sticks = None if o.adhesion is None else Adhesion(o.adhesion, o.work_of_adhesion or 0.0)
-    return ModulusInputs(table, forces, evolutions, reading, lag, sticks, sides, measured, _other(o, mapping))
+    other, draws = _other(o, mapping), _draws(o, table, sides)
+    return ModulusInputs(table, forces, evolutions, reading, lag, sticks, sides, measured, other, draws)
+
+
+def _draws(o: ModulusOptions, table: AreaTable, sides: tuple[str, ...]) -> PoseDraws | None:
+    """Areas of drawn poses, in the frames and within the thresholds of the table."""
+    if o.pose_draws is None:
+        return None
+    found = read_pose_draws(o.pose_draws)
+    add_input("`pose_draws`", o.pose_draws, draws=found.area.shape[2])
+    alike = (
+        len(a) == len(b) and np.allclose(a, b)
+        for a, b in ((found.time, table.time), (found.thresholds, table.thresholds))
+    )
+    if not all(alike):
+        what = "has other frames or thresholds than the areas"
+        raise InputError(o.pose_draws, "", what, "give that of the same run")
+    if "total" not in sides:
+        raise InputError(o.pose_draws, "", "is of the total, which is not identified", "give the total force")
+    return found
 
 
 def _areas(role: str, paths: tuple[Path, ...]) -> AreaTable:

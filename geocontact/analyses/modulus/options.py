@@ -60,6 +60,10 @@ class ModulusOptions(Options):
     lag
         Seconds that the force's clock is behind the area's: force(t + lag) belongs to area(t). 0 by default.
 
+    pose_draws
+        pose_draws.npz of `geocontact area` with `pose_sd` or `markers`, of the same motion and thresholds: E* of the
+        total gets an interval for the error of the poses as well.
+
     Unknowns
     --------
     free
@@ -112,6 +116,7 @@ class ModulusOptions(Options):
     unit: ForceUnit | None = None
     map: Expression | None = None
     lag: Annotated[float | None, Spelled(dashed=True), DELAY] = None
+    pose_draws: Path | None = None
     free: Free | None = None
     profile: Annotated[Path | None, Needs("flexion", "give both")] = None
     flexion: Path | None = None

@@ -29,6 +29,7 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.modulus.goodness import goodness_of
 from geocontact.analyses.modulus.identified import (
     Identified,
+    PoseModuli,
     curve_table,
     describe,
     modulus_table,
@@ -126,7 +127,8 @@ def run(inputs: ModulusInputs, o: ModulusOptions) -> ModulusResult:
     others = unknowns(o, inputs, threshold)
     _doubt(inputs)
     sides = _sides(inputs, threshold, others, o)
-    found = Identified(sides, sensitivity(sides), calibration, predictions(inputs, sides), o.poisson)
+    poses = None if inputs.draws is None else PoseModuli.of(sides["total"], inputs.draws)
+    found = Identified(sides, sensitivity(sides), calibration, predictions(inputs, sides), o.poisson, poses)
     judge(goodness_of(found))
     note("modulus", describe(found))
     _report(found)
@@ -217,6 +219,11 @@ def _report(found: Identified) -> None:
         sticks = "" if each.model.adhesion is None else f", {each.model.adhesion.words}"
         interval = if_it_fits(f" (95 % {span})")
         say(f"{side}: E* {each.modulus * 1e-6:.4g} MPa{interval}, RMSE {rmse:.0f} N, R² {r2:.2f}{sticks}")
+    if found.poses is not None and not contradicted():
+        alone, both = (
+            " … ".join(f"{end * 1e-6:.4g}" for end in ends) for ends in (found.poses.interval, found.poses.both)
+        )
+        say(f"error of the pose: E* {alone} MPa (95 % of {len(found.poses.drawn)} draws), with the forces' {both} MPa")
     if (why := reason(found)) and not contradicted():
         say(why)
     say("E and ν are one number here: area and force identify E* = E/(1 - ν²), and E only for a stated ν")

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.frame.quantities import number
+from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.frame.quantities import named_file, number
+from geocontact.analyses.motion.styles import Cutting
 from geocontact.data.errors import InputError
+from geocontact.data.gait_events import OFF, STANCE, STRIKE, GaitEvent, Part, of_recording, times_of
 from geocontact.data.motion import Course
 from geocontact.data.sides import LEFT, RIGHT, stem_and_side
 from geocontact.data.trial import mean_and_sd
 from geocontact.identify.signals.cycles import STEPS
 from geocontact.identify.signals.gait_cycles import GaitCycles, Strikes
-from geocontact.io.mocap.c3d_events import read_c3d_strikes
+from geocontact.io.recordings.gait_events import read_gait_events
 from geocontact.view.curves.declared import Curves, mean_curve, stroke
 
 ONSET = 20.0
@@ -38,9 +42,34 @@ def strikes_typed(texts: tuple[str, ...]) -> Strikes:
     return found
 
 
-def strikes_marked(file: Path) -> Strikes:
-    """Those that a .c3d file holds; none in other files."""
-    return read_c3d_strikes(file) if file.suffix.lower() == ".c3d" else {}
+def cutting_of(file: Path | None, side: str | None, part: Part) -> Cutting | None:
+    """Events of a table or a .c3d; None where there is no file."""
+    if file is None:
+        return None
+    add_input("`events`", file)
+    return Cutting(file, read_gait_events(file), side, part)
+
+
+def events_given(texts: tuple[str, ...], recording: Path) -> tuple[GaitEvent, ...]:
+    """Events of a file, those typed for each side, or those that a .c3d recording marks; none without."""
+    file = named_file(texts[0]) if len(texts) == 1 else None
+    if file is not None:
+        add_input("`events`", file)
+        return read_gait_events(file)
+    if texts:
+        typed = strikes_typed(texts)
+        return tuple(GaitEvent(side, STRIKE, float(time)) for side, times in typed.items() for time in times)
+    return read_gait_events(recording) if recording.suffix.lower() == ".c3d" else ()
+
+
+def strikes_and_offs(events: Iterable[GaitEvent], recording: str) -> tuple[Strikes, Strikes]:
+    """Times of heel strikes and of toe offs of one recording by side."""
+    own = of_recording(events, recording)
+    found = []
+    for event in (STRIKE, OFF):
+        times = {side: times_of(own, event, side) for side in (RIGHT, LEFT)}
+        found.append({side: np.array(each) for side, each in times.items() if each})
+    return found[0], found[1]
 
 
 def cycles_table(cycles: GaitCycles) -> pd.DataFrame:
@@ -53,16 +82,23 @@ def cycles_table(cycles: GaitCycles) -> pd.DataFrame:
     return pd.DataFrame(columns)
 
 
+def _end(part: Part) -> str:
+    """Up to where a cycle is used."""
+    if part == STANCE:
+        return "to its toe off"
+    return "to its next" if part is None else f"over the first {100.0 * float(part):g} % of the way to its next"
+
+
 def cycles_curves(cycles: GaitCycles) -> list[Curves]:
     """Mean ± SD over the gait cycle, both sides of a coordinate in one panel; nothing without cycles."""
     grouped: dict[str, dict[str, str]] = {}
     for name in cycles.curves:
         stem, side = stem_and_side(name)
-        grouped.setdefault(stem if side else name, {})[side or next(iter(cycles.starts))] = name
+        grouped.setdefault(stem if side else name, {})[side or next(iter(cycles.counts))] = name
     counts = " and ".join(f"{count} of the {side} side" for side, count in cycles.counts.items())
     words = (
-        f"From one heel strike of a side to its next: mean as a line, mean ± SD as a band, {counts}. What has no side "
-        f"is cut at the heel strikes of the {next(iter(cycles.starts), RIGHT)} side."
+        f"From one heel strike of a side {_end(cycles.part)}: mean as a line, mean ± SD as a band, {counts}. "
+        f"What has no side is cut at the heel strikes of the {next(iter(cycles.counts), RIGHT)} side."
     )
     over = Course("gait cycle", "%", STEPS)
     return [

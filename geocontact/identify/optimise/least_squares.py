@@ -19,6 +19,25 @@ NO_VALUE = 3.0  # residual, in floors, where something was measured and the mode
 
 
 @dataclass(frozen=True)
+class SearchRecord:
+    """How one search went: calls of the objective up to the end of each iteration, and the cost there.
+
+    Parameters
+    ----------
+    calls
+        Calls so far, an entry for each iteration; the first is the start's own.
+    costs
+        Cost there, as that of `Fit`.
+    message
+        Why it ended.
+    """
+
+    calls: tuple[int, ...]
+    costs: tuple[float, ...]
+    message: str
+
+
+@dataclass(frozen=True)
 class Fit:
     """Values of the free parameters, and how well they are known.
 
@@ -38,6 +57,8 @@ class Fit:
         Whether the search of the best start ended by itself.
     costs
         Final cost of every start.
+    record
+        How each search went, where one was recorded.
     """
 
     values: dict[str, float]
@@ -47,6 +68,7 @@ class Fit:
     jacobian: list[Float[np.ndarray, "_ c p"]]
     converged: bool
     costs: tuple[float, ...]
+    record: tuple[SearchRecord, ...] = ()
 
 
 def fit(

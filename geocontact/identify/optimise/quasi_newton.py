@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,7 +13,7 @@ from scipy.stats import qmc
 
 from geocontact.data.parameter import Parameter
 from geocontact.identify.optimise.bounded_gauss_newton import ROUNDING, STEP
-from geocontact.identify.optimise.least_squares import Fit, Predict, divided, fit
+from geocontact.identify.optimise.least_squares import Fit, Predict, SearchRecord, divided, fit
 
 OPTIONS: Any = {"maxiter": 200, "ftol": 1e-10, "gtol": 1e-7}
 
@@ -94,14 +94,47 @@ def search(
         square = float(off @ off) / len(off) + ROUNDING
         return float(np.log(square)), 2.0 * slope / (len(off) * square)
 
-    searches = []
+    count = int(sum(np.isfinite(m).sum() for m in measured))
+
+    def scaled(low: float) -> float:
+        return 0.5 * count * max(float(np.exp(low)) - ROUNDING, 0.0)
+
+    searches, records = [], []
     for start in starts:
         begin = coordinates.at(np.array([start.get(p.name, p.start) for p in free], float))
+        counted = _Counted(cost)
         found: Any = minimize(
-            cost, begin, jac=True, method="L-BFGS-B", bounds=[(0.0, 1.0)] * len(free), options=OPTIONS
+            counted,
+            begin,
+            jac=True,
+            method="L-BFGS-B",
+            bounds=[(0.0, 1.0)] * len(free),
+            options=OPTIONS,
+            callback=counted.iterated,
         )
         searches.append((float(found.fun), coordinates.values(np.asarray(found.x, float))))
-    count = int(sum(np.isfinite(m).sum() for m in measured))
+        records.append(SearchRecord((1, *counted.reached), tuple(map(scaled, counted.lows)), str(found.message)))
     _, values = min(searches, key=lambda found: found[0])
     polished = fit(predict, measured, parameters, floor, [dict(zip(names, map(float, values), strict=True))])
-    return replace(polished, costs=tuple(0.5 * count * max(float(np.exp(low)) - ROUNDING, 0.0) for low, _ in searches))
+    return replace(polished, costs=tuple(scaled(low) for low, _ in searches), record=tuple(records))
+
+
+class _Counted:
+    """An objective that counts its calls, and notes how many there were and how low it was after each iteration."""
+
+    def __init__(self, cost: Callable[[Float[np.ndarray, " p"]], tuple[float, Float[np.ndarray, " p"]]]) -> None:
+        self._cost, self._calls = cost, 0
+        self.reached: list[int] = []
+        self.lows: list[float] = []
+
+    def __call__(self, z: Float[np.ndarray, " p"]) -> tuple[float, Float[np.ndarray, " p"]]:
+        self._calls += 1
+        found = self._cost(z)
+        if self._calls == 1:
+            self.lows.append(found[0])
+        return found
+
+    def iterated(self, intermediate_result: Any) -> None:
+        """One iteration is over."""
+        self.reached.append(self._calls)
+        self.lows.append(float(intermediate_result.fun))

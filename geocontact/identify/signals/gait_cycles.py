@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.data.gait_events import OFF, STRIKE, GaitEvent, Part, cycles_between
 from geocontact.data.sides import stem_and_side
 from geocontact.data.wrench import Wrench
-from geocontact.identify.signals.cycles import STEPS, cut, strides
+from geocontact.identify.signals.cycles import STEPS, normalised, strides
 
 Strikes = dict[str, Float[np.ndarray, " k"]]
 """Times [s], increasing, by side: "right", "left"."""
@@ -58,25 +59,23 @@ class GaitCycles:
 
     Parameters
     ----------
-    starts
-        Heel strikes [s] that lie in the recording, by side; each but the last begins a cycle.
+    counts
+        Cycles by side, right first.
     curves
         By coordinate, a row for each cycle of its own side; of the right, where it has none, else of the left.
     units
         Of the curves, by coordinate.
+    part
+        First part of each cycle that the curves are over, or "stance"; None: all of it.
     """
 
-    starts: Strikes
+    counts: Mapping[str, int]
     curves: Mapping[str, Float[np.ndarray, "_ 101"]]
     units: Mapping[str, str]
+    part: Part = None
 
     def __bool__(self) -> bool:
         return bool(self.curves)
-
-    @property
-    def counts(self) -> dict[str, int]:
-        """Cycles by side."""
-        return {side: len(starts) - 1 for side, starts in self.starts.items()}
 
 
 def gait_cycles(
@@ -85,6 +84,8 @@ def gait_cycles(
     units: Sequence[str],
     values: Float[np.ndarray, "t n"],
     strikes: Strikes,
+    offs: Strikes | None = None,
+    part: Part = None,
 ) -> GaitCycles:
     """Cut curves at the strikes within the recording; without two strikes of a side there are none.
 
@@ -99,19 +100,35 @@ def gait_cycles(
         A column for each curve, in its unit; NaN where they are missing.
     strikes
         Heel strikes of each side [s], strictly increasing.
+    offs
+        Toe offs of each side [s], for stances.
+    part
+        First part of each cycle that is used, or "stance".
 
     Returns
     -------
     GaitCycles
         Without curves that never change, such as locked coordinates.
     """
-    inside = {side: at[(at >= time[0]) & (at <= time[-1])] for side, at in strikes.items()}
-    starts = {side: at for side, at in sorted(inside.items(), reverse=True) if len(at) > 1}  # right first
+    spans = {side: _spans(time, strikes[side], (offs or {}).get(side), part) for side in sorted(strikes, reverse=True)}
+    spans = {side: own for side, own in spans.items() if own}  # right first
     curves: dict[str, Float[np.ndarray, "_ 101"]] = {}
     for name, column in zip(names, values.T, strict=True):
-        own = stem_and_side(name)[1] or next(iter(starts), "")
-        trials = cut(time, column, starts[own]) if own in starts else np.zeros((0, len(STEPS)))
+        own = stem_and_side(name)[1] or next(iter(spans), "")
+        trials = np.array([normalised(time, column, *each) for each in spans.get(own, [])]).reshape(-1, len(STEPS))
         known = trials[np.isfinite(trials)]
         if known.size and np.ptp(known) > 0.0:  # a locked coordinate has no cycle
             curves[name] = trials
-    return GaitCycles(starts, curves, {name: unit for name, unit in zip(names, units, strict=True) if name in curves})
+    counts = {side: len(own) for side, own in spans.items()}
+    known_units = {name: unit for name, unit in zip(names, units, strict=True) if name in curves}
+    return GaitCycles(counts, curves, known_units, part)
+
+
+def _spans(
+    time: Float[np.ndarray, " t"], strikes: Float[np.ndarray, " k"], offs: Float[np.ndarray, " m"] | None, part: Part
+) -> list[tuple[float, float]]:
+    """First and last time [s] of each cycle of a side within the recording."""
+    events = [GaitEvent("", STRIKE, float(at)) for at in strikes]
+    events += [GaitEvent("", OFF, float(at)) for at in (np.zeros(0) if offs is None else offs)]
+    found = [(each.start, each.end) for each in cycles_between(events, "", "", part)]
+    return [(start, end) for start, end in found if time[0] <= start and end <= time[-1]]

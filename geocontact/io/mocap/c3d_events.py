@@ -19,12 +19,18 @@ STRIKE = ("foot strike", "heel strike", "foot contact", "initial contact")
 
 def read_c3d_strikes(path: str | PathLike[str]) -> dict[str, Float[np.ndarray, " k"]]:
     """Times of heel strikes [s] by side, "right" and "left"; empty where the file marks none."""
-    arrays = read_apart(path, __name__, analogs=False)
     found: dict[str, list[float]] = {}
-    for side, label, time in zip(arrays["contexts"], arrays["labels"], arrays["times"], strict=True):
-        if str(side).lower() in ("right", "left") and str(label).lower() in STRIKE:
-            found.setdefault(str(side).lower(), []).append(float(time))
+    for side, _, time in read_c3d_events(path, STRIKE):
+        found.setdefault(side, []).append(time)
     return {side: np.unique(times) for side, times in found.items()}
+
+
+def read_c3d_events(path: str | PathLike[str], labels: tuple[str, ...]) -> list[tuple[str, str, float]]:
+    """Side, label in small letters and time [s] of the events that are called so, in the order of the file."""
+    arrays = read_apart(path, __name__, analogs=False)
+    events = zip(arrays["contexts"], arrays["labels"], arrays["times"], strict=True)
+    every = [(str(side).lower(), str(label).lower(), float(time)) for side, label, time in events]
+    return [each for each in every if each[0] in ("right", "left") and each[1] in labels]
 
 
 def events_of(path: str) -> Arrays:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError
-from tests.analyses.area.calls import area, page_of
+from tests.analyses.area.calls import area, page_of, pressed
 from tests.cli.calls import PLATE, SPHERE, poses, written
 
 SD = (0.0, 0.3e-3, 0.0, 0.0, 0.0, 0.0)
@@ -64,3 +64,32 @@ def test_markers_in_one_line_are_refused(tmp_path: Path) -> None:
     markers = written(tmp_path / "markers.csv", "x [mm], y [mm], z [mm]\n0, 0, 0\n10, 0, 0\n20, 0, 0\n")
     with pytest.raises(InputError, match="lie in one line"):
         area(PLATE, SPHERE, poses(tmp_path, (0, -21.5, 0)), markers=markers, marker_sd=5e-4)
+
+
+def test_the_error_of_the_pose_reaches_forces_and_the_medial_share(tmp_path: Path) -> None:
+    """A ball pressed 0.3 mm into a plate, its height known to 0.05 mm: intervals are quantiles of forces at 20 heights.
+
+    Each is that of an analysis of its own at the drawn height. A shift along z takes load from one side to the other.
+    """
+    layer = {
+        "modulus": 1e6,
+        "poisson": 0.4,
+        "thickness": 5e-3,
+        "piece": 1e-3,
+        "rule": "clip",
+        "split": "z",
+        "side": "right",
+    }
+    sd = {"pose_sd": (0.0, 5e-5, 5e-4, 0.0, 0.0, 0.0), "draws": 20}
+    found = pressed(SPHERE, PLATE, poses(tmp_path, (0, 19.7, 0)), **layer, **sd)
+    (row,) = found.table("pressure_error").to_dict(orient="records")
+    shifts = np.random.default_rng(1).standard_normal((20, 6)) * np.array(sd["pose_sd"])
+    heights = [(0.0, 19.7 + 1e3 * dy, 1e3 * dz) for _, dy, dz, *_ in shifts]
+    (tmp_path / "drawn").mkdir()
+    each = pressed(SPHERE, PLATE, poses(tmp_path / "drawn", *heights), **layer).table("pressure")
+    low, high = np.quantile(each["force [N]"], (0.025, 0.975))
+    assert (row["force_lower [N]"], row["force_upper [N]"]) == pytest.approx((low, high), rel=1e-6)
+    share = np.quantile(each["force_medial [N]"] / each["force [N]"], (0.025, 0.975))
+    assert (row["medial_share_lower [-]"], row["medial_share_upper [-]"]) == pytest.approx(tuple(share), rel=1e-6)
+    assert share[0] < 0.5 < share[1] and row["force_sd [N]"] == pytest.approx(each["force [N]"].std(), rel=1e-6)
+    assert "of it medial where the force is largest" in str(found)

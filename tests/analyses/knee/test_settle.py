@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.spatial.transform import Rotation
 
 import geocontact as gc
 from geocontact.analyses.frame.job import Job
@@ -133,3 +134,43 @@ def test_the_command_takes_springs_and_no_free_coordinates(motion: Path, tmp_pat
     result = done(call(*command, *springs, "--out", out, folder=out))
     options = result.record()["options_si"]
     assert options["free"] == ["anterior", "rotation"] and options["springs"]["anterior"] == 30e3
+
+
+def test_the_area_at_rest_is_in_the_range_of_films(tmp_path: Path) -> None:
+    """2000 N on the shipped knee: 80 to 154 mm^2 were measured on seven implants with Fuji film at 0, 15 and 60 deg."""
+    layer = {**LAYER, "region": "ny>0.25", "piece": gc.mm(1)}
+    first = gait(tmp_path, (0,))
+    found = gc.knee.settle(
+        FEMUR, INSERT, unit="mm", motion=first, side="right", load=2000.0, compare="literature", **layer
+    )
+    film = found.table("literature").set_index("published").loc["film 1995, seven implants"]
+    assert film["comparable"] == "yes" and 80.0 < film["ours [mm^2]"] < 154.0
+    assert film["ours [mm^2]"] == pytest.approx(1e6 * found.area.mean())
+
+
+@pytest.mark.slow
+def test_the_error_of_the_pose_reaches_the_medial_share(tmp_path: Path) -> None:
+    """With adduction held 0.02 deg off the share is that of poses that are so by themselves: quantiles of 20 runs."""
+    layer = {**LAYER, "piece": gc.mm(2), "unit": "mm", "side": "right", "load": 1500.0}
+    balanced = gc.knee.settle(FEMUR, INSERT, motion=gait(tmp_path, (0,)), free=("adduction",), **layer)
+    first = tmp_path / "balanced.csv"
+    balanced.table("poses").to_csv(first, index=False)
+    layer["free"] = ()
+    sd = (0.0, 0.0, 0.0, gc.deg(0.02), 0.0, 0.0)
+    found = gc.knee.settle(FEMUR, INSERT, motion=first, pose_sd=sd, draws=20, **layer)
+    (row,) = found.table("settle_error").to_dict(orient="records")
+    pose = read_motion(first).poses[0]
+    shares = []
+    for turn in np.random.default_rng(1).standard_normal((20, 6))[:3, 3] * sd[3]:
+        rotation = Rotation.from_rotvec([turn, 0.0, 0.0]) * pose.rotation
+        w = rotation.as_quat(scalar_first=True)
+        moved = tmp_path / "moved.csv"
+        cells = ",".join(f"{each:.12g}" for each in (0.0, *(1e3 * pose.translation), *w))
+        moved.write_text(f"time [s],tx [mm],ty [mm],tz [mm],qw,qx,qy,qz\n{cells}\n")
+        alone = gc.knee.settle(FEMUR, INSERT, motion=moved, **layer)
+        shares.append(float(alone.force["medial"][0] / alone.force["total"][0]))
+    assert found.pose_error is not None and found.pose_error.share is not None
+    np.testing.assert_allclose(found.pose_error.share[0, :3], shares, atol=2e-4)
+    low, high = np.quantile(found.pose_error.share[0], (0.025, 0.975))
+    assert (row["medial_share_lower [-]"], row["medial_share_upper [-]"]) == pytest.approx((low, high))
+    assert high - low > 0.02 and "% of the force medial where the load is largest" in str(found)

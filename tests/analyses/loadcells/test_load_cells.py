@@ -177,7 +177,7 @@ def test_more_styles_than_a_figure_tells_apart_are_said_and_kept(tmp_path: Path)
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"part": 0.6}, "`part`: has no effect without `cycles`; say what a cycle is"),
+        ({"part": 0.6}, "`part`: has no effect without `cycles` or `events`; say what a cycle is"),
         ({"cycles": "stride", "part": 1.5}, "`part`: 150 % cannot be a share"),
         ({"cycles": "stride", "part": 0.0}, "`part`: 0 % cannot be a share"),
         ({"cycles": "1:2", "level": 400.0}, "`level`: has no effect here: the cycles are given"),

@@ -7,9 +7,19 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.marks import AngleUnit, Excludes, Expression, Length, MeshUnit, Pressure, Spelled, Typed
+from geocontact.analyses.frame.marks import (
+    AngleUnit,
+    Excludes,
+    Expression,
+    Length,
+    MeshUnit,
+    Pressure,
+    Requires,
+    Spelled,
+    Typed,
+)
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.frame.shared_options import BodyPair, Side, Sweep, Thickness
+from geocontact.analyses.frame.shared_options import BodyPair, PoseSd, Side, Sweep, Thickness, refuse_pose_sd
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import LAYER_RATIO, PIECE, SOFTER, SPRING, TURNED_SPRING, ByName, N, Plausible
 
@@ -116,8 +126,21 @@ class SettleOptions(Options):
     piece
         Longest edge of the pieces that pressure is summed over: 0.5mm by default.
 
+    Error of the poses
+    ------------------
+    pose_sd
+        Standard deviations of the poses along and about FIXED's axes, as of `area`: t=0.5,r=1 (mm, degrees). What is
+        held, and where springs are at rest, is off by one error in all frames; pressures, area and medial share get
+        intervals (settle_error.csv).
+    draws
+        How many equilibria of each frame; 40 by default.
+    seed
+        Seed of the draws; 1 by default.
+
     Results
     -------
+    compare
+        literature: contact areas measured on knee implants beside these, each with its source (literature.csv).
     bodies
         OpenSim bodies of MOVING and FIXED, femur_r,tibia_r: contact forces are written as external loads of these.
     paraview
@@ -163,12 +186,17 @@ class SettleOptions(Options):
     region: Expression | None = None
     split: str = "z"
     piece: Annotated[Length | None, PIECE] = None
+    pose_sd: PoseSd | None = None
+    draws: Annotated[int | None, Requires("pose_sd")] = None
+    seed: Annotated[int | None, Requires("pose_sd")] = None
+    compare: Literal["literature"] | None = None
     bodies: BodyPair | None = None
     paraview: bool = False
 
     def refuse_impossible(self) -> None:
         """A load said twice or not at all, coordinates that do not settle, springs of what is held."""
         self._refuse_motions()
+        self._refuse_errors()
         if self.load is None and self.forces is None:
             raise InputError("", "`load`", "or `forces`: one says the axial load", "give for example 2000")
         if self.moving_body is not None and self.osim is None:
@@ -186,6 +214,14 @@ class SettleOptions(Options):
             raise InputError("", "`springs`", "one is not positive", "leave it out")
         if self.split.partition("=")[0].strip() != "z":
             raise InputError("", "`split`", f"{self.split!r} does not lie across z", "write z, or for example z=1.5")
+
+    def _refuse_errors(self) -> None:
+        """Standard deviations that are none, draws that are too few or too many."""
+        refuse_pose_sd(self.pose_sd)
+        if self.draws is not None and not 20 <= self.draws <= 10_000:
+            raise InputError("", "`draws`", f"{self.draws} is not between 20 and 10000", "give for example 40")
+        if self.seed is not None and self.seed < 0:
+            raise InputError("", "`seed`", f"{self.seed} is negative", "give 0 or more")
 
     def _refuse_motions(self) -> None:
         """Not exactly one of a motion and a sweep; a sweep of something else than flexion."""

@@ -26,14 +26,18 @@ from geocontact.analyses.frame.collector import judge, listener, note, reserve, 
 from geocontact.analyses.frame.contact_pressures import PressureMap, pressure_figure, write_contact_loads
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import Thinned
+from geocontact.analyses.frame.published import beside_published_areas
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.shared_options import medial_side
 from geocontact.analyses.knee.settle.equilibrium import SIDES, Settled, SettleInputs, read
 from geocontact.analyses.knee.settle.options import SettleOptions
+from geocontact.analyses.knee.settle.pose_error import settle_error
 from geocontact.analyses.knee.settle.show import thinned_page
 from geocontact.data.errors import InputError
+from geocontact.geometry.contact_area.published import KneeRun
 from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit, of_range
 from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.loads.pressure_pose_error import PressureUncertainty
 from geocontact.loads.settling import EnergyBalance, Frame, energy_balance, not_held, settle_along
 from geocontact.loads.settling_potential import NAMES, coordinates_of
 from geocontact.view.surfaces.vtp_series import PressureSeries, write_pressure_series
@@ -91,11 +95,17 @@ class SettleResult(Result):
         Every frame.
     balance
         Work of the load and stored energy in the frame with the largest load; None where that was not found.
+    published
+        Published areas beside these; None unless asked for.
+    pose_error
+        What the error of the poses does; None without one.
     """
 
     options: SettleOptions
     settled: Settled
     balance: EnergyBalance | None
+    published: pd.DataFrame | None = None
+    pose_error: PressureUncertainty | None = None
 
     @property
     def force(self) -> dict[str, Float[np.ndarray, " t"]]:
@@ -113,8 +123,11 @@ class SettleResult(Result):
         return self.settled.areas
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`settle`, a row per frame, and `poses` of those at rest."""
-        return {"settle": settle_table(self.settled), "poses": pose_table(self.settled)}
+        """`settle`, a row per frame, `poses` of those at rest, and `literature` where it was asked for."""
+        found = {"settle": settle_table(self.settled), "poses": pose_table(self.settled)}
+        if self.pose_error is not None:
+            found["settle_error"] = self.pose_error.table(self.settled.inputs.motion.time)
+        return found if self.published is None else {**found, "literature": self.published}
 
     def figures(self) -> dict[str, Figure]:
         """`settle`: forces and largest pressure over the motion, and the pressures at the largest load."""
@@ -181,7 +194,15 @@ def run(i: SettleInputs, o: SettleOptions) -> SettleResult:
     judge(goodness_of(i, settled, balance))
     _summarise(i, settled, balance)
     say(f"medial is {medial_side(o.split, o.side, None).words} of {i.fixed.name}")
-    return SettleResult(options=o, settled=settled, balance=balance)
+    published = None if o.compare is None else beside_published_areas(_knee_run(settled))
+    error = settle_error(i, o, heaviest)
+    return SettleResult(options=o, settled=settled, balance=balance, published=published, pose_error=error)
+
+
+def _knee_run(s: Settled) -> KneeRun:
+    """Flexion, load and contact area of the frames at rest."""
+    kept = s.kept
+    return KneeRun(s.knee_angles[kept, 0], s.inputs.load[kept], {"total": s.areas[kept]})
 
 
 def _refuse_indeterminate(i: SettleInputs, frame: Frame) -> None:

@@ -12,7 +12,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
-from geocontact.analyses.motion.gait_cycles import ONSET, strikes_typed
+from geocontact.analyses.motion.gait_cycles import ONSET, events_given, strikes_and_offs
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.markers import turn_of
 from geocontact.data.errors import InputError
@@ -232,7 +232,8 @@ def read(o: IdOptions) -> Loaded:
     shown = _shown(table, o.time)
     time = table.time[shown]
     loads = loads_on_bodies(o, model, time, values[shown], unfiltered[shown])
-    strikes = strikes_typed(o.events) or strikes_on_plates(time, loads, model.up, ONSET)
+    strikes, _ = strikes_and_offs(events_given(o.events, Path()), o.coordinates.stem)
+    strikes = strikes or strikes_on_plates(time, loads, model.up, ONSET)
     passive = read_passive_forces(o.model, model, o.exclude)
     return Loaded(model, table.time, unfiltered, values, time, loads, strikes, passive)
 

@@ -43,7 +43,8 @@ class IdOptions(Options):
         First and last time [s] that are written: 0.4:1.6. The filter sees the whole recording.
     events
         Heel strikes of a side [s], between which moments are averaged over the gait cycle: right=0.63,1.86. May be
-        given again. Without it the loads of the plates give them, by the side in their bodies' names.
+        given again. Or a table side, event, time [s]. Without it the loads of the plates give them, by the side in the
+        names of their bodies.
     angles
         Unit of angles where the file does not say it: deg or rad.
     exclude

@@ -8,6 +8,7 @@ from typing import Annotated, ClassVar
 
 from geocontact.analyses.frame.marks import C3dUnit, Expression, Requires, Texts, TimeSpan
 from geocontact.analyses.frame.options import Options
+from geocontact.analyses.frame.shared_options import CyclePart
 from geocontact.data.plausible import GAP
 
 
@@ -42,7 +43,10 @@ class IkOptions(Options):
         x forward, y up and z to the right in both. May be given again.
     events
         Heel strikes of a side [s], between which the coordinates are averaged over the gait cycle: right=0.63,1.86. May
-        be given again. Those of a .c3d file count without it.
+        be given again. Or a table side, event, time [s] (heel strike, toe off), with recording where it is for several.
+        Those of a .c3d file count without it.
+    part
+        Use only this first part of each cycle: 60%, or stance, which ends at the toe off.
     analog
         Write the other analog channels of a .c3d, EMG among them, at their own rate: analog.sto.
     axes
@@ -55,9 +59,9 @@ class IkOptions(Options):
 
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
-    Writes ik.mot (degrees and metres, for OpenSim), markers.csv (distance of each marker from the model), knees.csv
-    with `knee`, cycles.csv where heel strikes are known, ik.json, report.html (a moving skeleton) and run.json into
-    OUT.
+    Writes ik.mot (degrees and metres, for OpenSim), markers.csv (distance of each marker from the model),
+    MARKERS_ik_marker_errors.sto (squared error, RMS and largest of each frame, as OpenSim has them), knees.csv with
+    `knee`, cycles.csv where heel strikes are known, ik.json, report.html (a moving skeleton) and run.json into OUT.
     """
 
     markers: Path
@@ -72,6 +76,7 @@ class IkOptions(Options):
     fill: Annotated[float, GAP] = 0.1
     knee: Texts = ()
     events: Texts = ()
+    part: CyclePart | None = None
     analog: bool = False
     axes: Expression | None = None
     c3d_unit: C3dUnit = None

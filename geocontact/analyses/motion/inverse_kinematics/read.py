@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.motion.checked_trial import check_trial
-from geocontact.analyses.motion.gait_cycles import strikes_marked, strikes_typed
+from geocontact.analyses.motion.gait_cycles import events_given, strikes_and_offs
 from geocontact.analyses.motion.inverse_kinematics.knees import Knee, knees_of
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.marker_tasks import marker_tasks, renamed
@@ -24,7 +24,7 @@ from geocontact.trial_checks.recorded import RecordedChannel, TrialInputs
 
 @dataclass(frozen=True)
 class KinematicsInputs:
-    """A model, its markers as seen, what each counts, knees whose clinical angles are wanted, heel strikes.
+    """A model, its markers as seen, what each counts, knees whose clinical angles are wanted, heel strikes, toe offs.
 
     `analog` are the channels of a .c3d that belong to no force plate, where they are asked for; `doubts` the checks of
     the recording that warned.
@@ -35,6 +35,7 @@ class KinematicsInputs:
     tasks: MarkerTasks
     knees: list[Knee]
     strikes: Strikes
+    offs: Strikes
     analog: TextTable | None = None
     doubts: frozenset[str] = frozenset()
 
@@ -49,9 +50,9 @@ def read(o: IkOptions) -> KinematicsInputs:
     add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     analog = _analog(o)
     doubts = check_trial(TrialInputs(markers=seen, turn=turn_of(o.axes), channels=_channels(analog)))
-    strikes = strikes_typed(o.events) or strikes_marked(o.markers)
+    strikes, offs = strikes_and_offs(events_given(o.events, o.markers), o.markers.stem)
     tasks = marker_tasks(model, seen, o.tasks, o.follow, o.weight, o.hold)
-    return KinematicsInputs(model, seen, tasks, knees, strikes, analog, doubts)
+    return KinematicsInputs(model, seen, tasks, knees, strikes, offs, analog, doubts)
 
 
 def _channels(analog: TextTable | None) -> tuple[RecordedChannel, ...]:

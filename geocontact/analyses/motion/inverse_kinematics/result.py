@@ -36,6 +36,7 @@ from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
 from geocontact.analyses.motion.markers import exchange_question, warn_of_tilt
 from geocontact.analyses.motion.panels import printed
 from geocontact.data.errors import InputError
+from geocontact.data.gait_events import STANCE
 from geocontact.dynamics.exchanged_markers import exchanged_markers
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics as kinematics_of
@@ -108,6 +109,11 @@ class IkResult(Result):
         """Distance of each marker from the model over time [m]; NaN where it was not seen."""
         return dict(zip(self.poses.markers, np.asarray(self.poses.distances).T, strict=True))
 
+    @property
+    def squared_error(self) -> Float[np.ndarray, " t"]:
+        """Sum of the squared distances of the markers from the model in every frame [m^2]; 0 where none was seen."""
+        return squares_of(self.poses)
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`coordinates` [deg, m], `markers` with the distance of each; `knees` and `cycles` where there are some."""
         p = self.poses
@@ -134,12 +140,23 @@ class IkResult(Result):
         values = printed(self.seen.model.coordinates, self.poses.values)
         file = folder / "ik.mot"
         write_storage(file, self.poses.time, self.poses.names, values, title="Coordinates", degrees=True)
+        self._write_marker_errors(folder)
         self._write_setup(folder)
         if (analog := self.seen.analog) is not None:
             names = [name.replace(" ", "_") for name in analog.channels]
             write_storage(folder / "analog.sto", analog.time, names, analog.values, title="Analog", degrees=False)
         write_json(folder / "ik.json", self.summary)
         super().write_files(folder)
+
+    def _write_marker_errors(self, folder: Path) -> None:
+        """Errors as OpenSim's tool writes them: m^2 and m, not weighted, over the markers that were seen in a frame."""
+        off = self.poses.distances
+        seen = np.isfinite(off).sum(axis=1)
+        rms = np.sqrt(self.squared_error / np.maximum(seen, 1))
+        largest = np.max(np.where(np.isfinite(off), off, 0.0), axis=1, initial=0.0)
+        values = np.column_stack([self.squared_error, rms, largest])
+        file = folder / f"{self.options.markers.stem}_ik_marker_errors.sto"
+        write_storage(file, self.poses.time, MARKER_ERRORS, values, title="Model Marker Errors from IK", degrees=False)
 
     def _write_setup(self, folder: Path) -> None:
         """With which OpenSim's own tool finds the same."""
@@ -158,6 +175,8 @@ class IkResult(Result):
         return pd.DataFrame({"time [s]": self.poses.time, **off})
 
 
+MARKER_ERRORS = ("total_squared_error", "marker_error_RMS", "marker_error_max")
+"""Columns of OpenSim's file of marker errors [m^2, m, m]."""
 UNTOLD = 1.0 / 3.0  # share of the coordinates beyond which the rest means little
 
 
@@ -171,7 +190,7 @@ def run(seen: KinematicsInputs, o: IkOptions) -> IkResult:
         except ValueError as error:
             raise InputError(o.markers, "", str(error), "is it the right file?") from error
     summary = _summary(found, time.perf_counter() - began)
-    cycles = _cycles(seen, found)
+    cycles = _cycles(seen, found, o)
     if cycles:
         summary["gait_cycles"] = cycles.counts
     result = IkResult(options=o, seen=seen, poses=found, cycles=cycles, summary=summary)
@@ -196,10 +215,22 @@ def _never(found: Poses) -> int:
     return int((~found.determined.any(axis=0)).sum())
 
 
-def _cycles(seen: KinematicsInputs, found: Poses) -> GaitCycles:
+def _cycles(seen: KinematicsInputs, found: Poses, o: IkOptions) -> GaitCycles:
     coordinates = seen.model.coordinates
     units = ["deg" if c.kind == "rotational" else "m" for c in coordinates]
-    return gait_cycles(found.time, found.names, units, printed(coordinates, found.values), seen.strikes)
+    values = printed(coordinates, found.values)
+    cycles = gait_cycles(found.time, found.names, units, values, seen.strikes, seen.offs, o.part)
+    if o.part is not None and not cycles:
+        what = (
+            "has no effect: no cycle with a toe off" if o.part == STANCE else "has no effect without two heel strikes"
+        )
+        raise InputError("", "`part`", what, "give `events`, or leave it out")
+    return cycles
+
+
+def squares_of(found: Poses) -> Float[np.ndarray, " t"]:
+    """Sum of the squared distances of the markers from the model in every frame [m^2]."""
+    return np.asarray(np.nansum(np.square(found.distances), axis=1))
 
 
 def _summary(found: Poses, seconds: float) -> dict[str, object]:
@@ -219,6 +250,7 @@ def _summary(found: Poses, seconds: float) -> dict[str, object]:
         "filled_frames": {n: int(k) for n, k in zip(found.names, filled.sum(axis=0), strict=True) if k},
         "missing_frames": {n: int(k) for n, k in zip(found.names, missing.sum(axis=0), strict=True) if k},
         "rms_mm": 1e3 * float(np.sqrt(np.nanmean(found.distances**2))),
+        "total_squared_error_m2": [float(np.min(squares_of(found))), float(np.max(squares_of(found)))],
         "max_mm": 1e3 * float(np.nanmax(found.distances)),
         "markers": squares,
     }
