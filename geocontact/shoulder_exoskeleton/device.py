@@ -18,7 +18,7 @@ ranges and the course of the lever are in no source.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import pi, radians
 from typing import Any, TypeVar
 
@@ -181,10 +181,13 @@ class Device:
         For the record.
     numbers
         One for each of `QUANTITIES`.
+    controller
+        Thresholds and sensors of its controller as far as they are stated; names are those of `controller_numbers`.
     """
 
     name: str
     numbers: Mapping[str, Number]
+    controller: Mapping[str, Number] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> float:
         """A number in SI."""
@@ -286,6 +289,8 @@ def lucy_new_cylinder(*, with_mass: bool = True) -> Device:
     """With the new cylinder of 32 mm; the paper left out that it is heavier, as `with_mass` False does."""
     numbers = dict(lucy().numbers)
     numbers["bore"] = Number(0.032, "derived", "482 N at 6 bar (paper, sec. 5.3)")
+    same = "12.8 N m over 482.5 N (paper, sec. 5.3): as that of the present cylinder"
+    numbers["lever_a"] = Number(numbers["lever_a"].value, "derived", same)
     if with_mass:
         note = "as the bore's area, from that of the present cylinder"
         numbers["cylinder_mass"] = Number(numbers["cylinder_mass"].value * (32.0 / 25.0) ** 2, "invented", note)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from geocontact.identify.signals.filters import at_times, even_times, zero_lag
 from geocontact.io.recordings import elbow_recording as channels
 from geocontact.io.recordings.elbow_recording import read_elbow_recording
 from geocontact.io.text.columns import parse_map
+
+SMOOTHED, KEPT = ("displacement", "torque", "moment", "alpha"), ("pressure", "target")
+"""Channels beside angle and force that a filter smooths, and that it only takes to even times."""
 
 
 def recordings(
@@ -40,7 +43,7 @@ def recordings(
 
 
 def _filtered(path: Path, r: ElbowRecording, cutoff: float) -> ElbowRecording:
-    """Angle, force and displacement without what lies above the cut-off, at even times."""
+    """Channels without what lies above the cut-off, at even times; pressure and target as they were."""
     time, step = even_times(r.time)
 
     def smooth(values: np.ndarray) -> np.ndarray:
@@ -52,12 +55,12 @@ def _filtered(path: Path, r: ElbowRecording, cutoff: float) -> ElbowRecording:
         except ValueError as error:
             raise InputError(path, "", str(error), "give another `cutoff`") from error
 
+    beside: dict[str, Any] = {name: smooth(own) for name in SMOOTHED if (own := getattr(r, name)) is not None}
+    beside |= {name: at_times(r.time, own, time, step) for name in KEPT if (own := getattr(r, name)) is not None}
     return replace(
         r,
         time=time,
         beta=smooth(r.beta),
         force=smooth(r.force),
-        displacement=None if r.displacement is None else smooth(r.displacement),
-        pressure=None if r.pressure is None else at_times(r.time, r.pressure, time, step),
-        torque=None if r.torque is None else smooth(r.torque),
+        **beside,
     )

@@ -16,7 +16,7 @@ from geocontact.io.recordings.load_cells import column_in_newtons
 from geocontact.io.text.columns import angles_of, parse_map, resolve
 from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.io.text.units import split_header
-from geocontact.shoulder_exoskeleton.beside_recording import ELEVATION, FORCE, Channels
+from geocontact.shoulder_exoskeleton.beside_recording import FORCE, PASSIVE, RECORDED, Channels
 
 
 def shown_in(channel: str) -> tuple[str, float]:
@@ -31,7 +31,8 @@ def recorded_channels(
     unit: ForceUnit | None = None,
     delay: float = 0.0,
 ) -> Channels:
-    """Columns elevation and force of a table, or those that `named` maps to them; InputError where there is neither.
+    """Columns elevation, force, passive_1 and passive_2 of a table, or those that `named` maps to them; InputError
+    where there is none.
 
     Parameters
     ----------
@@ -43,16 +44,16 @@ def recorded_channels(
     table = read_table(path, leave_words=True)
     if table.time_unit != "s":
         raise InputError(path, "", "time is in per cent of a cycle", "give a recording in seconds")
-    mapping = {} if named is None else parse_map(named, (ELEVATION, FORCE))
+    mapping = {} if named is None else parse_map(named, RECORDED)
     values = {}
-    for channel in (ELEVATION, FORCE):
+    for channel in RECORDED:
         column = _column(table, channel, mapping)
         if column is not None:
             sign, name = column
-            found = angles_of(table, [name], angles)[:, 0] if channel == ELEVATION else _force(table, name, unit)
+            found = _force(table, name, unit) if channel == FORCE else angles_of(table, [name], angles)[:, 0]
             values[channel] = sign * found
     if not values:
-        what = f"no column elevation or force; columns are: {listed(table.channels)}"
+        what = f"no column elevation, force, {' or '.join(PASSIVE)}; columns are: {listed(table.channels)}"
         raise InputError(path, "", what, "name them: `map` elevation=NAME,force=NAME")
     return Channels(table.time - delay, values)
 
@@ -72,6 +73,24 @@ def _column(table: TextTable, channel: str, mapping: Mapping[str, tuple[float, s
 
 def _force(table: TextTable, name: str, unit: ForceUnit | None) -> Float[np.ndarray, " t"]:
     return column_in_newtons(table, name, unit)[0]
+
+
+AXES = "fx", "fy", "fz"
+"""Columns of a force on the work."""
+
+
+def push_force(file: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t 3"]:
+    """Measured force on the work at these times [N], 0 before and after; InputError where an axis is missing."""
+    table = read_table(file, leave_words=True)
+    if table.time_unit != "s":
+        raise InputError(file, "", "time is in per cent of a cycle", "give a recording in seconds")
+    missing = [axis for axis in AXES if resolve(table, axis) is None]
+    if missing:
+        what = f"no column {missing[0]}; columns are: {listed(table.channels)}"
+        raise InputError(file, "", what, "write fx [N], fy [N], fz [N] in the markers' axes")
+    add_input("`push`", file, samples=len(table.time))
+    columns = [_force(table, str(resolve(table, axis)), None) for axis in AXES]
+    return np.column_stack([np.interp(time, table.time, each, 0.0, 0.0) for each in columns])
 
 
 EVENT, CURRENT = "event", "current"

@@ -21,10 +21,11 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import as_it_fits, note, reserve
+from geocontact.analyses.frame.collector import as_it_fits, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.misalignment.identify.beside import beside_curves, known_table
 from geocontact.analyses.misalignment.identify.curves import (
     Boxes,
     Over,
@@ -45,7 +46,15 @@ from geocontact.analyses.misalignment.identify.numbers import IdentifyInputs, nu
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.identify.sentences import described, reserve_doubts, say_numbers
 from geocontact.analyses.misalignment.identify.show import fit_page
+from geocontact.analyses.misalignment.identify.tracking import (
+    Performance,
+    described_performance,
+    performance_of,
+    performance_sentences,
+    performance_tables,
+)
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
+from geocontact.axis_misalignment.beside_force import Sensors
 from geocontact.axis_misalignment.bins import Binned, binned
 from geocontact.axis_misalignment.compensation import bin_means
 from geocontact.axis_misalignment.law import NAMES, CuffLoads, cuff_loads, offsets_of, yielded
@@ -65,7 +74,9 @@ QUANTILE_COLUMNS = tuple(f"{share:.0%} [N]" for share in QUANTILES)
 
 
 def tables_of(found: Fitted, free: Free | None) -> dict[str, pd.DataFrame]:
-    """All of them by name; `conditions` and `boxes_free` where the joint was free too."""
+    """All of them by name; `identifiability` where more than the force was measured, `conditions` and `boxes_free`
+    where the joint was free too.
+    """
     tables = {
         "intervals": interval_table(found),
         "bins": _with_fit(spread_table(found.recordings, found.data), found),
@@ -73,6 +84,8 @@ def tables_of(found: Fitted, free: Free | None) -> dict[str, pd.DataFrame]:
         "scale_line": line_table(found),
         "held_out": held_table(found),
     }
+    if found.beside.sensors:
+        tables["identifiability"] = known_table(found.beside)
     if free is not None:
         tables["conditions"] = condition_table(found, free)
         tables["boxes_free"] = spread_table(free.recordings, free.boxes)
@@ -210,12 +223,15 @@ class IdentifyResult(Result):
         What those with a free joint tell; None without.
     summary
         What `elbow.json` holds, with units in the keys.
+    performance
+        Tracking error and scores beside the force; None without target and scores.
     """
 
     options: IdentifyOptions
     fit: Fitted
     free: Free | None
     summary: dict[str, Any]
+    performance: Performance | None = None
 
     @property
     def numbers(self) -> dict[str, float]:
@@ -226,7 +242,9 @@ class IdentifyResult(Result):
         return self.fit.estimate.named
 
     def curves(self) -> dict[str, CurveSheet]:
-        """`forces`, `identifiability`, `residuals`, and `conditions` with a free joint."""
+        """`forces`, `identifiability`, `residuals`, `beside_force` with a measured moment or angle of the arm, and
+        `conditions` with a free joint.
+        """
         f, r = self.fit, self.fit.residuals
         boxes = self._boxes("boxes", f.boxes)
         profiles = {each.words: each.profile for each in f.intervals}
@@ -235,16 +253,21 @@ class IdentifyResult(Result):
             "identifiability": identified_curves(f.line.numbers, f.line.r2, f.line.alone_r2, profiles),
             "residuals": residual_curves(r.beta, r.off, r.standard, f"Normality: Lilliefors {r.normality.shown}."),
         }
+        if f.beside.sensors:
+            sheets["beside_force"] = beside_curves(f.beside, f.estimate)
         if self.free is not None:
             free = self._boxes("boxes_free", self.free.boxes)
             sheets["conditions"] = condition_curves(bin_means(f.data), self.free.stroke, boxes, free)
         return sheets
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`intervals`, `bins`, `boxes`, `scale_line`, `held_out`, with a free joint `conditions` and `boxes_free`; then
-        `numbers`, all that ran.
+        """`intervals`, `bins`, `boxes`, `scale_line`, `held_out`, `identifiability` with a measured moment or angle of
+        the arm, `tracking`, `tracking_conditions`, `performance` with a target or scores, with a free joint
+        `conditions` and `boxes_free`; then `numbers`, all that ran.
         """
-        return tables_of(self.fit, self.free) | {"numbers": numbers_table(self.fit, self.free, self.options)}
+        of_task = {} if self.performance is None else performance_tables(self.performance)
+        numbers = numbers_table(self.fit, self.free, self.options)
+        return tables_of(self.fit, self.free) | of_task | {"numbers": numbers}
 
     def figure(self, name: str = "forces") -> Figure:
         """One of the figures: force over the angle unless named."""
@@ -283,15 +306,23 @@ def run(recorded: IdentifyInputs, o: IdentifyOptions) -> IdentifyResult:
     require_bins(o.recordings, data)
     free = free_joint(o, recorded.unlocked, data)
     priors = {name: Prior(*pair) for name, pair in (o.prior or {}).items()}
-    problem = problem_of(data, recorded.parameters, priors)
+    sensors = Sensors(o.turning, o.alpha_zeroed)
+    problem = problem_of(data, recorded.parameters, priors, sensors=sensors)
     if problem.scale_free and free is not None:
         problem = _scaled_by(problem, free)
     found = fitted(recorded.locked, data, estimated(problem), recorded.held_out, o)
     reserve_doubts(found, free)
     say_numbers(found, free)
+    of_task = performance_of(
+        {"locked": recorded.locked, "held out": recorded.held_out, "free": recorded.unlocked}, recorded.scores
+    )
     summary = as_it_fits(described(found, free))
+    if of_task is not None:
+        summary["performance"] = described_performance(of_task)
+        for line in performance_sentences(of_task):
+            say(line)
     note("elbow", summary)
-    return IdentifyResult(options=o, fit=found, free=free, summary=summary)
+    return IdentifyResult(options=o, fit=found, free=free, summary=summary, performance=of_task)
 
 
 def _scaled_by(problem: ElbowProblem, free: Free) -> ElbowProblem:

@@ -26,6 +26,12 @@ WORDS = (
     "left and the forearm. The exoskeleton's axis lies x and y off the joint's; its link l reaches the attachment, "
     "which is z away from the forearm's line."
 )
+IDENTIFIED_BY = "What each set of sensors identifies"
+OF_TASK = {
+    "tracking": "Tracking error and force of each trial",
+    "tracking_conditions": "Tracking error, scores and force by condition, mean and SD over trials",
+    "performance": "What goes with force and pressure over trials",
+}
 ARM = 0.7, 1.25
 """How long the upper arm is drawn over the link, and the forearm over its length to the attachment."""
 
@@ -95,12 +101,15 @@ def fit_page(
         arm_drawing(found, np.radians(angle)),
         *sheets["forces"].panels,
         Words("What the data identify", [spelled(line) for line in explained(found, free)]),
+        *([frame_table(IDENTIFIED_BY, tables["identifiability"])] if "identifiability" in tables else []),
+        *sheets.get("beside_force", CurveSheet([])).panels,
         *sheets.get("conditions", CurveSheet([])).panels,
         direction_bars(found.all_directions),
         *sheets["identifiability"].panels,
         *sheets["residuals"].panels,
         frame_table("What was identified", tables["intervals"].dropna(axis="columns", how="all")),
         frame_table("Force that was not used", tables["held_out"]),
+        *(frame_table(title, tables[name]) for name, title in OF_TASK.items() if name in tables and len(tables[name])),
         frame_table("Along the scale: numbers that give the same force", tables["scale_line"].iloc[::5]),
         INPUTS,
         OPTIONS,

@@ -21,11 +21,18 @@ from geocontact.data.errors import InputError
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
 from geocontact.shoulder_exoskeleton.arms_from_markers import SIDES, MarkerSettings, smoothed_arms
 from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
-from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Wearer
+from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Wearer, cylinder_length, lever
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.sensitivity import Influence
 from geocontact.shoulder_exoskeleton.support.controlled_arm import Controller, hand_controller
+from geocontact.shoulder_exoskeleton.support.controller_numbers import (
+    CONTROLLED,
+    controller_numbers,
+    sensing_of,
+    thresholds_of,
+)
 from geocontact.shoulder_exoskeleton.support.outcome import Factors
+from geocontact.shoulder_exoskeleton.support.phase_machine import PhaseCheck, phase_check, phases_by_onset
 from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey, Hand
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 from geocontact.shoulder_exoskeleton.working_arm import SCREWING, SimulatedArm, arm_at_work
@@ -82,7 +89,7 @@ def worn_along(o: ShoulderSimulateOptions, wearer: Wearer) -> Worn:
     _doubt_upright(o, found.arms)
     time = found.arms[0].time
     tool = None if o.tool is None else tool_runs(o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
-    return Worn(found.arms, found.frame, found.markers, device, wearer, tool, controllers(o, time))
+    return Worn(found.arms, found.frame, found.markers, device, wearer, tool, controllers(o, device, time))
 
 
 RAISED = np.radians(60.0)
@@ -102,8 +109,10 @@ def _doubt_upright(o: ShoulderSimulateOptions, arms: tuple[ArmMotion, ...]) -> N
             reserve(f"`upright`: {what}: is that a stance, and not the middle of the work?")
 
 
-def controllers(o: ShoulderSimulateOptions, time: Float[np.ndarray, " t"]) -> Mapping[Side, Controller] | None:
-    """By side; None where the support is constant."""
+def controllers(
+    o: ShoulderSimulateOptions, device: Device, time: Float[np.ndarray, " t"]
+) -> Mapping[Side, Controller] | None:
+    """By side, with the device's thresholds and sensors; None where the support is constant."""
     if o.profile is None or o.tool is None:
         return None
     profiles = read_profiles(o.profile)
@@ -120,7 +129,8 @@ def controllers(o: ShoulderSimulateOptions, time: Float[np.ndarray, " t"]) -> Ma
         hand: Hand = "dominant" if side == (o.dominant or "right") else "other"
         if not any(FactorKey(task, hand, phase) in factors for phase in PHASES):
             raise InputError(o.profile, name, f"no factors of the {hand} hand for {task}", "add a row")
-        found[side] = hand_controller(factors, task, hand, current)
+        seed = 2 * (o.seed or 0) + (side == "left")
+        found[side] = hand_controller(factors, task, hand, current, sensing_of(device), seed, thresholds_of(device))
     return found
 
 
@@ -157,7 +167,28 @@ def simulated_along(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions) -> S
         shares = ", ".join(f"{name} {share:.2f}" for name, share in zip(PHASES, control.factors, strict=True))
         changes = f"{np.count_nonzero(np.diff(one.detected))} changes"
         say(f"{arm.side} arm: support by phase: {shares}; {changes}{out_of_cuff_clause(found)}")
+        say_detected(one)
     return one
+
+
+def detection_of(one: SimulatedArm) -> PhaseCheck | None:
+    """Phases that the controller detects beside those of the recorded motion; None where the support is constant."""
+    if one.detected is None:
+        return None
+    motion = one.simulation.motion
+    return phase_check(motion.time, one.detected, phases_by_onset(motion.time, motion.elevation, one.phase))
+
+
+def say_detected(one: SimulatedArm) -> None:
+    """Say how much of the time the controller is in a wrong phase; warn where it chatters."""
+    check = detection_of(one)
+    if check is None:
+        return
+    late = f", changes late by up to {1e3 * max(check.latencies):.0f} ms" if check.latencies else ""
+    say(f"{one.side} arm: the controller is in another phase than the motion for {check.wrong:.1%} of the time{late}")
+    if check.chatter:
+        more = f"phases change {check.changes} times, those of the motion {check.true_changes}"
+        reserve(f"{one.side} arm: the controller chatters: {more}")
 
 
 def summary_of(one: SimulatedArm) -> dict[str, float]:
@@ -179,6 +210,10 @@ def summary_of(one: SimulatedArm) -> dict[str, float]:
         told["screw_in_elevation_deg"] = np.degrees(s.elevation[working].mean())
         told["screw_in_shoulder_minus_exoskeleton_deg"] = np.degrees((s.motion.elevation - s.elevation)[working].mean())
         told["screw_in_supporting_N"] = s.supporting[working].mean()
+    check = detection_of(one)
+    if check is not None:
+        told |= {"wrong_phase_share": check.wrong, "changes_of_phase": float(check.changes)}
+        told["changes_of_phase_of_the_motion"] = float(check.true_changes)
     return {name: float(value) for name, value in told.items()}
 
 
@@ -188,7 +223,9 @@ def arm_table(arm: SimulatedArm) -> pd.DataFrame:
     told, motion = s.told, s.motion
     led = {}
     if arm.detected is not None and arm.factor is not None:
-        led = {"detected phase": np.array(PHASES)[arm.detected], "factor [-]": arm.factor}
+        by_onset = phases_by_onset(motion.time, motion.elevation, arm.phase)
+        led = {"phase by onset": np.array(PHASES)[by_onset], "detected phase": np.array(PHASES)[arm.detected]}
+        led["factor [-]"] = arm.factor
     slide = 1e3 * told["sliding"]
     columns = {
         "time [s]": motion.time,
@@ -222,13 +259,85 @@ def arm_table(arm: SimulatedArm) -> pd.DataFrame:
     return pd.DataFrame(columns)
 
 
-def numbers_table(device: Device) -> pd.DataFrame:
-    """Every number of the device in the unit that files have, and where it is from."""
+def numbers_table(device: Device, *, controlled: bool = False) -> pd.DataFrame:
+    """Every number of the device in the unit that files have, and where it is from; the controller's as well where
+    there is one.
+    """
+    each = [(name, number, QUANTITIES[name]) for name, number in device.numbers.items()]
+    if controlled:
+        own = controller_numbers(device).items()
+        each += [(f"controller {name}", number, CONTROLLED[name]) for name, number in own]
     rows = []
-    for name, number in device.numbers.items():
-        unit, factor = QUANTITIES[name].written
-        rows.append((name, number.value * factor, unit, number.source, number.note or QUANTITIES[name].what))
+    for name, number, quantity in each:
+        unit, factor = quantity.written
+        rows.append((name, number.value * factor, unit, number.source, number.note or quantity.what))
     return pd.DataFrame(rows, columns=["number", "value", "unit", "source", "note"])
+
+
+def at_elevation_table(arms: Sequence[SimulatedArm], elevations: Sequence[float]) -> pd.DataFrame:
+    """Joints and forces where each shoulder first comes up to an elevation [rad], between frames too; a row is missing
+    where it never does.
+    """
+    rows = []
+    for arm in arms:
+        s = arm.simulation
+        for elevation in elevations:
+            place = first_reached(s.motion.elevation, elevation)
+            if place is None:
+                continue
+            frames = np.arange(len(s.motion.time))
+            columns = {
+                "time [s]": s.motion.time,
+                "shoulder elevation [deg]": np.degrees(s.motion.elevation),
+                **{f"{joint} [deg]": np.degrees(column) for joint, column in zip(JOINTS, s.angles.T, strict=True)},
+                "supporting [N]": s.supporting,
+                "support torque [N m]": s.told["support"][:, 0],
+            }
+            own = {name: float(np.interp(place, frames, values)) for name, values in columns.items()}
+            rows.append({"arm": arm.side, "frame": round(place) + 1, **own})
+    return pd.DataFrame(rows)
+
+
+def say_reached(arms: Sequence[SimulatedArm], elevations: Sequence[float]) -> None:
+    """Say the passive joints at each elevation that was asked for; warn of one that no arm comes up to."""
+    table = at_elevation_table(arms, elevations)
+    for row in table.to_dict("records"):
+        say(
+            f"{row['arm']} arm, shoulder at {row['shoulder elevation [deg]']:.0f} deg ({row['time [s]']:.2f} s): "
+            f"exoskeleton {row['elevation [deg]']:.1f} deg, passive joints {row['passive_1 [deg]']:.1f} and "
+            f"{row['passive_2 [deg]']:.1f} deg"
+        )
+    for elevation in elevations:
+        if all(first_reached(arm.simulation.motion.elevation, elevation) is None for arm in arms):
+            reserve(f"no shoulder comes up to {np.degrees(elevation):.4g} deg")
+
+
+def first_reached(values: Float[np.ndarray, " t"], value: float) -> float | None:
+    """Place between frames at which values first rise to one [frames]; None where they never do."""
+    up = np.flatnonzero((values[:-1] < value) & (values[1:] >= value))
+    if not len(up):
+        return None
+    k = int(up[0])
+    return k + float((value - values[k]) / (values[k + 1] - values[k]))
+
+
+LEVER_STEP = np.radians(5.0)
+"""Between rows of a cylinder's levers."""
+
+
+def lever_table(device: Device) -> pd.DataFrame:
+    """Length and lever of the cylinder, and its torque at full pressure, over the range of the active joint."""
+    low, high = device["elevation_lower"], device["elevation_upper"]
+    elevation = np.linspace(low, high, round((high - low) / LEVER_STEP) + 1)
+    triangle = device["lever_a"], device["lever_b"], device["lever_phase"]
+    arm, length = (np.asarray(each(elevation, *triangle), float) for each in (lever, cylinder_length))
+    columns = {
+        "elevation [deg]": np.degrees(elevation),
+        "cylinder length [mm]": 1e3 * length,
+        "lever [mm]": 1e3 * arm,
+        "torque [N m]": arm * device.peak_force,
+    }
+    return pd.DataFrame(columns)
 
 
 def sensitivity_table(side: str, found: Sequence[Influence]) -> pd.DataFrame:
