@@ -36,7 +36,7 @@ from geocontact.below_knee_prosthesis.design.knob import AIMS, JUDGED, Knob
 from geocontact.below_knee_prosthesis.design.outcomes import Aim
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import standing_leg
-from geocontact.below_knee_prosthesis.keel.keel import Keel, tip_compliance
+from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
 from geocontact.below_knee_prosthesis.leg import AS_STOOD, MIDDLE, FootOffset, Leg, Person
 from geocontact.data.multibody.markers import MarkerTrajectories
@@ -186,12 +186,8 @@ def stiffer(knob: Knob, keel: Keel) -> Float[np.ndarray, " n"]:
         return np.log(knob.settings / knob.present)
     if knob.vary == "alignment":
         return np.zeros(len(knob.settings))
-    soft = np.array([_compliance(keel, float(fulcrum)) for fulcrum in (knob.present, *knob.settings)])
+    soft = np.array([keel.tip_compliance(float(fulcrum)) for fulcrum in (knob.present, *knob.settings)])
     return np.asarray(np.log(soft[0] / soft[1:]))
-
-
-def _compliance(keel: Keel, fulcrum: float) -> float:
-    return float(tip_compliance(fulcrum, keel.length, keel.bending, keel.support))
 
 
 KEEL = 0.03

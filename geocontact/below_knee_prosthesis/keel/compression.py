@@ -21,8 +21,9 @@ from jaxtyping import Float
 from scipy.optimize import brentq, least_squares
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.below_knee_prosthesis.keel.keel import SHARE, Keel, Support, compression_stiffness, tip_compliance
+from geocontact.below_knee_prosthesis.keel.keel import Keel, compression_stiffness, tip_compliance
 from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
+from geocontact.below_knee_prosthesis.keel.sections import SHARE, Support
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.identify.identifiability import Identifiability, identifiability

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from geocontact.below_knee_prosthesis.keel.compression import Compressed, CompressionFit, calibrated_on_sole, fitted
-from geocontact.below_knee_prosthesis.keel.keel import Keel, Support, torsional_stiffness
+from geocontact.below_knee_prosthesis.keel.keel import Keel, torsional_stiffness
 from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
+from geocontact.below_knee_prosthesis.keel.sections import Support
 from geocontact.below_knee_prosthesis.keel.sole import COLUMNS, KeelSole, law_of, sole_of
 from geocontact.data.parameter import Number, Source
 from geocontact.loads.sphere_set import SoleLaw
