@@ -18,8 +18,7 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import keel_poses
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, longest_stance
 from geocontact.below_knee_prosthesis.from_markers import Walked, standing_hip, standing_leg, walked
-from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import AS_STOOD, FootOffset, Leg, Person
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, LegMotion, recorded_tree
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket
@@ -153,8 +152,7 @@ def fitted_walk(
     under the foot, or on another clock.
     """
     hip = None if moving is None else standing_hip(standing, moving)
-    below = sole_numbers()["below"].value
-    stood = standing_leg(standing, person, foot.keel, below, None if hip is None else hip.first)
+    stood = standing_leg(standing, person, foot.keel, foot.record.below, None if hip is None else hip.first)
     leg = stood.with_foot(offset)
     fit = walked(seen, leg, cutoff=cutoff, gap_limit=gap_limit)
     _require_fit(seen, fit)

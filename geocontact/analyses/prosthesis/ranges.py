@@ -6,7 +6,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.plausible import KG, Plausible
 from geocontact.data.units import deg, m, mm, percent
 
-FULCRUM = Plausible("a fulcrum of the variable-stiffness foot", mm, (66.0, 151.0))
+FULCRUM = Plausible("a fulcrum of a prosthetic foot", mm, (1.0, 500.0))
 PERSON = Plausible("the mass of a walking person", KG, (20.0, 300.0), (35.0, 200.0))
 RESIDUAL = Plausible("the share of the shank that is left", percent, (1.0, 99.0), (25.0, 80.0))
 PROSTHESIS = Plausible("the mass of a below-knee prosthesis", KG, (0.3, 10.0), (0.8, 4.0))

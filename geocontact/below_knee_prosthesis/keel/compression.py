@@ -153,13 +153,14 @@ def calibrated_on_sole(
     *,
     travel: float = TRAVEL,
     tilt: float = TILT,
+    zone: str = FOREFOOT,
 ) -> tuple[Keel, SoleLaw]:
-    """The same with EI and the forefoot's stiffness such that compressions of the sole are nearest to measured ones.
+    """The same with EI and a zone's, usually the forefoot's, stiffness such that compressions of the sole are nearest to measured ones.
 
     Least squares of relative errors; two compressions are met. The stiffness is the force over the whole travel. GJ
     keeps its ratio to EI.
     """
-    forefoot = sole.spheres.zones[FOREFOOT]
+    forefoot = sole.spheres.zones[zone]
 
     def with_factors(logarithms: Float[np.ndarray, " two"]) -> tuple[Keel, SoleLaw]:
         bent, pressed = np.exp(logarithms)

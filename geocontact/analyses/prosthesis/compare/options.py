@@ -41,6 +41,8 @@ class ProsthesisCompareOptions(Options):
 
     How it is simulated
     -------------------
+    foot
+        Description of another foot (.toml), for persons who have none in the study.
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
     machine_code
@@ -63,6 +65,7 @@ class ProsthesisCompareOptions(Options):
     markers_map: str | None = None
     axes: Expression | None = None
     c3d_unit: C3dUnit = None
+    foot: Path | None = None
     socket: Literal["as_meant", "as_printed"] = "as_meant"
     machine_code: bool = False
     workers: int | None = None

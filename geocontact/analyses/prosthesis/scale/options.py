@@ -42,10 +42,12 @@ class ProsthesisScaleOptions(Options):
     --------------
     prosthesis_mass
         Mass of socket, pylon and foot together; else invented.
+    foot
+        Description of another foot (.toml), as `prosthesis keel` reads and leaves it.
     setting
-        Stiffness of the foot: low, medium or high, 10, 19 or 32 N/mm.
+        Setting of the foot: low, medium or high, 10, 19 or 32 N/mm, or one of its own file.
     fulcrum
-        Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
+        Place of the fulcrum from the keel's posterior end in place of a setting; 66 to 151 mm on the shipped foot.
 
     The markers
     -----------
@@ -71,7 +73,8 @@ class ProsthesisScaleOptions(Options):
     sex: Literal["male", "female"] = "male"
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
     prosthesis_mass: Annotated[PartMass | None, PROSTHESIS] = None
-    setting: Literal["low", "medium", "high"] = "medium"
+    foot: Path | None = None
+    setting: str = "medium"
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
     markers_map: str | None = None
     axes: Expression | None = None

@@ -39,10 +39,12 @@ class ProsthesisSimulateOptions(Options):
 
     The foot
     --------
+    foot
+        Description of another foot (.toml), as `prosthesis keel` reads and leaves it.
     setting
-        Stiffness of the foot: low, medium or high, 10, 19 or 32 N/mm.
+        Setting of the foot: low, medium or high, 10, 19 or 32 N/mm, or one of its own file.
     fulcrum
-        Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
+        Place of the fulcrum from the keel's posterior end in place of a setting; 66 to 151 mm on the shipped foot.
     law
         Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in by default. With them go height
         and pitch of the foot relative to its standing trial, where that is `static`.
@@ -101,7 +103,8 @@ class ProsthesisSimulateOptions(Options):
     sex: Literal["male", "female"] = "male"
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
     functional: Path | None = None
-    setting: Literal["low", "medium", "high"] = "medium"
+    foot: Path | None = None
+    setting: str = "medium"
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
     law: Path | None = None
     socket: Literal["as_meant", "as_printed"] = "as_meant"
