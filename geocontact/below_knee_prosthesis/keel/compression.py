@@ -155,7 +155,7 @@ def calibrated_on_sole(
     tilt: float = TILT,
     zone: str = FOREFOOT,
 ) -> tuple[Keel, SoleLaw]:
-    """The same with EI and a zone's, usually the forefoot's, stiffness such that compressions of the sole are nearest to measured ones.
+    """The same with EI and the stiffness of a zone such that compressions of the sole are nearest to measured ones.
 
     Least squares of relative errors; two compressions are met. The stiffness is the force over the whole travel. GJ
     keeps its ratio to EI.

@@ -33,6 +33,8 @@ FACTOR = 100.0
 """By which EI may differ from where its search begins, either way."""
 SERIES = 1e3, 1e8
 """Stiffness in series [N/m]: the upper end is as good as rigid."""
+LEAST = 1e-13
+"""Relative change at which a search ends."""
 FREE = 2
 """EI and the stiffness in series."""
 
@@ -171,6 +173,10 @@ class _Beam:
         """Where fulcrums begin."""
         return FREE if self.series is None else FREE - 1
 
+    def compliance(self, fulcrum: float, bending: float) -> float:
+        """Of the keel where the plate presses [m/N]."""
+        return self.keel.sections.tip_compliance(fulcrum, self.at, bending, self.keel.support)
+
     def parts(self, p: Float[np.ndarray, " p"]) -> tuple[float, float, list[float], list[float]]:
         """EI, k, fulcrums and offsets."""
         bending = self.keel.bending * float(np.exp(p[0]))
@@ -188,8 +194,7 @@ class _Beam:
         bending, series, fulcrums, offsets = self.parts(p)
         found = []
         for one, fulcrum, offset in zip(self.measured, fulcrums, offsets, strict=True):
-            tip = self.keel.sections.tip_compliance(fulcrum, self.at, bending, self.keel.support)
-            soft = tip + 1.0 / series
+            soft = self.compliance(fulcrum, bending) + 1.0 / series
             if one.curve:
                 found.append((one.force * soft + offset - one.deflection) / one.sd)
             else:
@@ -254,8 +259,8 @@ def identified_keel(
         beam.start(),
         bounds=beam.bounds(),
         x_scale="jac",
-        xtol=1e-13,
-        ftol=1e-13,
+        xtol=LEAST,
+        ftol=LEAST,
     )
     p, rows = found.x, beam.rows(found.x)
     slopes = np.split(found.jac, np.cumsum([len(row) for row in rows])[:-1])
@@ -268,10 +273,8 @@ def identified_keel(
     if series is None:
         numbers.append(_series(stiff, float(half[1])))
     for place, k in enumerate(beam.sought, beam.first):
-        value = fulcrums[k]
-        numbers.append(
-            IdentifiedNumber(f"fulcrum of {measured[k].name}", "m", value, value - half[place], value + half[place])
-        )
+        value, wide = fulcrums[k], float(half[place])
+        numbers.append(IdentifiedNumber(f"fulcrum of {measured[k].name}", "m", value, value - wide, value + wide))
     names = ["EI", *(["series"] if series is None else []), *(measured[k].name for k in beam.sought)]
     names += [f"touch of {measured[k].name}" for k in beam.curves]
     return IdentifiedKeel(
@@ -290,7 +293,7 @@ def identified_keel(
 
 def _by_logarithm(name: str, unit: str, value: float, half: float) -> IdentifiedNumber:
     reach = float(np.exp(half))
-    return IdentifiedNumber(name, unit, value, value / reach, value * reach)
+    return IdentifiedNumber(name, unit, float(value), float(value / reach), float(value * reach))
 
 
 def _series(value: float, half: float) -> IdentifiedNumber:
