@@ -226,7 +226,7 @@ class Compression(Document):
     sought: bool = False
     curve: File | None = None
     stiffness: Stiffness | None = None
-    sd: Stiffness | None = None
+    sd: Annotated[StatedNumber, _quantity("N/m")] | None = None
 
     @model_validator(mode="after")
     def _require_one_of_each(self) -> Compression:

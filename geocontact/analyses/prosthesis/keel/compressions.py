@@ -89,9 +89,9 @@ def _measured(file: Path, one: Compression, given: FootFile, noise: float) -> Me
     """One compression."""
     fulcrum = _fulcrum(file, one, given)
     if one.stiffness is not None and one.sd is not None:
-        if not one.sd.value < 0.5 * one.stiffness.value:
+        if not 0.0 < one.sd.value < 0.5 * one.stiffness.value:
             place = f"[[compressions]] {one.name} sd"
-            raise InputError(file, place, "is half of the stiffness or more", "check its unit")
+            raise InputError(file, place, "is not between 0 and half of the stiffness", "check its unit")
         return compressed_to(one.name, fulcrum, one.stiffness.value, one.sd.value, sought=one.sought)
     if one.curve is None:  # refused by the description
         raise ValueError(one.name)
