@@ -53,8 +53,8 @@ class ProsthesisCompareOptions(Options):
 
     writes: ClassVar[str] = """
     Writes summary.csv (means by setting), trials.csv (length, peaks, outliers and their likely causes), errors.csv,
-    ensembles.csv, coordinates, external loads, spheres and numbers of each stance, a figure, report.html and run.json
-    into OUT.
+    ensembles.csv, changes.csv (between settings, predicted and measured), coordinates, external loads, spheres and
+    numbers of each stance, a figure, report.html and run.json into OUT.
     """
 
     study: Path
