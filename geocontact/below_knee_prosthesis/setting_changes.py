@@ -118,7 +118,7 @@ def _pair(curves: tuple[np.ndarray, np.ndarray], of: Callable[[np.ndarray], floa
 
 def setting_changes(outcomes: Sequence[StanceOutcome], level: float = 0.95) -> list[SettingChange]:
     """By outcome, person and pair of settings, from the lower fulcrum to the higher."""
-    found = []
+    found: list[SettingChange] = []
     for name in dict.fromkeys(one.outcome for one in outcomes):
         own = [one for one in outcomes if one.outcome == name]
         for person in dict.fromkeys(one.person for one in own):

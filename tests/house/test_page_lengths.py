@@ -11,7 +11,7 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 45_700, "how-to": 25_200, "everything": 82_000}
+ALL_WORDS = {"theory, reference": 45_900, "how-to": 25_300, "everything": 82_900}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them."""
 LIMITS = {
@@ -66,7 +66,7 @@ LIMITS = {
     "reference/real_implants.md": 550,
     "reference/speed.md": 1060,
     "reference/terms.md": 540,
-    "reference/written_files.md": 1500,
+    "reference/written_files.md": 1520,
     "theory/centre_of_pressure.md": 590,
     "theory/collocation.md": 760,
     "theory/contact_area.md": 1660,
@@ -82,10 +82,10 @@ LIMITS = {
     "theory/planar_joint.md": 500,
     "theory/prosthesis_both_sides.md": 880,
     "theory/prosthesis_calibration.md": 1050,
-    "theory/prosthesis_compare.md": 740,
+    "theory/prosthesis_compare.md": 790,
     "theory/prosthesis_design.md": 1240,
     "theory/prosthesis_gap.md": 850,
-    "theory/prosthesis_keel.md": 960,
+    "theory/prosthesis_keel.md": 950,
     "theory/prosthesis_stance.md": 1140,
     "theory/shoulder_exoskeleton.md": 2160,
     "theory/shoulder_support.md": 1220,

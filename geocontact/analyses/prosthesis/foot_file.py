@@ -250,10 +250,15 @@ def _sole(file: Path, d: SoleDescription, keel: Keel) -> tuple[KeelSole, SoleLaw
     usual = usual_sole()
     shared = {name: getattr(d, name) for name in ("exponent", "full_depth", "threshold_speed")}
     numbers = {name: usual[name] if each is None else number_of(each) for name, each in shared.items()}
-    by = {kind: [getattr(d.zones[zone], kind).value for zone in spheres.zone] for kind in BY_ZONE}
+    by = {kind: np.array([getattr(d.zones[zone], kind).value for zone in spheres.zone]) for kind in BY_ZONE}
     law = SoleLaw(
-        **{kind: np.array(values) for kind, values in by.items()},
-        **{name: number.value for name, number in numbers.items()},
+        stiffness=by["stiffness"],
+        damping=by["damping"],
+        exponent=numbers["exponent"].value,
+        full_depth=numbers["full_depth"].value,
+        static=by["static"],
+        kinetic=by["kinetic"],
+        threshold_speed=numbers["threshold_speed"].value,
     )
     origin = {f"sole {name}": number for name, number in numbers.items()}
     origin |= {f"sole {zone}_{kind}": number_of(getattr(d.zones[zone], kind)) for zone in d.zones for kind in BY_ZONE}

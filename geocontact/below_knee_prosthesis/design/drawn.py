@@ -344,9 +344,11 @@ def _split(foot: VariableStiffnessFoot, finer: int) -> VariableStiffnessFoot:
         SphereSet(centre, np.repeat(spheres.radius, finer), zone), tuple(foot.keel.segment_of(centre[:, 0]))
     )
     count = len(spheres)
-    many = {name: np.repeat(np.broadcast_to(getattr(law, name), count), finer) for name in BY_ZONE}
-    shared = {name: many[name] / finer for name in ("stiffness", "damping")}
-    return replace(foot, sole=sole, law=replace(law, **(many | shared)))
+    stiffness, damping, static, kinetic = (
+        np.repeat(np.broadcast_to(getattr(law, name), count), finer) for name in BY_ZONE
+    )
+    shared = replace(law, stiffness=stiffness / finer, damping=damping / finer, static=static, kinetic=kinetic)
+    return replace(foot, sole=sole, law=shared)
 
 
 def _values(foot: VariableStiffnessFoot) -> Float[np.ndarray, " p"]:

@@ -174,7 +174,7 @@ class _Beam:
         return FREE if self.series is None else FREE - 1
 
     def compliance(self, fulcrum: float, bending: float) -> float:
-        """Of the keel where the plate presses [m/N]."""
+        """Deflection of the keel per force, where the plate presses [m/N]."""
         return self.keel.sections.tip_compliance(fulcrum, self.at, bending, self.keel.support)
 
     def parts(self, p: Float[np.ndarray, " p"]) -> tuple[float, float, list[float], list[float]]:
@@ -220,7 +220,7 @@ class _Beam:
         return np.array([*logs, *places, *(0.0 for _ in self.curves)])
 
     def bounds(self) -> tuple[list[float], list[float]]:
-        """Of the search."""
+        """Lower and upper bounds of the search."""
         reach, (low, high) = float(np.log(FACTOR)), self.keel.range
         ends = [(-reach, reach)]
         if self.series is None:
@@ -254,16 +254,14 @@ def identified_keel(
         what = "EI and the stiffness in series" if needed == FREE else "EI"
         raise ValueError(f"{what} need compressions at {needed} known places of the fulcrum, there are {len(known)}")
     beam = _Beam(keel, keel.length if at is None else at, series, measured)
-    found = least_squares(
-        lambda p: np.concatenate(beam.rows(p)),
-        beam.start(),
-        bounds=beam.bounds(),
-        x_scale="jac",
-        xtol=LEAST,
-        ftol=LEAST,
-    )
+
+    def over(p: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
+        return np.concatenate(beam.rows(p))
+
+    found = least_squares(over, beam.start(), bounds=beam.bounds(), x_scale="jac", xtol=LEAST, ftol=LEAST)
     p, rows = found.x, beam.rows(found.x)
-    slopes = np.split(found.jac, np.cumsum([len(row) for row in rows])[:-1])
+    slope = np.asarray(found.jac)
+    slopes = np.split(slope, np.cumsum([len(row) for row in rows])[:-1])
     half = half_widths(rows, slopes, level)
     bending, stiff, fulcrums, offsets = beam.parts(p)
     sd = [0.0] * len(measured)
@@ -287,7 +285,7 @@ def identified_keel(
         offsets=tuple(offsets),
         residuals=tuple(-row for row in rows),
         freedom=sum(map(len, rows)) - len(p),
-        separated=identifiability(names, found.jac),
+        separated=identifiability(names, slope),
     )
 
 
@@ -354,7 +352,7 @@ class IdentifiedSole:
 
 
 STEP = 1e-4
-"""Of logarithms, for derivatives; of a fulcrum the same share of the keel's length."""
+"""Step of logarithms for derivatives; a fulcrum is moved by the same share of the keel's length."""
 
 
 def identified_sole(

@@ -215,7 +215,7 @@ class Keel:
 
     def reach(self, fulcrum: float) -> Float[np.ndarray, " n"]:
         """Turn of each joint over which its friction builds up [rad]."""
-        return self.presliding * self.bending_at_joints * self.compliance(fulcrum)
+        return np.asarray(self.presliding * self.bending_at_joints * self.compliance(fulcrum))
 
     def torsion(self, fulcrum: float) -> tuple[float, float]:
         """Stiffness [N m/rad] and damping [N m s/rad] of one hinge about the keel's long axis, at the first joint.

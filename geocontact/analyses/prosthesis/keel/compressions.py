@@ -23,7 +23,7 @@ from geocontact.data.parameter import Number
 from geocontact.io.recordings.foot_description import Compression, read_compression_curve
 
 NOISE, TILT, TRAVEL = 5e-5, radians(20.0), 5e-3
-"""Of one measured deflection [m]; of the plate against the sole [rad], and how far it goes [m]: `compression`."""
+"""Standard deviation of a measured deflection [m]; tilt of the plate against the sole [rad] and its travel [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +101,7 @@ def _measured(file: Path, one: Compression, given: FootFile, noise: float) -> Me
 
 
 def _fulcrum(file: Path, one: Compression, given: FootFile) -> float:
-    """Its place [m]; where its search begins if it is sought and the setting has none."""
+    """Place of the fulcrum [m]; where its search begins if it is sought and the setting has none."""
     low, high = given.foot.keel.range
     settings = given.foot.record.settings
     if one.setting is not None and one.setting not in settings:
