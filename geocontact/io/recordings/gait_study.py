@@ -41,6 +41,7 @@ from geocontact.io.documents import Document, File, Listed, WithUnit, Word, doub
 
 WALKER = Plausible("the mass of a walking person", KG, (20.0, 300.0))
 FULCRUM = Plausible("the place of a fulcrum", mm, (1.0, 500.0))
+LIMB = Plausible("the length of a residual limb", mm, (20.0, 500.0))
 Side = Literal["right", "left"]
 
 
@@ -59,6 +60,8 @@ class GaitPerson(Document):
         Row of the segment table.
     residual
         Share of the shank that is left.
+    residual_length
+        Length of the residual limb from the knee's centre, in place of a share.
     functional
         Markers of a trial in which the hip turns.
     law
@@ -72,6 +75,7 @@ class GaitPerson(Document):
     side: Side = "right"
     sex: Sex = "male"
     residual: Annotated[float, WithUnit("-"), Field(gt=0.0, lt=1.0)] | None = None
+    residual_length: Annotated[float, WithUnit(LIMB)] | None = None
     functional: File | None = None
     law: File | None = None
     foot: File | None = None

@@ -106,6 +106,7 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
         axes=o.axes,
         c3d_unit=unit_of_c3d(o.c3d_unit, trial.markers, trial.plates, person.static, person.functional),
         residual=RESIDUAL if person.residual is None else person.residual,
+        residual_length=person.residual_length,
     )
 
 

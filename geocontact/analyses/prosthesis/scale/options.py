@@ -8,7 +8,15 @@ from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.frame.marks import BodyMass, C3dUnit, Expression, Fraction, PartLength, PartMass, Spelled
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, PROSTHESIS, RESIDUAL, STATURE
+from geocontact.analyses.prosthesis.ranges import (
+    FULCRUM,
+    LIMB,
+    PERSON,
+    PROSTHESIS,
+    RESIDUAL,
+    STATURE,
+    require_one_residual,
+)
 from geocontact.data.errors import InputError
 
 
@@ -37,6 +45,8 @@ class ProsthesisScaleOptions(Options):
         Row of the table of segment masses.
     residual
         Share of the shank's length that is left; 45% by default, which is invented.
+    residual_length
+        Length of the residual limb from the knee's centre to its end, in place of a share.
 
     The prosthesis
     --------------
@@ -72,6 +82,7 @@ class ProsthesisScaleOptions(Options):
     side: Literal["right", "left"] = "right"
     sex: Literal["male", "female"] = "male"
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
+    residual_length: Annotated[PartLength | None, LIMB] = None
     prosthesis_mass: Annotated[PartMass | None, PROSTHESIS] = None
     foot: Path | None = None
     setting: str = "medium"
@@ -82,5 +93,6 @@ class ProsthesisScaleOptions(Options):
 
     def refuse_impossible(self) -> None:
         """Nobody to weigh."""
+        require_one_residual(self.residual, self.residual_length)
         if self.mass is None:
             raise InputError("", "`mass`", "the mass of the person is not known", "give for example 77.3")

@@ -16,7 +16,7 @@ warning: 8 of 91 numbers of the segments are invented, see numbers.csv
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import cast
 
@@ -58,6 +58,7 @@ from geocontact.below_knee_prosthesis.both_sides.standing_model import (
 from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import Person
+from geocontact.below_knee_prosthesis.recorded_walk import with_residual
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
@@ -252,6 +253,8 @@ def run(stood: Stood, o: ProsthesisScaleOptions) -> ProsthesisScaleResult:
     """The model, its joints and its standing pose."""
     below = stood.foot.record.below
     made = standing_amputee(stood.seen, stood.person, stood.foot, stood.fulcrum, below, stood.joints, o.height)
+    if o.residual_length is not None:
+        made = replace(made, prosthetic=with_residual(made.prosthetic, o.residual_length))
     mass = made.pelvis_body()[0]
     if not mass > 0.0:
         what = f"the legs leave {mass:.1f} kg of {made.mass:g} kg for all above them"

@@ -8,7 +8,15 @@ from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.frame.marks import BodyMass, C3dUnit, Expression, Fraction, PartLength, Spelled, TimeSpan
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, RESIDUAL, TURNS, require_turns
+from geocontact.analyses.prosthesis.ranges import (
+    FULCRUM,
+    LIMB,
+    PERSON,
+    RESIDUAL,
+    TURNS,
+    require_one_residual,
+    require_turns,
+)
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP
 
@@ -34,6 +42,8 @@ class ProsthesisSimulateOptions(Options):
         Row of the table of segment masses.
     residual
         Share of the shank's length that is left; 45% by default, which is invented.
+    residual_length
+        Length of the residual limb from the knee's centre to its end, in place of a share.
     functional
         Trial in which the thigh swings in all directions: gives the hip's centre, else a regression does.
 
@@ -102,6 +112,7 @@ class ProsthesisSimulateOptions(Options):
     side: Literal["right", "left"] = "right"
     sex: Literal["male", "female"] = "male"
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
+    residual_length: Annotated[PartLength | None, LIMB] = None
     functional: Path | None = None
     foot: Path | None = None
     setting: str = "medium"
@@ -123,6 +134,7 @@ class ProsthesisSimulateOptions(Options):
 
     def refuse_impossible(self) -> None:
         """Nothing to scale with, or nothing that stands for the other leg."""
+        require_one_residual(self.residual, self.residual_length)
         if self.static is None:
             what = "no standing trial: the leg's lengths and the markers' places are not known"
             raise InputError(self.markers, "`static`", what, "give a trial of quiet standing with all markers")

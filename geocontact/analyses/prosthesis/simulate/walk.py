@@ -119,6 +119,7 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
         offset=recorded.offset,
         cutoff=None if o.cutoff == 0.0 else o.cutoff,
         gap_limit=o.gap_limit,
+        residual=o.residual_length,
     )
     if walk.hip is not None:
         say(f"hip centre from the functional trial: residual {1e3 * walk.hip.rms:.1f} mm (root mean square)")
