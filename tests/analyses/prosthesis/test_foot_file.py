@@ -11,10 +11,13 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
+from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
+from geocontact.analyses.prosthesis.compare.stances import read as read_study
 from geocontact.analyses.prosthesis.foot_file import SHIPPED, foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.foot_writer import write_foot
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.walk import read
+from geocontact.below_knee_prosthesis.design.drawn import finer_feet
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from tests.cli.calls import MESHES
 from tests.recording import opened
@@ -190,3 +193,35 @@ def test_a_foot_without_a_sole_has_that_of_the_study_stretched(tmp_path: Path) -
 
 def test_the_shipped_file_is_in_the_package() -> None:
     assert SHIPPED.is_file() and SHIPPED.parent.name == "shipped_foot"
+
+
+def test_a_foot_of_ones_own_with_more_spheres_has_the_same_zones(tmp_path: Path) -> None:
+    """Twice as many spheres, each half as stiff, on both sides of the one; the shipped foot is fitted anew."""
+    foot = foot_of(written(tmp_path))
+    one, two = finer_feet(foot, 2)
+    assert one is foot and len(two.sole.spheres) == 10
+    for zone, of in foot.sole.spheres.zones.items():
+        more = two.sole.spheres.zones[zone]
+        for kind in ("stiffness", "damping"):
+            assert getattr(two.law, kind)[more].sum() == pytest.approx(getattr(foot.law, kind)[of].sum(), rel=1e-12)
+    x = two.sole.spheres.centre[:, 0]
+    np.testing.assert_allclose(x[:2], [0.01 - 0.0075, 0.01 + 0.0075], atol=1e-12)  # rows at 10 and 40 mm: 30 mm apart
+    assert two.keel == foot.keel and two.record is foot.record
+    assert [len(each.sole.spheres) for each in finer_feet(foot_of(None), 2)] == [24, 48]
+
+
+def test_a_persons_foot_is_that_of_the_study(tmp_path: Path) -> None:
+    """A setting of that foot is accepted, one that it has not is refused with the trial's name."""
+    written(tmp_path)
+    trial = f'markers = "{TRIAL}/walking.trc"\nplates = "{TRIAL}/plates.mot"\nplate = "own_force"\n'
+    text = (
+        f'[persons.P1]\nmass = {{ value = 77.3, unit = "kg" }}\nstatic = "{TRIAL}/standing.trc"\nfoot = "foot.toml"\n'
+    )
+    study = tmp_path / "study.toml"
+    study.write_text(f'{text}[[trials]]\nperson = "P1"\nsetting = "walking"\n{trial}other_plate = "other_force"\n')
+    opened(Record("prosthesis compare", {}))
+    (one,) = read_study(ProsthesisCompareOptions(study))
+    assert one.walk.foot.record.name == "bar foot" and one.walk.fulcrum == pytest.approx(0.09)
+    study.write_text(study.read_text().replace('walking"\nmarkers', 'medium"\nmarkers'))
+    with pytest.raises(gc.InputError, match=r"\[\[trials\]\] P1_1 setting: 'medium' is none of the settings"):
+        gc.prosthesis.compare(study)
