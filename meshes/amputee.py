@@ -17,8 +17,8 @@ from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import IntactLeg
 from geocontact.below_knee_prosthesis.from_markers import BODIES, INTACT_BODIES
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Marker, Multibody

@@ -17,7 +17,7 @@ from scipy.interpolate import BPoly, PchipInterpolator, RegularGridInterpolator,
 from scipy.optimize import fsolve
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import Leg
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, LegMotion, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Push

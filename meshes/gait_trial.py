@@ -16,8 +16,9 @@ from jaxtyping import Float
 from scipy.ndimage import gaussian_filter1d
 
 from geocontact.below_knee_prosthesis.from_markers import STANDING, mirrored_name, of_side
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.leg import Leg, Side
 from geocontact.below_knee_prosthesis.leg_tree import RECORDED, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance

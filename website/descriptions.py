@@ -19,6 +19,7 @@ from geocontact.analyses.misalignment.population.drawn import UNITS
 from geocontact.data.plausible import Plausible
 from geocontact.io.cases.gathering import Sources
 from geocontact.io.documents import Document, Holds, Listed, Some, WithUnit
+from geocontact.io.recordings.foot_description import FootDescription
 from geocontact.io.recordings.gait_study import GaitStudy
 from geocontact.io.recordings.overhead_study import OverheadStudy
 from geocontact.io.recordings.population import PopulationDescription, QuantityEntry
@@ -85,6 +86,12 @@ FILES = (
         "A shoulder exoskeleton",
         "`--device` of `geocontact shoulder …`; [its numbers](input_files.md#shoulder-exoskeletons)",
         DeviceDescription,
+        {},
+    ),
+    DescribedFile(
+        "A prosthetic foot",
+        "`geocontact prosthesis keel`, `--foot` of `geocontact prosthesis …` ([guide](../how-to/prosthesis.md))",
+        FootDescription,
         {},
     ),
     DescribedFile(

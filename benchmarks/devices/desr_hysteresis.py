@@ -22,7 +22,7 @@ from benchmarks.devices import desr
 from benchmarks.devices.desr_keel import PARAMETERS, build, loop_area, stiffness, torque
 from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.keel.balance_kernel import rubbed
-from geocontact.below_knee_prosthesis.keel.keel import SUPPORTS, Support
+from geocontact.below_knee_prosthesis.keel.sections import SUPPORTS, Support
 from geocontact.chain.system import System
 from geocontact.data.trial import Trial
 from geocontact.io.cases.gap_case import read_gap_case

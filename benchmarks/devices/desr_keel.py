@@ -30,7 +30,8 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.devices import desr
-from geocontact.below_knee_prosthesis.keel.keel import SUPPORTS, Support, tip_compliance
+from geocontact.below_knee_prosthesis.keel.keel import tip_compliance
+from geocontact.below_knee_prosthesis.keel.sections import SUPPORTS, Support
 from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.links import Law, Source, Values
 from geocontact.chain.system import System

@@ -27,8 +27,9 @@ from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResi
 from geocontact.below_knee_prosthesis.calibration.whole_model import WholeResiduals
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, StanceErrors, longest_stance, stance_errors
 from geocontact.below_knee_prosthesis.from_markers import Walked, as_right, of_side, standing_leg, walked
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.below_knee_prosthesis.leg_tree import LegMotion
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket

@@ -21,8 +21,9 @@ import numpy as np
 from benchmarks.machine import write_results
 from benchmarks.prosthesis.keel_stance import LEVEL, WEIGHT, Stance, stance
 from geocontact.below_knee_prosthesis.keel.compression import Compressed, calibrated_on_sole
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.sole import ZONES, KeelSole, law_of, numbers
-from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, VariableStiffnessFoot, fulcrum_of, vsf_foot, vsf_keel
+from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, fulcrum_of, vsf_foot, vsf_keel, vsf_record
 from geocontact.loads.centre_of_pressure import centre_of_pressure
 from geocontact.loads.sphere_set import SphereSet
 
@@ -48,7 +49,7 @@ def foam(pitch: float) -> VariableStiffnessFoot:
     sole = KeelSole(spheres, tuple(keel.segment_of(centre[:, 0])))
     measured = [Compressed(fulcrum_of(name), stiffness) for name, stiffness in SETTINGS.items()]
     bent, law = calibrated_on_sole(keel, sole, law_of(sole), measured)
-    return VariableStiffnessFoot(bent, sole, law)
+    return VariableStiffnessFoot(bent, sole, law, vsf_record(bent, sole, law))
 
 
 def feet() -> dict[str, VariableStiffnessFoot]:

@@ -34,7 +34,8 @@ from geocontact.below_knee_prosthesis.calibration.calibrate import calibrate
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import WalkedStance
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration, calibrate_whole
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from meshes.gait_persons import PARTICIPANTS, Walker
 from meshes.gait_trial import synthetic_trial
 

@@ -61,7 +61,8 @@ def compression_table() -> dict[str, Any]:
         rounded,
         told_apart,
     )
-    from geocontact.below_knee_prosthesis.keel.keel import SUPPORTS, tip_compliance
+    from geocontact.below_knee_prosthesis.keel.keel import tip_compliance
+    from geocontact.below_knee_prosthesis.keel.sections import SUPPORTS
     from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, compression, vsf_foot, vsf_keel
 
     low, high = Compressed(0.066, SETTINGS["low"]), Compressed(0.151, SETTINGS["high"])

@@ -15,8 +15,8 @@ from scipy.interpolate import PchipInterpolator, make_interp_spline
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.resultant import pose_rate
 

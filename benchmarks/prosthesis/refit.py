@@ -16,9 +16,10 @@ from scipy.optimize import least_squares
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from benchmarks.prosthesis.truth import FootPath, Measured, given_way
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.centre_of_pressure import centre_in_foot
 from geocontact.loads.resultant import pose_rate
@@ -64,7 +65,7 @@ def foot_without(lacking: tuple[str, ...]) -> VariableStiffnessFoot:
     law = replace(
         foot.law, stiffness=foot.law.stiffness[kept], damping=foot.law.damping[kept], static=none, kinetic=none
     )
-    return VariableStiffnessFoot(foot.keel, sole, law)
+    return replace(foot, sole=sole, law=law)
 
 
 def centre_seen(m: Measured) -> np.ndarray:

@@ -20,8 +20,9 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from benchmarks.machine import write_results
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, VariableStiffnessFoot, fulcrum_of, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.leg import Leg
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, RECORDED, LegMotion
 from geocontact.below_knee_prosthesis.simulate import Push, Stance, simulate_stance

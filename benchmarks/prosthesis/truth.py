@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.sole import ZONES, numbers
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.contact.bushing import CREEP, TRANSLATION
 from geocontact.identify.signals.filters import zero_lag
 

@@ -23,8 +23,9 @@ from scipy.optimize import minimize_scalar
 
 from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, stance_errors
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
 from geocontact.contact.bushing import SOCKET, Bushing
 from meshes.gait_course import GaitCourse, course

@@ -129,7 +129,7 @@ GROUPS = (
     Group(
         "prosthesis",
         "prosthesis",
-        "Below-knee prosthesis with a variable-stiffness foot: scale, calibrate, simulate and choose one.",
+        "Below-knee prosthesis with a variable-stiffness foot: scale, calibrate, simulate and choose one; its keel.",
     ),
     Group(
         "shoulder", "shoulder", "Shoulder exoskeleton driven by human motion: its arms, forces in its cuffs, support."
@@ -170,6 +170,7 @@ ENTRIES = (
     Entry("prosthesis calibrate", "prosthesis.calibrate", "ProsthesisCalibrateOptions", "result:calibrate"),
     Entry("prosthesis compare", "prosthesis.compare", "ProsthesisCompareOptions", "result:compare"),
     Entry("prosthesis design", "prosthesis.design", "ProsthesisDesignOptions", "result:design"),
+    Entry("prosthesis keel", "prosthesis.keel", "ProsthesisKeelOptions", "result:keel"),
     Entry("prosthesis scale", "prosthesis.scale", "ProsthesisScaleOptions", "result:scale"),
     Entry("prosthesis simulate", "prosthesis.simulate", "ProsthesisSimulateOptions", "result:simulate"),
     Entry("scale", "motion.scale", "ScaleOptions", "result:scale"),

@@ -3,26 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
-import numpy as np
-
-from geocontact.below_knee_prosthesis.keel.keel import Keel
-from geocontact.below_knee_prosthesis.keel.sole import ROWS as SOLE_ROWS
-from geocontact.below_knee_prosthesis.keel.vsf import ROWS as KEEL_ROWS
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.sole import BY_ZONE, SHARED, zone_number
 from geocontact.below_knee_prosthesis.leg import Leg
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, SOCKET
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.contact.bushing import PRINTED, Bushing
 from geocontact.contact.bushing import SOCKET as AS_MEANT
-from geocontact.data.parameter import Number, Source
-from geocontact.loads.sphere_set import SoleLaw
+from geocontact.data.parameter import Number
 
-COMPRESSED = "fitted to 10, 19 and 32 N/mm in compression of the sole"
 GIVEN = "as the law's file gives it"
-BY_ZONE = ("stiffness", "damping", "static", "kinetic")
-SHARED = ("exponent", "full_depth", "threshold_speed")
-"""Numbers of a sole's law: by zone, and of all spheres."""
+STATED = Number(0.0, "option", "as the foot's file states it")
 
 
 def foot_numbers(foot: VariableStiffnessFoot, fulcrum: float) -> dict[str, Number]:
@@ -30,7 +23,7 @@ def foot_numbers(foot: VariableStiffnessFoot, fulcrum: float) -> dict[str, Numbe
     from.
     """
     own = {"fulcrum": Number(fulcrum, "derived", "chosen")}
-    own |= {f"keel {name}": number for name, number in _keel(foot.keel, fulcrum)}
+    own |= {f"keel {name}": number for name, number in _keel(foot, fulcrum)}
     return own | {f"sole {name}": number for name, number in _sole(foot)}
 
 
@@ -70,15 +63,13 @@ def numbers_of(stance: Stance) -> Mapping[str, Number]:
     return all_numbers(stance.motion.leg, stance.foot, stance.fulcrum, stance.bushing)
 
 
-def _keel(keel: Keel, fulcrum: float) -> Iterator[tuple[str, Number]]:
-    known = {name: (source, note) for name, _, source, note in KEEL_ROWS}
-    for name in ("length", "posterior", "joints", "width", "density", "retardation"):
-        yield name, Number(float(getattr(keel, name)), *known[name])
-    yield (
-        "bending",
-        Number(keel.bending, "derived", f"EI, with the forefoot's stiffness {COMPRESSED}; {keel.support} end"),
-    )
-    yield "thickness", Number(keel.thickness, "derived", "from width, modulus and EI as of beam theory")
+def _keel(foot: VariableStiffnessFoot, fulcrum: float) -> Iterator[tuple[str, Number]]:
+    keel, origin = foot.keel, foot.record.origin
+    for name in ("length", "posterior", "joints", "width", "density", "retardation", "bending", "thickness"):
+        yield name, replace(origin.get(f"keel {name}", STATED), value=float(getattr(keel, name)))
+    for k, (edge, factor) in enumerate(zip(keel.sections.edges, keel.sections.factors[1:], strict=True), start=2):
+        yield f"section_{k}_from", replace(origin.get("keel sections", STATED), value=edge)
+        yield f"section_{k}_factor", replace(origin.get("keel sections", STATED), value=factor)
     for k, value in enumerate(keel.stiffness(fulcrum), start=1):
         yield f"stiffness_{k}", Number(float(value), "derived", f"of hinge {k}, from EI and fulcrum")
     if keel.rubs:
@@ -87,36 +78,29 @@ def _keel(keel: Keel, fulcrum: float) -> Iterator[tuple[str, Number]]:
 
 
 def _sole(foot: VariableStiffnessFoot) -> Iterator[tuple[str, Number]]:
-    """Spheres as they lie, all of one radius and height; all of one zone have one law."""
-    known = {name: (source, note) for name, _, source, note in SOLE_ROWS}
-    spheres, law, usual = foot.sole.spheres, foot.law, vsf_foot()
-    built_in = spheres.zone == usual.sole.spheres.zone
-    yield "radius", Number(float(spheres.radius[0]), *known["radius"])
-    yield "below", Number(float(spheres.radius[0] - spheres.centre[0, 1]), *known["below"])
+    """Spheres as they lie; all of one zone have one law. Radius and height by sphere where they differ."""
+    origin, spheres, law = foot.record.origin, foot.sole.spheres, foot.law
+    places = origin.get("sole places", STATED)
+    alike = len(set(spheres.radius.tolist())) == len(set(spheres.centre[:, 1].tolist())) == 1
+    if alike:
+        yield "radius", replace(origin.get("sole radius", STATED), value=float(spheres.radius[0]))
+    below = float((spheres.radius - spheres.centre[:, 1]).max())
+    yield "below", replace(origin.get("sole below", STATED), value=below)
     for zone, of in spheres.zones.items():
-        for k, place in enumerate(spheres.centre[of], start=1):
-            for axis, value in zip("xz", place[::2], strict=True):
-                yield f"{zone}_{k}_{axis}", Number(float(value), "invented", f"centre of its sphere {k}, from K")
+        for k, (place, radius) in enumerate(zip(spheres.centre[of], spheres.radius[of], strict=True), start=1):
+            for axis, value in zip("xyz", place, strict=True):
+                if not alike or axis != "y":
+                    yield f"{zone}_{k}_{axis}", Number(float(value), places.source, f"centre of its sphere {k}, from K")
+            if not alike:
+                yield f"{zone}_{k}_radius", Number(float(radius), places.source, f"of its sphere {k}")
     for zone, of in spheres.zones.items():
-        first = int(np.flatnonzero(of)[0])
         for kind in BY_ZONE:
-            value, expected = _of(law, kind, first), _of(usual.law, kind, first) if built_in else np.nan
-            source, note = _named(known, zone, kind) if value == expected else ("derived", GIVEN)
-            yield f"{zone}_{kind}", Number(value, source, note)
+            yield f"{zone}_{kind}", _stated(origin, f"sole {zone}_{kind}", zone_number(law, kind, of))
     for name in SHARED:
-        value = float(getattr(law, name))
-        source, note = known[name] if value == float(getattr(usual.law, name)) else ("derived", GIVEN)
-        yield name, Number(value, source, note)
+        yield name, _stated(origin, f"sole {name}", float(getattr(law, name)))
 
 
-def _named(known: Mapping[str, tuple[Source, str]], zone: str, kind: str) -> tuple[Source, str]:
-    """Source and note of a number of the built-in sole."""
-    if kind != "stiffness":
-        return known[kind]
-    if zone == "forefoot":
-        return "derived", f"of a sphere, with EI {COMPRESSED}"
-    return known[f"{zone.partition('_')[0]}_stiffness"]
-
-
-def _of(law: SoleLaw, kind: str, sphere: int) -> float:
-    return float(np.broadcast_to(getattr(law, kind), len(law.stiffness))[sphere])
+def _stated(origin: Mapping[str, Number], name: str, value: float) -> Number:
+    """A number of the law as its foot has it, else as another file gives it."""
+    known = origin.get(name)
+    return known if known is not None and known.value == value else Number(value, "derived", GIVEN)

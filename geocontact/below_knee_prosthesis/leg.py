@@ -222,6 +222,13 @@ class Leg:
         keel = self.keel + self.turn.apply(raised) - turn.apply(MIDDLE)
         return replace(self, keel=keel, turn=turn, offset=offset)
 
+    def with_residual(self, length: float) -> Leg:
+        """With a residual limb of a measured length, knee to its end [m]; ValueError where the shank is not longer."""
+        if not 0.0 < length < self.shank:
+            what = f"a residual limb of {1e3 * length:.0f} mm is not shorter than the shank"
+            raise ValueError(f"{what}, {1e3 * self.shank:.0f} mm")
+        return replace(self, person=replace(self.person, residual=length / self.shank))
+
     @property
     def bushing(self) -> Vector:
         """Middle of the bushing in the shank's frame [m]: half-way down the residual limb."""
@@ -301,7 +308,7 @@ class Leg:
             **_offset(self.offset),
             "thigh_mass": Number(thigh[0], "derived", leva),
             "thigh_centre": Number(float(-thigh[1][1]), "derived", "of its mass, below the hip; de Leva 1996"),
-            "residual_share": Number(self.person.residual, "invented", "of the shank; the study does not state it"),
+            "residual_share": _share(self.person.residual),
             "ankle_over_knee_radius": Number(
                 taper(SEGMENTS[self.person.sex]["shank"].centre),
                 "derived",
@@ -314,6 +321,12 @@ class Leg:
             "foot_mass": Number(foot, source, f"shell and shoe, without keel{shared}"),
             **_prosthesis(*self.prosthesis_body()),
         }
+
+
+def _share(residual: float) -> Number:
+    if residual == RESIDUAL:
+        return Number(residual, "invented", "of the shank; the study does not state it")
+    return Number(residual, "option", "of the shank, as stated or measured")
 
 
 def _places(name: str, values: Vector, note: str) -> dict[str, Number]:

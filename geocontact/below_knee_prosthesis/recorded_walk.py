@@ -18,8 +18,7 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import keel_poses
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, longest_stance
 from geocontact.below_knee_prosthesis.from_markers import Walked, standing_hip, standing_leg, walked
-from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import AS_STOOD, FootOffset, Leg, Person
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, LegMotion, recorded_tree
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket
@@ -127,6 +126,7 @@ def fitted_walk(
     offset: FootOffset = AS_STOOD,
     cutoff: float | None = CUTOFF,
     gap_limit: float = GAP,
+    residual: float | None = None,
 ) -> Walk:
     """The leg and the keel's place by a standing trial, its motion by a walking one.
 
@@ -148,14 +148,15 @@ def fitted_walk(
         Of a zero-lag low-pass of the coordinates [Hz]; None for none.
     gap_limit
         Longest gap that is bridged [s].
+    residual
+        Length of the residual limb [m]; by default the person's share of the shank.
 
     InputError where markers are missing or do not fit the standing ones, and where a plate is not the person's, not
     under the foot, or on another clock.
     """
     hip = None if moving is None else standing_hip(standing, moving)
-    below = sole_numbers()["below"].value
-    stood = standing_leg(standing, person, foot.keel, below, None if hip is None else hip.first)
-    leg = stood.with_foot(offset)
+    stood = standing_leg(standing, person, foot.keel, foot.record.below, None if hip is None else hip.first)
+    leg = (stood if residual is None else with_residual(stood, residual)).with_foot(offset)
     fit = walked(seen, leg, cutoff=cutoff, gap_limit=gap_limit)
     _require_fit(seen, fit)
     require_weight(other, person.mass * GRAVITY, "`other_plate`")
@@ -165,6 +166,14 @@ def fitted_walk(
     cluster = SeenFoot(seen.time, keel_poses(seen, leg, seen.time, FOOT_CUTOFF, gap_limit))
     push = Push(other.time, other.force)
     return Walk(leg, fit, ground, foot, fulcrum, push, plate, cluster, seen, hip, cutoff, gap_limit)
+
+
+def with_residual(leg: Leg, length: float) -> Leg:
+    """With a residual limb of a length [m]; InputError where the shank is not longer."""
+    try:
+        return leg.with_residual(length)
+    except ValueError as error:
+        raise InputError("", "`residual_length`", str(error), "measure from the knee to the end of the limb") from error
 
 
 def _require_fit(seen: MarkerTrajectories, fit: Walked) -> None:

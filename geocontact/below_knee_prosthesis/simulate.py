@@ -9,9 +9,9 @@ from jaxtyping import Bool, Float
 from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.on_tree import rubbing_numbers
 from geocontact.below_knee_prosthesis.keel.quasi_static import loads_at
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg_tree import LegMotion, driving_inputs
 from geocontact.below_knee_prosthesis.stance_model import (
     FLOOR,

@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.on_tree import (
     along_keel,
@@ -24,8 +25,6 @@ from geocontact.below_knee_prosthesis.keel.on_tree import (
     posterior_part,
     rubbing_numbers,
 )
-from geocontact.below_knee_prosthesis.keel.sole import ZONES
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import Leg
 from geocontact.below_knee_prosthesis.leg_tree import FORWARD, GRAVITY, SOCKET, UP, carried_mass
 from geocontact.contact.bushing import Bushing, bushing_force
@@ -126,13 +125,13 @@ def stance_numbers(
         "sole": [np.broadcast_to(each, len(law.stiffness))[zones] for each in _by_sphere(foot)],
         "ground": under,
     }
-    sizes = _sizes(keel, len(under))
+    sizes = _sizes(keel, len(zones), len(under))
     return np.concatenate([np.ravel(np.asarray(parts[name], float)) for name in sizes])
 
 
-def sole_places(keel: Keel, ground: HalfSpace | Stairs = FLOOR) -> range:
+def sole_places(foot: VariableStiffnessFoot, ground: HalfSpace | Stairs = FLOOR) -> range:
     """Where stiffness, damping, static and kinetic friction are in `stance_numbers`, each by zone."""
-    sizes = _sizes(keel, len(_ground_numbers(ground)))
+    sizes = _sizes(foot.keel, len(foot.sole.spheres.zones), len(_ground_numbers(ground)))
     first = sum(size for name, size in list(sizes.items())[: list(sizes).index("sole")])
     return range(first, first + sizes["sole"])
 
@@ -148,7 +147,7 @@ def _by_sphere(foot: VariableStiffnessFoot) -> tuple[Float[np.ndarray, ...], ...
     return law.stiffness, law.damping, np.asarray(law.static), np.asarray(law.kinetic)
 
 
-def _sizes(keel: Keel, ground: int) -> dict[str, int]:
+def _sizes(keel: Keel, zones: int, ground: int) -> dict[str, int]:
     return {
         "carried": 1,
         "mass": 1,
@@ -158,7 +157,7 @@ def _sizes(keel: Keel, ground: int) -> dict[str, int]:
         "joints": 2 * keel.joints,
         "rubbing": 3 * keel.joints if keel.rubs else 0,
         "bushing": 12,
-        "sole": 4 * len(ZONES),
+        "sole": 4 * zones,
         "ground": ground,
     }
 
@@ -174,7 +173,7 @@ def _made(
 ) -> StanceModel:
     from casadi import SX, Function, densify, vertcat
 
-    sizes = _sizes(keel, ground)
+    sizes = _sizes(keel, len(set(sole[2])), ground)
     p, pushing = SX.sym("numbers", sum(sizes.values())), SX.sym("pushing", 2)
     ends = np.cumsum([0, *sizes.values()])
     of = {name: p[int(ends[k]) : int(ends[k + 1]), :] for k, name in enumerate(sizes)}
@@ -247,7 +246,8 @@ def _on_ground(
     ground: HalfSpace | SymbolicGround,
 ) -> Wrenches:
     centres, radii, zones, segments = np.array(sole[0]), np.array(sole[1]), sole[2], np.array(sole[3])
-    order, count = list(dict.fromkeys(zones)), len(ZONES)
+    order = list(dict.fromkeys(zones))
+    count = len(order)
     n, deep, v_th = shared
     loads = []
     for segment in np.unique(segments):

@@ -12,7 +12,8 @@ import numpy as np
 from scipy.interpolate import make_interp_spline
 
 from geocontact.below_knee_prosthesis.from_markers import BODIES, hip_by_regression
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.below_knee_prosthesis.leg import Leg
 from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
 from geocontact.data.multibody.markers import MarkerTrajectories

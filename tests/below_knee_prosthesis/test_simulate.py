@@ -10,7 +10,7 @@ from scipy.integrate import cumulative_trapezoid
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from benchmarks.prosthesis.soles import static_share
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, whole_tree
 from geocontact.below_knee_prosthesis.simulate import Stance, share_of_foot, simulate_stance
 from geocontact.dynamics.recorded_inputs import recorded_inputs
@@ -63,7 +63,7 @@ def test_friction_in_the_keel_takes_its_share_of_what_is_stored(landing: Stance)
     """While the heel is loaded only: 0.15 of the energy of the springs, and no damper beside it."""
     usual, s = vsf_foot(), landing
     keel = replace(usual.keel, hysteresis=0.15, retardation=0.0)
-    foot = VariableStiffnessFoot(keel, usual.sole, usual.law)
+    foot = replace(usual, keel=keel)
     given = s.motion, foot, s.fulcrum, s.push, (s.time[0], s.time[-1])
     rubs = simulate_stance(*given, tolerance=3e-4, machine_code=False)
     assert np.abs(rubs.found.z).max() <= 1.0 + 1e-6

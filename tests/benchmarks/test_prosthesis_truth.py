@@ -10,7 +10,8 @@ import pytest
 
 from benchmarks.prosthesis.refit import FullModel, foot_without, fulcrum, predicted
 from benchmarks.prosthesis.truth import EVERY, FootPath, Measured, Truth, Withheld, given_way, measure
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 
 
 @lru_cache(maxsize=1)

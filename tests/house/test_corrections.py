@@ -9,7 +9,8 @@ import pytest
 
 from geocontact.axis_misalignment.explicit import Offsets, displacement
 from geocontact.axis_misalignment.synthetic import PAPER
-from geocontact.below_knee_prosthesis.keel.keel import SUPPORTS, tip_compliance
+from geocontact.below_knee_prosthesis.keel.keel import tip_compliance
+from geocontact.below_knee_prosthesis.keel.sections import SUPPORTS
 from geocontact.contact.area_hertz import disc_force
 from geocontact.contact.bushing import PRINTED, SOCKET
 from geocontact.contact.smooth_half_space import half_space_force

@@ -11,10 +11,11 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 45_850, "how-to": 25_560, "everything": 83_400}
+ALL_WORDS = {"theory, reference": 46_000, "how-to": 25_660, "everything": 84_600}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them. Raised by what was new: tables of checks, which are made from
-their entries and name what the tests hold of each; sensors beside the force of an elbow; a shoulder's controller."""
+their entries and name what the tests hold of each; sensors beside the force of an elbow; a shoulder's
+controller; a foot of one's own."""
 LIMITS = {
     "how-to/cohort.md": 950,
     "how-to/compare.md": 240,
@@ -43,7 +44,7 @@ LIMITS = {
     "how-to/page.md": 590,
     "how-to/paraview.md": 300,
     "how-to/pressure.md": 570,
-    "how-to/prosthesis.md": 1430,
+    "how-to/prosthesis.md": 1540,
     "how-to/regions_and_sides.md": 330,
     "how-to/shoulder.md": 1060,
     "how-to/shoulder_support.md": 930,
@@ -67,7 +68,7 @@ LIMITS = {
     "reference/real_implants.md": 550,
     "reference/speed.md": 1060,
     "reference/terms.md": 540,
-    "reference/written_files.md": 1560,
+    "reference/written_files.md": 1580,
     "theory/centre_of_pressure.md": 590,
     "theory/collocation.md": 760,
     "theory/contact_area.md": 1660,
@@ -83,10 +84,10 @@ LIMITS = {
     "theory/planar_joint.md": 500,
     "theory/prosthesis_both_sides.md": 880,
     "theory/prosthesis_calibration.md": 1050,
-    "theory/prosthesis_compare.md": 740,
+    "theory/prosthesis_compare.md": 790,
     "theory/prosthesis_design.md": 1240,
     "theory/prosthesis_gap.md": 850,
-    "theory/prosthesis_keel.md": 890,
+    "theory/prosthesis_keel.md": 950,
     "theory/prosthesis_stance.md": 1140,
     "theory/shoulder_exoskeleton.md": 2160,
     "theory/shoulder_support.md": 1220,

@@ -3,7 +3,8 @@
 from geocontact.analyses.prosthesis.calibrate.result import calibrate
 from geocontact.analyses.prosthesis.compare.result import compare
 from geocontact.analyses.prosthesis.design.result import design
+from geocontact.analyses.prosthesis.keel.result import keel
 from geocontact.analyses.prosthesis.scale.result import scale
 from geocontact.analyses.prosthesis.simulate.result import simulate
 
-__all__ = ["calibrate", "compare", "design", "scale", "simulate"]
+__all__ = ["calibrate", "compare", "design", "keel", "scale", "simulate"]

@@ -28,10 +28,12 @@ RULES = (
     (r"keel (?:stiffness_\d+|hysteresis)", "N m/rad"),
     (r"keel friction", "N m"),
     (r"keel presliding", "rad"),
+    (r"keel section_\d+_from", "m"),
+    (r"keel section_\d+_factor", "-"),
     (r"sole .*_(?:static|kinetic)|sole exponent", "-"),
     (r"sole .*_damping", "N s/m"),
     (r"sole threshold_speed", "m/s"),
-    (r"sole (?:radius|below|full_depth|.*_\d+_[xz])", "m"),
+    (r"sole (?:radius|below|full_depth|.*_\d+_(?:[xyz]|radius))", "m"),
     (r"gravity", "m/s²"),
 )
 """Whole names and units; of two that match, the first."""

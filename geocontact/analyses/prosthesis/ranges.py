@@ -6,13 +6,15 @@ from geocontact.data.errors import InputError
 from geocontact.data.plausible import KG, Plausible
 from geocontact.data.units import deg, m, mm, percent
 
-FULCRUM = Plausible("a fulcrum of the variable-stiffness foot", mm, (66.0, 151.0))
+FULCRUM = Plausible("a fulcrum of a prosthetic foot", mm, (1.0, 500.0))
 PERSON = Plausible("the mass of a walking person", KG, (20.0, 300.0), (35.0, 200.0))
 RESIDUAL = Plausible("the share of the shank that is left", percent, (1.0, 99.0), (25.0, 80.0))
+LIMB = Plausible("the length of a residual limb", mm, (20.0, 500.0), (80.0, 300.0))
 PROSTHESIS = Plausible("the mass of a below-knee prosthesis", KG, (0.3, 10.0), (0.8, 4.0))
 STATURE = Plausible("the height of a person", m, (0.8, 2.6), (1.3, 2.2))
 SLOPE = Plausible("the slope of a walkway", deg, (-25.0, 25.0), (-12.0, 12.0))
 EDGE = Plausible("the edge of a step under a foot", mm, (0.0, 150.0))
+USUAL_SHARE = 0.45
 TURNS, MOST_TURNS = 6, 50
 """Fits of the leg after the first, each with the socket's simulated motion taken out of its markers; most of them."""
 
@@ -21,3 +23,10 @@ def require_turns(turns: int) -> None:
     """InputError for a number of fits that is none."""
     if not 0 <= turns <= MOST_TURNS:
         raise InputError("", "`socket_turns`", f"{turns} is not 0 to {MOST_TURNS}", f"give for example {TURNS}")
+
+
+def require_one_residual(share: float, length: float | None) -> None:
+    """InputError for a residual limb by its share of the shank and by its length."""
+    if length is not None and share != USUAL_SHARE:
+        what = f"the residual limb is {share:.0%} of the shank and {1e3 * length:g} mm long"
+        raise InputError("", "`residual_length`", what, "give one of them")

@@ -15,7 +15,7 @@ from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told, turn_of
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import AS_STOOD, FootOffset, Side
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.plate_checks import require_weight
@@ -145,7 +145,7 @@ def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableSti
         raise replace(error, file=file) from error
     except ValueError as error:
         raise InputError(file, "force law", str(error), "correct the number") from error
-    return VariableStiffnessFoot(foot.keel, foot.sole, changed)
+    return replace(foot, law=changed)
 
 
 def offset_of_law(file: Path | None, standing: Path) -> FootOffset:

@@ -16,8 +16,8 @@ from scipy.spatial.transform import Rotation
 
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import IntactLeg
 from geocontact.below_knee_prosthesis.foot_numbers import foot_numbers, socket_numbers
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.on_tree import joint_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import Inertial, Leg, Vector, combined
 from geocontact.contact.bushing import SOCKET, Bushing
 from geocontact.data.body_segments import SEGMENTS, STATURE, Sex

@@ -41,7 +41,7 @@ from geocontact.below_knee_prosthesis.from_markers import (
     require_spread,
     standing_leg,
 )
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories

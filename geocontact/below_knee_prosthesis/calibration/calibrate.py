@@ -15,7 +15,7 @@ are, at held friction, the forces along the ground and the moment of the normal 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -24,8 +24,8 @@ from scipy.optimize import lsq_linear
 from geocontact.below_knee_prosthesis.calibration.known_numbers import Knowledge, knowledge
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResiduals
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import FootOffset
 from geocontact.below_knee_prosthesis.simulate import share_of_foot
 from geocontact.contact.sphere_foot import normal_force
@@ -139,7 +139,7 @@ class SoleCalibration:
     def foot(self) -> VariableStiffnessFoot:
         """With the law that was found."""
         usual = self.residuals.foot
-        return VariableStiffnessFoot(usual.keel, usual.sole, self.law)
+        return replace(usual, law=self.law)
 
 
 def calibrate(

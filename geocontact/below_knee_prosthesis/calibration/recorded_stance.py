@@ -12,8 +12,8 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times, longest_stance
 from geocontact.below_knee_prosthesis.from_markers import MAP, Walked
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import MIDDLE, FootOffset, Leg
 from geocontact.below_knee_prosthesis.leg_tree import (
     GRAVITY,

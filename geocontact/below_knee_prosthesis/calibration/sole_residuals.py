@@ -16,8 +16,8 @@ from jaxtyping import Float, Int
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.identify.optimise.least_squares import divided
 
 ALONG = (0, 2)

@@ -17,7 +17,7 @@ from geocontact.below_knee_prosthesis.calibration.known_numbers import Knowledge
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import WalkedStance
 from geocontact.below_knee_prosthesis.calibration.whole_model import WholeResiduals
 from geocontact.below_knee_prosthesis.from_markers import Walked
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import FootOffset
 from geocontact.below_knee_prosthesis.leg_tree import LegMotion
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket

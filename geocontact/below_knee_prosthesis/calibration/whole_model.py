@@ -12,7 +12,7 @@ than what the recorded poses press.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -22,8 +22,8 @@ from jaxtyping import Float, Int
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance, WalkedStance
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import FARTHEST, NO_BALANCE, by_channel
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import FootOffset
 from geocontact.below_knee_prosthesis.simulate import FIRST, GATE, TOLERANCE, recorded_start, told_at
 from geocontact.below_knee_prosthesis.stance_model import (
@@ -83,7 +83,7 @@ class WholeStance:
     ) -> None:
         self.stance, self.foot, self.tolerance, self.machine_code = stance, foot, tolerance, machine_code
         self.model = stance_model(foot, machine_code=machine_code)
-        self.tools = _tools(self.model, sole_places(foot.keel), machine_code)
+        self.tools = _tools(self.model, sole_places(foot), machine_code)
         self.inputs = stance.inputs()
         self.begin = stance.begin
 
@@ -250,7 +250,7 @@ class WholeResiduals:
 
     def at(self, z: Float[np.ndarray, " p"]) -> VariableStiffnessFoot:
         """The foot with these numbers."""
-        return VariableStiffnessFoot(self.foot.keel, self.foot.sole, self.zones.law(self.values(z)))
+        return replace(self.foot, law=self.zones.law(self.values(z)))
 
     def shown(self, z: Float[np.ndarray, " p"]) -> list[ShownStance | None]:
         """Each simulated stance; None where its motion cannot go on."""

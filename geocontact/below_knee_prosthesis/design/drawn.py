@@ -36,10 +36,13 @@ from geocontact.below_knee_prosthesis.design.knob import AIMS, JUDGED, Knob
 from geocontact.below_knee_prosthesis.design.outcomes import Aim
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import standing_leg
-from geocontact.below_knee_prosthesis.keel.keel import Keel, tip_compliance
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.keel import Keel
+from geocontact.below_knee_prosthesis.keel.sole import BY_ZONE, KeelSole
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.below_knee_prosthesis.leg import AS_STOOD, MIDDLE, FootOffset, Leg, Person
 from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.loads.sphere_set import SphereSet
 
 SLOW = 0.1
 """s; over which the slow half of a marker's error changes."""
@@ -186,12 +189,8 @@ def stiffer(knob: Knob, keel: Keel) -> Float[np.ndarray, " n"]:
         return np.log(knob.settings / knob.present)
     if knob.vary == "alignment":
         return np.zeros(len(knob.settings))
-    soft = np.array([_compliance(keel, float(fulcrum)) for fulcrum in (knob.present, *knob.settings)])
+    soft = np.array([keel.tip_compliance(float(fulcrum)) for fulcrum in (knob.present, *knob.settings)])
     return np.asarray(np.log(soft[0] / soft[1:]))
-
-
-def _compliance(keel: Keel, fulcrum: float) -> float:
-    return float(tip_compliance(fulcrum, keel.length, keel.bending, keel.support))
 
 
 KEEL = 0.03
@@ -300,18 +299,56 @@ def _mirrored(of: list[Float[np.ndarray, ...]]) -> list[Float[np.ndarray, ...]]:
 
 
 def finer_feet(foot: VariableStiffnessFoot, count: int = len(FINER)) -> tuple[VariableStiffnessFoot, ...]:
-    """The foot with 24, 48 and 96 spheres; zones differ from the usual ones by the same factors in all of them.
+    """The foot with its spheres, twice and four times as many; the law of a zone is shared among them.
 
-    `count` is how many of these are wanted.
+    The shipped foot has 24, 48 and 96, each fitted to its compressions; zones differ from the usual ones by the same
+    factors in all of them. `count` is how many of these are wanted.
     """
     usual = vsf_foot()
+    if not _same(foot, usual):
+        return tuple(_split(foot, finer) for finer in FINER[:count])
     factor = _values(foot) / _values(usual)
     found = []
     for finer in FINER[:count]:
         base = vsf_foot(finer=finer)
         zones = ZoneParameters(base.sole, base.law)
-        found.append(VariableStiffnessFoot(base.keel, base.sole, zones.law(zones.values_of(base.law) * factor)))
+        found.append(replace(base, law=zones.law(zones.values_of(base.law) * factor)))
     return tuple(found)
+
+
+def _same(foot: VariableStiffnessFoot, usual: VariableStiffnessFoot) -> bool:
+    """Whether keel and spheres are those of the shipped foot, whatever its law is."""
+    near = np.isclose(foot.keel.bending, usual.keel.bending, rtol=1e-6)
+    alike = replace(foot.keel, bending=0.5, torsional=0.5) == replace(usual.keel, bending=0.5, torsional=0.5)
+    spheres = foot.sole.spheres, usual.sole.spheres
+    shape = spheres[0].zone == spheres[1].zone and np.allclose(spheres[0].centre, spheres[1].centre, atol=1e-9)
+    return bool(near and alike and shape)
+
+
+def _split(foot: VariableStiffnessFoot, finer: int) -> VariableStiffnessFoot:
+    """Every sphere as `finer` ones along the foot, spread over half the way to its neighbours in front and behind."""
+    if finer == 1:
+        return foot
+    spheres, law = foot.sole.spheres, foot.law
+    rows = np.unique(spheres.centre[:, 0])
+    if len(rows) < 2:
+        return foot
+    middles = 0.5 * (rows[1:] + rows[:-1])
+    edges = np.concatenate([[2.0 * rows[0] - middles[0]], middles, [2.0 * rows[-1] - middles[-1]]])
+    row = np.searchsorted(rows, spheres.centre[:, 0])
+    share = (np.arange(finer) + 0.5) / finer
+    centre = np.repeat(spheres.centre, finer, axis=0)
+    centre[:, 0] = (edges[row, None] + share * (edges[row + 1] - edges[row])[:, None]).ravel()
+    zone = tuple(name for name in spheres.zone for _ in range(finer))
+    sole = KeelSole(
+        SphereSet(centre, np.repeat(spheres.radius, finer), zone), tuple(foot.keel.segment_of(centre[:, 0]))
+    )
+    count = len(spheres)
+    stiffness, damping, static, kinetic = (
+        np.repeat(np.broadcast_to(getattr(law, name), count), finer) for name in BY_ZONE
+    )
+    shared = replace(law, stiffness=stiffness / finer, damping=damping / finer, static=static, kinetic=kinetic)
+    return replace(foot, sole=sole, law=shared)
 
 
 def _values(foot: VariableStiffnessFoot) -> Float[np.ndarray, " p"]:
@@ -325,9 +362,7 @@ def drawn_foot(
     zones = ZoneParameters(foot.sole, foot.law)
     factor = np.exp(np.clip(sd * rng.standard_normal(len(sd)), -zones.reach, zones.reach))
     bending = foot.keel.bending * float(np.exp(keel * rng.standard_normal()))
-    return VariableStiffnessFoot(
-        replace(foot.keel, bending=bending), foot.sole, zones.law(zones.values_of(foot.law) * factor)
-    )
+    return replace(foot, keel=replace(foot.keel, bending=bending), law=zones.law(zones.values_of(foot.law) * factor))
 
 
 def _widest(tasks: list[FootTask]) -> FootTask:

@@ -24,8 +24,8 @@ from geocontact.below_knee_prosthesis.design.foot_task import LEVEL, FootTask, T
 from geocontact.below_knee_prosthesis.design.joint_torques_kept import OtherFeet, curve, recorded_motion, stacked
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, outcomes
 from geocontact.below_knee_prosthesis.evaluation import at_times
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
 
 Vary = Literal["fulcrum", "alignment", "stiffness"]
 Response = Literal["angles kept", "torque kept", "joint torques kept"]
@@ -91,7 +91,7 @@ class Knob:
         keel, fulcrum = foot.keel, value
         if self.vary == "stiffness":
             keel, fulcrum = replace(keel, bending=value * keel.bending), self.fulcrum
-        return VariableStiffnessFoot(keel, foot.sole, foot.law).at(fulcrum)
+        return replace(foot, keel=keel).at(fulcrum)
 
     def carried(self, maps: Sequence[FootMap], task: FootTask) -> Mapping[Response, tuple[CarriedLoad, ...]]:
         """The foot along the stance at each value, for each response of the person."""

@@ -19,7 +19,7 @@ from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZonePar
 from geocontact.below_knee_prosthesis.design.drawn import KEEL, finer_feet
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask, Terrain
 from geocontact.below_knee_prosthesis.design.knob import RESPONSES, Knob, Vary
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 
 Unit = Literal["m", "rad", "-", "factor"]
 UNITS: dict[Vary, Unit] = {"fulcrum": "m", "alignment": "rad", "stiffness": "-"}
@@ -72,8 +72,11 @@ def sensitivities(
         if name.startswith("stiffness."):
             ends = [at(_pressed(foot, zones, k, by), task) for by in (float(sd), -float(sd))]
             found.append(FootSensitivity(name, float(np.exp(sd)), "factor", {RECORDED: 0.5 * (ends[0] - ends[1])}))
-    few, more, _ = (at(each, task) for each in finer_feet(foot))
-    found.append(FootSensitivity("48 spheres in place of 24", 2.0, "factor", {RECORDED: more - few}))
+    feet = finer_feet(foot, 2)
+    few, more = (at(each, task) for each in feet)
+    counts = [len(each.sole.spheres) for each in feet]
+    words = f"{counts[1]} spheres in place of {counts[0]}"
+    found.append(FootSensitivity(words, 2.0, "factor", {RECORDED: more - few}))
     turns = [at(foot, replace(task, pitch=task.pitch + by)) for by in (unknown.pitch, -unknown.pitch)]
     found.append(FootSensitivity("pitch", unknown.pitch, "rad", {RECORDED: 0.5 * (turns[0] - turns[1])}))
     loaded = np.log1p(unknown.gain)
@@ -102,10 +105,10 @@ def _factor(name: str, by: float, outcome: Callable[[float], Float[np.ndarray, "
 
 def _bent(foot: VariableStiffnessFoot, by: float) -> VariableStiffnessFoot:
     keel = replace(foot.keel, bending=float(np.exp(by)) * foot.keel.bending)
-    return VariableStiffnessFoot(keel, foot.sole, foot.law)
+    return replace(foot, keel=keel)
 
 
 def _pressed(foot: VariableStiffnessFoot, zones: ZoneParameters, k: int, by: float) -> VariableStiffnessFoot:
     values = zones.values_of(foot.law).copy()
     values[k] *= np.exp(by)
-    return VariableStiffnessFoot(foot.keel, foot.sole, zones.law(values))
+    return replace(foot, law=zones.law(values))

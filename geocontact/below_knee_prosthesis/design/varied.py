@@ -18,7 +18,7 @@ from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import Knob, Response, Vary
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity, Unknown, sensitivities
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import FootOffset
 
 VALUES: dict[Vary, Float[np.ndarray, " n"]] = {

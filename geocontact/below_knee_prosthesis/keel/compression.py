@@ -21,8 +21,9 @@ from jaxtyping import Float
 from scipy.optimize import brentq, least_squares
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.below_knee_prosthesis.keel.keel import SHARE, Keel, Support, compression_stiffness, tip_compliance
+from geocontact.below_knee_prosthesis.keel.keel import Keel, compression_stiffness, tip_compliance
 from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
+from geocontact.below_knee_prosthesis.keel.sections import SHARE, Support
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.identify.identifiability import Identifiability, identifiability
@@ -152,13 +153,14 @@ def calibrated_on_sole(
     *,
     travel: float = TRAVEL,
     tilt: float = TILT,
+    zone: str = FOREFOOT,
 ) -> tuple[Keel, SoleLaw]:
-    """The same with EI and the forefoot's stiffness such that compressions of the sole are nearest to measured ones.
+    """The same with EI and the stiffness of a zone such that compressions of the sole are nearest to measured ones.
 
     Least squares of relative errors; two compressions are met. The stiffness is the force over the whole travel. GJ
     keeps its ratio to EI.
     """
-    forefoot = sole.spheres.zones[FOREFOOT]
+    forefoot = sole.spheres.zones[zone]
 
     def with_factors(logarithms: Float[np.ndarray, " two"]) -> tuple[Keel, SoleLaw]:
         bent, pressed = np.exp(logarithms)

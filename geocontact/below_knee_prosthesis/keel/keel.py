@@ -12,10 +12,11 @@ which keeps its sum and its mean place (but for what lies in front of the last h
 that the tip gives exactly what the beam's does. Hinges behind the fulcrum get next to nothing: what the beam bows there
 is left out (`beam.deflected` tells how much).
 
-Euler and Bernoulli, small deflections, constant EI. The beam of length L is held at x = 0, may turn but not move at
-the fulcrum x = l, and hangs over by a = L - l. A force F at x > l bends the part behind the fulcrum as well, which
-turns the beam there by M l/(3 EI) with M = F (x - l) where the end at x = 0 is pinned, by M l/(4 EI) where it is
-clamped (Young & Budynas, Roark's Formulas for Stress and Strain, table 8.1). So the tip gives
+Euler and Bernoulli, small deflections, here with constant EI (`sections` has it along the length). The beam of length L
+is held at x = 0, may turn but not move at the fulcrum x = l, and hangs over by a = L - l. A force F at x > l bends the
+part behind the fulcrum as well, which turns the beam there by M l/(3 EI) with M = F (x - l) where the end at x = 0 is
+pinned, by M l/(4 EI) where it is clamped (Young & Budynas, Roark's Formulas for Stress and Strain, table 8.1). So the
+tip gives
 
     F (a² r + a³/(3 EI)),   r = l/(3 EI) pinned, l/(4 EI) clamped
 
@@ -29,20 +30,16 @@ Q Appl Math 3, 272-275), but with the turn r M of the part behind the fulcrum, w
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
 from scipy.integrate import solve_bvp
 
-Support = Literal["pinned", "clamped"]
-SUPPORTS: tuple[Support, ...] = ("pinned", "clamped")
-SHARE: dict[Support, float] = {"pinned": 1.0 / 3.0, "clamped": 0.25}
-"""Turn at the fulcrum over M l/EI."""
+from geocontact.below_knee_prosthesis.keel.sections import ONE, Sections, Support
 
 
 def root_compliance(fulcrum: float, bending: float, support: Support) -> float:
-    """Turn of the beam at the fulcrum per moment there, from the part behind it [rad/(N m)].
+    """Turn of a beam of one section at the fulcrum per moment there, from the part behind it [rad/(N m)].
 
     Parameters
     ----------
@@ -53,13 +50,12 @@ def root_compliance(fulcrum: float, bending: float, support: Support) -> float:
     support
         How the posterior end is held.
     """
-    return SHARE[support] * fulcrum / bending
+    return ONE.root_compliance(fulcrum, bending, support)
 
 
 def tip_compliance(fulcrum: float, length: float, bending: float, support: Support) -> float:
     """Deflection of the tip per force on it [m/N]; `length` is L [m], the others as for `root_compliance`."""
-    overhang = length - fulcrum
-    return overhang**2 * root_compliance(fulcrum, bending, support) + overhang**3 / (3.0 * bending)
+    return ONE.tip_compliance(fulcrum, length, bending, support)
 
 
 def deflected(
@@ -108,7 +104,7 @@ class Keel:
     joints
         How many.
     bending, torsional
-        EI and GJ [N m²].
+        EI and GJ [N m²], where the factor of `sections` is 1.
     retardation
         Damping over stiffness of the material, strain rates [s]: sigma = E (eps + retardation eps').
     width, thickness, density
@@ -123,6 +119,8 @@ class Keel:
         Friction at any rate and any bend: the curvature that it holds [1/m].
     presliding
         Curvature over which both turn [1/m].
+    sections
+        Factors on EI and GJ along the keel; mass is spread evenly whatever they are.
 
     ValueError for a length, stiffness or mass that is not positive, or a range that is not on the keel.
     """
@@ -141,6 +139,7 @@ class Keel:
     hysteresis: float = 0.0
     friction: float = 0.0
     presliding: float = 0.05
+    sections: Sections = ONE
 
     def __post_init__(self) -> None:
         positive = (self.posterior, self.bending, self.torsional, self.width, self.thickness, self.density, self.joints)
@@ -152,6 +151,8 @@ class Keel:
             )
         if not self.posterior < self.length or not 0.0 < self.range[0] < self.range[1] < self.length:
             raise ValueError(f"first joint and fulcrums must be on the keel of {self.length:g} m")
+        if self.sections.edges and not self.sections.edges[-1] < self.length:
+            raise ValueError(f"sections must end on the keel of {self.length:g} m")
 
     @property
     def places(self) -> Float[np.ndarray, " n"]:
@@ -180,14 +181,24 @@ class Keel:
         """
         self.require_range(fulcrum)
         at = self.places
-        ends = np.unique(np.concatenate([at[at > fulcrum], [fulcrum, self.length]]))
+        ends = np.unique(np.concatenate([at[at > fulcrum], self.sections.pieces(fulcrum, self.length)]))
         hats = np.stack([np.interp(ends, at, unit) for unit in np.eye(self.joints)])
-        spread = 0.5 * (hats[:, 1:] + hats[:, :-1]) @ np.diff(ends) / self.bending
-        root = root_compliance(fulcrum, self.bending, self.support)
+        weights = np.diff(ends) / self.sections.at(0.5 * (ends[1:] + ends[:-1]))
+        spread = 0.5 * (hats[:, 1:] + hats[:, :-1]) @ weights / self.bending
+        root = self.sections.root_compliance(fulcrum, self.bending, self.support)
         gathered = np.array([np.interp(fulcrum, at, unit) for unit in np.eye(self.joints)])
-        found = np.maximum(spread + root * gathered, HELD / self.joints**2 * self.pitch / self.bending)
+        found = np.maximum(spread + root * gathered, HELD / self.joints**2 * self.pitch / self.bending_at_joints)
         arms = (self.length - at) ** 2
-        return np.asarray(found * tip_compliance(fulcrum, self.length, self.bending, self.support) / (found @ arms))
+        return np.asarray(found * self.tip_compliance(fulcrum) / (found @ arms))
+
+    def tip_compliance(self, fulcrum: float) -> float:
+        """Deflection of the tip per force on it, as the beam has it [m/N]."""
+        return self.sections.tip_compliance(fulcrum, self.length, self.bending, self.support)
+
+    @property
+    def bending_at_joints(self) -> Float[np.ndarray, " n"]:
+        """EI at the joints [N m²]."""
+        return self.bending * self.sections.at(self.places)
 
     def stiffness(self, fulcrum: float) -> Float[np.ndarray, " n"]:
         """Stiffness of each joint [N m/rad]."""
@@ -204,16 +215,16 @@ class Keel:
 
     def reach(self, fulcrum: float) -> Float[np.ndarray, " n"]:
         """Turn of each joint over which its friction builds up [rad]."""
-        return self.presliding * self.bending * self.compliance(fulcrum)
+        return np.asarray(self.presliding * self.bending_at_joints * self.compliance(fulcrum))
 
     def torsion(self, fulcrum: float) -> tuple[float, float]:
         """Stiffness [N m/rad] and damping [N m s/rad] of one hinge about the keel's long axis, at the first joint.
 
-        GJ/(L - l): right for a couple on the tip (Saint-Venant), too soft for one nearer by. The part behind the
-        fulcrum is taken as held, and that a clamp keeps the section from warping is left out.
+        GJ/(L - l) where there is one section: right for a couple on the tip (Saint-Venant), too soft for one nearer by.
+        The part behind the fulcrum is taken as held, and that a clamp keeps the section from warping is left out.
         """
         self.require_range(fulcrum)
-        stiffness = self.torsional / (self.length - fulcrum)
+        stiffness = self.torsional / self.sections.torsional_length(fulcrum, self.length)
         return stiffness, self.retardation * stiffness
 
     def segment_of(self, x: Float[np.ndarray, " m"]) -> list[int]:
@@ -262,7 +273,12 @@ class BentKeel:
 
 
 def elastica(keel: Keel, fulcrum: float, force: float) -> BentKeel:
-    """Shape under an upward force on the tip [N]; ArithmeticError where none is found."""
+    """Shape of a keel of one section under an upward force on the tip [N]; ArithmeticError where none is found.
+
+    ValueError for several sections.
+    """
+    if not keel.sections.uniform:
+        raise ValueError("the elastica is of a keel of one section")
     overhang = keel.length - fulcrum
     load = force * overhang**2 / keel.bending
     root = root_compliance(fulcrum, keel.bending, keel.support) * keel.bending / overhang

@@ -151,7 +151,7 @@ def rubbing_numbers(keel: Keel, fulcrum: float, *, torsion: bool = False) -> tup
 
     None in torsion.
     """
-    size, held = keel.hysteresis * keel.stiffness(fulcrum), np.full(keel.joints, keel.bending * keel.friction)
+    size, held = keel.hysteresis * keel.stiffness(fulcrum), keel.bending_at_joints * keel.friction
     first = (np.zeros(1), np.zeros(1), np.ones(1)) if torsion else (np.zeros(0),) * 3
     size, held, reach = (np.append(*pair) for pair in zip(first, (size, held, keel.reach(fulcrum)), strict=True))
     return size, held, reach

@@ -6,9 +6,10 @@ places nor radii nor any number of the law: those are invented, but for the stif
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from jaxtyping import Bool
 
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.data.parameter import Number, Source
@@ -80,7 +81,7 @@ def numbers() -> dict[str, Number]:
 
 
 def sole_of(keel: Keel, *, finer: int = 1, columns: int = COLUMNS) -> KeelSole:
-    """Spheres in rows across the sole.
+    """Spheres in rows across the sole; zones are as long as the keel of the study is beside this one.
 
     Parameters
     ----------
@@ -90,11 +91,12 @@ def sole_of(keel: Keel, *, finer: int = 1, columns: int = COLUMNS) -> KeelSole:
         Spheres in a row.
     """
     value = {name: number.value for name, number in numbers().items()}
+    stretch = keel.length / ZONES["forefoot"][1]
     across = value["breadth"] * ((np.arange(columns) + 0.5) / columns - 0.5)
     centres, zones = [], []
     for zone, (start, stop, rows) in ZONES.items():
         count = rows * finer
-        for x in start + (stop - start) * (np.arange(count) + 0.5) / count:
+        for x in stretch * (start + (stop - start) * (np.arange(count) + 0.5) / count):
             for z in across:
                 centres.append((x, value["radius"] - value["below"], z))
                 zones.append(zone)
@@ -119,3 +121,32 @@ def law_of(sole: KeelSole) -> SoleLaw:
         kinetic=np.full(len(share), value["kinetic"]),
         threshold_speed=value["threshold_speed"],
     )
+
+
+BY_ZONE = ("stiffness", "damping", "static", "kinetic")
+SHARED = ("exponent", "full_depth", "threshold_speed")
+"""Numbers of a sole's law: by zone, and of all spheres."""
+
+
+def sole_origin(sole: KeelSole, law: SoleLaw) -> dict[str, Number]:
+    """Where the numbers of a sole of these zones are from, by their names in `foot_numbers`.
+
+    Each zone's is that of its first sphere. The forefoot's stiffness is fitted to compressions.
+    """
+    known = numbers()
+    fitted = "of a sphere, with EI fitted to 10, 19 and 32 N/mm in compression of the sole"
+    found = {f"sole {name}": replace(known[name], value=float(getattr(law, name))) for name in SHARED}
+    found |= {f"sole {name}": known[name] for name in ("radius", "below")}
+    found["sole places"] = Number(0.0, "invented")
+    for zone, of in sole.spheres.zones.items():
+        for kind in BY_ZONE:
+            own = known[f"{zone.partition('_')[0]}_stiffness" if kind == "stiffness" else kind]
+            if (zone, kind) == ("forefoot", "stiffness"):
+                own = Number(own.value, "derived", fitted)
+            found[f"sole {zone}_{kind}"] = replace(own, value=zone_number(law, kind, of))
+    return found
+
+
+def zone_number(law: SoleLaw, kind: str, of: Bool[np.ndarray, " n"]) -> float:
+    """One of `BY_ZONE` of a zone, which all of its spheres share."""
+    return float(np.broadcast_to(getattr(law, kind), len(law.stiffness))[int(np.flatnonzero(of)[0])])

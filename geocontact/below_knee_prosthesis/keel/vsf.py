@@ -8,13 +8,14 @@ It does not say where medium is, nor any number of the keel's section or of the 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 
 from geocontact.below_knee_prosthesis.keel.compression import Compressed, CompressionFit, calibrated_on_sole, fitted
-from geocontact.below_knee_prosthesis.keel.keel import Keel, Support, torsional_stiffness
-from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
-from geocontact.below_knee_prosthesis.keel.sole import COLUMNS, KeelSole, law_of, sole_of
+from geocontact.below_knee_prosthesis.keel.foot import FootRecord, VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.keel import Keel, torsional_stiffness
+from geocontact.below_knee_prosthesis.keel.sections import Support
+from geocontact.below_knee_prosthesis.keel.sole import COLUMNS, KeelSole, law_of, sole_of, sole_origin
+from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.data.parameter import Number, Source
 from geocontact.loads.sphere_set import SoleLaw
 
@@ -86,17 +87,22 @@ def fulcrum_of(setting: str, support: Support = "pinned") -> float:
     return numbers(support)[name].value
 
 
-@dataclass(frozen=True)
-class VariableStiffnessFoot:
-    """A keel on its sole, at no fulcrum in particular."""
+NAME = "the variable-stiffness foot"
+KEEL = ("length", "posterior", "joints", "width", "density", "retardation")
+COMPRESSED = "fitted to 10, 19 and 32 N/mm in compression of the sole"
 
-    keel: Keel
-    sole: KeelSole
-    law: SoleLaw
 
-    def at(self, fulcrum: float, *, torsion: bool = False) -> QuasiStaticKeel:
-        """At a fulcrum [m], without inertia."""
-        return QuasiStaticKeel(self.keel, fulcrum, self.sole, self.law, torsion)
+def vsf_record(keel: Keel, sole: KeelSole, law: SoleLaw) -> FootRecord:
+    """Name, settings, and where each number of a foot with this keel and sole is from."""
+    own = numbers(keel.support)
+    origin = {f"keel {name}": own[name] for name in (*KEEL, "lowest", "highest")}
+    forefoot = "EI, with the forefoot's stiffness"
+    origin["keel bending"] = Number(keel.bending, "derived", f"{forefoot} {COMPRESSED}; {keel.support} end")
+    origin["keel thickness"] = Number(keel.thickness, "derived", "from width, modulus and EI as of beam theory")
+    places = {"low": own["lowest"], "medium": own["medium"], "high": own["highest"]}
+    origin |= {f"setting {setting}": place for setting, place in places.items()}
+    settings = {setting: place.value for setting, place in places.items()}
+    return FootRecord(NAME, sole_numbers()["below"].value, settings, origin | sole_origin(sole, law))
 
 
 @lru_cache(maxsize=8)
@@ -112,4 +118,4 @@ def vsf_foot(
     sole = sole_of(keel, finer=finer, columns=columns)
     measured = [Compressed(fulcrum_of(name, support), stiffness) for name, stiffness in SETTINGS.items()]
     bent, law = calibrated_on_sole(keel, sole, law_of(sole), measured)
-    return VariableStiffnessFoot(bent, sole, law)
+    return VariableStiffnessFoot(bent, sole, law, vsf_record(bent, sole, law))

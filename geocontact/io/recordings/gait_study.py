@@ -23,8 +23,8 @@
 
 Files are looked for beside the description. `fulcrum = { value = 100, unit = "mm" }` stands in place of a `setting`.
 `calibrated` marks a trial that its `law` was fitted to: that of the trial, such as one for each setting, else the
-person's. `ground` is a plane or stairs as in `prosthesis simulate`. What may be left out: `side`, `sex`, `residual`,
-`functional`, `law`, `name`, `calibrated`, `ground`.
+person's. `foot` of a person describes another foot. `ground` is a plane or stairs as in `prosthesis simulate`. What may
+be left out: `side`, `sex`, `residual`, `functional`, `law`, `foot`, `name`, `calibrated`, `ground`.
 """
 
 from __future__ import annotations
@@ -40,9 +40,9 @@ from geocontact.data.units import mm
 from geocontact.io.documents import Document, File, Listed, WithUnit, Word, doubled, read_document, refusal
 
 WALKER = Plausible("the mass of a walking person", KG, (20.0, 300.0))
-FULCRUM = Plausible("the place of a fulcrum", mm, (66.0, 151.0))
+FULCRUM = Plausible("the place of a fulcrum", mm, (1.0, 500.0))
+LIMB = Plausible("the length of a residual limb", mm, (20.0, 500.0))
 Side = Literal["right", "left"]
-Setting = Literal["low", "medium", "high"]
 
 
 class GaitPerson(Document):
@@ -60,10 +60,14 @@ class GaitPerson(Document):
         Row of the segment table.
     residual
         Share of the shank that is left.
+    residual_length
+        Length of the residual limb from the knee's centre, in place of a share.
     functional
         Markers of a trial in which the hip turns.
     law
         Force law of the foot.
+    foot
+        Description of the person's foot; the shipped one by default.
     """
 
     mass: Annotated[float, WithUnit(WALKER)]
@@ -71,8 +75,10 @@ class GaitPerson(Document):
     side: Side = "right"
     sex: Sex = "male"
     residual: Annotated[float, WithUnit("-"), Field(gt=0.0, lt=1.0)] | None = None
+    residual_length: Annotated[float, WithUnit(LIMB)] | None = None
     functional: File | None = None
     law: File | None = None
+    foot: File | None = None
 
 
 class GaitStance(Document):
@@ -91,7 +97,7 @@ class GaitStance(Document):
     plate, other_plate
         Plates under the prosthetic foot and under the other one, by name or number.
     setting, fulcrum
-        Setting of the foot, or place of its fulcrum; one of both.
+        Setting of the foot, such as low, medium or high, or place of its fulcrum; one of both.
     calibrated
         Whether the law was fitted to it.
     law
@@ -106,7 +112,7 @@ class GaitStance(Document):
     plates: File
     plate: Word
     other_plate: Word
-    setting: Setting | None = None
+    setting: Word | None = None
     fulcrum: Annotated[float, WithUnit(FULCRUM)] | None = None
     calibrated: bool = False
     law: File | None = None

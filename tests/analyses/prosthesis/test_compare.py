@@ -99,6 +99,13 @@ def test_shipped_stances_from_markers_to_files(tmp_path: Path) -> None:
     ).all()
     (said,) = [each for each in found.sentences if each.startswith("low: ")]
     assert said.count("without a model") == 3
+    changes = found.table("changes").set_index("outcome")
+    peaks = found.table("trials").set_index("trial")
+    for column, kind in (("most vertical [-]", "predicted"), ("most vertical on the plate [-]", "measured")):
+        change = peaks.loc["P1_high_1", column] - peaks.loc["P1_low_1", column]
+        assert changes.loc["largest vertical force", kind] == pytest.approx(change, rel=1e-9)
+    assert set(changes["verdict"]) == {"error not known"} and set(changes["to"]) == {"high"}
+    assert any(each.startswith("low to high: largest ankle moment ") for each in found.sentences)
     ensembles = found.table("ensembles").set_index("setting")
     high = found.stances[1].measured("resultant")
     np.testing.assert_allclose(ensembles.loc["low", "resultant another setting [-]"], high, rtol=1e-12)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,9 +18,10 @@ from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOp
 from geocontact.analyses.prosthesis.simulate.walk import bushing_of, read, walk_of
 from geocontact.analyses.prosthesis.stance_files import numbers_table
 from geocontact.below_knee_prosthesis.foot_numbers import all_numbers
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.below_knee_prosthesis.leg import Inertial, Leg, Person
 from geocontact.below_knee_prosthesis.leg_tree import LegMotion, driving_inputs
 from geocontact.below_knee_prosthesis.recorded_walk import Walk
@@ -102,7 +103,8 @@ def foot_of(told: dict[str, float]) -> VariableStiffnessFoot:
     by = {kind: np.array([told[f"sole {z}_{kind}"] for z in zones]) for kind in ("stiffness", "damping")}
     by |= {kind: np.array([told[f"sole {z}_{kind}"] for z in zones]) for kind in ("static", "kinetic")}
     shared = {name: told[f"sole {name}"] for name in ("exponent", "full_depth", "threshold_speed")}
-    return VariableStiffnessFoot(keel, KeelSole(spheres, tuple(keel.segment_of(centre[:, 0]))), SoleLaw(**by, **shared))
+    sole = KeelSole(spheres, tuple(keel.segment_of(centre[:, 0])))
+    return replace(vsf_foot(), keel=keel, sole=sole, law=SoleLaw(**by, **shared))
 
 
 def socket_of(told: dict[str, float]) -> Bushing:

@@ -133,6 +133,8 @@ def test_numbers_are_those_of_the_written_model(made: ProsthesisScaleResult, tmp
         ({"prosthesis_mass": 0.1}, "cannot be the mass of a below-knee prosthesis"),
         ({"functional": MESHES / "gait_P1_medium_1" / "walking.trc"}, "no marker LTH1"),
         ({"fulcrum": gc.mm(160)}, "66 to 151 mm"),
+        ({"residual_length": gc.mm(480)}, "a residual limb of 480 mm is not shorter than the shank"),
+        ({"residual_length": gc.mm(150), "residual": 0.4}, "40% of the shank and 150 mm long"),
     ],
 )
 def test_refused(changed: dict[str, Any], words: str) -> None:

@@ -47,6 +47,7 @@ GIVEN: dict[str, Any] = {
     [
         ({"fulcrum": gc.mm(60)}, "66 to 151 mm"),
         ({"static": None}, "no standing trial"),
+        ({"residual_length": gc.mm(480)}, "a residual limb of 480 mm is not shorter than the shank"),
         ({"mass": None}, "mass of the person is not known"),
         ({"mass": 77.3e3}, "cannot be the mass of a walking person"),
         ({"other_plate": None}, "the force under the other foot is not known"),

@@ -10,7 +10,7 @@ import numpy as np
 from benchmarks.prosthesis.keel_stance import WEIGHT, stance
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 
 FACTORS = np.array([1.2, 1.5, 0.7, 0.6, 1.1, 1.3, 0.7, 1.4, 1.2, 0.8, 0.9, 1.1, 1.2, 0.8, 0.95])
 """Planted numbers over the usual ones."""
@@ -34,7 +34,7 @@ def recorded(noise: float = 1.0) -> RecordedStance:
         moved.time, moved.poses, moved.rate, fulcrum, np.zeros((frames, 3)), np.zeros(frames), WEIGHT
     )
     zones, values = planted()
-    true = VariableStiffnessFoot(foot.keel, foot.sole, zones.law(values)).at(fulcrum)
+    true = replace(foot, law=zones.law(values)).at(fulcrum)
     shown = blank.predicted(true, blank.solved(true))
     rng, e = np.random.default_rng(1), blank.errors
     force = shown[:, :3] + noise * e.force * rng.standard_normal((frames, 3))

@@ -16,7 +16,7 @@ from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResi
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.design.drawn import TrialErrors
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from tests.below_knee_prosthesis.calibration.stances import planted, recorded
 from tests.below_knee_prosthesis.socket_markers import markers_of, planted_stance
 
@@ -64,7 +64,7 @@ def stood_out_of_flat() -> RecordedStance:
     """A simulated stance with inertia on a planted sole, exact markers; the foot stood 0.57 degrees from flat."""
     usual = vsf_foot()
     law = ZoneParameters(usual.sole, usual.law).law(PLANTED)
-    truth = planted_stance(0.1174, 0.72, VariableStiffnessFoot(usual.keel, usual.sole, law))
+    truth = planted_stance(0.1174, 0.72, replace(usual, law=law))
     leg = truth.motion.leg
     turned = replace(leg, turn=leg.turn * Rotation.from_euler("z", TURNED))
     plate = PlateStance(truth.time, truth.force, truth.centre("ground"))

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from geocontact.below_knee_prosthesis.calibration.calibrate import bounded_fit, linear_rows
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from tests.below_knee_prosthesis.calibration.stances import FACTORS, planted, recorded
 
 
@@ -25,7 +27,7 @@ def test_rows_give_the_forces_of_the_model() -> None:
     """At the numbers with which the keel was solved, rows times numbers are its forces and its centre is met."""
     stance, foot = recorded(0.0), vsf_foot()
     zones, values = planted()
-    keel = VariableStiffnessFoot(foot.keel, foot.sole, zones.law(values)).at(stance.fulcrum)
+    keel = replace(foot, law=zones.law(values)).at(stance.fulcrum)
     noise = np.full((len(stance.time), 4), 2.0)
     matrix, target = linear_rows(stance, keel, stance.solved(keel), noise)
     off = matrix @ values[:10] - target

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform
@@ -10,7 +12,7 @@ from geocontact.below_knee_prosthesis.calibration.recorded_stance import Recorde
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WORTH, WholeCalibration, calibrate_whole
 from geocontact.below_knee_prosthesis.calibration.whole_model import WholeResiduals, WholeStance
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from meshes.gait_course import course
 from meshes.gait_persons import PARTICIPANTS, true_leg
 
@@ -29,7 +31,7 @@ def landing() -> WalkedStance:
     poses = RigidTransform.from_translation(np.tile([0.1, 0.03, 0.0], (n, 1)))
     blank = RecordedStance(time, poses, np.zeros((n, 4, 4)), FULCRUM, np.zeros((n, 3)), np.zeros(n), weight)
     zones = ZoneParameters(foot.sole, foot.law)
-    true = VariableStiffnessFoot(foot.keel, foot.sole, zones.law(zones.values_of(foot.law) * np.exp(PLANTED)))
+    true = replace(foot, law=zones.law(zones.values_of(foot.law) * np.exp(PLANTED)))
     whole = WholeStance(WalkedStance(blank, driven.motion, driven.push), foot, machine_code=False)
     seen = whole.channels(whole.shown(true))
     assert seen[:, 1].max() > 0.3 * weight

@@ -9,7 +9,8 @@ from scipy.interpolate import BSpline
 from scipy.linalg import solve
 
 from geocontact.below_knee_prosthesis.keel.compression import Compressed, fitted, rounded, told_apart
-from geocontact.below_knee_prosthesis.keel.keel import SUPPORTS, Support, deflected, tip_compliance
+from geocontact.below_knee_prosthesis.keel.keel import deflected, tip_compliance
+from geocontact.below_knee_prosthesis.keel.sections import SUPPORTS, Support
 from geocontact.below_knee_prosthesis.keel.vsf import compression
 
 LENGTH, EI = 0.229, 22.7

@@ -12,7 +12,7 @@ from geocontact.below_knee_prosthesis.keel.compression import (
     pressed_sole,
     pressed_tip,
 )
-from geocontact.below_knee_prosthesis.keel.keel import SUPPORTS, Support
+from geocontact.below_knee_prosthesis.keel.sections import SUPPORTS, Support
 from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, compression, fulcrum_of, vsf_foot, vsf_keel
 
 RANGE = np.linspace(0.066, 0.151, 12)

@@ -9,7 +9,8 @@ import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.keel.dynamic import dynamic_keel
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.resultant import pose_rate
 
@@ -21,7 +22,7 @@ def foot(hysteresis: float, joints: int = 8, friction: float = 0.0) -> VariableS
     usual = vsf_foot(joints=joints)
     law, none = usual.law, np.zeros(len(usual.law.stiffness))
     keel = replace(usual.keel, hysteresis=hysteresis, friction=friction, presliding=0.02, retardation=0.0)
-    return VariableStiffnessFoot(keel, usual.sole, replace(law, damping=none, static=none, kinetic=none))
+    return replace(usual, keel=keel, law=replace(law, damping=none, static=none, kinetic=none))
 
 
 def pressed(lasting: float, samples: int) -> tuple[np.ndarray, RigidTransform]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from geocontact.analyses.frame.collector import listener, reserve
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
+from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.ranges import TURNS
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law
 from geocontact.analyses.prosthesis.stance_files import counted_twice
@@ -24,8 +25,7 @@ from geocontact.below_knee_prosthesis.calibration.whole_calibration import (
     limb_on_sole,
 )
 from geocontact.below_knee_prosthesis.from_markers import Walked, standing_leg, walked
-from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
@@ -49,15 +49,16 @@ class FootOnPlate:
 def read(o: ProsthesisCalibrateOptions) -> FootOnPlate:
     """Everything the options name."""
     with listener().preparing():
-        foot = foot_with_law(vsf_foot(), o.law)
-    fulcrum = fulcrum_of(o.setting) if o.fulcrum is None else o.fulcrum
+        foot = foot_of(o.foot)
+        fulcrum = fulcrum_at(foot, o.setting, o.fulcrum)
+        foot = foot_with_law(foot, o.law)
     lab = LaboratoryFiles(o.side, o.axes, o.markers_map, o.c3d_unit)
     still, walking = lab.markers("`static`", o.static), lab.markers("markers", o.markers)
     own = lab.plate_under_foot(o.plates, o.plate, o.mass)
     there = plate_named(lab.plates(o.plates), o.other_plate, o.plates, "`other_plate`") if o.full else None
     lab.check(still, walking, o.mass, o.plates, own, there)
     standing, seen, plate = lab.right(still), lab.right(walking), lab.stance(own, o.plates)
-    leg = standing_leg(standing, Person(o.mass), foot.keel, sole_numbers()["below"].value)
+    leg = standing_leg(standing, Person(o.mass), foot.keel, foot.record.below)
     errors = Errors(force=o.force_noise, height=o.height_error, pitch=o.pitch_error, speed=o.speed_error)
     cutoff = None if o.cutoff == 0.0 else o.cutoff
     given = seen, leg, plate, foot, fulcrum

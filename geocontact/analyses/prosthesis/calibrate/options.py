@@ -45,10 +45,12 @@ class ProsthesisCalibrateOptions(Options):
 
     The foot
     --------
+    foot
+        Description of another foot (.toml), as `prosthesis keel` reads and leaves it.
     setting
         Stiffness of the foot in this trial: low, medium or high, 10, 19 or 32 N/mm.
     fulcrum
-        Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
+        Place of the fulcrum from the keel's posterior end in place of a setting; 66 to 151 mm on the shipped foot.
     law
         Usual numbers of the sole (.toml), around which the person's numbers are estimated; built in by default. The
         offset of the foot from its standing trial is identified anew.
@@ -114,7 +116,8 @@ class ProsthesisCalibrateOptions(Options):
     mass: Annotated[BodyMass, PERSON]
     plates: Path
     side: Literal["right", "left"] = "right"
-    setting: Literal["low", "medium", "high"] = "medium"
+    foot: Path | None = None
+    setting: str = "medium"
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
     law: Path | None = None
     plate: str | None = None

@@ -41,6 +41,8 @@ class ProsthesisCompareOptions(Options):
 
     How it is simulated
     -------------------
+    foot
+        Description of another foot (.toml), for persons who have none in the study.
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
     machine_code
@@ -51,8 +53,8 @@ class ProsthesisCompareOptions(Options):
 
     writes: ClassVar[str] = """
     Writes summary.csv (means by setting), trials.csv (length, peaks, outliers and their likely causes), errors.csv,
-    ensembles.csv, coordinates, external loads, spheres and numbers of each stance, a figure, report.html and run.json
-    into OUT.
+    ensembles.csv, changes.csv (between settings, predicted and measured), coordinates, external loads, spheres and
+    numbers of each stance, a figure, report.html and run.json into OUT.
     """
 
     study: Path
@@ -63,6 +65,7 @@ class ProsthesisCompareOptions(Options):
     markers_map: str | None = None
     axes: Expression | None = None
     c3d_unit: C3dUnit = None
+    foot: Path | None = None
     socket: Literal["as_meant", "as_printed"] = "as_meant"
     machine_code: bool = False
     workers: int | None = None

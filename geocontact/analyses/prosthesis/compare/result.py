@@ -32,6 +32,7 @@ from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.frame.workers import each
+from geocontact.analyses.prosthesis.compare.changes import change_words, changes_of, changes_table
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.compare.show import comparison_curves, comparison_page
 from geocontact.analyses.prosthesis.compare.stances import (
@@ -101,14 +102,16 @@ class ProsthesisCompareResult(Result):
         return dict(zip(zip(table["trial"], table["quantity"], strict=True), table["r2 [-]"], strict=True))
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`summary` by setting, `trials`, `errors` of each, `ensembles`."""
+        """`summary` by setting, `trials`, `errors` of each, `ensembles`, `changes` between settings of a person."""
         errors = errors_table(self.stances)
-        return {
+        found = {
             "summary": summary_table(errors),
             "trials": trials_table(self.stances, self.odd),
             "errors": errors,
             "ensembles": ensembles_table(self.stances),
         }
+        changes = changes_table(changes_of(self.stances))
+        return found if changes.empty else found | {"changes": changes}
 
     def curves(self) -> dict[str, CurveSheet]:
         """`ensembles`: means and bands over the stances of each setting."""
@@ -182,6 +185,7 @@ def _summarise(r: ProsthesisCompareResult) -> None:
     for setting in judged if len(judged) > 1 else ():
         own = summary[summary["setting"] == setting].set_index("quantity")
         say(f"{setting}: {'; '.join(_of_setting(name, own.loc[[name]].iloc[0]) for name in SAID)}")
+    _say_changes(stances)
     late = [one.errors.stance[0] - one.errors.stance[1] for one in stances if not one.calibrated]
     late = [each for each in late if np.isfinite(each)]
     turned = [one.stance.motion.leg.offset.given for one in stances]
@@ -219,6 +223,12 @@ def goodness_of(stances: Sequence[JudgedStance]) -> GoodnessOfFit:
             what = f"is simulated over {one.errors.simulated:.0%} of its stance, and ends before toe-off"
             doubts.append(Doubt(f"{one.name} {what}: no stance time, errors are for that part only", False))
     return GoodnessOfFit(tuple(doubts), tuple(NAMES[name] for name in SAID))
+
+
+def _say_changes(stances: Sequence[JudgedStance]) -> None:
+    """The widest change between settings, predicted and measured."""
+    for line in change_words(changes_of(stances)):
+        say(line)
 
 
 def _of_setting(name: str, row: pd.Series) -> str:

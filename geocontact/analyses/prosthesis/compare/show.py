@@ -12,6 +12,7 @@ from jaxtyping import Float
 from geocontact.analyses.frame.collector import contradicted
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
+from geocontact.analyses.prosthesis.compare.changes import READ as CHANGES
 from geocontact.analyses.prosthesis.quantity_words import NAMES
 from geocontact.below_knee_prosthesis.comparison import by_setting, curves_of, plain_curves
 from geocontact.below_knee_prosthesis.evaluation import ANOTHER, MEAN, JudgedStance
@@ -107,11 +108,16 @@ def comparison_page(stances: Sequence[JudgedStance], tables: Mapping[str, pd.Dat
     sections: list[Section] = [
         *comparison_curves(stances).panels,
         frame_table("Means by setting, compared with baseline predictors", in_words(tables["summary"]), 3),
+        *(
+            [frame_table("Changes between settings, predicted and measured", in_words(tables["changes"]), 3)]
+            if "changes" in tables
+            else []
+        ),
         frame_table("Stances", in_words(tables["trials"]), 3),
         frame_table("Errors of each stance", in_words(tables["errors"]), 3),
         INPUTS,
         OPTIONS,
-        Words("How to read the numbers", [*WITHOUT, *MEASURES, NOT_A_DEVICE]),
+        Words("How to read the numbers", [*WITHOUT, CHANGES, *MEASURES, NOT_A_DEVICE]),
     ]
     return Page(
         title=f"{counted(len(stances), 'prosthetic stance')} compared with force plates",

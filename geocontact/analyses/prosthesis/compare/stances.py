@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
@@ -12,6 +12,7 @@ from geocontact.analyses.frame.collector import add_input, collecting, current, 
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
+from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
 from geocontact.analyses.prosthesis.simulate.walk import simulated, walk_of
@@ -68,6 +69,7 @@ def _stance(
 ) -> StudiedStance:
     """One stance; its warnings go into `seen` with its name."""
     asked = _asked(trial, person, o)
+    _require_setting(asked, trial, o)
     with collecting(Record("prosthesis simulate", {})) as own:
         walk = walk_of(read_walk(asked), asked)
     for entry in own.inputs:
@@ -87,6 +89,7 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
         side=person.side,
         sex=person.sex,
         functional=person.functional,
+        foot=person.foot or o.foot,
         setting=trial.setting or "medium",
         fulcrum=trial.fulcrum,
         law=trial.law or person.law,
@@ -103,7 +106,18 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
         axes=o.axes,
         c3d_unit=unit_of_c3d(o.c3d_unit, trial.markers, trial.plates, person.static, person.functional),
         residual=RESIDUAL if person.residual is None else person.residual,
+        residual_length=person.residual_length,
     )
+
+
+def _require_setting(asked: ProsthesisSimulateOptions, trial: GaitStance, o: ProsthesisCompareOptions) -> None:
+    """InputError with the trial's name for a setting or a fulcrum that its foot has not."""
+    with collecting(Record("prosthesis simulate", {})):
+        foot = foot_of(asked.foot)
+    try:
+        fulcrum_at(foot, asked.setting, asked.fulcrum)
+    except InputError as error:
+        raise replace(error, file=o.study, place=f"[[trials]] {trial.name} {error.place.strip('`')}") from error
 
 
 def simulated_stance(one: StudiedStance) -> LimbInSocket | str:

@@ -47,10 +47,12 @@ class ProsthesisDesignOptions(Options):
 
     The foot
     --------
+    foot
+        Description of another foot (.toml), as `prosthesis keel` reads and leaves it.
     setting
         Stiffness of the foot in this trial: low, medium or high, 10, 19 or 32 N/mm.
     fulcrum
-        Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
+        Place of the fulcrum from the keel's posterior end in place of a setting; 66 to 151 mm on the shipped foot.
     law
         Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in by default. With them go height
         and pitch of the foot relative to its standing trial, where that is `static`.
@@ -137,7 +139,8 @@ class ProsthesisDesignOptions(Options):
     mass: Annotated[BodyMass, PERSON]
     plates: Path
     side: Literal["right", "left"] = "right"
-    setting: Literal["low", "medium", "high"] = "medium"
+    foot: Path | None = None
+    setting: str = "medium"
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
     law: Path | None = None
     numbers: Path | None = None

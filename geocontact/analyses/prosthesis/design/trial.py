@@ -12,6 +12,7 @@ from jaxtyping import Float
 from geocontact.analyses.frame.collector import add_input, listener, reserve
 from geocontact.analyses.frame.withheld import CONTRADICTED
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
+from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_intact_leg
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance, stance_on_plate
@@ -21,8 +22,7 @@ from geocontact.below_knee_prosthesis.design.intact_step import OF_INTACT, Intac
 from geocontact.below_knee_prosthesis.design.knob import Knob
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES
 from geocontact.below_knee_prosthesis.design.varied import ALIGNMENTS, VariedFoot, known_pitch, varied_foot
-from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.errors import InputError
 from geocontact.io.text.file_preflight import open_text
@@ -52,7 +52,9 @@ class FootAndTrial:
 def read(o: ProsthesisDesignOptions) -> FootAndTrial:
     """Everything the options name."""
     with listener().preparing():
-        foot = foot_with_law(vsf_foot(), o.law)
+        foot = foot_of(o.foot)
+        fulcrum = fulcrum_at(foot, o.setting, o.fulcrum)
+        foot = foot_with_law(foot, o.law)
     lab = LaboratoryFiles(o.side, o.axes, o.markers_map, o.c3d_unit)
     own = lab.plate_under_foot(o.plates, o.plate, o.mass)
     plate = lab.stance(own, o.plates)
@@ -64,8 +66,8 @@ def read(o: ProsthesisDesignOptions) -> FootAndTrial:
         plate=plate,
         person=Person(o.mass),
         keel=foot.keel,
-        fulcrum=fulcrum_of(o.setting) if o.fulcrum is None else o.fulcrum,
-        below=sole_numbers()["below"].value,
+        fulcrum=fulcrum,
+        below=foot.record.below,
         cutoff=None if o.cutoff == 0.0 else o.cutoff,
         gap_limit=o.gap_limit,
         offset=offset_of_law(o.law, o.static),

@@ -8,7 +8,15 @@ from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.frame.marks import BodyMass, C3dUnit, Expression, Fraction, PartLength, PartMass, Spelled
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, PROSTHESIS, RESIDUAL, STATURE
+from geocontact.analyses.prosthesis.ranges import (
+    FULCRUM,
+    LIMB,
+    PERSON,
+    PROSTHESIS,
+    RESIDUAL,
+    STATURE,
+    require_one_residual,
+)
 from geocontact.data.errors import InputError
 
 
@@ -37,15 +45,19 @@ class ProsthesisScaleOptions(Options):
         Row of the table of segment masses.
     residual
         Share of the shank's length that is left; 45% by default, which is invented.
+    residual_length
+        Length of the residual limb from the knee's centre to its end, in place of a share.
 
     The prosthesis
     --------------
     prosthesis_mass
         Mass of socket, pylon and foot together; else invented.
+    foot
+        Description of another foot (.toml), as `prosthesis keel` reads and leaves it.
     setting
-        Stiffness of the foot: low, medium or high, 10, 19 or 32 N/mm.
+        Setting of the foot: low, medium or high, 10, 19 or 32 N/mm, or one of its own file.
     fulcrum
-        Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
+        Place of the fulcrum from the keel's posterior end in place of a setting; 66 to 151 mm on the shipped foot.
 
     The markers
     -----------
@@ -70,8 +82,10 @@ class ProsthesisScaleOptions(Options):
     side: Literal["right", "left"] = "right"
     sex: Literal["male", "female"] = "male"
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
+    residual_length: Annotated[PartLength | None, LIMB] = None
     prosthesis_mass: Annotated[PartMass | None, PROSTHESIS] = None
-    setting: Literal["low", "medium", "high"] = "medium"
+    foot: Path | None = None
+    setting: str = "medium"
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
     markers_map: str | None = None
     axes: Expression | None = None
@@ -79,5 +93,6 @@ class ProsthesisScaleOptions(Options):
 
     def refuse_impossible(self) -> None:
         """Nobody to weigh."""
+        require_one_residual(self.residual, self.residual_length)
         if self.mass is None:
             raise InputError("", "`mass`", "the mass of the person is not known", "give for example 77.3")

@@ -16,7 +16,7 @@ warning: 8 of 91 numbers of the segments are invented, see numbers.csv
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import cast
 
@@ -32,6 +32,7 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.marker_tasks import FAR, MOVING, MarkerErrors
 from geocontact.analyses.motion.skeleton import MARKER, scene_of, skeleton
+from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.number_units import with_units
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
@@ -55,9 +56,9 @@ from geocontact.below_knee_prosthesis.both_sides.standing_model import (
     standing_pose,
 )
 from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
-from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import Person
+from geocontact.below_knee_prosthesis.recorded_walk import with_residual
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
@@ -141,6 +142,8 @@ class Stood:
 
 def read(o: ProsthesisScaleOptions) -> Stood:
     """Everything the options name."""
+    foot = foot_of(o.foot)
+    fulcrum = fulcrum_at(foot, o.setting, o.fulcrum)
     lab = LaboratoryFiles(o.side, o.axes, o.markers_map, o.c3d_unit)
     standing = lab.markers("static", o.static)
     moved = None if o.functional is None else lab.markers("`functional`", o.functional)
@@ -151,7 +154,6 @@ def read(o: ProsthesisScaleOptions) -> Stood:
         what = f"{name} moves {1e3 * far:.0f} mm away from its median: is this standing still?"
         reserve(f"{seen.source}: {what}")
     joints = NO_JOINTS if moving is None else standing_joints(seen, moving)
-    foot = vsf_foot()
     keel = foot.keel.posterior_mass + foot.keel.joints * foot.keel.segment_mass
     mass = cast(float, o.mass)
     person = Person(mass, o.sex, o.residual)
@@ -160,7 +162,6 @@ def read(o: ProsthesisScaleOptions) -> Stood:
             what = f"{o.prosthesis_mass:g} kg are less than the keel alone, {keel:.2f} kg"
             raise InputError("", "`prosthesis_mass`", what, "give that of socket, pylon and foot")
         person = Person(mass, o.sex, o.residual, o.prosthesis_mass - keel)
-    fulcrum = fulcrum_of(o.setting, "pinned") if o.fulcrum is None else o.fulcrum
     return Stood(seen, moving, joints, person, foot, fulcrum)
 
 
@@ -251,8 +252,10 @@ class ProsthesisScaleResult(Result):
 
 def run(stood: Stood, o: ProsthesisScaleOptions) -> ProsthesisScaleResult:
     """The model, its joints and its standing pose."""
-    below = sole_numbers()["below"].value
+    below = stood.foot.record.below
     made = standing_amputee(stood.seen, stood.person, stood.foot, stood.fulcrum, below, stood.joints, o.height)
+    if o.residual_length is not None:
+        made = replace(made, prosthetic=with_residual(made.prosthetic, o.residual_length))
     mass = made.pelvis_body()[0]
     if not mass > 0.0:
         what = f"the legs leave {mass:.1f} kg of {made.mass:g} kg for all above them"

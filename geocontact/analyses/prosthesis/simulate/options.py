@@ -8,7 +8,15 @@ from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.frame.marks import BodyMass, C3dUnit, Expression, Fraction, PartLength, Spelled, TimeSpan
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, RESIDUAL, TURNS, require_turns
+from geocontact.analyses.prosthesis.ranges import (
+    FULCRUM,
+    LIMB,
+    PERSON,
+    RESIDUAL,
+    TURNS,
+    require_one_residual,
+    require_turns,
+)
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP
 
@@ -34,15 +42,19 @@ class ProsthesisSimulateOptions(Options):
         Row of the table of segment masses.
     residual
         Share of the shank's length that is left; 45% by default, which is invented.
+    residual_length
+        Length of the residual limb from the knee's centre to its end, in place of a share.
     functional
         Trial in which the thigh swings in all directions: gives the hip's centre, else a regression does.
 
     The foot
     --------
+    foot
+        Description of another foot (.toml), as `prosthesis keel` reads and leaves it.
     setting
-        Stiffness of the foot: low, medium or high, 10, 19 or 32 N/mm.
+        Setting of the foot: low, medium or high, 10, 19 or 32 N/mm, or one of its own file.
     fulcrum
-        Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
+        Place of the fulcrum from the keel's posterior end in place of a setting; 66 to 151 mm on the shipped foot.
     law
         Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in by default. With them go height
         and pitch of the foot relative to its standing trial, where that is `static`.
@@ -100,8 +112,10 @@ class ProsthesisSimulateOptions(Options):
     side: Literal["right", "left"] = "right"
     sex: Literal["male", "female"] = "male"
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
+    residual_length: Annotated[PartLength | None, LIMB] = None
     functional: Path | None = None
-    setting: Literal["low", "medium", "high"] = "medium"
+    foot: Path | None = None
+    setting: str = "medium"
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
     law: Path | None = None
     socket: Literal["as_meant", "as_printed"] = "as_meant"
@@ -120,6 +134,7 @@ class ProsthesisSimulateOptions(Options):
 
     def refuse_impossible(self) -> None:
         """Nothing to scale with, or nothing that stands for the other leg."""
+        require_one_residual(self.residual, self.residual_length)
         if self.static is None:
             what = "no standing trial: the leg's lengths and the markers' places are not known"
             raise InputError(self.markers, "`static`", what, "give a trial of quiet standing with all markers")

@@ -48,6 +48,10 @@ CALIBRATED = (
     "The foot is a keel of eight hinges on spheres. Positions of the spheres are invented; their forces, and the "
     "offset of the foot from its standing trial, are from the law's file."
 )
+OWN_FOOT = (
+    "The foot is a keel on hinges on spheres, as its file describes it; numbers.csv says where each number is from. "
+    "Nothing was fitted to this person."
+)
 TWICE = (
     "Markers on the socket include its rotation against the residual limb, so this rotation is in the knee angle as "
     "well as in the bushing."
@@ -107,7 +111,8 @@ def small_forces(errors: pd.DataFrame | None) -> list[Words]:
 
 
 def _sole_and_socket(o: ProsthesisSimulateOptions) -> list[str]:
-    return [SOLE if o.law is None else CALIBRATED, TWICE if o.socket_turns == 0 else IN_TURNS]
+    sole = CALIBRATED if o.law is not None else SOLE if o.foot is None else OWN_FOOT
+    return [sole, TWICE if o.socket_turns == 0 else IN_TURNS]
 
 
 def _lines(s: Stance, o: ProsthesisSimulateOptions, shown: Int[np.ndarray, " k"]) -> list[Linkage]:

@@ -11,11 +11,12 @@ import numpy as np
 from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_tasks import MOVING
+from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import of_side
-from geocontact.below_knee_prosthesis.keel.vsf import VariableStiffnessFoot, fulcrum_of, vsf_foot
+from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import FootOffset, Person
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
 from geocontact.below_knee_prosthesis.recorded_walk import Walk, fitted_walk, simulated_walk
@@ -39,6 +40,8 @@ class RecordedWalk:
         Plates under the other foot, and under the prosthetic one; None where it is not named.
     ground
         That both feet walk on.
+    fulcrum
+        [m].
     offset
         The foot beside its standing trial.
     """
@@ -50,6 +53,7 @@ class RecordedWalk:
     plate: PlateStance | None
     ground: HalfSpace | Stairs
     foot: VariableStiffnessFoot
+    fulcrum: float
     offset: FootOffset
 
 
@@ -57,7 +61,9 @@ def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
     """Everything the options name."""
     lab = LaboratoryFiles(o.side, o.axes, o.markers_map, o.c3d_unit)
     ground = _ground(o)
-    foot = foot_with_law(vsf_foot(), o.law)
+    foot = foot_of(o.foot)
+    fulcrum = fulcrum_at(foot, o.setting, o.fulcrum)
+    foot = foot_with_law(foot, o.law)
     standing = lab.markers("`static`", cast(Path, o.static))
     moving = None
     if o.functional is None:
@@ -74,7 +80,15 @@ def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
     lab.check(standing, seen, cast(float, o.mass), file, own, other, 0.0 if o.ground is None else None)
     plate = None if own is None else lab.stance(own, file)
     return RecordedWalk(
-        lab.right(standing), moving, lab.right(seen), lab.stance(other, file), plate, ground, foot, offset
+        standing=lab.right(standing),
+        moving=moving,
+        seen=lab.right(seen),
+        other=lab.stance(other, file),
+        plate=plate,
+        ground=ground,
+        foot=foot,
+        fulcrum=fulcrum,
+        offset=offset,
     )
 
 
@@ -97,7 +111,7 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
         recorded.seen,
         Person(cast(float, o.mass), o.sex, o.residual),
         recorded.foot,
-        fulcrum_of(o.setting, "pinned") if o.fulcrum is None else o.fulcrum,
+        recorded.fulcrum,
         recorded.other,
         plate=recorded.plate,
         moving=recorded.moving,
@@ -105,6 +119,7 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
         offset=recorded.offset,
         cutoff=None if o.cutoff == 0.0 else o.cutoff,
         gap_limit=o.gap_limit,
+        residual=o.residual_length,
     )
     if walk.hip is not None:
         say(f"hip centre from the functional trial: residual {1e3 * walk.hip.rms:.1f} mm (root mean square)")

@@ -1,0 +1,1 @@
+"""Keel of a prosthetic foot, identified from static compressions."""
