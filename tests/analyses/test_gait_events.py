@@ -43,6 +43,8 @@ def test_cycles_of_a_side_run_from_strike_to_strike(tmp_path: Path) -> None:
     stance = cycles_between(events, "normal", "right", "stance")
     assert [(one.start, one.end) for one in stance] == [(0.0, 0.6), (1.0, 1.7)], "the last strike has no toe off"
     assert cycles_between(events, "other", "right") == []
+    without = [each for each in events if each.time != 0.6]
+    assert [one.start for one in cycles_between(without, "normal", "right", "stance")] == [1.0], "1.7 s is not its own"
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from geocontact.data.sides import stem_and_side
 from geocontact.data.wrench import Wrench
 from geocontact.identify.signals.cycles import STEPS, normalised, strides
 
-Strikes = dict[str, Float[np.ndarray, " k"]]
+Strikes = dict[str, Float[np.ndarray, " _"]]
 """Times [s], increasing, by side: "right", "left"."""
 
 
