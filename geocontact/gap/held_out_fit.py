@@ -18,7 +18,7 @@ FEW = 2
 
 
 def goodness_of_diagnosis(d: Diagnosis) -> GoodnessOfFit:
-    """Of what is named: errors on held-out trials; where nothing is, whether the base model leaves more than noise."""
+    """Errors on held-out trials of what is named; where nothing is, whether the base model leaves more than noise."""
     if not d.effects:
         return GoodnessOfFit(tuple(_unnamed(d)), tuple(d.gap))
     main = d.where[0].channel if d.where else max(d.gap, key=lambda name: _square(d.gap[name].rmse_before, d.gap[name]))

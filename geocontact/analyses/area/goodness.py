@@ -11,7 +11,7 @@ from geocontact.geometry.surface import Surface
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_range
 
 ALL = 0.999
-"""Of the area of the faces that count."""
+"""Share of the area of the faces that count."""
 
 
 def goodness_of_areas(

@@ -10,7 +10,7 @@ from jaxtyping import Float
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_range
 
 SLIGHT = 0.01
-"""Of the largest force; less tension than that is an offset not worth a word."""
+"""Share of the largest force; less tension than that is an offset not worth a word."""
 FLAT = 10
 """Samples in a row at the very same largest value; noise of a cell that is not at its end makes them differ."""
 

@@ -20,7 +20,7 @@ from geocontact.identify.goodness_of_fit import AT_BOUND, MUCH, Doubt, GoodnessO
 OFTEN = 0.05
 """Share of the frames on the end of its range from which an angle is doubtful."""
 HEAVY = 1.0 / 3.0
-"""Of the weight: a residual force above it is no error of masses or accelerations, a load is missing or wrong."""
+"""Share of the weight: a residual force above it is no error of masses or accelerations, a load is missing or wrong."""
 SLIDING = 0.01
 """m of root mean square that skin slides over bone, up to which no residual is compared with another model."""
 LONGEST = 1.0

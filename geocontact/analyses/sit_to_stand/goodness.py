@@ -23,7 +23,7 @@ SIMULATED = ("force", "centre")
 
 
 def goodness_of_predictions(predictions: Sequence[PredictedTrial], noise: StandingNoise) -> GoodnessOfFit:
-    """Of the predictor that is given most; those that are given less stand beside it to be compared.
+    """The predictor that is given most is tested; those that are given less stand beside it to be compared.
 
     A search follows given forces through an unstable movement less closely towards its end than a calibration does, of
     true parameters as well: it is not doubted for that, as long as it does not contradict them.
@@ -34,7 +34,7 @@ def goodness_of_predictions(predictions: Sequence[PredictedTrial], noise: Standi
 
 
 def goodness_of_movement(trials: Sequence[TrialResult], noise: StandingNoise) -> GoodnessOfFit:
-    """Of the movement without help: the person's own coordinates are to be those of the recording.
+    """The movement without help is tested: the person's own coordinates are to be those of the recording.
 
     The exoskeleton that was worn there may be another one: the ground's force and its centre need not be the same.
     """
