@@ -29,12 +29,14 @@ Change = Callable[[TrialInputs], TrialInputs]
 def person(thigh: float = THIGH, shank: float = SHANK) -> Multibody:
     """Trunk with all the mass, and legs without."""
     bodies = [Body("torso", MASS, np.zeros(3), np.eye(3))]
-    joints = [prismatic("up", GROUND, "torso", (0.0, 1.0, 0.0))]
+    joints = [prismatic("up", GROUND, "torso", np.array([0.0, 1.0, 0.0]))]
     for side, z in (("r", 0.1), ("l", -0.1)):
         bodies += [Body(f"{name}_{side}", 0.0, np.zeros(3), np.zeros((3, 3))) for name in ("femur", "tibia", "talus")]
         joints += [
-            revolute(f"hip_{side}", "torso", f"femur_{side}", (0.0, 0.0, 1.0), shifted(0.0, 0.0, z)),
-            revolute(f"knee_{side}", f"femur_{side}", f"tibia_{side}", (0.0, 0.0, 1.0), shifted(0.0, -thigh, 0.0)),
+            revolute(f"hip_{side}", "torso", f"femur_{side}", np.array([0.0, 0.0, 1.0]), shifted(0.0, 0.0, z)),
+            revolute(
+                f"knee_{side}", f"femur_{side}", f"tibia_{side}", np.array([0.0, 0.0, 1.0]), shifted(0.0, -thigh, 0.0)
+            ),
             weld(f"ankle_{side}", f"tibia_{side}", f"talus_{side}", shifted(0.0, -shank, 0.0)),
         ]
     ranged = tuple(
