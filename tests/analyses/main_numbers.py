@@ -254,6 +254,10 @@ WRITTEN: Mapping[str, Mapping[str, Read]] = {
             for _, row in pd.read_csv(out / "answers.csv").iterrows()
         },
     },
+    "prosthesis.keel": {
+        "bending": lambda out: by_rows("keel.csv", "number", "value")(out)["EI, plate on the keel"],
+        "series": lambda out: by_rows("keel.csv", "number", "value")(out)["in series"],
+    },
     "prosthesis.scale": {
         "masses": by_rows("segments.csv", "segment", "mass [kg]", 1.0),
         "joint_centres": lambda out: {

@@ -22,7 +22,7 @@ class ProsthesisKeelOptions(Options):
 
     writes: ClassVar[str] = """
     Writes keel.csv (numbers with intervals), compressions.csv, stiffness.csv (over the fulcrum), curves.csv where
-    curves were given, foot.toml and spheres.csv (the identified foot, for `--foot` of all commands), a figure,
+    curves were given, foot.toml and spheres.csv (the identified foot, which all commands take), a figure,
     report.html and run.json into OUT.
     """
 

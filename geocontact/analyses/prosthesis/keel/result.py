@@ -157,7 +157,7 @@ class ProsthesisKeelResult(Result):
         return {REPORT: keel_page(name, self.curves()["keel"], tables, self.sentences, facts)}
 
     def write_files(self, folder: Path) -> None:
-        """The foot besides, for `--foot`."""
+        """The identified foot besides, as a description that all commands take."""
         write_foot(folder, self.foot, lines_of(self.given, {one.name: one.slope() for one in self.given.measured}))
         super().write_files(folder)
 
