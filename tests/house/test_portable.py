@@ -85,7 +85,8 @@ def without_encoding(node: ast.AST) -> bool:
 
 
 def _of_a_library(function: ast.Attribute) -> bool:
-    return isinstance(function.value, ast.Name) and function.value.id in ("os", "webbrowser", "tarfile", "zipfile", "archive")
+    known = "os", "webbrowser", "tarfile", "zipfile", "archive"
+    return isinstance(function.value, ast.Name) and function.value.id in known
 
 
 def test_nothing_of_one_system_is_taken_for_granted() -> None:

@@ -127,7 +127,7 @@ def _on_bound(each: Parameter, value: float) -> list[Doubt]:
 
 
 CHANNEL_WORDS = ("fore-aft force", "vertical force", "sideways force", "centre of pressure")
-"""Of what a plate measures, by `CHANNELS`."""
+"""What a plate measures, in words, in the order of `CHANNELS`."""
 
 
 def _channels(found: SoleCalibration | WholeCalibration, stance: RecordedStance) -> dict[str, Float[np.ndarray, " _"]]:

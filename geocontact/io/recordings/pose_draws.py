@@ -10,6 +10,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
+from geocontact.io.text.file_preflight import MAX_BYTES, open_file
+from geocontact.io.text.unpacked import refuse_arrays_that_lie, refuse_unpacked
 
 POSE_DRAWS = "pose_draws.npz"
 
@@ -32,7 +34,9 @@ class PoseDraws:
 def read_pose_draws(path: Path) -> PoseDraws:
     """Those of a file; InputError for another one."""
     try:
-        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as arrays:
+        refuse_unpacked(path, MAX_BYTES)
+        refuse_arrays_that_lie(path)
+        with open_file(path) as stream, np.load(stream, allow_pickle=False) as arrays:
             found = PoseDraws(*(np.asarray(arrays[name], float) for name in ("time", "thresholds", "area")))
     except (OSError, ValueError, KeyError, EOFError, BadZipFile) as error:
         what = f"is no {POSE_DRAWS} ({' '.join(str(error).split())})"
