@@ -11,7 +11,7 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 46_000, "how-to": 25_660, "everything": 84_600}
+ALL_WORDS = {"theory, reference": 46_150, "how-to": 25_750, "everything": 85_200}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them. Raised by what was new: tables of checks, which are made from
 their entries and name what the tests hold of each; sensors beside the force of an elbow; a shoulder's
@@ -68,7 +68,7 @@ LIMITS = {
     "reference/real_implants.md": 550,
     "reference/speed.md": 1060,
     "reference/terms.md": 540,
-    "reference/written_files.md": 1580,
+    "reference/written_files.md": 1610,
     "theory/centre_of_pressure.md": 590,
     "theory/collocation.md": 760,
     "theory/contact_area.md": 1660,
