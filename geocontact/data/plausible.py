@@ -53,6 +53,8 @@ class Plausible:
         What is outside is used with a warning; as `possible` by default.
     or_zero
         0 is as good as what is usual: it stands for none.
+    why
+        What has the usual sizes, from the smallest to the largest.
     """
 
     what: str
@@ -60,6 +62,7 @@ class Plausible:
     possible: tuple[float, float]
     usual: tuple[float, float] | None = None
     or_zero: bool = False
+    why: str = ""
 
     def refusal(self, value: float, written: float | None = None) -> tuple[str, str] | None:
         """What is wrong with a value [SI], and what to do about it; None when it is possible.
@@ -79,10 +82,15 @@ class Plausible:
         if self.usual is None or self._holds(value, self.usual):
             return None
         low, high = self.usual
-        usual = f"{low:g} to {self.shown(high * self.unit.factor)}"
+        usual = f"{low:g} to {self.shown(high * self.unit.factor)}{self.why and f' ({self.why})'}"
         line = f"{self.shown(value)} is unusual for {self.what}, which mostly is {usual}"
         question = self._question(value, written)
         return f"{line}; {question}" if question else line
+
+    def usually(self, lower: float, upper: float) -> bool:
+        """Whether an interval [SI] reaches what is usual."""
+        low, high = (end * self.unit.factor for end in self.usual or self.possible)
+        return (self.or_zero and lower <= 0.0 <= upper) or (upper >= low and lower <= high)
 
     def require(self, value: float, name: str) -> None:
         """InputError for a value [SI] that cannot be; `name` is the place it is said in."""
@@ -167,7 +175,8 @@ BORDER = Plausible("the border of a mat", mm, (0.0, 500.0), (0.0, 100.0))
 DEPTH = Plausible("a depth of contact", mm, (1e-3, 200.0), (0.05, 30.0))
 SHIFT = Plausible("how far things are off", mm, (0.0, 500.0), (0.0, 50.0))
 
-YOUNG = Plausible("Young's modulus", MPa, (1e-3, 2e6), (5e-3, 5e5))
+YOUNG = Plausible("Young's modulus", MPa, (1e-3, 2e6), (5e-3, 3e4), why="gels to cortical bone")  # of a layer that gives way
+CONTACT = Plausible("a modulus of contact", MPa, (1e-3, 1e6), (5e-3, 3e5), why="gels to ceramic on ceramic")
 TOUCH = Plausible("the pressure of a touch", kPa, (1e-3, 1e4), (0.05, 100.0))
 CUFF = Plausible("the pressure of a cuff", mmHg, (1.0, 2000.0), (5.0, 300.0), or_zero=True)
 LAYER_RATIO = Plausible("Poisson's ratio of a layer, below 0.5", PLAIN, (0.0, 0.4999))

@@ -13,6 +13,8 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.data.plausible import Plausible
+
 Outcome = Literal["fits", "doubtful", "contradicts"]
 
 SURE = 3.0
@@ -177,8 +179,57 @@ def of_physics(
             yield Doubt(f"{what}: is a sign turned, or a unit another one?", True)
 
 
-def of_range(what: str, share: float) -> Iterable[Doubt]:
-    """A doubt for a share of the samples in which the model does not hold; `what` ends in "for": "outside … for"."""
+def of_range(what: str, share: float, whole: str = "the time") -> Iterable[Doubt]:
+    """A doubt for a share of the samples in which the model does not hold; `what` ends in "for": "outside … for".
+
+    `whole` is what the share is of.
+    """
     if share > 0.0:
         shown = f"{share:.0%}" if share >= 5e-3 else f"{share:.2%}"
-        yield Doubt(f"{what} {shown} of the time", share >= MUCH)
+        yield Doubt(f"{what} {shown} of {whole}", share >= MUCH, share)
+
+
+def of_many_r2(name: str, values: Mapping[str, float]) -> Iterable[Doubt]:
+    """A doubt for a model that describes members of a group, by their names, worse than their own means do.
+
+    It contradicts the data where that are half of them or more; some may be spoilt, or of another person.
+    """
+    known = {member: r2 for member, r2 in values.items() if np.isfinite(r2)}
+    below = sorted((r2, member) for member, r2 in known.items() if r2 < 0.0)
+    if not below:
+        return
+    many = "" if len(below) <= SAID else f" and {len(below) - SAID} more"
+    listed = ", ".join(f"{member} ({r2:.2f})" for r2, member in below[:SAID]) + many
+    where = f"in {len(below)} of {len(known)}: {listed}" if len(known) > 1 else f"in {listed}"
+    share = len(below) / len(known)
+    yield Doubt(f"{name}: R² is below 0 {where}; a constant would describe it better", share >= MUCH, share)
+
+
+def of_size(name: str, interval: tuple[float, float], known: Plausible) -> Iterable[Doubt]:
+    """A doubt for a number [SI] whose interval lies wholly outside of the sizes that its quantity has.
+
+    Outside of what is possible it contradicts the data, outside of what is usual it is doubtful. A number without an
+    interval has the same value twice.
+    """
+    lower, upper = interval
+    if not (np.isfinite(lower) and np.isfinite(upper)):
+        return
+    (least, most), unit = known.possible, known.unit
+    if upper < least * unit.factor or lower > most * unit.factor:
+        shown = known.shown(lower) if lower == upper else f"{known.shown(lower)} to {known.shown(upper)}"
+        what = f"{name} is {shown}, which cannot be {known.what}"
+        yield Doubt(f"{what}: is a sign turned, or a unit another one?", True)
+    elif not known.usually(lower, upper):
+        near = lower if lower > 0.0 else upper
+        yield Doubt(f"{name}: {known.doubt(near)}", False)
+
+
+def of_verdict(what: str, interval: tuple[float, float], turns: float, shown: str = "") -> Iterable[Doubt]:
+    """A doubt for a verdict, in words, that turns where a number passes `turns`, if its interval reaches that.
+
+    `shown` is the interval in words.
+    """
+    lower, upper = interval
+    if lower <= turns <= upper:
+        words = shown or f"{lower:.3g} to {upper:.3g}"
+        yield Doubt(f"{what}: the interval {words} reaches the other verdict", False)

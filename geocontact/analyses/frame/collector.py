@@ -17,12 +17,12 @@ start it in `contextvars.copy_context()`.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from geocontact.analyses.frame.record import Listener, Record
 from geocontact.data.errors import InputWarning
@@ -72,6 +72,23 @@ def judge(fit: GoodnessOfFit) -> None:
     current().judge(fit)
     if fit.outcome == "doubtful":
         reserve(fit.words)
+
+
+def contradicted() -> bool:
+    """Whether what was judged so far contradicts its data."""
+    return bool(current().judged)
+
+
+def if_it_fits(text: str) -> str:
+    """Words of an interval or of a claim; none where the result contradicts its data."""
+    return "" if contradicted() else text
+
+
+def as_it_fits(content: Mapping[str, Any]) -> dict[str, Any]:
+    """A nested result for a file; without ends of intervals where the result contradicts its data."""
+    from geocontact.analyses.frame.withheld import withheld_json  # late: --help needs no numpy
+
+    return withheld_json(content) if contradicted() else dict(content)
 
 
 def note(key: str, value: object) -> None:

@@ -17,6 +17,7 @@ from geocontact.analyses.frame.folder import RUN
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.warning_kinds import merged
 from geocontact.analyses.frame.words import MOST, headline
+from geocontact.analyses.frame.withheld import withheld_section
 from geocontact.data.version import VERSION
 from geocontact.view.curves.style import save
 from geocontact.view.extremes import FRAMES, with_extremes
@@ -150,6 +151,8 @@ def finished(page: Page, record: Record, folder: str, reservations: Sequence[str
     for place, table in places:
         at = next((k for k, section in enumerate(sections) if section is place), len(sections))
         sections[at : at + 1] = [table]
+    if record.judged:
+        sections = [withheld_section(each) for each in sections]
     first = headline([record.judged]) if record.judged else ()
     told = tuple(line for line in page.headline if line not in first)
     every = [*reservations, *page.reservations]

@@ -178,14 +178,18 @@ class Record:
     def write(self, *folders: Path) -> None:
         """Write `run.json` into each folder of results; they differ only in what lists the files beside it."""
         from geocontact.analyses.frame.json_file import plain  # late: --help needs no numpy
+        from geocontact.analyses.frame.withheld import withheld_json
 
+        results = plain(self.results)
+        if self.judged:
+            results = withheld_json(results)
         content = {
             "geocontact": VERSION,
             "command": self.command,
             "options": self.plain_options(),
             "options_si": {key: _plain(value) for key, value in self.in_si.items()},
             "inputs": self.inputs,
-            "results": plain(self.results),
+            "results": results,
             **({} if self.fit is None else _fit_words(self.fit)),
             "tables": {name: _plain(told) for name, told in self.tables.items()},
             "warnings": self.warnings,

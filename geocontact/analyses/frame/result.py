@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from abc import ABC, abstractmethod
 from base64 import b64encode
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import wraps
 from html import escape
 from os import PathLike
 from pathlib import Path
 from textwrap import shorten
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from geocontact.analyses.frame.collector import collecting, current
 from geocontact.analyses.frame.folder import written_whole
@@ -40,7 +41,20 @@ Part = Literal["tables", "figures", "pages"]
 PARTS: frozenset[Part] = frozenset(("tables", "figures", "pages"))
 """What the frame writes."""
 OF_THE_FRAME = frozenset(
-    ("elsewhere", "folders", "parts", "put", "refers_to", "reservations", "units", "write_files", "write_page")
+    (
+        "claims",
+        "elsewhere",
+        "fits",
+        "folders",
+        "parts",
+        "put",
+        "refers_to",
+        "reservations",
+        "spread_bands",
+        "units",
+        "write_files",
+        "write_page",
+    )
 )
 """Attributes of a result that are there for the frame and for analyses, not for who has the result."""
 
@@ -70,8 +84,24 @@ class Result(ABC):
 
     elsewhere: ClassVar[frozenset[str]] = frozenset()
     """Tables that `write` leaves to another file of the analysis."""
+    claims: ClassVar[frozenset[str]] = frozenset()
+    """Columns that hold only if the model does; with ends of intervals and verdicts they are withheld else."""
+    spread_bands: ClassVar[bool] = False
+    """Whether bands of curves are the spread of what was recorded, which holds without a model."""
 
     record: Record = field(default_factory=current, repr=False)
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        """Tables and curves of every analysis are without intervals where its result contradicts its data.
+
+        Pages are made with its record open, so that their words know it as well.
+        """
+        super().__init_subclass__(**options)
+        if "pages" in vars(cls):
+            setattr(cls, "pages", _recorded(vars(cls)["pages"]))
+        for name, withhold in (("tables", _without_claims), ("curves", _without_bands)):
+            if name in vars(cls):
+                setattr(cls, name, _if_it_fits(vars(cls)[name], withhold))
 
     @property
     def sentences(self) -> tuple[str, ...]:
@@ -90,6 +120,11 @@ class Result(ABC):
         return None if self.record.fit is None else self.record.fit.outcome
 
     @property
+    def fits(self) -> bool:
+        """False where the result contradicts its data: no interval and no claim is shown then."""
+        return self.fit_outcome != "contradicts"
+
+    @property
     def accepted(self) -> bool:
         """False where a comparison that was asked for is beyond its tolerance."""
         return True
@@ -97,7 +132,7 @@ class Result(ABC):
     @property
     def exit_code(self) -> int:
         """What the command ends with."""
-        return 0 if self.accepted and self.fit_outcome != "contradicts" else 1
+        return 0 if self.accepted and self.fits else 1
 
     @property
     def folders(self) -> tuple[str, ...]:
@@ -286,6 +321,38 @@ class Result(ABC):
 
         drawn, words = b64encode(png_of(figure)).decode("ascii"), escape("Figure: " + "".join(self.sentences[:1]))
         return f'{text}<img src="data:image/png;base64,{drawn}" alt="{words}"/>'
+
+
+def _if_it_fits(method: Callable[[Any], Any], withhold: Callable[[Any, Any], Any]) -> Callable[[Any], Any]:
+    """The method of a result, what it makes withheld where the result contradicts its data."""
+
+    @wraps(method)
+    def shown(self: Result) -> Any:
+        made = method(self)
+        return made if self.fits else withhold(self, made)
+
+    return shown
+
+
+def _recorded(method: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
+    @wraps(method)
+    def shown(self: Result, drawings: Mapping[str, bytes]) -> Any:
+        with collecting(self.record):
+            return method(self, drawings)
+
+    return shown
+
+
+def _without_claims(result: Result, tables: Mapping[str, pd.DataFrame]) -> dict[str, pd.DataFrame]:
+    from geocontact.analyses.frame.withheld import withheld_tables  # late: --help needs no numpy
+
+    return withheld_tables(tables, result.claims)
+
+
+def _without_bands(result: Result, sheets: Mapping[str, CurveSheet]) -> Mapping[str, CurveSheet]:
+    from geocontact.analyses.frame.withheld import withheld_sheets
+
+    return sheets if result.spread_bands else withheld_sheets(sheets)
 
 
 def _make_room(file: Path) -> None:

@@ -52,10 +52,28 @@ def reason(found: Identified) -> str:
     return f"use E* of each side for that side, since they differ: {total}"
 
 
+def agree_by_width(found: Identified) -> str:
+    """What is to be said where sides are called alike only because their intervals overlap; else nothing."""
+    if TOTAL not in found.sides or not reason(found):
+        return ""
+    chosen = recommended(found)
+    pairs = [(TOTAL, side) for side in HALVES] if chosen == (TOTAL,) else [HALVES]
+    for one, other in pairs:
+        p, q = (found.sides[side].profiles[MODULUS] for side in (one, other))
+        if _alike(found, one, other) and not _near(p.best, q.best):
+            apart = abs(p.best - q.best) / max(p.best, q.best)
+            what = f"E* of {one} and {other} is {apart:.0%} apart, and called alike since the intervals overlap"
+            return f"{what}: the forces do not say whether they differ"
+    return ""
+
+
+def _near(one: float, other: float) -> bool:
+    return abs(one - other) <= ALIKE * max(one, other)
+
+
 def _alike(found: Identified, one: str, other: str) -> bool:
     p, q = (found.sides[side].profiles[MODULUS] for side in (one, other))
-    near = abs(p.best - q.best) <= ALIKE * max(p.best, q.best)
-    return near or (p.lower <= q.upper and q.lower <= p.upper)
+    return _near(p.best, q.best) or (p.lower <= q.upper and q.lower <= p.upper)
 
 
 def _value(found: Identified, side: str) -> str:

@@ -14,6 +14,7 @@ E and ν are one number here: area and force identify E* = E/(1 - ν²), and E o
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,7 +22,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import pandas as pd
 
-from geocontact.analyses.frame.collector import note, reserve, say
+from geocontact.analyses.frame.collector import as_it_fits, contradicted, if_it_fits, judge, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.result import REPORT, Result
@@ -36,6 +37,7 @@ from geocontact.analyses.modulus.identified import (
 )
 from geocontact.analyses.modulus.inputs import ModulusInputs, model_of, read, threshold_given, unknowns
 from geocontact.analyses.modulus.options import ModulusOptions
+from geocontact.analyses.modulus.goodness import goodness_of
 from geocontact.analyses.modulus.recommended import reason
 from geocontact.analyses.modulus.show import moduli, modulus_curves, modulus_page, told_apart
 from geocontact.data.errors import InputError
@@ -43,7 +45,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.text import seconds
 from geocontact.elastic_modulus.area_force import MODULUS
 from geocontact.elastic_modulus.identify import Identification, agreement, identify
-from geocontact.elastic_modulus.sensitivity import constant, sensitivity
+from geocontact.elastic_modulus.sensitivity import sensitivity
 from geocontact.elastic_modulus.threshold_calibration import Calibration, calibrated
 from geocontact.identify.signals.filters import gaps
 from geocontact.view.page.tables import frame_table
@@ -75,9 +77,9 @@ class ModulusResult(Result):
 
     @property
     def interval(self) -> tuple[float, float]:
-        """95 % interval of the same by profile likelihood [Pa]."""
+        """95 % interval of the same by profile likelihood [Pa]; NaN where the law contradicts the forces."""
         profile = self.found.first.profiles[MODULUS]
-        return profile.lower, profile.upper
+        return (profile.lower, profile.upper) if self.fits else (math.nan, math.nan)
 
     @property
     def sides(self) -> Mapping[str, Identification]:
@@ -108,7 +110,7 @@ class ModulusResult(Result):
 
     def write_files(self, folder: Path) -> None:
         """modulus.json besides."""
-        text = json.dumps(describe(self.found), indent=2, ensure_ascii=False, allow_nan=False)
+        text = json.dumps(as_it_fits(describe(self.found)), indent=2, ensure_ascii=False, allow_nan=False)
         (folder / "modulus.json").write_text(text + "\n", encoding="utf-8")
         super().write_files(folder)
 
@@ -125,6 +127,7 @@ def run(inputs: ModulusInputs, o: ModulusOptions) -> ModulusResult:
     _doubt(inputs)
     sides = _sides(inputs, threshold, others, o)
     found = Identified(sides, sensitivity(sides), calibration, predictions(inputs, sides), o.poisson)
+    judge(goodness_of(found))
     note("modulus", describe(found))
     _report(found)
     return ModulusResult(options=o, found=found)
@@ -195,13 +198,6 @@ def _calibrated(inputs: ModulusInputs, path: Path | None) -> Calibration | None:
 
 def _reserve(side: str, each: Identification) -> None:
     """What has to be said about one side."""
-    _, r2 = agreement(each.measured, each.predicted)
-    if constant(each):
-        reserve(f"{side}: the area is the same in every frame: the law cannot be checked")
-    if r2 < 0.0:
-        reserve(f"{side}: R² is {r2:.2f}, a constant force would do better than the law")
-    for name in each.on_bound:
-        reserve(f"{side}: the data do not limit {name} within its bounds, on one side or both")
     drawn = each.replicates
     if drawn is not None and drawn.blocks < FEW_BLOCKS:
         reserve(f"{side}: {drawn.blocks} blocks of {drawn.block:.2g} s are few for a bootstrap")
@@ -219,8 +215,9 @@ def _report(found: Identified) -> None:
         rmse, r2 = agreement(each.measured, each.predicted)
         span = f"{p.lower * 1e-6:.4g} … {p.upper * 1e-6:.4g}"
         sticks = "" if each.model.adhesion is None else f", {each.model.adhesion.words}"
-        say(f"{side}: E* {each.modulus * 1e-6:.4g} MPa (95 % {span}), RMSE {rmse:.0f} N, R² {r2:.2f}{sticks}")
-    if why := reason(found):
+        interval = if_it_fits(f" (95 % {span})")
+        say(f"{side}: E* {each.modulus * 1e-6:.4g} MPa{interval}, RMSE {rmse:.0f} N, R² {r2:.2f}{sticks}")
+    if (why := reason(found)) and not contradicted():
         say(why)
     say("E and ν are one number here: area and force identify E* = E/(1 - ν²), and E only for a stated ν")
     for told in found.predictions:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from geocontact.analyses.frame.collector import contradicted, if_it_fits
 from geocontact.analyses.frame.words import NOT_A_DEVICE, rounded
 from geocontact.analyses.modulus.identified import PER_SI, UNITS, Identified
 from geocontact.analyses.modulus.recommended import MPA, reason, recommended, undescribed
@@ -60,6 +61,8 @@ def headline(found: Identified) -> list[str]:
     """Whether the law holds, E* of the sides to use and why those, and a trial that was not used."""
     missed = undescribed(found)
     lines = [] if not missed else [_not_described(found, missed)]
+    if contradicted():
+        return lines
     chosen = recommended(found)
     lines.append(_answer(found, chosen, missed))
     why = reason(found)
@@ -127,8 +130,9 @@ def facts(found: Identified) -> list[tuple[str, str]]:
     sides = {side: found.sides[side] for side in (*chosen, *(other for other in found.sides if other not in chosen))}
     for side, each in sides.items():
         p = each.profiles[MODULUS]
-        span = f"{rounded(p.best * MPA)} MPa ({rounded(p.lower * MPA)} … {rounded(p.upper * MPA)})"
-        use = "use" if len(sides) > 1 and side in chosen else "do not use" if len(sides) > 1 and reason(found) else ""
+        interval = if_it_fits(f" ({rounded(p.lower * MPA)} … {rounded(p.upper * MPA)})")
+        span = f"{rounded(p.best * MPA)} MPa{interval}"
+        use = "" if contradicted() else "use" if len(sides) > 1 and side in chosen else "do not use" if len(sides) > 1 and reason(found) else ""
         lines.append((", ".join(filter(None, (f"E*, {side}", use))), span))
     side, first = next(iter(sides.items()))
     lines += [

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from geocontact.identify.goodness_of_fit import Doubt
 from geocontact.identify.signals.agreement import lag_of
 from geocontact.shoulder_exoskeleton.beside_recording import ALL, ComparedChannel
 
@@ -17,8 +18,8 @@ SIZES = 0.02
 """Sizes of the curves that differ by more than this, or its inverse, are of two units: cN, mN and kN beside N."""
 
 
-def recording_doubts(one: ComparedChannel, delay: float | None = None) -> list[str]:
-    """Words on R² below 0, with what is likely, and on a clock that is off; `delay` [s] is what it was set right by.
+def recording_doubts(one: ComparedChannel, delay: float | None = None) -> list[Doubt]:
+    """R² below 0, with what is likely, and a clock that is off; `delay` [s] is what it was set right by.
 
     None where there is no `delay` to be given.
     """
@@ -27,9 +28,11 @@ def recording_doubts(one: ComparedChannel, delay: float | None = None) -> list[s
     found = []
     r2 = one.errors[ALL].r2
     if r2 < 0.0:
-        found.append(f"R² is {r2:.2g}, a constant would fit better{_likely(model, measured)}")
-    clock = _clock(one, delay)
-    return [*found, clock] if clock else found
+        what = f"{one.channel}: R² is {r2:.2g}, a constant would fit better{_likely(model, measured)}"
+        found.append(Doubt(what, True, -r2))
+    if clock := _clock(one, delay):
+        found.append(Doubt(f"{one.channel}: {clock}", False))
+    return found
 
 
 def _likely(model: np.ndarray, measured: np.ndarray) -> str:

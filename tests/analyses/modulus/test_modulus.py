@@ -152,8 +152,9 @@ def test_forces_that_a_constant_would_meet_better_are_said(tmp_path: Path) -> No
     rows = "\n".join(f"{t!r},{v!r}" for t, v in zip(time.tolist(), (3000.0 - 1.2e6 * area).tolist(), strict=True))
     with pytest.warns(InputWarning) as said:
         result = found(tmp_path, force=written(tmp_path / "against.csv", f"time [s],total [N]\n{rows}\n"))
-    assert "a constant force would do better" in str(said[0].message)
-    assert result.table()["r2 [-]"].item() < 0.0
+    # the doubt has become a contradiction: such an E* has no interval, and the command ends with 1
+    assert "R² is -0.97, a constant would describe it better" in str(said[0].message)
+    assert result.table()["r2 [-]"].item() < 0.0 and result.fit_outcome == "contradicts"
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ MAY_SETTLE = ("adduction", "anterior", "mediolateral", "rotation")
 """Coordinates besides the axial one, which always settles, and flexion, which never does."""
 
 READS_NO_FILE = Excludes("sweep", "has no effect with `sweep`, which has no recorded times and poses")
-LOAD = Plausible("the axial load", N, (1e-3, 1e5), (20.0, 10_000.0))
+LOAD = Plausible("the axial load", N, (1e-3, 1e5), (20.0, 10_000.0), why="a resting limb to a landing")
 Free = Annotated[
     tuple[str, ...],
     Typed("-", "knee.settle.equilibrium:names", '("adduction", "rotation")'),

@@ -11,13 +11,15 @@ locked_2, force: MAE 0.644, RMSE 0.809 N, R² 0.947
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import note, reserve, say
+from geocontact.analyses.frame.collector import judge, note, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.misalignment.compare.options import CompareOptions
@@ -30,6 +32,7 @@ from geocontact.analyses.misalignment.compare.pairs import (
     read,
 )
 from geocontact.analyses.misalignment.compare.show import channel_curves, comparison_page
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_many_r2
 from geocontact.view.curves.declared import CurveSheet
 from geocontact.view.curves.drawn import drawn
 from geocontact.view.page.tables import frame_table
@@ -96,13 +99,29 @@ def run(both: Both, o: CompareOptions) -> CompareResult:
     """Errors of every channel that a recording and its model have."""
     pairs = compared_pairs(both, o)
     note("comparison", [{"trial": p.trial, "channel": p.channel, **asdict(p.agreement)} for p in pairs])
+    judge(goodness_of(pairs))
     for p in pairs:
         a, q = p.agreement, QUANTITIES[p.channel]
-        if a.r2 < 0.0:
-            reserve(f"{p.trial}, {p.channel}: R² is {a.r2:.2f}, a constant would do better: is a sign turned?")
         errors = f"MAE {q.per_si * a.mae:.3g}, RMSE {q.per_si * a.rmsd:.3g} {q.unit}"
         say(f"{p.trial}, {p.channel}: {errors}, R² {a.r2:.3f}")
     return CompareResult(options=o, pairs=pairs)
+
+
+def goodness_of(pairs: Sequence[Pair]) -> GoodnessOfFit:
+    """Every channel of every trial against what was measured."""
+    doubts: list[Doubt] = []
+    for channel in QUANTITIES:
+        mine = [p for p in pairs if p.channel == channel]
+        turned = any(p.agreement.r2 < 0.0 and is_turned(p.measured, p.model) for p in mine)
+        for each in of_many_r2(channel, {p.trial: p.agreement.r2 for p in mine}):
+            doubts.append(replace(each, what=f"{each.what}{': is a sign turned?' if turned else ''}"))
+    return GoodnessOfFit(tuple(doubts), tuple(f"{p.trial}, {p.channel}" for p in pairs))
+
+
+def is_turned(measured: Float[np.ndarray, " t"], model: Float[np.ndarray, " t"]) -> bool:
+    """Whether one falls where the other rises."""
+    both = np.isfinite(measured) & np.isfinite(model)
+    return bool(np.sum((measured[both] - measured[both].mean()) * (model[both] - model[both].mean())) < 0.0)
 
 
 compare = Job("elbow compare", CompareOptions, read, run)

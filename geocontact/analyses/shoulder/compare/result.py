@@ -6,12 +6,15 @@
 >>> recorded = full[["time [s]", "elevation [deg]", "supporting [N]"]]
 >>> recorded.rename(columns={"supporting [N]": "force [N]"}).to_csv("recorded.csv", index=False)
 >>> half = gc.shoulder.simulate(trial, level=0.5, side="right").write("half") / "right.csv"
->>> print(gc.shoulder.compare(half, "recorded.csv"))
+>>> result = gc.shoulder.compare(half, "recorded.csv")
+>>> result.fit_outcome
+'contradicts'
+>>> print(result)
+the result contradicts its data, and its numbers must not be used: force: R² is -0.66, a constant would fit better
 elevation, all: MAE 4.02, RMSD 4.51 deg
 elevation, work: MAE 4.93, RMSD 5.12 deg
 force, all: MAE 13.4, RMSD 14.7 N
 force, work: MAE 16.1, RMSD 16.6 N
-warning: force: R² is -0.66, a constant would fit better
 """
 
 from __future__ import annotations
@@ -23,7 +26,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.frame.collector import add_input, note, reserve, say, spelled
+from geocontact.analyses.frame.collector import add_input, judge, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
@@ -35,6 +38,7 @@ from geocontact.analyses.shoulder.recordings import recorded_channels, shown_in
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
+from geocontact.identify.goodness_of_fit import GoodnessOfFit, of_range
 from geocontact.io.text.side_table import read_side_table
 from geocontact.shoulder_exoskeleton.beside_recording import (
     ALL,
@@ -110,9 +114,6 @@ def compared(both: ArmAndRecording, o: ShoulderCompareOptions) -> tuple[Compared
         raise InputError(o.recorded, "", f"runs from {theirs}, the simulation from {ours}", "give `delay`")
     if found.share < 1.0:
         reserve(f"{o.recorded.name}: {found.share:.0%} of the simulated time was recorded")
-    for one in found.channels.values():
-        for words in recording_doubts(one, o.delay):
-            reserve(spelled(f"{one.channel}: {words}"))
     return tuple(found.channels.values())
 
 
@@ -246,6 +247,7 @@ class ShoulderCompareResult(Result):
 def run(both: ArmAndRecording, o: ShoulderCompareOptions) -> ShoulderCompareResult:
     """Errors of every channel that was recorded, and what is to be said of them."""
     channels = compared(both, o)
+    judge(goodness_of(channels, both.out_of_cuff, o.delay))
     reserved = out_of_cuff_words(both.out_of_cuff)
     for one in channels:
         unit, factor = shown_in(one.channel)
@@ -257,6 +259,13 @@ def run(both: ArmAndRecording, o: ShoulderCompareOptions) -> ShoulderCompareResu
         plain({each.channel: {name: vars(error) for name, error in each.errors.items()} for each in channels}),
     )
     return ShoulderCompareResult(options=o, channels=channels, out_of_cuff=both.out_of_cuff)
+
+
+def goodness_of(channels: Sequence[ComparedChannel], out_of_cuff: float, delay: float | None) -> GoodnessOfFit:
+    """Every channel against its recording, and whether the sphere is where the model holds."""
+    doubts = [doubt for one in channels for doubt in recording_doubts(one, delay)]
+    doubts += of_range("the sphere is out of the cuff for", out_of_cuff)
+    return GoodnessOfFit(tuple(doubts), (*(one.channel for one in channels), "sphere in its cuff"))
 
 
 compare = Job("shoulder compare", ShoulderCompareOptions, read, run)

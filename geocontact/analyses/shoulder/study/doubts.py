@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from geocontact.analyses.frame.collector import reserve, say
+from geocontact.analyses.frame.collector import judge, reserve, say
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.shoulder.recording_doubts import recording_doubts
 from geocontact.analyses.shoulder.simulated_arm import share_words
 from geocontact.analyses.shoulder.study.cases import COPIED, StudyCase
+from geocontact.identify.goodness_of_fit import MUCH, GoodnessOfFit, of_many_r2, of_range
+from geocontact.shoulder_exoskeleton.beside_recording import ALL
 from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
 
@@ -40,11 +43,27 @@ def say_doubts(cases: Sequence[StudyCase], reserved: str) -> None:
         span = _range(short.values())
         verb = "holds" if len(short) == 1 else "hold"
         reserve(f"{len(short)} of {recorded} {verb} {span} of the simulated time only: {_named(short, least=True)}")
+    judge(goodness_of(cases, found))
+
+
+def goodness_of(cases: Sequence[StudyCase], found: Sequence[tuple[str, ArmSimulation]]) -> GoodnessOfFit:
+    """All arms against their recordings, and whether their spheres are where the model holds.
+
+    One arm may be recorded wrongly; half of them contradict the simulation.
+    """
+    doubts, met = [], dict[str, dict[str, float]]()
     for case in cases:
         channels = {} if case.beside is None else case.beside.channels
         for name, compared in channels.items():
-            for words in recording_doubts(compared) if name != COPIED else ():
-                reserve(f"{case.name}, {name}: {words}")
+            if name != COPIED:
+                met.setdefault(name, {})[case.name] = compared.errors[ALL].r2
+                for each in recording_doubts(compared):
+                    doubts.append(replace(each, what=f"{case.name}, {each.what}", contradicts=False))
+    for name, values in met.items():
+        doubts += [each for each in of_many_r2(name, values) if each.contradicts]
+    lost = [name for name, simulation in found if simulation.out_of_cuff.mean() >= MUCH]
+    doubts += of_range("the sphere is out of the cuff most of the time in", len(lost) / len(found), "all simulations")
+    return GoodnessOfFit(tuple(doubts), (*met, "spheres in their cuffs"))
 
 
 def _stops(found: Sequence[tuple[str, ArmSimulation]], reserved: str) -> None:

@@ -19,8 +19,6 @@ from geocontact.standing_up.phase import MOST_OF_IT
 from geocontact.standing_up.trials import StandingUpTrials
 
 TOLERANCE = 1e-7
-CONTRADICTED = "contradicts the data"
-"""Verdict of numbers of a model whose residuals are far from noise."""
 
 
 def phases_sought(
@@ -79,23 +77,20 @@ def _compare_starts(one: CalibratedPhase) -> None:
         reserve(f"phase {one.name} from its default start ends in a minimum worse than that of another start")
 
 
-def parameters_table(phases: Sequence[CalibratedPhase], *, fits: bool = True) -> pd.DataFrame:
-    """Value and interval in SI, and standard deviations of what is searched: lengths in m, others as logarithms.
-
-    Where the model does not fit its data there are no intervals, and no number is known.
-    """
+def parameters_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
+    """Value and interval in SI, and standard deviations of what is searched: lengths in m, others as logarithms."""
     rows = [
         {
             "phase": phase.name,
             "parameter": n.name,
             "unit": n.unit,
             "value": n.value,
-            "lower": n.lower if fits else np.nan,
-            "upper": n.upper if fits else np.nan,
+            "lower": n.lower,
+            "upper": n.upper,
             "sd prior": n.before,
-            "sd with the trials": n.after if fits and np.isfinite(n.after) else np.nan,
+            "sd with the trials": n.after if np.isfinite(n.after) else np.nan,
             "sd of what is assumed": n.assumed,
-            "verdict": n.verdict if fits or n.verdict == "held" else CONTRADICTED,
+            "verdict": n.verdict,
         }
         for phase in phases
         for n in _own(phase)

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import pandas as pd
 
@@ -79,6 +79,8 @@ class StandingCalibrateResult(Result):
         Channels by the last of them.
     """
 
+    claims: ClassVar[frozenset[str]] = frozenset({"sd with the trials"})
+
     options: StandingCalibrateOptions
     given: StandingUpTrials
     phases: tuple[CalibratedPhase, ...]
@@ -117,7 +119,7 @@ class StandingCalibrateResult(Result):
         noise, tracks = self.given.noise, self.given.tracks
         own = {f"trial_{trial.recorded.name}": trial_table(trial, noise, tracks) for trial in self.trials}
         return {
-            "parameters": parameters_table(self.phases, fits=self.fit_outcome != "contradicts"),
+            "parameters": parameters_table(self.phases),
             "errors": self.errors,
             "rmsd_by_trial": rmsd_by_trial("phase", self.by_phase, self.given.trials, noise),
             "certificate": certificate_table(self.phases),

@@ -1,0 +1,42 @@
+"""Whether a modulus agrees with the forces that it was identified from, and with what a modulus can be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from geocontact.analyses.modulus.identified import Identified
+from geocontact.analyses.modulus.recommended import DESCRIBES, agree_by_width, recommended
+from geocontact.data.plausible import CONTACT
+from geocontact.elastic_modulus.area_force import MODULUS
+from geocontact.elastic_modulus.identify import agreement
+from geocontact.elastic_modulus.sensitivity import constant
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_r2, of_size
+
+
+def goodness_of(found: Identified) -> GoodnessOfFit:
+    """The law against the forces of every side, E* against its bounds and sizes, a trial that was not used."""
+    doubts = [each for side in found.sides for each in _of_side(found, side)]
+    for told in found.predictions:
+        if told.measured is not None and told.r2 < 0.0:
+            what = f"{told.side}, trial not used: R² is {told.r2:.2f}, a constant force would do better than the law"
+            doubts.append(Doubt(what, False))
+    if words := agree_by_width(found):
+        doubts.append(Doubt(words, False))
+    return GoodnessOfFit(tuple(doubts), tuple(f"{side} force" for side in found.sides))
+
+
+def _of_side(found: Identified, side: str) -> Iterable[Doubt]:
+    """Doubts on one side; what a side alone shows contradicts the result where its E* is the answer."""
+    each, used = found.sides[side], side in recommended(found)
+    _, r2 = agreement(each.measured, each.predicted)
+    flat = constant(each)
+    if flat:
+        yield Doubt(f"{side}: the area is the same in every frame: the law cannot be checked", False)
+    for doubt in of_r2(f"{side} force by the law", r2):
+        yield Doubt(doubt.what, used and not flat, -r2)
+    if 0.0 <= r2 < DESCRIBES and not flat:
+        yield Doubt(f"{side}: R² is {r2:.2f}, the law leaves most of the force's course unexplained", False)
+    for name in each.on_bound:
+        yield Doubt(f"{side}: the data do not limit {name} within its bounds, on one side or both", False)
+    profile = each.profiles[MODULUS]
+    yield from of_size(f"{side}: E*", (profile.lower, profile.upper), CONTACT)
