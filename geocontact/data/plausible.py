@@ -175,7 +175,9 @@ BORDER = Plausible("the border of a mat", mm, (0.0, 500.0), (0.0, 100.0))
 DEPTH = Plausible("a depth of contact", mm, (1e-3, 200.0), (0.05, 30.0))
 SHIFT = Plausible("how far things are off", mm, (0.0, 500.0), (0.0, 50.0))
 
-YOUNG = Plausible("Young's modulus", MPa, (1e-3, 2e6), (5e-3, 3e4), why="gels to cortical bone")  # of a layer that gives way
+YOUNG = Plausible(
+    "Young's modulus", MPa, (1e-3, 2e6), (5e-3, 3e4), why="gels to cortical bone"
+)  # of a layer that gives way
 CONTACT = Plausible("a modulus of contact", MPa, (1e-3, 1e6), (5e-3, 3e5), why="gels to ceramic on ceramic")
 TOUCH = Plausible("the pressure of a touch", kPa, (1e-3, 1e4), (0.05, 100.0))
 CUFF = Plausible("the pressure of a cuff", mmHg, (1.0, 2000.0), (5.0, 300.0), or_zero=True)

@@ -16,8 +16,8 @@ from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.folder import RUN
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.warning_kinds import merged
-from geocontact.analyses.frame.words import MOST, headline
 from geocontact.analyses.frame.withheld import withheld_section
+from geocontact.analyses.frame.words import MOST, headline
 from geocontact.data.version import VERSION
 from geocontact.view.curves.style import save
 from geocontact.view.extremes import FRAMES, with_extremes

@@ -97,11 +97,12 @@ class Result(ABC):
         Pages are made with its record open, so that their words know it as well.
         """
         super().__init_subclass__(**options)
-        if "pages" in vars(cls):
-            setattr(cls, "pages", _recorded(vars(cls)["pages"]))
+        own = vars(cls)
         for name, withhold in (("tables", _without_claims), ("curves", _without_bands)):
-            if name in vars(cls):
-                setattr(cls, name, _if_it_fits(vars(cls)[name], withhold))
+            if name in own:
+                setattr(cls, name, _if_it_fits(own[name], withhold))
+        for name in {"pages"} & set(own):
+            setattr(cls, name, _recorded(own[name]))
 
     @property
     def sentences(self) -> tuple[str, ...]:

@@ -26,6 +26,7 @@ from geocontact.analyses.frame.collector import as_it_fits, contradicted, if_it_
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.modulus.goodness import goodness_of
 from geocontact.analyses.modulus.identified import (
     Identified,
     curve_table,
@@ -37,7 +38,6 @@ from geocontact.analyses.modulus.identified import (
 )
 from geocontact.analyses.modulus.inputs import ModulusInputs, model_of, read, threshold_given, unknowns
 from geocontact.analyses.modulus.options import ModulusOptions
-from geocontact.analyses.modulus.goodness import goodness_of
 from geocontact.analyses.modulus.recommended import reason
 from geocontact.analyses.modulus.show import moduli, modulus_curves, modulus_page, told_apart
 from geocontact.data.errors import InputError

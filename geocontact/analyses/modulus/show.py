@@ -132,7 +132,15 @@ def facts(found: Identified) -> list[tuple[str, str]]:
         p = each.profiles[MODULUS]
         interval = if_it_fits(f" ({rounded(p.lower * MPA)} … {rounded(p.upper * MPA)})")
         span = f"{rounded(p.best * MPA)} MPa{interval}"
-        use = "" if contradicted() else "use" if len(sides) > 1 and side in chosen else "do not use" if len(sides) > 1 and reason(found) else ""
+        use = (
+            ""
+            if contradicted()
+            else "use"
+            if len(sides) > 1 and side in chosen
+            else "do not use"
+            if len(sides) > 1 and reason(found)
+            else ""
+        )
         lines.append((", ".join(filter(None, (f"E*, {side}", use))), span))
     side, first = next(iter(sides.items()))
     lines += [

@@ -63,4 +63,5 @@ def test_a_foot_out_of_flat_and_a_stance_that_is_missed_are_said(
 ) -> None:
     found = doubts_of_fit(height, pitch, residual, vertical)
     assert len(found) == len(words)
-    assert all(each in line for each, line in zip(words, found, strict=True))
+    assert all(each in doubt.what for each, doubt in zip(words, found, strict=True))
+    assert any(doubt.contradicts for doubt in found) == (vertical > 0.12)

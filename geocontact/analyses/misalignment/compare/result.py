@@ -113,8 +113,9 @@ def goodness_of(pairs: Sequence[Pair]) -> GoodnessOfFit:
     for channel in QUANTITIES:
         mine = [p for p in pairs if p.channel == channel]
         turned = any(p.agreement.r2 < 0.0 and is_turned(p.measured, p.model) for p in mine)
-        for each in of_many_r2(channel, {p.trial: p.agreement.r2 for p in mine}):
-            doubts.append(replace(each, what=f"{each.what}{': is a sign turned?' if turned else ''}"))
+        asked = ": is a sign turned?" if turned else ""
+        found = of_many_r2(channel, {p.trial: p.agreement.r2 for p in mine})
+        doubts += [replace(each, what=f"{each.what}{asked}") for each in found]
     return GoodnessOfFit(tuple(doubts), tuple(f"{p.trial}, {p.channel}" for p in pairs))
 
 

@@ -22,7 +22,7 @@ import pandas as pd
 from jaxtyping import Float
 from numpy import ndarray
 
-from geocontact.analyses.frame.collector import note, reserve, say
+from geocontact.analyses.frame.collector import contradicted, judge, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
@@ -31,8 +31,8 @@ from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrate
 from geocontact.analyses.prosthesis.calibrate.show import CalibratedFit, calibration_page, stance_curves
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
 from geocontact.below_knee_prosthesis.calibration.fit import (
-    doubts_of_fit,
     fore_aft_error,
+    goodness_of,
     known_of,
     residual_over_noise,
     stance_fit,
@@ -41,6 +41,7 @@ from geocontact.below_knee_prosthesis.calibration.recorded_stance import Recorde
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
 from geocontact.below_knee_prosthesis.leg import FootOffset
+from geocontact.identify.identifiability import Identifiability
 from geocontact.identify.signals.agreement import Agreement
 
 if TYPE_CHECKING:
@@ -195,11 +196,15 @@ class ProsthesisCalibrateResult(Result):
         return {REPORT: calibration_page(self.stance, self.curves()["stance"], numbers, fit, walked)}
 
     def write_files(self, folder: Path) -> None:
-        """law.toml besides."""
+        """law.toml besides, unless the stance contradicts it."""
+        if self.fits:
+            self._write_law(folder)
+        super().write_files(folder)
+
+    def _write_law(self, folder: Path) -> None:
         named = fspath(self.options.static)
         standing = next(str(each["sha256"]) for each in self.record.inputs if each["file"] == named)
         (folder / LAW).write_text(law_toml(self.last, standing), encoding="utf-8", newline="\n")
-        super().write_files(folder)
 
 
 def run(given: FootOnPlate, o: ProsthesisCalibrateOptions) -> ProsthesisCalibrateResult:
@@ -217,22 +222,23 @@ def run(given: FootOnPlate, o: ProsthesisCalibrateOptions) -> ProsthesisCalibrat
         vertical=fit.vertical,
         centre=fit.centre,
     )
-    if fit.sunk:
-        reserve("a sphere sinks beyond its radius: the foot is recorded too low, or the sole is too soft")
+    judge(goodness_of(result.last, fit, given.stance))
+    if contradicted():
+        reserve(f"{LAW} is not written, because no simulation should use a law that its stance contradicts")
     _summarise(result)
     return result
 
 
 def _summarise_fit(r: ProsthesisCalibrateResult) -> None:
-    """How the foot stood, and what speaks against the fit."""
+    """How the foot stood; nothing where the stance contradicts that as well."""
+    if contradicted():
+        return
     e = r.stance.errors
     offset = r.last.offsets[0]
     say(
         f"the foot is {offset.words} off its standing trial; prior {1e3 * e.standing:.1f} mm and "
         f"{np.degrees(e.pitch):.2f} degrees"
     )
-    for words in doubts_of_fit(offset.height / e.standing, offset.pitch / e.pitch, r.residual, r.vertical.rmsd):
-        reserve(words)
 
 
 NO_TEST = ", which makes it no test of the sole"
@@ -267,10 +273,8 @@ def _summarise(r: ProsthesisCalibrateResult) -> None:
             f"on the whole model the cost falls from {r.whole.begun:.0f}, at the numbers along the recorded poses, to "
             f"{r.whole.cost:.0f}"
         )
-    say(
-        f"{verdicts['known']} of {len(found.knowledge.numbers)} numbers are known, {verdicts['not identified']} not "
-        f"identified, {verdicts['unknown']} unknown; {apart.verdict} (condition {apart.condition:.3g})"
-    )
+    if not contradicted():
+        say(_known_words(verdicts, len(found.knowledge.numbers), apart))
     factors = ", ".join(f"{kind} a factor {sd:g}" for kind, (sd, _) in PRIOR.items())
     say(f"prior (invented), as one standard deviation about the usual number: {factors}")
     offset = found.offsets[0]
@@ -278,9 +282,9 @@ def _summarise(r: ProsthesisCalibrateResult) -> None:
         "calibrate",
         {
             "height_m": offset.height,
-            "height_sd_m": offset.height_sd,
+            "height_sd_m": None if contradicted() else offset.height_sd,
             "pitch_rad": offset.pitch,
-            "pitch_sd_rad": offset.pitch_sd,
+            "pitch_sd_rad": None if contradicted() else offset.pitch_sd,
             "residual_over_noise": r.residual,
             "vertical_rmse_of_body_weight": r.vertical.rmsd,
             "vertical_r2": r.vertical.r2,
@@ -290,6 +294,13 @@ def _summarise(r: ProsthesisCalibrateResult) -> None:
             "solved": found.residuals.solved,
             "numbers": {number.name: number.value for number in found.knowledge.numbers},
         },
+    )
+
+
+def _known_words(verdicts: Counter[str], count: int, apart: Identifiability) -> str:
+    return (
+        f"{verdicts['known']} of {count} numbers are known, {verdicts['not identified']} not identified, "
+        f"{verdicts['unknown']} unknown; {apart.verdict} (condition {apart.condition:.3g})"
     )
 
 

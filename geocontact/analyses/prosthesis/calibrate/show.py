@@ -9,6 +9,7 @@ import pandas as pd
 from jaxtyping import Float
 from numpy import argmax, ndarray
 
+from geocontact.analyses.frame.collector import contradicted
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import rounded
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
@@ -92,10 +93,12 @@ def answer(fit: CalibratedFit, numbers: pd.DataFrame) -> list[str]:
     """How well the calibrated sole makes the force on the plate, and how many of its numbers that identifies."""
     missed = (
         f"The calibrated sole misses the vertical force by {fit.vertical.rmsd:.1%} of body weight and the centre of "
-        f"pressure by {fit.centre.rmsd:.1%} of the foot; the stance identifies {_identified(numbers)} of its numbers."
+        f"pressure by {fit.centre.rmsd:.1%} of the foot"
     )
+    if contradicted():
+        return [f"{missed}."]
     return [
-        missed,
+        f"{missed}; the stance identifies {_identified(numbers)} of its numbers.",
         f"The force along the floor {fit.along}.",
         f"The foot is {fit.offset} off its standing trial.",
     ]
@@ -149,7 +152,7 @@ def calibration_page(
         facts=[
             ("vertical force missed by", f"{fit.vertical.rmsd:.1%} of body weight, R² {fit.vertical.r2:.2f}"),
             ("centre of pressure missed by", f"{fit.centre.rmsd:.1%} of the foot, R² {fit.centre.r2:.2f}"),
-            ("numbers identified", _identified(numbers)),
+            *([] if contradicted() else [("numbers identified", _identified(numbers))]),
         ],
         start_frame=int(argmax(stance.measured[:, 1])),
         sections=tuple(sections),

@@ -57,8 +57,8 @@ def goodness_of(cases: Sequence[StudyCase], found: Sequence[tuple[str, ArmSimula
         for name, compared in channels.items():
             if name != COPIED:
                 met.setdefault(name, {})[case.name] = compared.errors[ALL].r2
-                for each in recording_doubts(compared):
-                    doubts.append(replace(each, what=f"{case.name}, {each.what}", contradicts=False))
+                own = recording_doubts(compared)
+                doubts += [replace(each, what=f"{case.name}, {each.what}", contradicts=False) for each in own]
     for name, values in met.items():
         doubts += [each for each in of_many_r2(name, values) if each.contradicts]
     lost = [name for name, simulation in found if simulation.out_of_cuff.mean() >= MUCH]
