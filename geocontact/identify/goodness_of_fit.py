@@ -26,6 +26,8 @@ AT_BOUND = 1e-3
 """Share of the width of its bounds within which a parameter is on one of them."""
 SAID = 3
 """Doubts that a sentence names; run.json has them all."""
+DESCRIBES = 0.5
+"""R² below which a model leaves more of a course than it describes: the fit is doubtful."""
 MUCH = 0.5
 """Share of the samples outside of what a model describes, from which it describes something else."""
 
@@ -203,6 +205,13 @@ def of_many_r2(name: str, values: Mapping[str, float]) -> Iterable[Doubt]:
     where = f"in {len(below)} of {len(known)}: {listed}" if len(known) > 1 else f"in {listed}"
     share = len(below) / len(known)
     yield Doubt(f"{name}: R² is below 0 {where}; a constant would describe it better", share >= MUCH, share)
+
+
+def of_low_r2(name: str, r2: float) -> Iterable[Doubt]:
+    """`of_r2`, and a doubt for a model that describes less than half of a channel's course."""
+    yield from of_r2(name, r2)
+    if 0.0 <= r2 < DESCRIBES:
+        yield Doubt(f"{name}: R² is {r2:.2f}, the model leaves more of its course than it describes", False)
 
 
 def of_size(name: str, interval: tuple[float, float], known: Plausible) -> Iterable[Doubt]:

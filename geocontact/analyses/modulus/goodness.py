@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from geocontact.analyses.modulus.identified import Identified
-from geocontact.analyses.modulus.recommended import DESCRIBES, agree_by_width, recommended
+from geocontact.analyses.modulus.recommended import agree_by_width, recommended
 from geocontact.data.plausible import CONTACT
 from geocontact.elastic_modulus.area_force import MODULUS
 from geocontact.elastic_modulus.identify import agreement
 from geocontact.elastic_modulus.sensitivity import constant
-from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_r2, of_size
+from geocontact.identify.goodness_of_fit import DESCRIBES, Doubt, GoodnessOfFit, of_r2, of_size
 
 
 def goodness_of(found: Identified) -> GoodnessOfFit:

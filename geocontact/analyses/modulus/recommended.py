@@ -7,12 +7,11 @@ from geocontact.analyses.modulus.identified import Identified
 from geocontact.analyses.modulus.inputs import HALVES
 from geocontact.elastic_modulus.area_force import MODULUS
 from geocontact.elastic_modulus.identify import agreement
+from geocontact.identify.goodness_of_fit import DESCRIBES
 
 TOTAL = "total"
 ALIKE = 0.05
 """Relative difference up to which two values are one answer; also where their intervals overlap."""
-DESCRIBES = 0.5
-"""R² below which the law leaves more of a force's course than it describes: E* is no answer then."""
 MPA = 1e-6
 
 

@@ -28,9 +28,5 @@ def small_force(quantity: str, r2: float) -> str:
     return f"{NAMES[quantity]}: R² is {r2:.2f}; this force is small: judge by its error"
 
 
-def below_zero(quantity: str, r2: float) -> str:
-    """What a coefficient of determination below 0 says."""
-    if small := small_force(quantity, r2):
-        return small
-    asked = ": are mass, setting, and unit and sign of the plates right?" if quantity in SAID else ""
-    return f"{NAMES.get(quantity, quantity)}: R² is {r2:.2f}, a constant would fit better{asked}"
+ASKED = "are mass, setting, and unit and sign of the plates right?"
+"""What an R² below 0 of those that sentences are about asks."""

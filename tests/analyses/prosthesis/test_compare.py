@@ -14,7 +14,7 @@ from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.compare.show import comparison_curves
 from geocontact.analyses.prosthesis.compare.stances import read as read_study
-from geocontact.analyses.prosthesis.quantity_words import below_zero
+from geocontact.analyses.prosthesis.quantity_words import small_force
 from tests.cli.calls import MESHES
 from tests.recording import opened
 
@@ -136,9 +136,6 @@ def test_what_all_stances_are_warned_of_is_one_line(tmp_path: Path) -> None:
     ]
 
 
-def test_a_fit_below_a_constant_is_asked_about() -> None:
-    assert below_zero("resultant", -8.18) == (
-        "resultant force: R² is -8.18, a constant would fit better: are mass, setting, and unit and sign of the plates "
-        "right?"
-    )
-    assert below_zero("medio_lateral", -2.565).endswith("R² is -2.56; this force is small: judge by its error")
+def test_a_small_force_below_a_constant_is_judged_by_its_error() -> None:
+    assert small_force("medio_lateral", -2.565).endswith("R² is -2.56; this force is small: judge by its error")
+    assert not small_force("resultant", -8.18) and not small_force("medio_lateral", 0.2)

@@ -17,15 +17,15 @@ both on 2 of 2
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.frame.collector import listener, note, reserve, say
+from geocontact.analyses.frame.collector import contradicted, judge, listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.main_numbers import by_name
@@ -45,7 +45,7 @@ from geocontact.analyses.prosthesis.compare.stances import (
     summary_table,
     trials_table,
 )
-from geocontact.analyses.prosthesis.quantity_words import NAMES, SAID, below_zero
+from geocontact.analyses.prosthesis.quantity_words import ASKED, NAMES, SAID, small_force
 from geocontact.analyses.prosthesis.stance_files import (
     counted_twice,
     numbers_table,
@@ -59,6 +59,7 @@ from geocontact.below_knee_prosthesis.foot_numbers import numbers_of
 from geocontact.below_knee_prosthesis.leg import Side
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.errors import InputError
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_low_r2, of_many_r2
 from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
@@ -80,6 +81,8 @@ class ProsthesisCompareResult(Result):
     odd
         How far each stance that nothing was fitted to stands out.
     """
+
+    spread_bands: ClassVar[bool] = True  # of the stances
 
     options: ProsthesisCompareOptions
     stances: tuple[JudgedStance, ...]
@@ -162,6 +165,7 @@ def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions) -> Prosth
 def _summarise(r: ProsthesisCompareResult) -> None:
     """Sentences, reservations and results of a comparison."""
     stances = r.stances
+    judge(goodness_of(stances))
     fitted = [one.name for one in stances if one.calibrated]
     transfer = len(stances) - len(fitted)
     persons, settings = (len({getattr(one, key) for one in stances}) for key in ("person", "setting"))
@@ -187,23 +191,34 @@ def _summarise(r: ProsthesisCompareResult) -> None:
     if late:
         say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms)")
     for one in stances:
-        if np.isnan(one.errors.stance[0]):
-            what = f"is simulated over {one.errors.simulated:.0%} of its stance, and ends before toe-off"
-            reserve(f"{one.name} {what}: no stance time, errors are for that part only")
         if (oddness_of := r.odd.get(one.name)) is not None and oddness_of.outlier:
             seen = "; ".join(reasons(one)) or "no checked cause explains it"
             reserve(f"{one.name} is an outlier with {one.errors.table['resultant'][1]:.1%} BW: {seen}")
     if transfer < FEWEST:
         reserve(f"with {counted(transfer, 'stance')} outliers cannot be detected: {FEWEST} are needed")
-    _reserve_below_a_constant(rows)
+    for words in filter(None, (small_force(str(name), float(r2)) for name, r2 in rows["r2 [-]"].items())):
+        reserve(words)
     note("compare", plain({one.name: _numbers(one) for one in stances}))
 
 
-def _reserve_below_a_constant(rows: pd.DataFrame) -> None:
-    """A reservation on every quantity whose mean R² is below 0."""
-    for quantity, r2 in rows["r2 [-]"].items():
-        if r2 < 0.0:
-            reserve(below_zero(str(quantity), float(r2)))
+def goodness_of(stances: Sequence[JudgedStance]) -> GoodnessOfFit:
+    """Force, centre of pressure and ankle moment of every stance against its plate, and stances that end too early.
+
+    Stances that a sole was fitted to count as well: a fit may be wrong too.
+    """
+    doubts = list[Doubt]()
+    for quantity in SAID:
+        known = {one.name: one.errors.table[quantity][0] for one in stances if quantity in one.errors.table}
+        found = list(of_many_r2(NAMES[quantity], known))
+        found += [
+            doubt for name, r2 in known.items() if r2 >= 0.0 for doubt in of_low_r2(f"{name}, {NAMES[quantity]}", r2)
+        ]
+        doubts += [replace(each, what=f"{each.what}: {ASKED}") for each in found]
+    for one in stances:
+        if np.isnan(one.errors.stance[0]):
+            what = f"is simulated over {one.errors.simulated:.0%} of its stance, and ends before toe-off"
+            doubts.append(Doubt(f"{one.name} {what}: no stance time, errors are for that part only", False))
+    return GoodnessOfFit(tuple(doubts), tuple(NAMES[name] for name in SAID))
 
 
 def _of_setting(name: str, row: pd.Series) -> str:
@@ -224,7 +239,9 @@ def _over_all(name: str, row: pd.Series) -> str:
         for label, column in zip(("mean of the others", "another setting"), PLAIN, strict=True)
         if np.isfinite(row[column])
     )
-    beside = f"; without a model {plain_words}; better than both on {row['better']:.0f} of {row['trials']:.0f}"
+    beside = f"; without a model {plain_words}"
+    if not contradicted():
+        beside += f"; better than both on {row['better']:.0f} of {row['trials']:.0f}"
     return f"{WORDS[name]}: R² {row['r2 [-]']:.2f}, {_size(name, row['rmse'])}{beside if plain_words else ''}"
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import contradicted
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
 from geocontact.analyses.prosthesis.quantity_words import NAMES
@@ -63,6 +64,8 @@ def answer(summary: pd.DataFrame) -> list[str]:
     off = f"It misses {sizes} (root mean square, mean over the stances)."
     if not any(np.isfinite(row["mean of the others rmse"]) for row in rows.values()):
         return [off.replace("It misses", "The model misses"), "There is no other stance to compare it with."]
+    if contradicted():
+        return [off.replace("It misses", "The model misses")]
     won = ", ".join(f"{row['better']:.0f} of {row['trials']:.0f} ({NAMES[name]})" for name, row in rows.items())
     return [f"The model is nearer to the plate than both baseline predictors on {won}.", off]
 

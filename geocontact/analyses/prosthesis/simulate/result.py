@@ -58,7 +58,7 @@ from geocontact.below_knee_prosthesis.stance_model import FLOOR
 from geocontact.below_knee_prosthesis.stance_summary import doubts, summary
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Number
-from geocontact.identify.goodness_of_fit import GoodnessOfFit, of_r2
+from geocontact.identify.goodness_of_fit import GoodnessOfFit, of_low_r2, of_range
 
 if TYPE_CHECKING:
     from geocontact.view.curves.declared import CurveSheet
@@ -231,9 +231,13 @@ def beside_words(errors: StanceErrors) -> str:
 
 
 def against_the_plate(errors: StanceErrors) -> GoodnessOfFit:
-    """Force and centre of pressure beside the plate's: a constant must not describe them better."""
+    """Force and centre of pressure beside the plate's: a constant must not describe them better, nor the simulation end
+    before the stance does.
+    """
     tested = {NAMES.get(name, name): float(r2) for name, (r2, _) in errors.table.items() if name in SAID}
-    return GoodnessOfFit(tuple(doubt for name, r2 in tested.items() for doubt in of_r2(name, r2)), tuple(tested))
+    doubts = [doubt for name, r2 in tested.items() for doubt in of_low_r2(name, r2)]
+    doubts += of_range("the simulation has ended for", 1.0 - errors.simulated, "the plate's stance")
+    return GoodnessOfFit(tuple(doubts), tuple(tested))
 
 
 def _lasting(errors: StanceErrors) -> str:
