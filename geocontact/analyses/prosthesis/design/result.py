@@ -10,16 +10,19 @@ radius of the roll-over shape, nearest to … m: …
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
+import numpy as np
 import pandas as pd
 
-from geocontact.analyses.frame.collector import note, reserve, say
+from geocontact.analyses.frame.collector import contradicted, judge, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.prosthesis.design.goodness import goodness_of
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.show import design_curves, design_page, stance_share
 from geocontact.analyses.prosthesis.design.sweep import (
@@ -44,7 +47,7 @@ from geocontact.analyses.prosthesis.stance_files import numbers_table, offset_wo
 from geocontact.below_knee_prosthesis.design.choice import FootChoice
 from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import LEVEL, FootTask, Terrain, words
-from geocontact.below_knee_prosthesis.design.knob import Knob, Response
+from geocontact.below_knee_prosthesis.design.knob import RESPONSES, Knob, Response
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, shank_path
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity
 from geocontact.below_knee_prosthesis.design.sweep import AimAnswer, Sweep, Together
@@ -93,15 +96,32 @@ class ProsthesisDesignResult(Result):
     numbers: Mapping[str, Number]
     intact: Mapping[Aim, float] | None = None
 
+    claims: ClassVar[frozenset[str]] = frozenset(
+        {"identified", "better than present", "better than alone", "why", *(f"{each}: gain" for each in RESPONSES)}
+        | {f"best {vary} [{UNITS[vary]}]{alone}" for vary in UNITS for alone in ("", " alone")}
+    )
+
+    @property
+    def present(self) -> CarriedLoad | None:
+        """The present foot along the recorded stance, angles kept; None on another ground than was recorded."""
+        at = np.isclose(self.ends.settings, self.ends.present)
+        if self.sweep.knob.terrain != LEVEL or not at.any():
+            return None
+        return self.shapes["angles kept"][int(np.argmax(at))]
+
     @property
     def best(self) -> dict[str, float]:
-        """Best value of what is varied, by aim: fulcrum [m], alignment [rad], stiffness [-]."""
-        return {each.aim: each.choice.best for each in self.answers}
+        """Best value of what is varied, by aim: fulcrum [m], alignment [rad], stiffness [-].
+
+        NaN, as its interval, where the present foot is not the one that was recorded.
+        """
+        return {each.aim: each.choice.best if self.fits else math.nan for each in self.answers}
 
     @property
     def interval(self) -> dict[str, tuple[float, float]]:
         """Interval of the same at `level` [m, rad, -]."""
-        return {each.aim: (each.choice.lower, each.choice.upper) for each in self.answers}
+        none = (math.nan, math.nan)
+        return {each.aim: (each.choice.lower, each.choice.upper) if self.fits else none for each in self.answers}
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`answers`, `ranges`, `sensitivities`, `sweep`, `shapes`, `numbers`; `intact`; `pairs` and `together`."""
@@ -172,23 +192,22 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions) -> ProsthesisDesignResu
         numbers=leg_numbers(trial.leg) | numbers_without_leg(given.foot, trial.fulcrum),
         intact=None if given.intact is None else near,
     )
-    _reserve(result, found.drawn.lost)
+    judge(goodness_of(given.stance, result.present, found.drawn.lost, o))
+    _reserve(result)
     _summarise(result)
     if trial.offset.given:
         say(offset_words(trial.offset))
     return result
 
 
-def _reserve(r: ProsthesisDesignResult, lost: int) -> None:
-    """Reservations; `lost` draws have no equilibrium."""
+def _reserve(r: ProsthesisDesignResult) -> None:
+    """Reservations."""
     knob = r.sweep.knob
-    if lost:
-        reserve(f"{lost} of {r.options.feet} drawn feet found no equilibrium and are left out")
     reserve(_words_of_torques(r))
     if r.intact is not None:
         reserve(OF_ONE_STEP)
     reserve("bands are for one trial: they do not include the variation from step to step")
-    if knob.vary != "alignment":
+    if knob.vary != "alignment" and r.fits:
         reserve(f"the best {knob.vary} is computed with the recorded load; only the bands include how the load changes")
     if knob.terrain != LEVEL:
         where = words(knob.terrain)
@@ -206,6 +225,9 @@ def _summarise(r: ProsthesisDesignResult) -> None:
     measure, choice = MEASURES[chosen.aim], chosen.choice
     place = words(knob.terrain)
     what = f"{f'{place}, ' if place else ''}{measure.words}, {chosen.wanted}"
+    if contradicted():
+        _note(r)
+        return
     if not choice.told:
         say(f"{what}: the best {knob.vary} is not identified: {choice.why}")
     else:
@@ -224,6 +246,11 @@ def _summarise(r: ProsthesisDesignResult) -> None:
         say(pair_words(knob.vary, chosen, r.together))
     for response, line in difference_words(r.sweep).items():
         say(f"{response}, {shown(knob.settings[-1])} in place of {shown(knob.settings[0])}: {line}")
+    _note(r)
+
+
+def _note(r: ProsthesisDesignResult) -> None:
+    """Figures for run.json; no answer where the present foot is not the one that was recorded."""
     ends = r.sweep.ends
     note("design_values", plain(shown_values(r.sweep).tolist()))
     note("torques_alone_hold_s", plain(r.held))
@@ -232,11 +259,11 @@ def _summarise(r: ProsthesisDesignResult) -> None:
         plain(
             {
                 each.aim: {
-                    "identified": each.choice.told,
-                    "best": each.choice.best,
+                    "identified": each.choice.told and r.fits,
+                    "best": r.best[each.aim],
                     "lower": each.choice.lower,
                     "upper": each.choice.upper,
-                    "better_than_present": each.choice.better,
+                    "better_than_present": each.choice.better and r.fits,
                     "least": ends[0, :, k].tolist(),
                     "most": ends[1, :, k].tolist(),
                 }

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.frame.collector import contradicted
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, UNITS, shown_values, value_words
@@ -70,6 +71,7 @@ def stance_share(found: CarriedLoad) -> np.ndarray:
 
 
 FIGURE = "Medians and bands over the draws, by what the person keeps."
+ANSWERS = "What is best, and whether the data identify it"
 PAIRS = "The foot turned on the socket as well: what the best pair gains over the best value alone"
 INTACT = "What a step of the intact foot has, which is aimed at"
 LIMITS = [
@@ -160,12 +162,16 @@ def design_page(
     flat = [each for each in answers if _without_effect(each)]
     idle = [f"There is no curve of the {MEASURES[each.aim].words}: the {vary} has no effect on it." for each in flat]
     panels = [panel for panel, each in zip(curves.panels, [*answers, None], strict=True) if each not in flat]
+    paired = "pairs" in tables and not contradicted()
     told = next(each for each in answers if each.aim == aim).choice.told
     sections: list[Section] = [
         *panels,
-        frame_table("What is best, and whether the data identify it", answers_in_words(answers, sweep), 3),
+        *([] if contradicted() else [frame_table(ANSWERS, answers_in_words(answers, sweep), 3)]),
         *(frame_table(INTACT, _outcomes_in_words(tables["intact"]), 3) for _ in range("intact" in tables)),
-        *(frame_table(PAIRS, _outcomes_in_words(tables["pairs"]), 3) for _ in range("pairs" in tables)),
+        *(
+            frame_table(PAIRS, _outcomes_in_words(tables["pairs"]), 3)
+            for _ in range("pairs" in tables and not contradicted())
+        ),
         frame_table(
             "Between which ends each outcome lies, whatever the person keeps", _outcomes_in_words(tables["ranges"]), 3
         ),
@@ -183,10 +189,12 @@ def design_page(
         subtitle=f"Recorded at the fulcrum of {1e3 * sweep.knob.fulcrum:.0f} mm; {len(sweep.drawn)} draws{place}",
         time=shown_values(sweep),
         time_label=f"{vary} [{UNITS[vary]}]",
-        headline=[*headline(sentences, most=2 if told else 1), *others_words(answers, aim, sweep)],
+        headline=[]
+        if contradicted()
+        else [*headline(sentences, most=2 if told else 1), *others_words(answers, aim, sweep)],
         facts=[
             (f"{MEASURES[each.aim].words.partition(',')[0]}, {each.wanted}", best_words(each, sweep))
-            for each in answers
+            for each in (() if contradicted() else answers)
         ],
         sections=tuple(sections),
         start_frame=int(np.argmin(np.abs(sweep.knob.settings - sweep.knob.present))),

@@ -10,10 +10,11 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, listener, reserve
+from geocontact.analyses.frame.withheld import CONTRADICTED
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_intact_leg
-from geocontact.below_knee_prosthesis.calibration.recorded_stance import stance_on_plate
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance, stance_on_plate
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.design.drawn import RecordedTrial, TrialErrors
 from geocontact.below_knee_prosthesis.design.intact_step import OF_INTACT, IntactStep, intact_step, require_intact
@@ -30,13 +31,19 @@ COLUMNS = ("number", "value", "lower", "upper", "verdict")
 
 @dataclass(frozen=True, eq=False)
 class FootAndTrial:
-    """A foot, a trial on it, the standard deviation of the logarithm of each number of its sole, an intact foot's step.
+    """A foot, a trial on it and its stance, what is known of the sole, an intact foot's step.
 
-    The last is None where none is named.
+    Parameters
+    ----------
+    sd
+        Standard deviation of the logarithm of each number of the sole.
+    intact
+        None where none is named.
     """
 
     foot: VariableStiffnessFoot
     trial: RecordedTrial
+    stance: RecordedStance
     sd: Float[np.ndarray, " p"]
     intact: IntactStep | None = None
 
@@ -63,13 +70,13 @@ def read(o: ProsthesisDesignOptions) -> FootAndTrial:
         offset=offset_of_law(o.law, o.static),
     )
     given = trial.walking, trial.leg, plate, foot, trial.fulcrum
-    stance_on_plate(*given, cutoff=trial.cutoff, gap_limit=trial.gap_limit)  # refuses what is none
+    stance = stance_on_plate(*given, cutoff=trial.cutoff, gap_limit=trial.gap_limit)
     intact = intact_side(o, trial)
     zones = ZoneParameters(foot.sole, foot.law)
     if o.numbers is None:
         reserve("for this sole only the general prior is known: give the `numbers` of a calibration")
-        return FootAndTrial(foot, trial, zones.sd, intact)
-    return FootAndTrial(foot, trial, _known(o.numbers, zones), intact)
+        return FootAndTrial(foot, trial, stance, zones.sd, intact)
+    return FootAndTrial(foot, trial, stance, _known(o.numbers, zones), intact)
 
 
 def _known(file: Path, zones: ZoneParameters) -> Float[np.ndarray, " p"]:
@@ -86,6 +93,9 @@ def _known(file: Path, zones: ZoneParameters) -> Float[np.ndarray, " p"]:
     lost = [name for name in zones.names if name not in told.index]
     if lost:
         raise InputError(file, "", f"no row {lost[0]!r}", "give numbers.csv of prosthesis calibrate")
+    if (told["verdict"] == CONTRADICTED).any():
+        what = "its calibration contradicts its stance, so that no number in it is known"
+        raise InputError(file, "verdict", what, "calibrate on another stance, or leave `numbers` out")
     last = told[~told.index.duplicated(keep="last")]
     known = last[(last["verdict"] == "known") & last.index.isin(zones.names)]
     ends = zip(known["lower"].map(float), known["upper"].map(float), strict=True)
